@@ -1,1 +1,4 @@
-//! placeholder
+//! Exact pin assignment: integers in, a checked answer out.
+
+pub mod answer;
+pub mod problem;

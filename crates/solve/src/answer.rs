@@ -1,0 +1,73 @@
+//! What the solver answers.
+
+use crate::problem::{DeviceId, DmaUserId, PinId, ResourceId, StreamId};
+use num_bigint::BigUint;
+
+/// The choice for one device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Index into the device's alternatives.
+    pub alternative: usize,
+    /// For each role the index of its candidate.
+    pub candidates: Vec<usize>,
+}
+
+/// The objective, compared in field order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Objective {
+    /// Wires that differ from the wiring to keep.
+    pub moved: u32,
+    /// Soft rules violated.
+    pub violated: u32,
+    /// Sum of the costs of the pins used.
+    pub cost: u32,
+    /// Spare boards used.
+    pub spares: u32,
+}
+
+/// How good an answer is known to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Optimality {
+    /// Proved: no better answer exists.
+    Proved,
+    /// Valid, not compared with others (asked for any, or time ran out).
+    Feasible,
+}
+
+/// One valid answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// One choice per device, in order.
+    pub choices: Vec<Choice>,
+    /// Streams of each used DMA user, one per request.
+    pub dma: Vec<(DmaUserId, Vec<StreamId>)>,
+    /// What it costs.
+    pub objective: Objective,
+    /// What is known of it.
+    pub optimality: Optimality,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conflict {
+    /// A minimal set: without any one of them the others have an answer. In order.
+    pub devices: Vec<DeviceId>,
+    /// Pins that all alternatives of those devices fight for. In order.
+    pub pins: Vec<PinId>,
+    /// Resources they fight for. In order.
+    pub resources: Vec<ResourceId>,
+    /// Streams they fight for. In order.
+    pub streams: Vec<StreamId>,
+}
+
+/// Result of a search for one answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// An answer.
+    Solved(Answer),
+    /// Proved to have none.
+    Infeasible(Conflict),
+}
+
+/// Exact number of answers.
+pub type Count = BigUint;
