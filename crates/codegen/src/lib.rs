@@ -1,1 +1,3 @@
-//! placeholder
+//! From a wired design to files: plans decide, templates print.
+
+pub mod fileset;

@@ -1,1 +1,19 @@
-//! placeholder
+//! The wire between the board and its host: scalar types, schema, Netstring codec.
+//!
+//! This is the one place that knows how values become bytes. Every other codec of the project
+//! (C, C++, …) is held to it by the vectors in `tests/vectors`. Needs no operating system.
+#![no_std]
+
+extern crate alloc;
+
+mod checksum;
+mod decode;
+mod encode;
+mod scalar;
+mod schema;
+
+pub use checksum::{crc16_ccitt_false, crc32_iso_hdlc};
+pub use decode::{Decoder, Event};
+pub use encode::{EncodeError, encode_hello, encode_hello_request, encode_report};
+pub use scalar::{Scalar, ScalarType, ValueType};
+pub use schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Item, Schema};

@@ -1,0 +1,100 @@
+//! Values to frames.
+
+use alloc::format;
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::checksum::crc16_ccitt_false;
+use crate::scalar::Scalar;
+use crate::schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Schema};
+
+/// Why values make no frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EncodeError {
+    /// No item of that identifier travels in that direction.
+    UnknownId(u8),
+    /// The number of scalars is not the item's.
+    WrongCount(u8),
+    /// A scalar is not of the item's type or out of its range.
+    WrongValue(u8),
+    /// An identifier was given twice.
+    Twice(u8),
+    /// There is no value to report.
+    Empty,
+}
+
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownId(id) => write!(f, "no item {id} travels in this direction"),
+            Self::WrongCount(id) => write!(f, "item {id} has another number of elements"),
+            Self::WrongValue(id) => write!(f, "item {id} cannot hold this value"),
+            Self::Twice(id) => write!(f, "item {id} stands twice"),
+            Self::Empty => write!(f, "a report needs at least one value"),
+        }
+    }
+}
+
+impl core::error::Error for EncodeError {}
+
+/// One frame with the given values, in schema order whatever the order of `values`.
+///
+/// # Errors
+/// When a value does not fit the schema, or none is given.
+pub fn encode_report(
+    schema: &Schema,
+    direction: Direction,
+    values: &[(u8, Vec<Scalar>)],
+) -> Result<Vec<u8>, EncodeError> {
+    if values.is_empty() {
+        return Err(EncodeError::Empty);
+    }
+    for (index, (id, _)) in values.iter().enumerate() {
+        if schema.item(direction, *id).is_none() {
+            return Err(EncodeError::UnknownId(*id));
+        }
+        if values.iter().take(index).any(|(earlier, _)| earlier == id) {
+            return Err(EncodeError::Twice(*id));
+        }
+    }
+    let mut payload = Vec::new();
+    for item in &schema.items {
+        let Some((_, scalars)) = values.iter().find(|(id, _)| *id == item.id) else { continue };
+        if scalars.len() != item.value.count() {
+            return Err(EncodeError::WrongCount(item.id));
+        }
+        payload.push(item.id);
+        for &scalar in scalars {
+            if !item.value.scalar.write(scalar, &mut payload) {
+                return Err(EncodeError::WrongValue(item.id));
+            }
+        }
+    }
+    Ok(frame(schema, payload))
+}
+
+/// The board's hello: its schema hash.
+#[must_use]
+pub fn encode_hello(schema: &Schema) -> Vec<u8> {
+    let mut payload = Vec::from([ID_HELLO]);
+    payload.extend_from_slice(&schema.hash().to_be_bytes());
+    frame(schema, payload)
+}
+
+/// The host's request for a hello.
+#[must_use]
+pub fn encode_hello_request(schema: &Schema) -> Vec<u8> {
+    frame(schema, Vec::from([ID_HELLO]))
+}
+
+fn frame(schema: &Schema, mut payload: Vec<u8>) -> Vec<u8> {
+    if schema.checksum == Checksum::Crc16 {
+        let crc = crc16_ccitt_false(&payload);
+        payload.push(ID_CHECKSUM);
+        payload.extend_from_slice(&crc.to_be_bytes());
+    }
+    let mut bytes = format!("{}:", payload.len()).into_bytes();
+    bytes.append(&mut payload);
+    bytes.push(b',');
+    bytes
+}

@@ -1,0 +1,138 @@
+//! Which identifiers there are on one board's link and what each carries.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt::Write as _;
+
+use crate::checksum::crc32_iso_hdlc;
+use crate::scalar::ValueType;
+
+/// Identifier of the link's hello.
+pub const ID_HELLO: u8 = 0;
+/// Identifier of the optional trailing checksum.
+pub const ID_CHECKSUM: u8 = 255;
+
+/// Bytes a checksum adds to a payload: its identifier and a CRC-16.
+const CHECKSUM_BYTES: usize = 3;
+/// Bytes of the board's hello: its identifier and the schema hash.
+const HELLO_BYTES: usize = 5;
+/// Bytes of the host's request for a hello.
+const HELLO_REQUEST_BYTES: usize = 1;
+
+/// Which way an item travels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Direction {
+    /// A sensor: board to host.
+    Sensor,
+    /// An actuator: host to board.
+    Actuator,
+}
+
+impl Direction {
+    /// The keyword of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sensor => "sensor",
+            Self::Actuator => "actuator",
+        }
+    }
+}
+
+/// The `checksum` property of a link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Checksum {
+    /// No checksum: the frames are the paper's.
+    #[default]
+    None,
+    /// CRC-16/CCITT-FALSE behind identifier 255.
+    Crc16,
+}
+
+impl Checksum {
+    /// The word of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Crc16 => "crc16",
+        }
+    }
+
+    /// Bytes it adds to each payload.
+    #[must_use]
+    pub const fn size_bytes(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Crc16 => CHECKSUM_BYTES,
+        }
+    }
+}
+
+/// One value of a link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// 1 to 254, unique in a schema.
+    pub id: u8,
+    /// The device's name.
+    pub name: String,
+    /// Which way it travels.
+    pub direction: Direction,
+    /// What it carries.
+    pub value: ValueType,
+}
+
+/// All values of one board's link, in file order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Schema {
+    /// Whether frames end with a checksum.
+    pub checksum: Checksum,
+    /// In file order, identifiers unique.
+    pub items: Vec<Item>,
+}
+
+impl Schema {
+    /// The item of that identifier that travels in `direction`.
+    #[must_use]
+    pub fn item(&self, direction: Direction, id: u8) -> Option<&Item> {
+        self.items.iter().find(|item| item.id == id && item.direction == direction)
+    }
+
+    /// The text whose CRC-32 is the schema hash: the checksum line, then a line a device.
+    #[must_use]
+    pub fn canonical_text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "checksum {}", self.checksum.name());
+        for Item { id, name, direction, value } in &self.items {
+            let _ = writeln!(text, "{id} {} {name} {value}", direction.name());
+        }
+        text
+    }
+
+    /// The hash by which host and board know that they speak of the same devices.
+    #[must_use]
+    pub fn hash(&self) -> u32 {
+        crc32_iso_hdlc(self.canonical_text().as_bytes())
+    }
+
+    /// Bytes of the longest valid payload in that direction.
+    #[must_use]
+    pub fn payload_bytes_max(&self, direction: Direction) -> usize {
+        let items = self.items.iter().filter(|item| item.direction == direction);
+        let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
+        let hello = match direction {
+            Direction::Sensor => HELLO_BYTES,
+            Direction::Actuator => HELLO_REQUEST_BYTES,
+        };
+        values.max(hello) + self.checksum.size_bytes()
+    }
+
+    /// Bytes of the longest valid frame in that direction, `LEN`, `:` and `,` included.
+    #[must_use]
+    pub fn frame_bytes_max(&self, direction: Direction) -> usize {
+        let payload_bytes = self.payload_bytes_max(direction);
+        let digits = payload_bytes.checked_ilog10().unwrap_or(0) as usize + 1;
+        digits + 2 + payload_bytes
+    }
+}
