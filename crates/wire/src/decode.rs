@@ -123,7 +123,10 @@ impl<'a> Decoder<'a> {
 
     /// Reads the part of a payload that is there. The outer option is none when it can never
     /// become valid, the inner one when bytes are still missing.
-    #[expect(clippy::option_option, reason = "invalid, incomplete and complete in one small helper")]
+    #[expect(
+        clippy::option_option,
+        reason = "invalid, incomplete and complete in one small helper"
+    )]
     fn parse(&self, payload: &[u8], payload_bytes: usize) -> Option<Option<Event>> {
         let checksum_bytes = self.schema.checksum.size_bytes();
         let values_bytes = payload_bytes.checked_sub(checksum_bytes)?;
