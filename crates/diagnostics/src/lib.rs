@@ -1,1 +1,16 @@
-//! placeholder
+//! Diagnostics as plain data: what is wrong, where, and the way out.
+//!
+//! A [`Diagnostic`] is made by the builder of its code (one file each in [`codes`]), travels
+//! unchanged through all stages, and is rendered late: for people, as JSON, SARIF or GitHub
+//! annotations (see [`render`]).
+
+pub mod codes;
+mod diagnostic;
+pub mod render;
+mod source;
+mod suggest;
+
+pub use codes::{Code, CodeInfo};
+pub use diagnostic::{Diagnostic, Edit, Fix, Label, Severity};
+pub use source::{FileId, LineColumn, SourceMap, Span};
+pub use suggest::nearest;

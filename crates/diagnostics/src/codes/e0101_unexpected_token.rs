@@ -1,0 +1,32 @@
+//! E0101: something else was expected here.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0101",
+    severity: Severity::Error,
+    title: "something else was expected here",
+    explanation: r#"The text does not follow the grammar at this place. A file is made of `board`, `sensor`,
+`actuator`, `driver` and `use`; inside braces stand properties, one `name = value;` a line:
+
+    sensor IRFront returns uint16 {
+        id = 17;
+        type = analog;
+    }
+
+Way out: write what the message says is expected, or remove what stands there.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `expected` and `found` are descriptions ("a property name", "`}`").
+#[must_use]
+pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("expected {expected}, found {found}"))
+        .here(format!("expected {expected}"))
+        .help(format!("write {expected} here, or remove {found}"))
+}

@@ -1,0 +1,27 @@
+//! E0102: a character that means nothing here.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0102",
+    severity: Severity::Error,
+    title: "a character that means nothing here",
+    explanation: r#"The language is written with letters, digits and `{ } [ ] = ; , + - . " / _`. Other characters may
+stand in comments and strings only; they often come from copying out of a document (typographic
+quotes, non-breaking spaces).
+
+Way out: remove the character, or put the text between straight quotes.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The character as it stands in the text.
+#[must_use]
+pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{}` means nothing here", found.escape_debug()))
+        .help("remove it; text belongs between straight quotes or in a comment")
+}

@@ -1,0 +1,26 @@
+//! E0106: not a number the language knows.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0106",
+    severity: Severity::Error,
+    title: "not a number the language knows",
+    explanation: r#"Numbers are decimal (`60`, `0.5`, `1.5e-3`), hexadecimal (`0xE6`) or binary (`0b1010`), with `_`
+between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz`.
+
+Way out: write it in one of these forms.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The number as written and what is wrong with it.
+#[must_use]
+pub fn bad_number(span: Span, text: &str, why: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{text}` is no number: {why}"))
+        .help("write it like 60, 0.5, 0xE6 or 0b1010, with a unit such as ms or kHz where one is meant")
+}

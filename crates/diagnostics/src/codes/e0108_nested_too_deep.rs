@@ -1,0 +1,26 @@
+//! E0108: lists are nested too deep.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0108",
+    severity: Severity::Error,
+    title: "lists are nested too deep",
+    explanation: r#"Lists may contain lists, but no property needs more than a few levels; what is deeper is taken for a
+slip of the keyboard.
+
+Way out: remove brackets.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `most` is the depth that is still read.
+#[must_use]
+pub fn nested_too_deep(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("lists are nested more than {most} deep"))
+        .help("remove brackets: no property takes more than a list of numbers")
+}

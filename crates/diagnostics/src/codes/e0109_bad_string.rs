@@ -1,0 +1,26 @@
+//! E0109: a string holds an unknown escape.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0109",
+    severity: Severity::Error,
+    title: "a string holds an unknown escape",
+    explanation: r#"In a string, `\n`, `\t`, `\"` and `\\` stand for a line break, a tabulator, a quote and a backslash;
+no other escape exists.
+
+Way out: double the backslash where a backslash is meant.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The escape as written.
+#[must_use]
+pub fn bad_string(span: Span, escape: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{escape}` is no escape"))
+        .help("write two backslashes where a backslash is meant")
+}

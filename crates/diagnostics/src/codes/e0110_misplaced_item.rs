@@ -1,0 +1,26 @@
+//! E0110: this cannot stand here.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0110",
+    severity: Severity::Error,
+    title: "this cannot stand here",
+    explanation: r#"Boards, drivers and `use` stand at the top of a file; rules (`reserve`, `release`) and `link` belong
+to a board; `prefer`, `avoid` and `allow` to a board or a device.
+
+Way out: move it where it belongs.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// What stands there and where it belongs.
+#[must_use]
+pub fn misplaced_item(span: Span, what: &str, belongs: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{what} cannot stand here"))
+        .help(format!("move it: {what} belongs {belongs}"))
+}

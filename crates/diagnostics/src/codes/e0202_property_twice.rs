@@ -1,0 +1,27 @@
+//! E0202: a property is given twice.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0202",
+    severity: Severity::Error,
+    title: "a property is given twice",
+    explanation: r#"Each property may stand once in a block; which of two values would count is nobody's guess.
+
+Way out: remove one of them.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `first` is where the name stood before.
+#[must_use]
+pub fn property_twice(span: Span, name: &str, first: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` is given twice"))
+        .here("again here")
+        .label(first, "first here")
+        .help("remove one of the two lines")
+}

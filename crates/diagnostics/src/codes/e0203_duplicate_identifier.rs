@@ -1,0 +1,33 @@
+//! E0203: two devices have the same identifier.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0203",
+    severity: Severity::Error,
+    title: "two devices have the same identifier",
+    explanation: r#"The `id` is the one byte by which the host tells the values apart, so it is unique over the whole
+file, whatever board a device is on.
+
+Way out: give one of the devices another number from 1 to 254.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `free` is the least identifier that nobody has.
+#[must_use]
+pub fn duplicate_identifier(span: Span, id: u8, first: Span, free: Option<u8>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("identifier {id} is taken"))
+        .here("the same again")
+        .label(first, format!("{id} is used here"));
+    match free {
+        Some(free) => diagnostic
+            .help(format!("take another one, {free} is free"))
+            .replace(format!("change to {free}"), span, free.to_string()),
+        None => diagnostic.help("all 254 identifiers are taken: use a second board with a file of its own"),
+    }
+}

@@ -1,0 +1,32 @@
+//! E0207: no such kind of device.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0207",
+    severity: Severity::Error,
+    title: "no such kind of device",
+    explanation: r#"`type` says what the device is connected to: analog, i2c, icu, encoder, digital, uart, spi, pwm, dac
+or can.
+
+Way out: use one of these.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `known` are all kinds; `meant` the nearest.
+#[must_use]
+pub fn unknown_kind(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is no kind of device"))
+        .help(format!("use one of {known}"));
+    match meant {
+        Some(meant) => diagnostic
+            .here(format!("did you mean `{meant}`?"))
+            .replace(format!("change to `{meant}`"), span, meant),
+        None => diagnostic,
+    }
+}

@@ -1,0 +1,27 @@
+//! E0211: a value is out of range.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0211",
+    severity: Severity::Error,
+    title: "a value is out of range",
+    explanation: r#"The value is of the right sort but outside what the hardware, the wire or the operating system can
+hold.
+
+Way out: take a value inside the range that the message names.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The value as written and the range as text ("1 to 254").
+#[must_use]
+pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}"))
+        .here(format!("must be {range}"))
+        .help(format!("take a value from the range: {range}"))
+}

@@ -1,0 +1,26 @@
+//! E0214: a device of this kind cannot go that way.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0214",
+    severity: Severity::Error,
+    title: "a device of this kind cannot go that way",
+    explanation: r#"Some kinds only measure (analog, icu, encoder) and some only act (pwm, dac); the others do both. A
+sensor `returns` a value, an actuator `accepts` one.
+
+Way out: declare the device the other way round, or change its `type`.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `kind` and the keyword it can be used with.
+#[must_use]
+pub fn wrong_direction(span: Span, kind: &str, can: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{kind} can only be {can}"))
+        .help(format!("declare the device as {can}, or change its `type`"))
+}

@@ -1,0 +1,25 @@
+//! E0217: the driver is for another kind.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0217",
+    severity: Severity::Error,
+    title: "the driver is for another kind",
+    explanation: r#"A driver is written for one kind of connection; an i2c protocol cannot drive a uart.
+
+Way out: change the device's `type`, or take another driver.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The driver, its kind, and the device's kind.
+#[must_use]
+pub fn driver_of_other_kind(span: Span, driver: &str, its: &str, kind: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the driver `{driver}` is for {its}, the device is {kind}"))
+        .help(format!("write `type = {its};`, or take a driver for {kind}"))
+}

@@ -1,0 +1,27 @@
+//! E0220: the device cannot give a value of this type.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0220",
+    severity: Severity::Error,
+    title: "the device cannot give a value of this type",
+    explanation: r#"What a device measures or takes decides which value types make sense: a single reading is no array
+unless the protocol reads several elements, and an on/off input is no `float64`.
+
+Way out: use a type that the message names.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The kind, the type as written and which types do.
+#[must_use]
+pub fn impossible_type(span: Span, kind: &str, found: &str, can: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{kind} cannot give {found}"))
+        .here(format!("must be {can}"))
+        .help(format!("use {can}"))
+}

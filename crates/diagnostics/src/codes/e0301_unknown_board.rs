@@ -1,0 +1,33 @@
+//! E0301: no such board.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0301",
+    severity: Severity::Error,
+    title: "no such board",
+    explanation: r#"`board NAME on BOARD` takes a built-in board or part, or a table beside the file between quotes.
+Without `on`, the board's own name must be a built-in one, or `--board TABLE` must name a table.
+`sensedsl boards` lists what is built in.
+
+Way out: correct the name, or say which table is meant.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `meant` is the nearest built-in board.
+#[must_use]
+pub fn unknown_board(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("there is no built-in board `{name}`"));
+    match meant {
+        Some(meant) => diagnostic
+            .here(format!("did you mean `{meant}`?"))
+            .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`")),
+        None => diagnostic
+            .help("`sensedsl boards` lists them; a table of your own goes by `on \"table.csv\"` or `--board table.csv`"),
+    }
+}

@@ -1,0 +1,26 @@
+//! E0302: a board table cannot be read.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0302",
+    severity: Severity::Error,
+    title: "a board table cannot be read",
+    explanation: r#"The table named after `on`, or by `--board`, is a CSV file; the path after `on` is relative to the file
+that holds it.
+
+Way out: correct the path, or export the spreadsheet as CSV (UTF-8).
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The path and the reason.
+#[must_use]
+pub fn table_unreadable(span: Span, path: &str, why: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("cannot read the table `{path}`: {why}"))
+        .help("the path is relative to the file that holds it; the table is a CSV file in UTF-8")
+}

@@ -1,0 +1,27 @@
+//! E0309: a usage stands twice in one row.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0309",
+    severity: Severity::Error,
+    title: "a usage stands twice in one row",
+    explanation: r#"A usage that is listed twice would count twice in the pin's opportunity cost.
+
+Way out: remove one of the two.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The usage and its earlier place.
+#[must_use]
+pub fn table_usage_twice(span: Span, row: usize, usage: &str, first: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("row {row}: `{usage}` stands twice"))
+        .here("again here")
+        .label(first, "first here")
+        .help("remove one of the two")
+}

@@ -1,0 +1,29 @@
+//! E0312: the board has no such side or header.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0312",
+    severity: Severity::Error,
+    title: "the board has no such side or header",
+    explanation: r#"`side` and `header` are names out of the columns Side and Header of the board's table.
+
+Way out: use one of the names that the message lists, or add the column to the table.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `what` is "side" or "header"; `names` what the table knows.
+#[must_use]
+pub fn unknown_place(span: Span, what: &str, name: &str, names: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("no pin of the board is on the {what} `{name}`"))
+        .help(if names.is_empty() {
+            format!("the board's table has no column `{what}`: add one")
+        } else {
+            format!("use one of {names}")
+        })
+}

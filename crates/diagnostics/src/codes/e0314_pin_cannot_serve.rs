@@ -1,0 +1,34 @@
+//! E0314: a fixed pin cannot serve the device.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0314",
+    severity: Severity::Error,
+    title: "a fixed pin cannot serve the device",
+    explanation: r#"The pin is in the board's table, but none of its usages is what the device needs at that place.
+
+Way out: take one of the pins that the message lists, or leave the choice to the tool.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// What the role needs, where the pin's usages stand, and which pins would do.
+#[must_use]
+pub fn pin_cannot_serve(span: Span, pin: &str, needs: &str, row: Option<Span>, pins: &str) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
+        .here("fixed here")
+        .help(if pins.is_empty() {
+            format!("no pin of the board can be {needs}")
+        } else {
+            format!("take one of {pins}, or remove the line and let the tool choose")
+        });
+    match row {
+        Some(row) => diagnostic.label(row, "all its usages"),
+        None => diagnostic,
+    }
+}

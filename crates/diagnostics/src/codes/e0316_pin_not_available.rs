@@ -1,0 +1,28 @@
+//! E0316: a fixed pin is taken.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0316",
+    severity: Severity::Error,
+    title: "a fixed pin is taken",
+    explanation: r#"The pin is reserved by a rule, carries an on-board part, or belongs to the link or to the debugger.
+
+Way out: choose another pin, or `release` it where the part is not needed.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// Who has the pin, and where that is said.
+#[must_use]
+pub fn pin_not_available(span: Span, pin: &str, by: &str, place: Option<Span>, help: &str) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("{pin} is taken by {by}")).here("fixed here").help(help);
+    match place {
+        Some(place) => diagnostic.label(place, "taken here"),
+        None => diagnostic,
+    }
+}

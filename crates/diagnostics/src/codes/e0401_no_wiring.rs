@@ -1,0 +1,32 @@
+//! E0401: there is no wiring.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0401",
+    severity: Severity::Error,
+    title: "there is no wiring",
+    explanation: r#"The devices that the message names cannot all be connected, whatever pins are chosen, and the set is
+minimal: without any one of them the others can. The message lists the pins and resources they fight
+for; a resource is more than a pin: a whole timer, a bus, a DMA stream, an interrupt line.
+
+Way out: drop or move one of the devices, free what is reserved, or use a kind that needs something
+else. `--target none` shows whether the pins alone would do.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The devices' names as a list, and the resources they fight for.
+#[must_use]
+pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
+    let diagnostic = Diagnostic::new(CODE, span, format!("no wiring: {devices} cannot be connected together"));
+    if resources.is_empty() {
+        diagnostic
+    } else {
+        diagnostic.here(format!("fights for {resources}"))
+    }
+}

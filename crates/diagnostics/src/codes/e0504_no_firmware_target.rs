@@ -1,0 +1,26 @@
+//! E0504: no firmware for this board.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0504",
+    severity: Severity::Error,
+    title: "no firmware for this board",
+    explanation: r#"Firmware needs a target and a board that ChibiOS has a folder for. A table of your own says which MCU
+it describes by a first line such as `# mcu = STM32F407VGT6`.
+
+Way out: say which MCU the table describes, or use `sensedsl solve` for the wiring alone.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The board and why there is no firmware for it.
+#[must_use]
+pub fn no_firmware_target(span: Span, board: &str, why: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("no firmware can be generated for {board}: {why}"))
+        .help("`sensedsl solve` gives the wiring alone")
+}

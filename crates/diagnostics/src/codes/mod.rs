@@ -1,0 +1,156 @@
+//! The registry: one file a code, one line here.
+//!
+//! A code is never used for something else, even after its diagnostic is gone.
+
+use crate::diagnostic::Severity;
+use std::fmt;
+
+macro_rules! codes {
+    ($($module:ident,)*) => {
+        $(pub mod $module;)*
+        /// All codes in order.
+        pub const ALL: &[Code] = &[$(Code(&$module::INFO)),*];
+    };
+}
+
+codes! {
+    e0101_unexpected_token,
+    e0102_unknown_character,
+    e0103_unterminated,
+    e0104_missing_semicolon,
+    e0105_missing_closing,
+    e0106_bad_number,
+    e0107_misspelled_keyword,
+    e0108_nested_too_deep,
+    e0109_bad_string,
+    e0110_misplaced_item,
+    e0201_unknown_property,
+    e0202_property_twice,
+    e0203_duplicate_identifier,
+    e0204_duplicate_name,
+    e0205_clashing_names,
+    e0206_missing_property,
+    e0207_unknown_kind,
+    e0208_unknown_type,
+    e0209_wrong_value,
+    e0210_wrong_unit,
+    e0211_out_of_range,
+    e0212_unknown_word,
+    e0213_property_of_other_kind,
+    e0214_wrong_direction,
+    e0215_bad_address,
+    e0216_unknown_driver,
+    e0217_driver_of_other_kind,
+    e0218_used_file_missing,
+    e0219_use_cycle,
+    e0220_impossible_type,
+    e0221_identifier_reserved,
+    e0222_contradiction,
+    e0301_unknown_board,
+    e0302_table_unreadable,
+    e0303_table_empty,
+    e0304_table_pin_twice,
+    e0305_table_pin_name,
+    e0306_table_signal,
+    e0307_table_ragged_row,
+    e0308_table_column_twice,
+    e0309_table_usage_twice,
+    e0310_unknown_pin,
+    e0311_unknown_unit,
+    e0312_unknown_place,
+    e0313_unknown_target,
+    e0314_pin_cannot_serve,
+    e0315_no_board,
+    e0316_pin_not_available,
+    e0401_no_wiring,
+    e0402_solver_disagrees,
+    e0501_no_generator,
+    e0502_foreign_files,
+    e0503_out_of_date,
+    e0504_no_firmware_target,
+    e0505_unknown_host,
+    e0506_hardware_limit,
+    w0601_unused_property,
+    w0602_slower_than_asked,
+    w0603_narrow_type,
+    w0604_unused_rule,
+    w0605_onboard_part,
+    w0606_table_oddity,
+    h0701_eight_bit_address,
+    h0702_target_none,
+    h0703_default_protocol,
+}
+
+/// What is known of a code.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CodeInfo {
+    /// A letter for the severity and four digits.
+    pub code: &'static str,
+    /// Severity of its diagnostics.
+    pub severity: Severity,
+    /// A line without a full stop.
+    pub title: &'static str,
+    /// The long text of `sensedsl explain`.
+    pub explanation: &'static str,
+}
+
+/// A stable code.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Code(&'static CodeInfo);
+
+impl Code {
+    /// The registry entry.
+    #[must_use]
+    pub const fn info(self) -> &'static CodeInfo {
+        self.0
+    }
+
+    /// The code as written: `E0203`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.0.code
+    }
+
+    /// The code of that name, whatever its case.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        ALL.iter().copied().find(|code| code.name().eq_ignore_ascii_case(name))
+    }
+}
+
+impl fmt::Debug for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_in_order_and_explained() {
+        let mut names: Vec<_> = ALL.iter().map(|code| code.name()[1..].to_string()).collect();
+        let given = names.clone();
+        names.sort();
+        names.dedup();
+        assert_eq!(names, given, "codes are unique and stand in order");
+        for code in ALL {
+            let info = code.info();
+            assert!(info.explanation.contains("Way out:"), "{code} gives no way out");
+            assert!(!info.title.ends_with('.'), "{code}");
+            let letter = match info.severity {
+                Severity::Error => 'E',
+                Severity::Warning => 'W',
+                Severity::Hint => 'H',
+            };
+            assert!(info.code.starts_with(letter), "{code}");
+        }
+    }
+}

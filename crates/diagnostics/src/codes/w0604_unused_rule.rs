@@ -1,0 +1,25 @@
+//! W0604: a rule has no effect.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "W0604",
+    severity: Severity::Warning,
+    title: "a rule has no effect",
+    explanation: r#"The rule speaks of something that cannot happen here: an `allow` for a warning that is not given, a
+`release` of a pin without an on-board part, a `prefer` that no pin can fulfil.
+
+Way out: remove the rule.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The rule and why it does nothing.
+#[must_use]
+pub fn unused_rule(span: Span, rule: &str, why: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{rule}` has no effect: {why}")).help("remove the line")
+}
