@@ -1,0 +1,89 @@
+#include "up_capture.h"
+
+#include "up_convert.h"
+
+#define COUNT_REPEAT_MS 1000U
+
+void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_edges) {
+  raw->width_ticks = width_ticks;
+  if (both_edges) {
+    raw->edges++;
+  }
+}
+
+void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks) {
+  raw->edges++;
+  if (raw->overflowed) {
+    raw->overflowed = false;
+    return;
+  }
+  raw->period_ticks = period_ticks;
+  raw->periods++;
+}
+
+void up_capture_on_overflow(up_capture_raw_t *raw) {
+  raw->overflowed = true;
+}
+
+static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, bool first_edge_seen,
+                       uint32_t now_ms, uint8_t type, void *element) {
+  const uint32_t edges = raw->edges + (first_edge_seen ? 1U : 0U);
+
+  /* Standing still is a fact as well: it is told once at the start and then now and again. */
+  if (state->has_told && edges == state->edges && (uint32_t)(now_ms - state->told_ms) < COUNT_REPEAT_MS) {
+    return false;
+  }
+  state->has_told = true;
+  state->edges = edges;
+  state->told_ms = now_ms;
+  up_store_unsigned(type, edges, element);
+  return true;
+}
+
+static void store_capture(const up_capture_config_t *config, const up_capture_raw_t *raw, uint8_t type,
+                          void *element) {
+  switch ((up_capture_mode_t)config->mode) {
+  case UP_CAPTURE_WIDTH:
+    up_store_unsigned(type, raw->width_ticks, element);
+    break;
+  case UP_CAPTURE_FREQUENCY:
+    up_store_ratio(type, config->tick_hz, raw->period_ticks, element);
+    break;
+  case UP_CAPTURE_DUTY:
+    up_store_ratio(type, (uint64_t)raw->width_ticks * 100U, raw->period_ticks, element);
+    break;
+  case UP_CAPTURE_COUNT:
+  case UP_CAPTURE_PERIOD:
+  default:
+    up_store_unsigned(type, raw->period_ticks, element);
+    break;
+  }
+}
+
+/* A signal that has stopped has no frequency; its last width and period stay what they were. */
+static bool read_silence(const up_capture_config_t *config, up_capture_state_t *state, uint32_t now_ms,
+                         uint8_t type, void *element) {
+  const bool tells_silence = config->mode == UP_CAPTURE_FREQUENCY || config->mode == UP_CAPTURE_DUTY;
+
+  if (!tells_silence || state->is_silent || (uint32_t)(now_ms - state->told_ms) < config->silent_ms) {
+    return false;
+  }
+  state->is_silent = true;
+  up_store_unsigned(type, 0U, element);
+  return true;
+}
+
+bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+                     bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element) {
+  if (config->mode == UP_CAPTURE_COUNT) {
+    return read_count(state, raw, first_edge_seen, now_ms, type, element);
+  }
+  if (raw->periods == state->periods) {
+    return read_silence(config, state, now_ms, type, element);
+  }
+  state->periods = raw->periods;
+  state->told_ms = now_ms;
+  state->is_silent = false;
+  store_capture(config, raw, type, element);
+  return true;
+}

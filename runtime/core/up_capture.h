@@ -1,0 +1,55 @@
+/*
+ * What an input-capture channel saw, and what a sensor makes of it.
+ *
+ * The interrupt side only counts and copies (a few instructions an edge); the arithmetic is done by the reader.
+ * Captures are counted in timer ticks; `tick_hz` is the tick's frequency, set by the sensor's resolution.
+ */
+#ifndef UP_CAPTURE_H
+#define UP_CAPTURE_H
+
+#include "up_schema.h"
+
+typedef enum {
+  UP_CAPTURE_COUNT,     /* edges since the start, wraps at 2^32 */
+  UP_CAPTURE_WIDTH,     /* active part of the last period, in ticks */
+  UP_CAPTURE_PERIOD,    /* last period, in ticks */
+  UP_CAPTURE_FREQUENCY, /* of the last period, in Hz */
+  UP_CAPTURE_DUTY       /* active part of the last period, in per cent */
+} up_capture_mode_t;
+
+typedef struct {
+  uint8_t mode;      /* up_capture_mode_t */
+  bool both_edges;   /* count both edges; only for UP_CAPTURE_COUNT */
+  uint32_t tick_hz;
+  uint32_t silent_ms; /* after so long without an edge, frequency and duty are 0 */
+} up_capture_config_t;
+
+/* Written by the interrupt, copied by the reader with interrupts masked. */
+typedef struct {
+  uint32_t edges;
+  uint32_t periods; /* captures of a whole period */
+  uint32_t width_ticks;
+  uint32_t period_ticks;
+  bool overflowed; /* the timer wrapped since the last period: the next one is unknown */
+} up_capture_raw_t;
+
+/* What the reader remembers between two looks. */
+typedef struct {
+  uint32_t edges;
+  uint32_t periods;
+  uint32_t told_ms; /* when something new was last stored */
+  bool has_told;
+  bool is_silent;
+} up_capture_state_t;
+
+/* Interrupt side: the end of the active part, the end of a period, a wrap of the timer. */
+void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_edges);
+void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks);
+void up_capture_on_overflow(up_capture_raw_t *raw);
+
+/* Reader side: true when there is something new, and then one element was stored. `first_edge_seen` repairs
+ * what a driver keeps to itself: the edge that starts the first period is not notified. */
+bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
+                     bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element);
+
+#endif

@@ -1,0 +1,33 @@
+/*
+ * From what the hardware measured to the return type of a sensor.
+ *
+ * Integers saturate instead of wrapping, bool is "not zero", floating point is converted. The destination is in
+ * machine representation and need not be aligned.
+ */
+#ifndef UP_CONVERT_H
+#define UP_CONVERT_H
+
+#include "up_schema.h"
+
+/* Stores one element. */
+void up_store_unsigned(uint8_t type, uint64_t raw, void *element);
+void up_store_signed(uint8_t type, int64_t raw, void *element);
+
+/* Stores numerator/denominator: rounded half up for integers, exact for floating point. A denominator of 0
+ * stores 0. */
+void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void *element);
+
+/* Mean of `count` samples that stand `stride` apart (one column of a conversion group's buffer). */
+void up_store_mean(uint8_t type, const uint16_t *samples, size_t count, size_t stride, void *element);
+
+/* Register bytes of a device to a whole value. Each element takes bytes_count/field->count bytes; integers are
+ * sign-extended when the type is signed; 4 bytes for a float32 and 8 for a float64 are IEEE 754 bits, fewer are
+ * an unsigned number. Bytes that do not divide evenly (or more than 8 an element) store nothing: false. */
+bool up_store_bytes(const up_field_t *field, const uint8_t *bytes, size_t bytes_count, bool little_endian,
+                    void *value);
+
+/* The other way round, for a device that is written to: the low bytes of each element. */
+bool up_load_bytes(const up_field_t *field, const void *value, uint8_t *bytes, size_t bytes_count,
+                   bool little_endian);
+
+#endif

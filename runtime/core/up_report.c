@@ -1,0 +1,43 @@
+#include "up_report.h"
+
+#include <string.h>
+
+#include "up_encode.h"
+
+static uint8_t *value_of(const up_store_t *store, size_t index) {
+  return (uint8_t *)store->values + store->schema->fields[index].offset;
+}
+
+void up_store_init(up_store_t *store, const up_schema_t *schema, void *values) {
+  memset(store, 0, sizeof *store);
+  store->schema = schema;
+  store->values = values;
+}
+
+void up_store_put(up_store_t *store, size_t index, const void *value) {
+  memcpy(value_of(store, index), value, up_field_bytes(&store->schema->fields[index]));
+  up_bit_set(store->known, index);
+  up_bit_set(store->due, index);
+}
+
+const void *up_store_get(const up_store_t *store, size_t index) {
+  return up_bit_get(store->known, index) ? value_of(store, index) : NULL;
+}
+
+void up_store_all_due(up_store_t *store) {
+  memcpy(store->due, store->known, sizeof store->due);
+}
+
+size_t up_report_take(up_store_t *store, uint8_t *frame, size_t frame_bytes, uint8_t *taken) {
+  memcpy(taken, store->due, sizeof store->due);
+  memset(store->due, 0, sizeof store->due);
+  return up_encode_values(store->schema, UP_TO_HOST, taken, store->values, frame, frame_bytes);
+}
+
+void up_report_restore(up_store_t *store, const uint8_t *taken) {
+  size_t i;
+
+  for (i = 0U; i < sizeof store->due; i++) {
+    store->due[i] = (uint8_t)(store->due[i] | taken[i]);
+  }
+}

@@ -1,0 +1,38 @@
+/*
+ * The latest value of every field, and which of them a report owes the host.
+ *
+ * A field becomes due each time it is read (or received), and is reported once; so a payload holds whatever is
+ * due, in the order of the table, and never a zero that nobody measured. None of these functions locks: the
+ * caller serialises them when several threads share a store.
+ */
+#ifndef UP_REPORT_H
+#define UP_REPORT_H
+
+#include "up_schema.h"
+
+typedef struct {
+  const up_schema_t *schema;
+  void *values;                         /* the value buffer of the schema's offsets */
+  uint8_t due[UP_FIELD_BITMAP_BYTES];   /* read since the last report */
+  uint8_t known[UP_FIELD_BITMAP_BYTES]; /* read at least once */
+} up_store_t;
+
+void up_store_init(up_store_t *store, const up_schema_t *schema, void *values);
+
+/* Takes over the value of fields[index] and makes it due. */
+void up_store_put(up_store_t *store, size_t index, const void *value);
+
+/* The value of fields[index]; NULL while nothing was read. */
+const void *up_store_get(const up_store_t *store, size_t index);
+
+/* Makes every known field due again: a host that has just come wants to see all of them. */
+void up_store_all_due(up_store_t *store);
+
+/* Packs what is due towards the host and takes it off the list; `taken` (UP_FIELD_BITMAP_BYTES) says what it
+ * was. Returns the bytes of the frame, 0 when nothing is due. */
+size_t up_report_take(up_store_t *store, uint8_t *frame, size_t frame_bytes, uint8_t *taken);
+
+/* Makes the fields of a frame due again that could not be sent. */
+void up_report_restore(up_store_t *store, const uint8_t *taken);
+
+#endif

@@ -1,0 +1,104 @@
+#include "up_schema.h"
+
+#include <string.h>
+
+static const uint8_t type_bytes[] = {
+    [UP_TYPE_BOOL] = 1U,   [UP_TYPE_UINT8] = 1U,   [UP_TYPE_INT8] = 1U,   [UP_TYPE_UINT16] = 2U,
+    [UP_TYPE_INT16] = 2U,  [UP_TYPE_UINT32] = 4U,  [UP_TYPE_INT32] = 4U,  [UP_TYPE_UINT64] = 8U,
+    [UP_TYPE_INT64] = 8U,  [UP_TYPE_FLOAT32] = 4U, [UP_TYPE_FLOAT64] = 8U,
+};
+
+size_t up_type_bytes(uint8_t type) {
+  return (type < sizeof type_bytes) ? type_bytes[type] : 0U;
+}
+
+uint64_t up_element_load(uint8_t type, const void *element) {
+  uint8_t byte = 0U;
+  uint16_t half = 0U;
+  uint32_t word = 0U;
+  uint64_t wide = 0U;
+
+  switch (up_type_bytes(type)) {
+  case 1U:
+    memcpy(&byte, element, sizeof byte);
+    return byte;
+  case 2U:
+    memcpy(&half, element, sizeof half);
+    return half;
+  case 4U:
+    memcpy(&word, element, sizeof word);
+    return word;
+  case 8U:
+    memcpy(&wide, element, sizeof wide);
+    return wide;
+  default:
+    return 0U;
+  }
+}
+
+void up_element_store(uint8_t type, uint64_t bits, void *element) {
+  const uint8_t byte = (uint8_t)bits;
+  const uint16_t half = (uint16_t)bits;
+  const uint32_t word = (uint32_t)bits;
+
+  switch (up_type_bytes(type)) {
+  case 1U:
+    memcpy(element, &byte, sizeof byte);
+    break;
+  case 2U:
+    memcpy(element, &half, sizeof half);
+    break;
+  case 4U:
+    memcpy(element, &word, sizeof word);
+    break;
+  case 8U:
+    memcpy(element, &bits, sizeof bits);
+    break;
+  default:
+    break;
+  }
+}
+
+size_t up_field_bytes(const up_field_t *field) {
+  return up_type_bytes(field->type) * field->count;
+}
+
+const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direction_t direction) {
+  uint8_t i;
+
+  for (i = 0U; i < schema->fields_count; i++) {
+    const up_field_t *field = &schema->fields[i];
+    if (field->id == id && field->direction == (uint8_t)direction) {
+      return field;
+    }
+  }
+  return NULL;
+}
+
+size_t up_payload_bytes_max(const up_schema_t *schema, up_direction_t direction) {
+  /* The hello: its identifier and, towards the host, the hash. */
+  const size_t hello_bytes = (direction == UP_TO_HOST) ? 5U : 1U;
+  size_t bytes = 0U;
+  uint8_t i;
+
+  for (i = 0U; i < schema->fields_count; i++) {
+    if (schema->fields[i].direction == (uint8_t)direction) {
+      bytes += 1U + up_field_bytes(&schema->fields[i]);
+    }
+  }
+  if (bytes < hello_bytes) {
+    bytes = hello_bytes;
+  }
+  return bytes + (schema->checksum_crc16 ? 3U : 0U);
+}
+
+size_t up_frame_bytes_max(const up_schema_t *schema, up_direction_t direction) {
+  const size_t payload_bytes = up_payload_bytes_max(schema, direction);
+  size_t digits = 1U;
+  size_t rest;
+
+  for (rest = payload_bytes; rest >= 10U; rest /= 10U) {
+    digits++;
+  }
+  return digits + 1U + payload_bytes + 1U;
+}

@@ -1,0 +1,81 @@
+/*
+ * What is on the wire: the fields of a board, their types, their place in the value buffer.
+ *
+ * A schema is a constant table that a generator prints; nothing here allocates, and nothing depends on an
+ * operating system. Values are kept in the machine's own representation (so that C code reads them as plain
+ * struct members) and turned into network byte order only when a frame is packed.
+ */
+#ifndef UP_SCHEMA_H
+#define UP_SCHEMA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Identifiers that belong to the link itself. */
+#define UP_ID_HELLO 0U
+#define UP_ID_CHECKSUM 255U
+
+/* A schema has at most one field for each identifier 1..254. */
+#define UP_FIELDS_MAX 254U
+#define UP_FIELD_BITMAP_BYTES 32U
+
+/* Size of the longest payload: LEN has at most four digits. */
+#define UP_PAYLOAD_BYTES_LIMIT 9999U
+
+typedef enum {
+  UP_TYPE_BOOL,
+  UP_TYPE_UINT8,
+  UP_TYPE_INT8,
+  UP_TYPE_UINT16,
+  UP_TYPE_INT16,
+  UP_TYPE_UINT32,
+  UP_TYPE_INT32,
+  UP_TYPE_UINT64,
+  UP_TYPE_INT64,
+  UP_TYPE_FLOAT32,
+  UP_TYPE_FLOAT64
+} up_type_t;
+
+/* Which way a field or a frame travels. */
+typedef enum {
+  UP_TO_HOST, /* sensors: board to host */
+  UP_TO_BOARD /* actuators: host to board */
+} up_direction_t;
+
+/* One field: an identifier and where its value stands. */
+typedef struct {
+  const char *name; /* as written by the user; only for people */
+  uint8_t id;       /* 1..254 */
+  uint8_t type;     /* up_type_t */
+  uint8_t direction; /* up_direction_t */
+  uint16_t count;   /* elements; 1 for a scalar */
+  uint16_t offset;  /* bytes from the start of the value buffer */
+} up_field_t;
+
+/* All fields of a board in the order of the user's file, and the properties of the link. */
+typedef struct {
+  const up_field_t *fields;
+  uint8_t fields_count;
+  bool checksum_crc16;
+  uint32_t hash; /* what the hello says */
+} up_schema_t;
+
+/* Bytes of one element, on the wire and in memory. */
+size_t up_type_bytes(uint8_t type);
+
+/* The bits of one element in memory (which need not be aligned), as an unsigned number of its size. */
+uint64_t up_element_load(uint8_t type, const void *element);
+void up_element_store(uint8_t type, uint64_t bits, void *element);
+
+/* Bytes of a whole value. */
+size_t up_field_bytes(const up_field_t *field);
+
+/* The field with this identifier in this direction, or NULL. */
+const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direction_t direction);
+
+/* Bytes of the longest payload and of the longest frame that can travel this way. */
+size_t up_payload_bytes_max(const up_schema_t *schema, up_direction_t direction);
+size_t up_frame_bytes_max(const up_schema_t *schema, up_direction_t direction);
+
+#endif
