@@ -1,1 +1,66 @@
-//! placeholder
+//! From the text of a `.sense` file to a lossless tree, typed views over it and a canonical layout.
+//!
+//! In comes any text; out comes a tree that spells exactly that text, and a list of mistakes. Parsing
+//! never fails and never panics: one tree serves the compiler, the formatter and the editor, also
+//! while the text is half written. Nothing here knows boards, kinds or properties: what the names
+//! mean is the business of the model.
+//!
+//! ```
+//! use sensedsl_syntax::parse;
+//! let parse = parse("board Rover { sensor Front returns uint16 { id = 17; type = analog; } }");
+//! assert!(parse.errors().is_empty());
+//! let board = parse.ast().boards().next().expect("one board");
+//! assert_eq!(board.name().expect("a name").text(), "Rover");
+//! ```
+
+pub mod ast;
+mod error;
+mod kind;
+mod lexer;
+mod literal;
+mod parser;
+mod suggest;
+mod unit;
+
+pub use error::{Block, Expected, Found, Item, SyntaxError, SyntaxErrorKind};
+pub use kind::{SenseDsl, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+pub use rowan::{TextRange, TextSize};
+pub use suggest::{distance, nearest};
+pub use unit::Unit;
+
+use ast::AstNode as _;
+
+/// The tree of a file and the mistakes in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parse {
+    green: rowan::GreenNode,
+    errors: Vec<SyntaxError>,
+}
+
+impl Parse {
+    /// The root of the tree. Its text is the text that was parsed.
+    #[must_use]
+    pub fn syntax(&self) -> SyntaxNode {
+        SyntaxNode::new_root(self.green.clone())
+    }
+
+    /// The mistakes in the order of the text.
+    #[must_use]
+    pub fn errors(&self) -> &[SyntaxError] {
+        &self.errors
+    }
+
+    /// The typed view over the whole file.
+    #[must_use]
+    pub fn ast(&self) -> ast::SourceFile {
+        #[expect(clippy::expect_used, reason = "the parser makes every root a source file")]
+        ast::SourceFile::cast(self.syntax()).expect("the root is a source file")
+    }
+}
+
+/// Parses the text of a file.
+#[must_use]
+pub fn parse(text: &str) -> Parse {
+    let (green, errors) = parser::parse(text, &lexer::lex(text));
+    Parse { green, errors }
+}

@@ -1,0 +1,579 @@
+//! Typed views over the tree: what a file says, without trivia and punctuation.
+//!
+//! A view is a cheap handle. Where the text is incomplete the accessors return `None` or leave the
+//! broken part out; whoever needs all of it first looks whether the parse has errors.
+
+use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use crate::{literal, unit::Unit};
+use rowan::TextRange;
+
+/// A view over one kind of node, or several.
+pub trait AstNode: Sized {
+    /// The view over `node`, when it is of this kind.
+    fn cast(node: SyntaxNode) -> Option<Self>;
+    /// The node.
+    fn syntax(&self) -> &SyntaxNode;
+    /// Where it is, without the trivia around it.
+    fn range(&self) -> TextRange {
+        self.syntax().text_range()
+    }
+}
+
+/// Declares one view over one kind of node.
+macro_rules! node {
+    ($(#[$doc:meta])* $name:ident = $kind:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        pub struct $name(SyntaxNode);
+
+        impl AstNode for $name {
+            fn cast(node: SyntaxNode) -> Option<Self> {
+                (node.kind() == SyntaxKind::$kind).then_some(Self(node))
+            }
+            fn syntax(&self) -> &SyntaxNode {
+                &self.0
+            }
+        }
+    };
+}
+
+/// Declares a view over any of several views.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident($view:ty)),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        pub enum $name {
+            $($(#[$variant_doc])* $variant($view),)+
+        }
+
+        impl AstNode for $name {
+            fn cast(node: SyntaxNode) -> Option<Self> {
+                $(if let Some(view) = <$view>::cast(node.clone()) {
+                    return Some(Self::$variant(view));
+                })+
+                None
+            }
+            fn syntax(&self) -> &SyntaxNode {
+                match self {
+                    $(Self::$variant(view) => view.syntax(),)+
+                }
+            }
+        }
+    };
+}
+
+node!(
+    /// A whole file.
+    SourceFile = SourceFile
+);
+node!(
+    /// `use "FILE";`
+    Use = Use
+);
+node!(
+    /// `[spare] board NAME [on SOURCE] { ... }`
+    Board = Board
+);
+node!(
+    /// `link { ... }`
+    Link = Link
+);
+node!(
+    /// `sensor NAME returns TYPE { ... }` or `actuator NAME accepts TYPE { ... }`
+    Device = Device
+);
+node!(
+    /// The data type of a device.
+    Type = Type
+);
+node!(
+    /// `driver NAME for KIND { ... }`
+    Driver = Driver
+);
+node!(
+    /// `NAME = VALUE;`
+    Property = Property
+);
+node!(
+    /// `prefer NAME = VALUE;`
+    Prefer = Prefer
+);
+node!(
+    /// `avoid NAME = VALUE;`
+    Avoid = Avoid
+);
+node!(
+    /// `reserve NAME, ...;`
+    Reserve = Reserve
+);
+node!(
+    /// `release NAME, ...;`
+    Release = Release
+);
+node!(
+    /// `allow CODE "REASON";`
+    Allow = Allow
+);
+node!(
+    /// A number with its sign and its unit.
+    Number = Number
+);
+node!(
+    /// A name as a value.
+    NameValue = NameValue
+);
+node!(
+    /// A string as a value.
+    StringValue = StringValue
+);
+node!(
+    /// `[VALUE, ...]`
+    List = List
+);
+
+choice!(
+    /// What a file is made of.
+    FileItem {
+        /// Another file brought in.
+        Use(Use),
+        /// A board.
+        Board(Board),
+        /// A device that may go on any board.
+        Device(Device),
+        /// A reusable protocol.
+        Driver(Driver),
+    }
+);
+choice!(
+    /// What a board holds.
+    BoardItem {
+        /// A device that stays on this board.
+        Device(Device),
+        /// A rule.
+        Rule(Rule),
+        /// A property of the board.
+        Property(Property),
+        /// The link to the host.
+        Link(Link),
+    }
+);
+choice!(
+    /// What a device holds.
+    DeviceItem {
+        /// A property of the device.
+        Property(Property),
+        /// A rule.
+        Rule(Rule),
+    }
+);
+choice!(
+    /// A rule for the wiring or the checks.
+    Rule {
+        /// A wish.
+        Prefer(Prefer),
+        /// The opposite of a wish.
+        Avoid(Avoid),
+        /// Pins and peripherals that must be left alone.
+        Reserve(Reserve),
+        /// Pins and peripherals that may be used although the board uses them.
+        Release(Release),
+        /// A diagnostic that is accepted.
+        Allow(Allow),
+    }
+);
+choice!(
+    /// The value of a property.
+    Value {
+        /// A number.
+        Number(Number),
+        /// A name: a pin, a kind, `true`.
+        Name(NameValue),
+        /// A text.
+        String(StringValue),
+        /// Several values.
+        List(List),
+    }
+);
+
+/// A name as it stands in the text.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Name(SyntaxToken);
+
+impl Name {
+    /// The name.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.0.text()
+    }
+    /// Where it is.
+    #[must_use]
+    pub fn range(&self) -> TextRange {
+        self.0.text_range()
+    }
+    /// The token.
+    #[must_use]
+    pub fn token(&self) -> &SyntaxToken {
+        &self.0
+    }
+}
+
+/// A string as it stands in the text.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct StringLiteral(SyntaxToken);
+
+impl StringLiteral {
+    /// The text that is meant: without the quotes, the escapes replaced.
+    #[must_use]
+    pub fn value(&self) -> String {
+        literal::unescape(self.0.text())
+    }
+    /// Where it is, with the quotes.
+    #[must_use]
+    pub fn range(&self) -> TextRange {
+        self.0.text_range()
+    }
+    /// The token.
+    #[must_use]
+    pub fn token(&self) -> &SyntaxToken {
+        &self.0
+    }
+}
+
+/// Where the pins of a board are told.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum BoardSource {
+    /// A built-in board or MCU part.
+    Name(Name),
+    /// The path of a table.
+    File(StringLiteral),
+}
+
+impl BoardSource {
+    /// Where it is.
+    #[must_use]
+    pub fn range(&self) -> TextRange {
+        match self {
+            Self::Name(name) => name.range(),
+            Self::File(path) => path.range(),
+        }
+    }
+}
+
+/// Which way the data of a device goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// To the host.
+    Sensor,
+    /// From the host.
+    Actuator,
+}
+
+/// The sign that is written before a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+}
+
+/// A number without its sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Magnitude {
+    /// An integer, exactly.
+    Integer(u64),
+    /// A number with a fraction or an exponent; always finite.
+    Float(f64),
+}
+
+impl SourceFile {
+    /// All items in their order.
+    pub fn items(&self) -> impl Iterator<Item = FileItem> + use<> {
+        children(&self.0)
+    }
+    /// The files brought in.
+    pub fn uses(&self) -> impl Iterator<Item = Use> + use<> {
+        children(&self.0)
+    }
+    /// The boards.
+    pub fn boards(&self) -> impl Iterator<Item = Board> + use<> {
+        children(&self.0)
+    }
+    /// The devices outside any board.
+    pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
+        children(&self.0)
+    }
+    /// The drivers.
+    pub fn drivers(&self) -> impl Iterator<Item = Driver> + use<> {
+        children(&self.0)
+    }
+}
+
+impl Use {
+    /// The path of the file.
+    #[must_use]
+    pub fn path(&self) -> Option<StringLiteral> {
+        string(&self.0)
+    }
+}
+
+impl Board {
+    /// The word `spare`, when the board is used only if needed.
+    #[must_use]
+    pub fn spare_token(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::SpareKw)
+    }
+    /// Whether the board is used only if needed.
+    #[must_use]
+    pub fn is_spare(&self) -> bool {
+        self.spare_token().is_some()
+    }
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// What stands after `on`.
+    #[must_use]
+    pub fn on(&self) -> Option<BoardSource> {
+        let clause = self.0.children().find(|node| node.kind() == SyntaxKind::OnClause)?;
+        name(&clause).map(BoardSource::Name).or_else(|| string(&clause).map(BoardSource::File))
+    }
+    /// All items in their order.
+    pub fn items(&self) -> impl Iterator<Item = BoardItem> + use<> {
+        children(&self.0)
+    }
+    /// The devices.
+    pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
+        children(&self.0)
+    }
+    /// The rules.
+    pub fn rules(&self) -> impl Iterator<Item = Rule> + use<> {
+        children(&self.0)
+    }
+    /// The properties.
+    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
+        children(&self.0)
+    }
+    /// The links; the grammar does not say that there is only one.
+    pub fn links(&self) -> impl Iterator<Item = Link> + use<> {
+        children(&self.0)
+    }
+}
+
+impl Link {
+    /// The word `link`.
+    #[must_use]
+    pub fn keyword(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::LinkKw)
+    }
+    /// The properties.
+    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
+        children(&self.0)
+    }
+}
+
+impl Device {
+    /// Which way the data goes, told by the first keyword.
+    #[must_use]
+    pub fn direction(&self) -> Option<Direction> {
+        let sensor = token(&self.0, SyntaxKind::SensorKw).map(|_| Direction::Sensor);
+        sensor.or_else(|| token(&self.0, SyntaxKind::ActuatorKw).map(|_| Direction::Actuator))
+    }
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// The data type.
+    #[must_use]
+    pub fn ty(&self) -> Option<Type> {
+        children(&self.0).next()
+    }
+    /// All items in their order.
+    pub fn items(&self) -> impl Iterator<Item = DeviceItem> + use<> {
+        children(&self.0)
+    }
+    /// The properties.
+    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
+        children(&self.0)
+    }
+    /// The rules.
+    pub fn rules(&self) -> impl Iterator<Item = Rule> + use<> {
+        children(&self.0)
+    }
+}
+
+impl Type {
+    /// The name of the scalar. Whether there is such a type is not checked here.
+    #[must_use]
+    pub fn scalar(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// Whether a length is written, be it broken or not.
+    #[must_use]
+    pub fn is_array(&self) -> bool {
+        token(&self.0, SyntaxKind::LBracket).is_some()
+    }
+    /// The number of elements of an array and where it stands.
+    #[must_use]
+    pub fn length(&self) -> Option<(u64, TextRange)> {
+        let digits = token(&self.0, SyntaxKind::Int)?;
+        Some((literal::integer(digits.text())?, digits.text_range()))
+    }
+}
+
+impl Driver {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// The kind of device it is for. Whether there is such a kind is not checked here.
+    #[must_use]
+    pub fn kind(&self) -> Option<Name> {
+        name(&self.0.children().find(|node| node.kind() == SyntaxKind::Kind)?)
+    }
+    /// The properties.
+    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
+        children(&self.0)
+    }
+}
+
+impl Property {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// The value.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        children(&self.0).next()
+    }
+}
+
+impl Prefer {
+    /// What is wished for.
+    #[must_use]
+    pub fn property(&self) -> Option<Property> {
+        children(&self.0).next()
+    }
+}
+
+impl Avoid {
+    /// What is unwelcome.
+    #[must_use]
+    pub fn property(&self) -> Option<Property> {
+        children(&self.0).next()
+    }
+}
+
+impl Reserve {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        names(&self.0)
+    }
+}
+
+impl Release {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        names(&self.0)
+    }
+}
+
+impl Allow {
+    /// The code of the diagnostic.
+    #[must_use]
+    pub fn code(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// Why it is accepted.
+    #[must_use]
+    pub fn reason(&self) -> Option<StringLiteral> {
+        string(&self.0)
+    }
+}
+
+impl Number {
+    /// The sign, when one is written.
+    #[must_use]
+    pub fn sign(&self) -> Option<Sign> {
+        let plus = token(&self.0, SyntaxKind::Plus).map(|_| Sign::Plus);
+        plus.or_else(|| token(&self.0, SyntaxKind::Minus).map(|_| Sign::Minus))
+    }
+    /// The number without its sign; `None` where it is out of range, which is an error already.
+    #[must_use]
+    pub fn magnitude(&self) -> Option<Magnitude> {
+        if let Some(digits) = token(&self.0, SyntaxKind::Int) {
+            return literal::integer(digits.text()).map(Magnitude::Integer);
+        }
+        literal::float(token(&self.0, SyntaxKind::Float)?.text()).map(Magnitude::Float)
+    }
+    /// The digits as they are written, without sign and unit.
+    #[must_use]
+    pub fn digits(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::Int).or_else(|| token(&self.0, SyntaxKind::Float))
+    }
+    /// The unit; `None` also where there is no such unit, which is an error already.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        Unit::from_name(self.unit_token()?.text())
+    }
+    /// The unit as it is written.
+    #[must_use]
+    pub fn unit_token(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::Unit)
+    }
+}
+
+impl NameValue {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+}
+
+impl StringValue {
+    /// The string.
+    #[must_use]
+    pub fn literal(&self) -> Option<StringLiteral> {
+        string(&self.0)
+    }
+}
+
+impl List {
+    /// The values.
+    pub fn values(&self) -> impl Iterator<Item = Value> + use<> {
+        children(&self.0)
+    }
+}
+
+fn children<N: AstNode>(node: &SyntaxNode) -> impl Iterator<Item = N> + use<N> {
+    node.children().filter_map(N::cast)
+}
+
+fn tokens(node: &SyntaxNode, kind: SyntaxKind) -> impl Iterator<Item = SyntaxToken> + use<> {
+    node.children_with_tokens()
+        .filter_map(SyntaxElement::into_token)
+        .filter(move |token| token.kind() == kind)
+}
+
+fn token(node: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxToken> {
+    tokens(node, kind).next()
+}
+
+/// The identifiers of a node itself are names: its keywords and units have kinds of their own.
+fn names(node: &SyntaxNode) -> impl Iterator<Item = Name> + use<> {
+    tokens(node, SyntaxKind::Ident).map(Name)
+}
+
+fn name(node: &SyntaxNode) -> Option<Name> {
+    names(node).next()
+}
+
+fn string(node: &SyntaxNode) -> Option<StringLiteral> {
+    token(node, SyntaxKind::Str).map(StringLiteral)
+}

@@ -1,0 +1,264 @@
+//! What can be wrong with the text of a file, as data: a kind with what a message needs, and a place.
+//!
+//! This crate words no messages. A consumer turns each kind into a coded diagnostic; the `Display`
+//! forms here are the noun phrases such a message is made of ("a sensor name", "the end of the file").
+
+use rowan::TextRange;
+use std::fmt;
+
+/// One mistake in the text, at its place.
+///
+/// An empty range is the place where something is missing: directly after the token before it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// What is wrong.
+    pub kind: SyntaxErrorKind,
+    /// Where it is.
+    pub range: TextRange,
+}
+
+/// What is wrong, with the data that a message needs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SyntaxErrorKind {
+    /// A character that no token begins with; the range covers a whole run of such characters.
+    UnexpectedCharacter {
+        /// The first of them.
+        character: char,
+    },
+    /// A `/*` without its `*/`.
+    UnterminatedComment,
+    /// A string that does not end on its line.
+    UnterminatedString,
+    /// A `\` in a string followed by what is no escape.
+    UnknownEscape {
+        /// The escape as it is written, with its `\`.
+        escape: String,
+    },
+    /// A digit that the base of its number does not have: `0b102`.
+    InvalidDigit {
+        /// The digit.
+        digit: char,
+        /// The base, 2 or 16.
+        base: u32,
+    },
+    /// A number that lacks the digits it announces: `0x`, `1.`, `.5`.
+    MissingDigits {
+        /// The number as it is written.
+        number: String,
+    },
+    /// An integer above 2^64 - 1 or a float that is not finite.
+    NumberTooLarge {
+        /// The number as it is written.
+        number: String,
+    },
+    /// A name with letters that are not ASCII, which no generated language takes.
+    NonAsciiName {
+        /// The name.
+        name: String,
+    },
+    /// A name that is written with hyphens: `STM32F407G-DISC1`.
+    HyphenInName {
+        /// The name as it is written.
+        name: String,
+        /// The name with underscores instead.
+        suggestion: String,
+    },
+    /// A word at the beginning of an item that begins no item of this block.
+    UnknownItem {
+        /// The word.
+        found: String,
+        /// The keyword that is probably meant. It is then parsed as if it had been written.
+        suggestion: Option<&'static str>,
+        /// The block it stands in.
+        block: Block,
+    },
+    /// An item of the language that may not stand in this block: a board in a board.
+    NotAllowedHere {
+        /// The item.
+        item: Item,
+        /// The block it stands in.
+        block: Block,
+    },
+    /// Something else than the grammar has at this place.
+    Expected {
+        /// What the grammar has.
+        expected: Expected,
+        /// What is there.
+        found: Found,
+    },
+    /// A token where an item should begin or after a complete statement.
+    StrayToken {
+        /// The token.
+        found: Found,
+        /// The block it stands in.
+        block: Block,
+    },
+    /// A `}` that closes nothing.
+    StrayCloseBrace,
+    /// A statement without its `;`. The range is directly after its last token.
+    MissingSemicolon,
+    /// A property without `=`: `id 17;`.
+    MissingEquals {
+        /// The name of the property.
+        property: String,
+    },
+    /// A property without a value: `id = ;`.
+    MissingValue {
+        /// The name of the property.
+        property: String,
+    },
+    /// A block that is never closed.
+    MissingCloseBrace {
+        /// The block.
+        block: Block,
+        /// Its `{`.
+        open: TextRange,
+    },
+    /// A list or an array length that is never closed.
+    MissingCloseBracket {
+        /// Its `[`.
+        open: TextRange,
+    },
+    /// Two values of a list, or two names of a rule, without `,` between them.
+    MissingComma,
+    /// A `,` without a value or name after it.
+    TrailingComma,
+    /// A number followed by a word that is no unit.
+    UnknownUnit {
+        /// The word.
+        found: String,
+        /// The unit that is probably meant.
+        suggestion: Option<&'static str>,
+    },
+    /// Blocks or lists nested deeper than any use of them.
+    NestingTooDeep {
+        /// The deepest allowed nesting.
+        limit: usize,
+    },
+}
+
+/// What the grammar has at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// The name of a board, a device or a driver that is declared here.
+    NameOf(Item),
+    /// The name of a property.
+    PropertyName,
+    /// The name of a pin or of another resource, in `reserve` and `release`.
+    ResourceName,
+    /// A keyword.
+    Keyword(&'static str),
+    /// A data type.
+    Type,
+    /// The kind of device that a driver is for.
+    Kind,
+    /// A board name or the path of a board table, after `on`.
+    BoardSource,
+    /// The path of a file, after `use`.
+    FilePath,
+    /// The reason in words, after `allow CODE`.
+    Reason,
+    /// The code of a diagnostic, after `allow`.
+    Code,
+    /// The number of elements of an array.
+    ArrayLength,
+    /// A number, after a sign.
+    Number,
+    /// A value of a list.
+    Value,
+    /// A `{`.
+    OpenBrace,
+}
+
+/// What is at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// A token, as it is written.
+    Token(String),
+    /// Nothing any more.
+    EndOfFile,
+}
+
+/// What a file is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is named after the grammar")]
+pub enum Item {
+    Use,
+    Board,
+    Driver,
+    Sensor,
+    Actuator,
+    Link,
+    Rule,
+    Property,
+}
+
+/// What an item stands in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is named after the grammar")]
+pub enum Block {
+    File,
+    Board,
+    Sensor,
+    Actuator,
+    Driver,
+    Link,
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NameOf(item) => write!(f, "a {item} name"),
+            Self::PropertyName => f.write_str("a property name"),
+            Self::ResourceName => f.write_str("the name of a pin or a peripheral"),
+            Self::Keyword(keyword) => write!(f, "`{keyword}`"),
+            Self::Type => f.write_str("a data type"),
+            Self::Kind => f.write_str("a kind of device"),
+            Self::BoardSource => f.write_str("a board name or the path of a board table in quotes"),
+            Self::FilePath => f.write_str("the path of a file in quotes"),
+            Self::Reason => f.write_str("a reason in quotes"),
+            Self::Code => f.write_str("the code of a diagnostic"),
+            Self::ArrayLength => f.write_str("the number of elements"),
+            Self::Number => f.write_str("a number"),
+            Self::Value => f.write_str("a value"),
+            Self::OpenBrace => f.write_str("`{`"),
+        }
+    }
+}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Token(text) => write!(f, "`{text}`"),
+            Self::EndOfFile => f.write_str("the end of the file"),
+        }
+    }
+}
+
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Use => "use",
+            Self::Board => "board",
+            Self::Driver => "driver",
+            Self::Sensor => "sensor",
+            Self::Actuator => "actuator",
+            Self::Link => "link",
+            Self::Rule => "rule",
+            Self::Property => "property",
+        })
+    }
+}
+
+impl fmt::Display for Block {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::File => "file",
+            Self::Board => "board",
+            Self::Sensor => "sensor",
+            Self::Actuator => "actuator",
+            Self::Driver => "driver",
+            Self::Link => "link",
+        })
+    }
+}

@@ -1,0 +1,194 @@
+//! The kinds of tokens and nodes of the tree, and the binding to the tree library.
+//!
+//! Keywords are contextual: the lexer only knows identifiers, and the parser turns an identifier
+//! into a keyword where the grammar has one, so `driver = srf08;` remains a property.
+
+/// What a token or a node of the tree is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u16)]
+#[expect(missing_docs, reason = "each kind is named after the grammar")]
+pub enum SyntaxKind {
+    // Trivia: the parser steps over these.
+    Bom,
+    Whitespace,
+    LineComment,
+    BlockComment,
+    /// Characters that belong to no token; reported by the lexer, skipped by the parser.
+    Unknown,
+
+    // Tokens.
+    Ident,
+    Int,
+    Float,
+    Str,
+    LBrace,
+    RBrace,
+    LBracket,
+    RBracket,
+    Eq,
+    Semicolon,
+    Comma,
+    Plus,
+    Minus,
+    /// The unit after a number; an identifier to the lexer.
+    Unit,
+
+    // Keywords; identifiers to the lexer.
+    UseKw,
+    SpareKw,
+    BoardKw,
+    OnKw,
+    LinkKw,
+    SensorKw,
+    ReturnsKw,
+    ActuatorKw,
+    AcceptsKw,
+    DriverKw,
+    ForKw,
+    PreferKw,
+    AvoidKw,
+    ReserveKw,
+    ReleaseKw,
+    AllowKw,
+
+    // Nodes.
+    SourceFile,
+    Use,
+    Board,
+    OnClause,
+    Link,
+    Device,
+    Type,
+    Driver,
+    Kind,
+    Property,
+    Prefer,
+    Avoid,
+    Reserve,
+    Release,
+    Allow,
+    Number,
+    NameValue,
+    StringValue,
+    List,
+    /// Tokens that fit nowhere; always accompanied by an error. Must stay the last kind.
+    Error,
+}
+
+impl SyntaxKind {
+    /// Whether the parser steps over tokens of this kind.
+    #[must_use]
+    pub fn is_trivia(self) -> bool {
+        self <= Self::Unknown
+    }
+
+    /// Whether this is a comment.
+    #[must_use]
+    pub fn is_comment(self) -> bool {
+        matches!(self, Self::LineComment | Self::BlockComment)
+    }
+
+    /// Whether this is a keyword, as recognised by the parser.
+    #[must_use]
+    pub fn is_keyword(self) -> bool {
+        Self::UseKw <= self && self <= Self::AllowKw
+    }
+}
+
+/// Every kind at the index of its discriminant, the way back from a raw kind.
+const ALL: [SyntaxKind; SyntaxKind::Error as usize + 1] = {
+    use SyntaxKind::*;
+    [
+        Bom,
+        Whitespace,
+        LineComment,
+        BlockComment,
+        Unknown,
+        Ident,
+        Int,
+        Float,
+        Str,
+        LBrace,
+        RBrace,
+        LBracket,
+        RBracket,
+        Eq,
+        Semicolon,
+        Comma,
+        Plus,
+        Minus,
+        Unit,
+        UseKw,
+        SpareKw,
+        BoardKw,
+        OnKw,
+        LinkKw,
+        SensorKw,
+        ReturnsKw,
+        ActuatorKw,
+        AcceptsKw,
+        DriverKw,
+        ForKw,
+        PreferKw,
+        AvoidKw,
+        ReserveKw,
+        ReleaseKw,
+        AllowKw,
+        SourceFile,
+        Use,
+        Board,
+        OnClause,
+        Link,
+        Device,
+        Type,
+        Driver,
+        Kind,
+        Property,
+        Prefer,
+        Avoid,
+        Reserve,
+        Release,
+        Allow,
+        Number,
+        NameValue,
+        StringValue,
+        List,
+        Error,
+    ]
+};
+
+/// The binding of [`SyntaxKind`] to the tree library; it has no values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SenseDsl {}
+
+impl rowan::Language for SenseDsl {
+    type Kind = SyntaxKind;
+
+    fn kind_from_raw(raw: rowan::SyntaxKind) -> SyntaxKind {
+        ALL.get(usize::from(raw.0)).copied().unwrap_or(SyntaxKind::Error)
+    }
+
+    fn kind_to_raw(kind: SyntaxKind) -> rowan::SyntaxKind {
+        rowan::SyntaxKind(kind as u16)
+    }
+}
+
+/// A node of the tree.
+pub type SyntaxNode = rowan::SyntaxNode<SenseDsl>;
+/// A token of the tree.
+pub type SyntaxToken = rowan::SyntaxToken<SenseDsl>;
+/// A node or a token of the tree.
+pub type SyntaxElement = rowan::SyntaxElement<SenseDsl>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rowan::Language;
+
+    #[test]
+    fn every_kind_survives_the_way_through_its_raw_form() {
+        for kind in ALL {
+            assert_eq!(SenseDsl::kind_from_raw(SenseDsl::kind_to_raw(kind)), kind);
+        }
+    }
+}

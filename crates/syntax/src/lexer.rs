@@ -1,0 +1,374 @@
+//! From text to tokens. Every character of the text belongs to exactly one token, in order, so that
+//! the tokens spell the text again; what no token begins with becomes an `Unknown` token.
+//!
+//! The mistakes within a token (an unknown escape, a digit that the base does not have) are found
+//! here; whether the token is at the right place is for the parser.
+
+use crate::error::{SyntaxError, SyntaxErrorKind};
+use crate::kind::SyntaxKind;
+use crate::literal;
+use rowan::{TextRange, TextSize};
+
+/// A piece of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Token {
+    /// What it is.
+    pub(crate) kind: SyntaxKind,
+    /// Where it is.
+    pub(crate) range: TextRange,
+}
+
+/// All tokens of a text and the mistakes within them.
+#[derive(Debug)]
+pub(crate) struct Lexed {
+    pub(crate) tokens: Vec<Token>,
+    pub(crate) errors: Vec<SyntaxError>,
+}
+
+/// Splits `text` into tokens.
+pub(crate) fn lex(text: &str) -> Lexed {
+    let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), errors: Vec::new() };
+    while lexer.position < text.len() {
+        let start = lexer.position;
+        let kind = lexer.token();
+        debug_assert!(lexer.position > start, "a token is never empty");
+        let range = TextRange::new(size(start), size(lexer.position));
+        lexer.tokens.push(Token { kind, range });
+    }
+    Lexed { tokens: lexer.tokens, errors: lexer.errors }
+}
+
+/// An offset as the tree counts it. Texts are far below 4 GiB: the binary refuses larger files.
+fn size(offset: usize) -> TextSize {
+    TextSize::new(u32::try_from(offset).unwrap_or(u32::MAX))
+}
+
+struct Lexer<'a> {
+    text: &'a str,
+    position: usize,
+    tokens: Vec<Token>,
+    errors: Vec<SyntaxError>,
+}
+
+impl<'a> Lexer<'a> {
+    fn rest(&self) -> &'a str {
+        self.text.get(self.position..).unwrap_or_default()
+    }
+
+    fn since(&self, start: usize) -> &'a str {
+        self.text.get(start..self.position).unwrap_or_default()
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    fn peek_second(&self) -> Option<char> {
+        self.rest().chars().nth(1)
+    }
+
+    fn bump(&mut self) -> Option<char> {
+        let character = self.peek()?;
+        self.position += character.len_utf8();
+        Some(character)
+    }
+
+    fn bump_while(&mut self, accept: impl Fn(char) -> bool) {
+        while self.peek().is_some_and(&accept) {
+            self.bump();
+        }
+    }
+
+    fn error(&mut self, kind: SyntaxErrorKind, start: usize, end: usize) {
+        let range = TextRange::new(size(start), size(end));
+        self.errors.push(SyntaxError { kind, range });
+    }
+
+    /// Consumes one token.
+    fn token(&mut self) -> SyntaxKind {
+        let start = self.position;
+        let rest = self.rest();
+        let Some(first) = self.bump() else { return SyntaxKind::Unknown };
+        match first {
+            '\u{feff}' if start == 0 => SyntaxKind::Bom,
+            _ if is_space(first) => {
+                self.bump_while(is_space);
+                SyntaxKind::Whitespace
+            }
+            '/' if rest.starts_with("//") => {
+                self.bump_while(|character| !is_line_end(character));
+                SyntaxKind::LineComment
+            }
+            '/' if rest.starts_with("/*") => self.block_comment(start),
+            '"' => self.string(start),
+            '.' if self.peek().is_some_and(|next| next.is_ascii_digit()) => {
+                self.fraction_without_integer(start)
+            }
+            '0'..='9' => self.number(start),
+            _ if is_name_start(first) => {
+                self.bump_while(is_name_continue);
+                SyntaxKind::Ident
+            }
+            _ => punctuation(first).unwrap_or_else(|| self.unknown(start, first)),
+        }
+    }
+
+    fn block_comment(&mut self, start: usize) -> SyntaxKind {
+        let body = self.text.get(start + 2..).unwrap_or_default();
+        if let Some(length) = body.find("*/") {
+            self.position = start + 2 + length + 2;
+        } else {
+            // The place of the mistake is where the comment begins, not the rest of the file.
+            self.position = self.text.len();
+            self.error(SyntaxErrorKind::UnterminatedComment, start, start + 2);
+        }
+        SyntaxKind::BlockComment
+    }
+
+    fn string(&mut self, start: usize) -> SyntaxKind {
+        loop {
+            match self.peek() {
+                Some('"') => {
+                    self.bump();
+                    return SyntaxKind::Str;
+                }
+                Some('\\') => {
+                    let (escape, meaning) = literal::escape(self.rest());
+                    let at = self.position;
+                    self.position += escape.len();
+                    // A `\` at the end of the line is told as the unterminated string that it is.
+                    if meaning.is_none() && escape.len() > 1 {
+                        let kind = SyntaxErrorKind::UnknownEscape { escape: escape.to_owned() };
+                        self.error(kind, at, self.position);
+                    }
+                }
+                Some(character) if !is_line_end(character) => {
+                    self.bump();
+                }
+                Some(_) | None => {
+                    self.error(SyntaxErrorKind::UnterminatedString, start, self.position);
+                    return SyntaxKind::Str;
+                }
+            }
+        }
+    }
+
+    fn number(&mut self, start: usize) -> SyntaxKind {
+        self.position = start;
+        let (digits, base) = literal::split_base(self.rest());
+        if base != 10 {
+            self.position = self.text.len() - digits.len();
+            return self.based_integer(start, base);
+        }
+        self.bump_while(is_digit);
+        let fraction = self.fraction(start);
+        let exponent = self.exponent();
+        if !fraction && !exponent {
+            self.check_size(start, literal::integer(self.since(start)).is_some());
+            return SyntaxKind::Int;
+        }
+        self.check_size(start, literal::float(self.since(start)).is_some());
+        SyntaxKind::Float
+    }
+
+    /// The digits after `0x` or `0b`. Decimal digits beyond the base belong to the number as well:
+    /// `0b102` is one mistaken number, not two numbers.
+    fn based_integer(&mut self, start: usize, base: u32) -> SyntaxKind {
+        let digits_start = self.position;
+        self.bump_while(|character| is_digit(character) || character.is_digit(base));
+        let digits = self.since(digits_start);
+        let wrong = digits.char_indices().find(|(_, digit)| *digit != '_' && !digit.is_digit(base));
+        if let Some((offset, digit)) = wrong {
+            let at = digits_start + offset;
+            self.error(SyntaxErrorKind::InvalidDigit { digit, base }, at, at + digit.len_utf8());
+        } else if digits.bytes().all(|byte| byte == b'_') {
+            let number = self.since(start).to_owned();
+            self.error(SyntaxErrorKind::MissingDigits { number }, start, self.position);
+        } else {
+            self.check_size(start, literal::integer(self.since(start)).is_some());
+        }
+        SyntaxKind::Int
+    }
+
+    /// `.` and digits, after an integer.
+    fn fraction(&mut self, start: usize) -> bool {
+        if self.peek() != Some('.') {
+            return false;
+        }
+        self.bump();
+        if self.peek().is_some_and(|next| next.is_ascii_digit()) {
+            self.bump_while(is_digit);
+        } else {
+            let number = self.since(start).to_owned();
+            self.error(SyntaxErrorKind::MissingDigits { number }, start, self.position);
+        }
+        true
+    }
+
+    fn fraction_without_integer(&mut self, start: usize) -> SyntaxKind {
+        self.bump_while(is_digit);
+        self.exponent();
+        let number = self.since(start).to_owned();
+        self.error(SyntaxErrorKind::MissingDigits { number }, start, self.position);
+        SyntaxKind::Float
+    }
+
+    /// `e`, a sign and digits. Without digits the `e` is no exponent but begins a unit.
+    fn exponent(&mut self) -> bool {
+        if !matches!(self.peek(), Some('e' | 'E')) {
+            return false;
+        }
+        let signed = matches!(self.peek_second(), Some('+' | '-'));
+        let digits = self.rest().get(if signed { 2 } else { 1 }..).unwrap_or_default();
+        if !digits.starts_with(|character: char| character.is_ascii_digit()) {
+            return false;
+        }
+        self.position = self.text.len() - digits.len();
+        self.bump_while(is_digit);
+        true
+    }
+
+    fn check_size(&mut self, start: usize, fits: bool) {
+        // A number that lacks digits has been reported as that.
+        let reported = self.errors.last().is_some_and(|error| error.range.start() == size(start));
+        if !fits && !reported {
+            let number = self.since(start).to_owned();
+            self.error(SyntaxErrorKind::NumberTooLarge { number }, start, self.position);
+        }
+    }
+
+    /// A run of characters that no token begins with, reported once.
+    fn unknown(&mut self, start: usize, first: char) -> SyntaxKind {
+        while self.peek().is_some_and(is_unknown) && !starts_token(self.rest()) {
+            self.bump();
+        }
+        let kind = SyntaxErrorKind::UnexpectedCharacter { character: first };
+        self.error(kind, start, self.position);
+        SyntaxKind::Unknown
+    }
+}
+
+fn punctuation(character: char) -> Option<SyntaxKind> {
+    Some(match character {
+        '{' => SyntaxKind::LBrace,
+        '}' => SyntaxKind::RBrace,
+        '[' => SyntaxKind::LBracket,
+        ']' => SyntaxKind::RBracket,
+        '=' => SyntaxKind::Eq,
+        ';' => SyntaxKind::Semicolon,
+        ',' => SyntaxKind::Comma,
+        '+' => SyntaxKind::Plus,
+        '-' => SyntaxKind::Minus,
+        _ => return None,
+    })
+}
+
+/// White space is that of ASCII; a no-break space from a web page is worth a report.
+fn is_space(character: char) -> bool {
+    matches!(character, ' ' | '\t' | '\n' | '\r' | '\u{b}' | '\u{c}')
+}
+
+fn is_line_end(character: char) -> bool {
+    matches!(character, '\n' | '\r')
+}
+
+fn is_digit(character: char) -> bool {
+    character.is_ascii_digit() || character == '_'
+}
+
+/// Letters beyond ASCII belong to a name, which the parser then reports as a whole.
+fn is_name_start(character: char) -> bool {
+    character.is_alphabetic() || character == '_'
+}
+
+fn is_name_continue(character: char) -> bool {
+    character.is_alphanumeric() || character == '_'
+}
+
+fn is_unknown(character: char) -> bool {
+    !is_space(character)
+        && !is_name_start(character)
+        && !character.is_ascii_digit()
+        && character != '"'
+        && punctuation(character).is_none()
+}
+
+/// Whether a character that is otherwise unknown begins a comment or a number here.
+fn starts_token(rest: &str) -> bool {
+    let mut characters = rest.chars();
+    match (characters.next(), characters.next()) {
+        (Some('/'), Some('/' | '*')) => true,
+        (Some('.'), Some(next)) => next.is_ascii_digit(),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: &[(SyntaxKind, &str)]) {
+        let lexed = lex(text);
+        let tokens: Vec<_> =
+            lexed.tokens.iter().map(|token| (token.kind, &text[token.range])).collect();
+        assert_eq!(tokens, expected, "{text:?}");
+        assert_eq!(lexed.errors, [], "{text:?}");
+    }
+
+    fn check_error(text: &str, expected: &str, at: &str) {
+        let lexed = lex(text);
+        let spelled: String = lexed.tokens.iter().map(|token| &text[token.range]).collect();
+        assert_eq!(spelled, text);
+        let [error] = &lexed.errors[..] else { panic!("{text:?}: {:?}", lexed.errors) };
+        assert_eq!(format!("{:?}", error.kind), expected, "{text:?}");
+        assert_eq!(&text[error.range], at, "{text:?}");
+    }
+
+    #[test]
+    fn numbers_and_units() {
+        use SyntaxKind::{Float, Ident, Int, Whitespace};
+        check("60ms", &[(Int, "60"), (Ident, "ms")]);
+        check("60 ms", &[(Int, "60"), (Whitespace, " "), (Ident, "ms")]);
+        check("0xE6", &[(Int, "0xE6")]);
+        check("0x10us", &[(Int, "0x10"), (Ident, "us")]);
+        check("0b1010_0000", &[(Int, "0b1010_0000")]);
+        check("1_000_000Hz", &[(Int, "1_000_000"), (Ident, "Hz")]);
+        check("1.051e-3", &[(Float, "1.051e-3")]);
+        check("1e3kHz", &[(Float, "1e3"), (Ident, "kHz")]);
+        check("1e", &[(Int, "1"), (Ident, "e")]);
+        check("0.1", &[(Float, "0.1")]);
+        check("18446744073709551615", &[(Int, "18446744073709551615")]);
+    }
+
+    #[test]
+    fn trivia_and_strings() {
+        use SyntaxKind::{BlockComment, Bom, Ident, LineComment, Semicolon, Str, Whitespace};
+        check("\u{feff}a", &[(Bom, "\u{feff}"), (Ident, "a")]);
+        check("// a\r\nb", &[(LineComment, "// a"), (Whitespace, "\r\n"), (Ident, "b")]);
+        check("/*/ a */b", &[(BlockComment, "/*/ a */"), (Ident, "b")]);
+        check(r#""a\"b";"#, &[(Str, r#""a\"b""#), (Semicolon, ";")]);
+        check(r#""\u{b0}C\\""#, &[(Str, r#""\u{b0}C\\""#)]);
+        check("\"// µ\"", &[(Str, "\"// µ\"")]);
+    }
+
+    #[test]
+    fn mistakes_within_tokens() {
+        check_error("a /* b", "UnterminatedComment", "/*");
+        check_error("\"abc\nd", "UnterminatedString", "\"abc");
+        check_error("\"abc\\\nd", "UnterminatedString", "\"abc\\");
+        check_error(r#""a\qb""#, r#"UnknownEscape { escape: "\\q" }"#, r"\q");
+        check_error(r#""\u{d800}""#, r#"UnknownEscape { escape: "\\u{d800}" }"#, r"\u{d800}");
+        check_error(r#""\u{b0""#, r#"UnknownEscape { escape: "\\u" }"#, r"\u");
+        check_error("0b102", "InvalidDigit { digit: '2', base: 2 }", "2");
+        check_error("0x", r#"MissingDigits { number: "0x" }"#, "0x");
+        check_error("0x_", r#"MissingDigits { number: "0x_" }"#, "0x_");
+        check_error("1.;", r#"MissingDigits { number: "1." }"#, "1.");
+        check_error(".5", r#"MissingDigits { number: ".5" }"#, ".5");
+        let large = "18446744073709551616";
+        check_error(large, &format!("NumberTooLarge {{ number: {large:?} }}"), large);
+        check_error("1e999", r#"NumberTooLarge { number: "1e999" }"#, "1e999");
+        check_error("a @#@ b", "UnexpectedCharacter { character: '@' }", "@#@");
+        check_error("a\u{a0}b", "UnexpectedCharacter { character: '\\u{a0}' }", "\u{a0}");
+        check_error("a\u{feff}", "UnexpectedCharacter { character: '\\u{feff}' }", "\u{feff}");
+    }
+}

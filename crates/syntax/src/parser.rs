@@ -1,0 +1,249 @@
+//! From tokens to the tree: recursive descent that never gives up.
+//!
+//! This file is the machinery (look-ahead, building the tree, reporting); the grammar is in
+//! [`items`], [`statements`] and [`values`]. Every token ends up in the tree exactly once. A mistake
+//! is reported where it is, what cannot be understood goes into an `Error` node, and parsing goes on
+//! at the next statement.
+//!
+//! Two rules keep one mistake from being reported twice: no second complaint is made before another
+//! token has been consumed, and none where the lexer has found unknown characters just before.
+
+mod items;
+mod statements;
+mod values;
+
+use crate::error::{Block, Expected, Found, SyntaxError, SyntaxErrorKind};
+use crate::kind::{SenseDsl, SyntaxKind};
+use crate::lexer::{Lexed, Token};
+use rowan::{GreenNode, GreenNodeBuilder, Language, TextRange, TextSize};
+
+/// How deep blocks and lists may nest, together. The grammar needs four at most; the bound protects
+/// the stack from hostile input.
+pub(crate) const NESTING_LIMIT: usize = 32;
+
+/// Builds the tree of `text` and lists all its mistakes, those of the lexer included, in order.
+pub(crate) fn parse(text: &str, lexed: &Lexed) -> (GreenNode, Vec<SyntaxError>) {
+    let mut parser = Parser::new(text, &lexed.tokens);
+    parser.file();
+    let mut errors = lexed.errors.clone();
+    errors.append(&mut parser.errors);
+    errors.sort_by_key(|error| error.range.start());
+    (parser.builder.finish(), errors)
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: &'a [Token],
+    /// The indices of the tokens that are no trivia.
+    significant: Vec<usize>,
+    /// How many significant tokens are consumed.
+    consumed: usize,
+    /// How many tokens of any kind are in the tree.
+    built: usize,
+    builder: GreenNodeBuilder<'static>,
+    errors: Vec<SyntaxError>,
+    /// `consumed` at the time of the last complaint.
+    complained: Option<usize>,
+    /// The block whose items are being parsed.
+    block: Block,
+    /// How many blocks and lists are open.
+    depth: usize,
+    /// How many more `{` than `}` the file has, as far as not yet explained by a report.
+    unclosed: usize,
+}
+
+impl<'a> Parser<'a> {
+    fn new(text: &'a str, tokens: &'a [Token]) -> Self {
+        let of_kind = |kind| tokens.iter().filter(|token| token.kind == kind).count();
+        let indices = tokens.iter().enumerate().filter(|(_, token)| !token.kind.is_trivia());
+        Self {
+            text,
+            tokens,
+            significant: indices.map(|(index, _)| index).collect(),
+            consumed: 0,
+            built: 0,
+            builder: GreenNodeBuilder::new(),
+            errors: Vec::new(),
+            complained: None,
+            block: Block::File,
+            depth: 0,
+            unclosed: of_kind(SyntaxKind::LBrace).saturating_sub(of_kind(SyntaxKind::RBrace)),
+        }
+    }
+
+    // Look-ahead; trivia do not count.
+
+    fn significant_token(&self, index: usize) -> Option<Token> {
+        self.significant.get(index).and_then(|&index| self.tokens.get(index)).copied()
+    }
+
+    fn nth(&self, n: usize) -> Option<Token> {
+        self.significant_token(self.consumed + n)
+    }
+
+    fn kind(&self) -> Option<SyntaxKind> {
+        self.nth(0).map(|token| token.kind)
+    }
+
+    fn nth_at(&self, n: usize, kind: SyntaxKind) -> bool {
+        self.nth(n).is_some_and(|token| token.kind == kind)
+    }
+
+    fn at(&self, kind: SyntaxKind) -> bool {
+        self.nth_at(0, kind)
+    }
+
+    /// The text of a token ahead; empty after the last.
+    fn nth_text(&self, n: usize) -> &'a str {
+        self.nth(n)
+            .and_then(|token| self.text.get(std::ops::Range::from(token.range)))
+            .unwrap_or("")
+    }
+
+    fn nth_word(&self, n: usize, word: &str) -> bool {
+        self.nth_at(n, SyntaxKind::Ident) && self.nth_text(n) == word
+    }
+
+    fn at_word(&self, word: &str) -> bool {
+        self.nth_word(0, word)
+    }
+
+    /// Whether the tokens `n - 1` and `n` ahead touch each other.
+    fn touches(&self, n: usize) -> bool {
+        let before = (self.consumed + n).checked_sub(1).and_then(|i| self.significant_token(i));
+        match (before, self.nth(n)) {
+            (Some(before), Some(token)) => before.range.end() == token.range.start(),
+            _ => false,
+        }
+    }
+
+    /// The trivia between the tokens `n - 1` and `n` ahead.
+    fn trivia_before(&self, n: usize) -> &'a [Token] {
+        let index = self.consumed + n;
+        let last_index = |i| self.significant.get(i).copied();
+        let start = index.checked_sub(1).map_or(0, |i| last_index(i).unwrap_or_default() + 1);
+        let end = last_index(index).unwrap_or(self.tokens.len());
+        self.tokens.get(start..end).unwrap_or_default()
+    }
+
+    /// Whether the token `n` ahead begins a line, or there is none.
+    fn nth_begins_line(&self, n: usize) -> bool {
+        let breaks = |token: &Token| {
+            let text = self.text.get(std::ops::Range::from(token.range));
+            text.is_some_and(|text| text.contains(['\n', '\r']))
+        };
+        self.nth(n).is_none() || self.trivia_before(n).iter().any(breaks)
+    }
+
+    fn begins_line(&self) -> bool {
+        self.nth_begins_line(0)
+    }
+
+    // Building the tree.
+
+    /// Begins a node at the next token; the trivia before it stay outside.
+    fn start(&mut self, kind: SyntaxKind) {
+        self.build_trivia();
+        self.builder.start_node(SenseDsl::kind_to_raw(kind));
+    }
+
+    fn finish(&mut self) {
+        self.builder.finish_node();
+    }
+
+    /// Consumes the next token as what it is.
+    fn bump(&mut self) {
+        if let Some(kind) = self.kind() {
+            self.bump_as(kind);
+        }
+    }
+
+    /// Consumes the next token as a keyword or unit.
+    fn bump_as(&mut self, kind: SyntaxKind) {
+        self.build_trivia();
+        self.build_token(Some(kind));
+        self.consumed += 1;
+    }
+
+    fn eat(&mut self, kind: SyntaxKind) -> bool {
+        let there = self.at(kind);
+        if there {
+            self.bump();
+        }
+        there
+    }
+
+    /// Consumes the next token into an `Error` node of its own.
+    fn bump_error(&mut self) {
+        self.start(SyntaxKind::Error);
+        self.bump();
+        self.finish();
+    }
+
+    /// Consumes a `{` and everything up to its `}`, without recursion.
+    fn bump_braces(&mut self) {
+        let mut open = 0_usize;
+        while let Some(kind) = self.kind() {
+            match kind {
+                SyntaxKind::LBrace => open += 1,
+                SyntaxKind::RBrace => open = open.saturating_sub(1),
+                _ => {}
+            }
+            self.bump();
+            if open == 0 {
+                break;
+            }
+        }
+    }
+
+    fn build_trivia(&mut self) {
+        while self.tokens.get(self.built).is_some_and(|token| token.kind.is_trivia()) {
+            self.build_token(None);
+        }
+    }
+
+    fn build_token(&mut self, kind: Option<SyntaxKind>) {
+        let Some(token) = self.tokens.get(self.built) else { return };
+        let text = self.text.get(std::ops::Range::from(token.range)).unwrap_or_default();
+        self.builder.token(SenseDsl::kind_to_raw(kind.unwrap_or(token.kind)), text);
+        self.built += 1;
+    }
+
+    // Reporting.
+
+    /// The end of the last consumed token, as an empty range: the place of what is missing.
+    fn gap(&self) -> TextRange {
+        let last = self.consumed.checked_sub(1).and_then(|index| self.significant_token(index));
+        TextRange::empty(last.map_or(TextSize::new(0), |token| token.range.end()))
+    }
+
+    /// The range of the next token; after the last token, the place directly behind it.
+    fn here(&self) -> TextRange {
+        self.nth(0).map_or_else(|| self.gap(), |token| token.range)
+    }
+
+    fn found(&self) -> Found {
+        self.nth(0).map_or(Found::EndOfFile, |_| Found::Token(self.nth_text(0).to_owned()))
+    }
+
+    fn report(&mut self, kind: SyntaxErrorKind, range: TextRange) {
+        self.errors.push(SyntaxError { kind, range });
+        self.complained = Some(self.consumed);
+    }
+
+    /// Reports, unless it would be a consequence of what has just been reported.
+    fn complain(&mut self, kind: SyntaxErrorKind, range: TextRange) {
+        let unknown = |token: &Token| token.kind == SyntaxKind::Unknown;
+        let explained =
+            self.complained == Some(self.consumed) || self.trivia_before(0).iter().any(unknown);
+        if !explained {
+            self.report(kind, range);
+        }
+    }
+
+    /// Complains that something else is here: at the token, or where the line ends too early.
+    fn expected(&mut self, expected: Expected) {
+        let range = if self.begins_line() { self.gap() } else { self.here() };
+        self.complain(SyntaxErrorKind::Expected { expected, found: self.found() }, range);
+    }
+}

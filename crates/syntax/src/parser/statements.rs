@@ -1,0 +1,161 @@
+//! Statements that end with `;`: `use`, properties and rules; and how to go on after a broken one.
+
+use super::Parser;
+use crate::error::{Expected, SyntaxErrorKind};
+use crate::kind::SyntaxKind;
+
+impl Parser<'_> {
+    pub(super) fn use_file(&mut self) {
+        self.start(SyntaxKind::Use);
+        self.bump_as(SyntaxKind::UseKw);
+        if !self.eat(SyntaxKind::Str) {
+            self.expected(Expected::FilePath);
+        }
+        self.end_statement();
+        self.finish();
+    }
+
+    pub(super) fn at_property(&self) -> bool {
+        self.at(SyntaxKind::Ident) && self.nth_at(self.name_end(0), SyntaxKind::Eq)
+    }
+
+    /// `NAME = VALUE;`, at the name.
+    pub(super) fn property(&mut self) {
+        self.start(SyntaxKind::Property);
+        let property = self.nth_text(0).to_owned();
+        self.name(Expected::PropertyName);
+        let equals = self.eat(SyntaxKind::Eq);
+        if equals && self.at(SyntaxKind::Eq) {
+            self.expected(Expected::Value);
+            self.bump_error();
+        }
+        if !self.at_value() || (self.begins_line() && (!equals || self.at_item())) {
+            self.complain(SyntaxErrorKind::MissingValue { property }, self.gap());
+        } else {
+            if !equals {
+                self.complain(SyntaxErrorKind::MissingEquals { property }, self.gap());
+            }
+            self.value();
+        }
+        self.end_statement();
+        self.finish();
+    }
+
+    pub(super) fn rule(&mut self, keyword: SyntaxKind) {
+        let node = match keyword {
+            SyntaxKind::PreferKw => SyntaxKind::Prefer,
+            SyntaxKind::AvoidKw => SyntaxKind::Avoid,
+            SyntaxKind::ReserveKw => SyntaxKind::Reserve,
+            SyntaxKind::ReleaseKw => SyntaxKind::Release,
+            _ => SyntaxKind::Allow,
+        };
+        self.start(node);
+        self.bump_as(keyword);
+        match node {
+            SyntaxKind::Prefer | SyntaxKind::Avoid => {
+                if self.at(SyntaxKind::Ident) {
+                    self.property();
+                } else {
+                    self.expected(Expected::PropertyName);
+                    self.end_statement();
+                }
+            }
+            SyntaxKind::Reserve | SyntaxKind::Release => self.resource_names(),
+            _ => {
+                self.name(Expected::Code);
+                if !self.eat(SyntaxKind::Str) {
+                    self.expected(Expected::Reason);
+                }
+                self.end_statement();
+            }
+        }
+        self.finish();
+    }
+
+    /// `NAME { , NAME } ;`
+    fn resource_names(&mut self) {
+        self.name(Expected::ResourceName);
+        loop {
+            let next_is_name = self.at(SyntaxKind::Ident) && !self.begins_line();
+            if self.at(SyntaxKind::Comma) {
+                let comma = self.here();
+                self.bump();
+                if self.at(SyntaxKind::Ident) && !(self.begins_line() && self.at_item()) {
+                    self.name(Expected::ResourceName);
+                } else if self.at(SyntaxKind::Comma) || !self.at_statement_end() {
+                    self.expected(Expected::ResourceName);
+                } else {
+                    self.complain(SyntaxErrorKind::TrailingComma, comma);
+                }
+            } else if next_is_name && !self.at_item() {
+                self.complain(SyntaxErrorKind::MissingComma, self.gap());
+                self.name(Expected::ResourceName);
+            } else {
+                break;
+            }
+        }
+        self.end_statement();
+    }
+
+    /// The `;` of a statement. What stands before it on the line is stepped over.
+    pub(super) fn end_statement(&mut self) {
+        if self.eat(SyntaxKind::Semicolon) {
+            return;
+        }
+        if self.at_statement_end() {
+            self.complain(SyntaxErrorKind::MissingSemicolon, self.gap());
+            return;
+        }
+        let (found, block) = (self.found(), self.block);
+        self.complain(SyntaxErrorKind::StrayToken { found, block }, self.here());
+        self.start(SyntaxKind::Error);
+        while !self.at_statement_end() {
+            self.bump_group();
+        }
+        self.finish();
+        self.eat(SyntaxKind::Semicolon);
+    }
+
+    /// Whether a statement cannot go on with the next token.
+    fn at_statement_end(&self) -> bool {
+        match self.kind() {
+            None | Some(SyntaxKind::Semicolon | SyntaxKind::RBrace) => true,
+            Some(_) => self.begins_line() || self.at_item(),
+        }
+    }
+
+    /// Consumes one token, or all of a block.
+    fn bump_group(&mut self) {
+        if self.at(SyntaxKind::LBrace) {
+            self.bump_braces();
+        } else {
+            self.bump();
+        }
+    }
+
+    /// A token where an item should begin.
+    pub(super) fn stray(&mut self) {
+        let (found, block) = (self.found(), self.block);
+        self.report(SyntaxErrorKind::StrayToken { found, block }, self.here());
+        self.skip_statement();
+    }
+
+    /// Puts one statement or block that is not understood into an `Error` node.
+    pub(super) fn skip_statement(&mut self) {
+        self.start(SyntaxKind::Error);
+        loop {
+            let last = matches!(self.kind(), Some(SyntaxKind::Semicolon | SyntaxKind::LBrace));
+            self.bump_group();
+            if last {
+                break;
+            }
+            // The block of an unknown item may begin on the next line.
+            let ends = self.kind().is_none() || self.at(SyntaxKind::RBrace);
+            let goes_on = self.at(SyntaxKind::LBrace) || !self.begins_line();
+            if ends || !goes_on || self.at_item() {
+                break;
+            }
+        }
+        self.finish();
+    }
+}

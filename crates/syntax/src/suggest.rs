@@ -1,0 +1,78 @@
+//! "Did you mean": the candidate that is most similar to a misspelled word.
+
+/// The least number of letters to insert, delete, replace or swap with their neighbour to turn one
+/// word into the other, letter case ignored.
+#[must_use]
+pub fn distance(left: &str, right: &str) -> usize {
+    let left: Vec<char> = left.to_lowercase().chars().collect();
+    let right: Vec<char> = right.to_lowercase().chars().collect();
+    let mut before_last: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=right.len()).collect();
+    let mut left_before = None;
+    for (row, &from) in left.iter().enumerate() {
+        let mut current = vec![row + 1];
+        let mut right_before = None;
+        for (column, &to) in right.iter().enumerate() {
+            let at = |line: &[usize], index: usize| line.get(index).copied().unwrap_or(usize::MAX);
+            let replaced = at(&last, column) + usize::from(from != to);
+            let edited = at(&last, column + 1).min(at(&current, column)) + 1;
+            let swapped = if column > 0 && left_before == Some(to) && right_before == Some(from) {
+                at(&before_last, column - 1) + 1
+            } else {
+                usize::MAX
+            };
+            current.push(replaced.min(edited).min(swapped));
+            right_before = Some(to);
+        }
+        left_before = Some(from);
+        before_last = std::mem::replace(&mut last, current);
+    }
+    last.last().copied().unwrap_or(left.len())
+}
+
+/// The candidate nearest to `word`, the first among equals, if it is near enough to be a slip: at
+/// most one edit for every three letters, and at least one.
+#[must_use]
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = (word.chars().count() / 3).max(1);
+    // A slip keeps something of the word: `a` is no slip for `b`.
+    let near = |candidate: &&str| {
+        let shorter = word.chars().count().min(candidate.chars().count());
+        let edits = distance(word, candidate);
+        edits <= limit && edits < shorter.max(1)
+    };
+    candidates.into_iter().filter(near).min_by_key(|candidate| distance(word, candidate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances() {
+        let cases = [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("abc", "", 3),
+            ("sensor", "Sensor", 0),
+            ("sensr", "sensor", 1),
+            ("snesor", "sensor", 1),
+            ("kitten", "sitting", 3),
+            ("dealy", "delay", 1),
+        ];
+        for (left, right, expected) in cases {
+            assert_eq!(distance(left, right), expected, "{left} {right}");
+            assert_eq!(distance(right, left), expected, "{right} {left}");
+        }
+    }
+
+    #[test]
+    fn only_slips_are_suggested() {
+        let words = ["sensor", "actuator", "link", "a"];
+        assert_eq!(nearest("sensr", words), Some("sensor"));
+        assert_eq!(nearest("Actuater", words), Some("actuator"));
+        assert_eq!(nearest("pin", words), None);
+        assert_eq!(nearest("b", words), None);
+        assert_eq!(nearest("motor", words), None);
+    }
+}

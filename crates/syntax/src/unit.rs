@@ -1,0 +1,78 @@
+//! The units a number may have, and the way from a word to one of them.
+
+use std::fmt;
+
+/// The unit of a time or a frequency.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// `us`
+    Microseconds,
+    /// `ms`
+    Milliseconds,
+    /// `s`
+    Seconds,
+    /// `Hz`
+    Hertz,
+    /// `kHz`
+    Kilohertz,
+    /// `MHz`
+    Megahertz,
+}
+
+impl Unit {
+    /// All units.
+    pub const ALL: [Self; 6] = [
+        Self::Microseconds,
+        Self::Milliseconds,
+        Self::Seconds,
+        Self::Hertz,
+        Self::Kilohertz,
+        Self::Megahertz,
+    ];
+
+    /// The unit as it is written.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Microseconds => "us",
+            Self::Milliseconds => "ms",
+            Self::Seconds => "s",
+            Self::Hertz => "Hz",
+            Self::Kilohertz => "kHz",
+            Self::Megahertz => "MHz",
+        }
+    }
+
+    /// The unit that is written like this, if there is one.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|unit| unit.name() == name)
+    }
+
+    /// The unit that is probably meant by a word that is none.
+    pub(crate) fn similar(word: &str) -> Option<&'static str> {
+        // Both code points of the micro sign, then words that are spelled out.
+        let lower = word.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
+        let spelled_out = [
+            ("usec", Self::Microseconds),
+            ("microseconds", Self::Microseconds),
+            ("msec", Self::Milliseconds),
+            ("milliseconds", Self::Milliseconds),
+            ("sec", Self::Seconds),
+            ("seconds", Self::Seconds),
+            ("hertz", Self::Hertz),
+        ];
+        let same = Self::ALL.into_iter().find(|unit| unit.name().to_lowercase() == lower);
+        same.or_else(|| {
+            let entry = spelled_out.iter().find(|(long, _)| long.starts_with(&*lower));
+            entry.filter(|_| lower.len() > 2).map(|(_, unit)| *unit)
+        })
+        .map(Self::name)
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
