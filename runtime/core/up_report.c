@@ -24,10 +24,6 @@ const void *up_store_get(const up_store_t *store, size_t index) {
   return up_bit_get(store->known, index) ? value_of(store, index) : NULL;
 }
 
-void up_store_all_due(up_store_t *store) {
-  memcpy(store->due, store->known, sizeof store->due);
-}
-
 size_t up_report_take(up_store_t *store, uint8_t *frame, size_t frame_bytes, uint8_t *taken) {
   memcpy(taken, store->due, sizeof store->due);
   memset(store->due, 0, sizeof store->due);

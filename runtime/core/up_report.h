@@ -25,9 +25,6 @@ void up_store_put(up_store_t *store, size_t index, const void *value);
 /* The value of fields[index]; NULL while nothing was read. */
 const void *up_store_get(const up_store_t *store, size_t index);
 
-/* Makes every known field due again: a host that has just come wants to see all of them. */
-void up_store_all_due(up_store_t *store);
-
 /* Packs what is due towards the host and takes it off the list; `taken` (UP_FIELD_BITMAP_BYTES) says what it
  * was. Returns the bytes of the frame, 0 when nothing is due. */
 size_t up_report_take(up_store_t *store, uint8_t *frame, size_t frame_bytes, uint8_t *taken);

@@ -1,0 +1,351 @@
+/* The core of the runtime, function by function, with the hardware replaced by tables. */
+#include <string.h>
+
+#include "check.h"
+#include "up_capture.h"
+#include "up_convert.h"
+#include "up_decode.h"
+#include "up_encode.h"
+#include "up_i2c.h"
+#include "up_report.h"
+#include "up_text.h"
+
+/* ---- conversion ---- */
+
+static uint64_t stored_unsigned(uint8_t type, uint64_t raw) {
+  uint64_t element = 0U;
+  up_store_unsigned(type, raw, &element);
+  return up_element_load(type, &element);
+}
+
+static uint64_t stored_signed(uint8_t type, int64_t raw) {
+  uint64_t element = 0U;
+  up_store_signed(type, raw, &element);
+  return up_element_load(type, &element);
+}
+
+static void test_saturation(void) {
+  CHECK(stored_unsigned(UP_TYPE_UINT8, 255U) == 255U);
+  CHECK(stored_unsigned(UP_TYPE_UINT8, 256U) == 255U);
+  CHECK(stored_unsigned(UP_TYPE_INT8, 200U) == 127U);
+  CHECK(stored_unsigned(UP_TYPE_BOOL, 7U) == 1U);
+  CHECK(stored_unsigned(UP_TYPE_UINT64, UINT64_MAX) == UINT64_MAX);
+  CHECK(stored_unsigned(UP_TYPE_INT64, UINT64_MAX) == (uint64_t)INT64_MAX);
+  CHECK(stored_signed(UP_TYPE_UINT16, -1) == 0U);
+  CHECK(stored_signed(UP_TYPE_BOOL, -1) == 1U);
+  CHECK(stored_signed(UP_TYPE_INT8, -129) == 0x80U);
+  CHECK(stored_signed(UP_TYPE_INT16, -2) == 0xFFFEU);
+  CHECK(stored_signed(UP_TYPE_INT32, INT64_MIN) == 0x80000000U);
+  CHECK(stored_signed(UP_TYPE_INT64, INT64_MIN) == (uint64_t)1U << 63);
+}
+
+static void test_mean(void) {
+  const uint16_t samples[] = {10U, 1000U, 11U, 2000U, 11U, 3001U};
+  uint16_t mean = 0U;
+  uint8_t small = 0U;
+  float real = 0.0F;
+
+  up_store_mean(UP_TYPE_UINT16, &samples[0], 3U, 2U, &mean);
+  CHECK(mean == 11U); /* 32/3 rounds up */
+  up_store_mean(UP_TYPE_UINT16, &samples[1], 3U, 2U, &mean);
+  CHECK(mean == 2000U);
+  up_store_mean(UP_TYPE_UINT8, &samples[1], 3U, 2U, &small);
+  CHECK(small == 255U);
+  up_store_mean(UP_TYPE_FLOAT32, &samples[0], 2U, 2U, &real);
+  CHECK(real > 10.49F && real < 10.51F);
+}
+
+static void test_bytes(void) {
+  const up_field_t small = {"s", 1U, UP_TYPE_UINT8, UP_TO_HOST, 1U, 0U};
+  const up_field_t triple = {"t", 2U, UP_TYPE_INT16, UP_TO_HOST, 3U, 0U};
+  const up_field_t wide = {"w", 3U, UP_TYPE_INT32, UP_TO_HOST, 1U, 0U};
+  const up_field_t real = {"r", 4U, UP_TYPE_FLOAT32, UP_TO_HOST, 1U, 0U};
+  const uint8_t near[] = {0x00U, 0x07U}, far[] = {0x01U, 0x2CU};
+  const uint8_t axes[] = {0xFFU, 0xFEU, 0x00U, 0x01U, 0x80U, 0x00U};
+  const uint8_t one[] = {0x3FU, 0x80U, 0x00U, 0x00U};
+  int16_t vector[3];
+  uint8_t byte = 0U, back[6];
+  int32_t word = 0;
+  float number = 0.0F;
+
+  CHECK(up_store_bytes(&small, near, 2U, false, &byte) && byte == 7U);
+  CHECK(up_store_bytes(&small, far, 2U, false, &byte) && byte == 255U);
+  CHECK(up_store_bytes(&triple, axes, 6U, false, vector));
+  CHECK(vector[0] == -2 && vector[1] == 1 && vector[2] == -32768);
+  CHECK(up_load_bytes(&triple, vector, back, 6U, false) && memcmp(back, axes, 6U) == 0);
+  CHECK(up_store_bytes(&wide, axes, 2U, true, &word) && word == -257);
+  CHECK(up_load_bytes(&wide, &word, back, 3U, true) && back[0] == 0xFFU && back[1] == 0xFEU && back[2] == 0xFFU);
+  CHECK(up_store_bytes(&real, one, 4U, false, &number) && number > 0.99F && number < 1.01F);
+  CHECK(up_store_bytes(&real, far, 2U, false, &number) && number > 299.0F && number < 301.0F);
+  CHECK(!up_store_bytes(&triple, axes, 5U, false, vector));
+  CHECK(!up_load_bytes(&small, &byte, back, 2U, false));
+}
+
+static void check_text(uint8_t type, uint64_t bits, const char *wanted) {
+  uint64_t element = 0U;
+  char text[UP_TEXT_BYTES];
+
+  up_element_store(type, bits, &element);
+  CHECK(up_text_element(type, &element, text) == strlen(wanted) && strcmp(text, wanted) == 0);
+}
+
+static void test_text(void) {
+  check_text(UP_TYPE_BOOL, 1U, "true");
+  check_text(UP_TYPE_UINT8, 0U, "0");
+  check_text(UP_TYPE_INT8, 0x80U, "-128");
+  check_text(UP_TYPE_UINT64, UINT64_MAX, "18446744073709551615");
+  check_text(UP_TYPE_INT64, (uint64_t)1U << 63, "-9223372036854775808");
+  check_text(UP_TYPE_FLOAT32, 0x3FC00000U, "1.500000");
+  check_text(UP_TYPE_FLOAT64, 0xBFB999999999999AU, "-0.100000");
+  check_text(UP_TYPE_FLOAT64, 0x3FEFFFFFFFFFFFFFU, "1.000000");
+  check_text(UP_TYPE_FLOAT32, 0x7FC00000U, "nan");
+  check_text(UP_TYPE_FLOAT32, 0xFF800000U, "-large");
+}
+
+/* ---- reports ---- */
+
+typedef struct {
+  uint16_t front;
+  uint8_t rear;
+  int16_t motor;
+} model_t;
+
+static const up_field_t model_fields[] = {
+    {"Front", 17U, UP_TYPE_UINT16, UP_TO_HOST, 1U, (uint16_t)offsetof(model_t, front)},
+    {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, 1U, (uint16_t)offsetof(model_t, rear)},
+    {"Motor", 40U, UP_TYPE_INT16, UP_TO_BOARD, 1U, (uint16_t)offsetof(model_t, motor)},
+};
+static const up_schema_t model_schema = {model_fields, 3U, false, 0x01020304U};
+
+static void test_reports(void) {
+  model_t model;
+  up_store_t store;
+  const uint16_t front = 300U;
+  const uint8_t rear = 9U;
+  const int16_t motor = -5;
+  uint8_t frame[16], taken[UP_FIELD_BITMAP_BYTES];
+
+  up_store_init(&store, &model_schema, &model);
+  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 0U);
+  CHECK(up_store_get(&store, 0U) == NULL);
+  up_store_put(&store, 1U, &rear);
+  up_store_put(&store, 2U, &motor); /* an actuator's value is never reported */
+  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 5U && memcmp(frame, "2:\x13\x09,", 5U) == 0);
+  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 0U);
+  up_store_put(&store, 1U, &rear);
+  up_store_put(&store, 0U, &front);
+  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 8U);
+  CHECK(memcmp(frame, "5:\x11\x01\x2c\x13\x09,", 8U) == 0);
+  up_report_restore(&store, taken);
+  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 8U);
+  CHECK(up_store_get(&store, 0U) == &model.front && model.front == 300U);
+}
+
+static unsigned requests, values_seen;
+static int16_t motor_seen;
+
+static void on_motor(void *context, const up_field_t *field, const uint8_t *wire) {
+  (void)context;
+  values_seen++;
+  up_value_from_wire(field, wire, &motor_seen);
+}
+
+static void on_request(void *context, uint32_t hash) {
+  (void)context;
+  requests += (hash == 0U) ? 1U : 0U;
+}
+
+static void test_link(void) {
+  const up_sink_t sink = {on_motor, NULL, on_request, NULL};
+  const uint8_t stream[] = {'\r', '\n', '1', ':', 0x00U, ',', '3', ':', 40U, 0xFFU, 0xFEU, ','};
+  up_decoder_t decoder;
+  uint8_t buffer[6], frame[16];
+
+  CHECK(up_frame_bytes_max(&model_schema, UP_TO_BOARD) == sizeof buffer);
+  CHECK(up_frame_bytes_max(&model_schema, UP_TO_HOST) == 8U);
+  CHECK(!up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer - 1U, &sink));
+  CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));
+  up_decoder_feed(&decoder, stream, sizeof stream);
+  CHECK(requests == 1U && values_seen == 1U && motor_seen == -2);
+  CHECK(decoder.frames == 2U && decoder.dropped_bytes == 2U && up_decoder_is_idle(&decoder));
+  CHECK(up_encode_hello(&model_schema, frame, sizeof frame) == 8U);
+  CHECK(memcmp(frame, "5:\0\x01\x02\x03\x04,", 8U) == 0);
+  CHECK(up_encode_hello(&model_schema, frame, 7U) == 0U);
+  CHECK(up_encode_hello_request(&model_schema, frame, sizeof frame) == 4U && memcmp(frame, "1:\0,", 4U) == 0);
+}
+
+/* Random bytes never break the decoder's bounds (a sanitizer watches), and a frame behind them is found. */
+static void test_noise(void) {
+  const up_sink_t sink = {on_motor, NULL, on_request, NULL};
+  const uint8_t frame[] = {'3', ':', 40U, 0x00U, 0x07U, ','};
+  up_decoder_t decoder;
+  uint8_t buffer[6], noise[16];
+  uint32_t seed = 12345U, round, i;
+
+  CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));
+  for (round = 0U; round < 5000U; round++) {
+    for (i = 0U; i < sizeof noise; i++) {
+      seed = seed * 1664525U + 1013904223U;
+      noise[i] = (uint8_t)("13:,\x28\x00\xff"[(seed >> 16) % 7U]);
+    }
+    noise[sizeof noise - 1U] = (uint8_t)'x'; /* whatever began cannot swallow the frame as its value */
+    noise[sizeof noise - 2U] = (uint8_t)'x';
+    noise[sizeof noise - 3U] = (uint8_t)'x';
+    noise[sizeof noise - 4U] = (uint8_t)'x';
+    motor_seen = 0;
+    up_decoder_feed(&decoder, noise, sizeof noise);
+    up_decoder_feed(&decoder, frame, sizeof frame);
+    CHECK(motor_seen == 7);
+  }
+  CHECK(up_decoder_is_idle(&decoder));
+}
+
+/* ---- I2C ---- */
+
+typedef struct {
+  bool answers;
+  unsigned triggers, readings;
+  uint8_t last_trigger[4];
+  uint8_t echo[2];
+} ranger_t;
+
+static bool ranger_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
+  ranger_t *ranger = context;
+  if (!ranger->answers || address != 0x73U || count > sizeof ranger->last_trigger) {
+    return false;
+  }
+  memcpy(ranger->last_trigger, bytes, count);
+  ranger->triggers++;
+  return true;
+}
+
+static bool ranger_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
+                              size_t rx_count) {
+  ranger_t *ranger = context;
+  if (!ranger->answers || address != 0x73U || tx_count != 1U || tx[0] != 0x02U || rx_count != 2U) {
+    return false;
+  }
+  memcpy(rx, ranger->echo, 2U);
+  ranger->readings++;
+  return true;
+}
+
+static void test_i2c(void) {
+  static const uint8_t ranging[] = {0x00U, 0x51U};
+  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, 1U, 0U};
+  const up_i2c_script_t script = {ranging, 65U, 2U, 0x73U, 0x02U, true, 2U, false};
+  ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x00U, 0x2AU}};
+  const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
+  up_i2c_state_t state = {false, 0U, 0U, 0U};
+  const uint32_t t0 = 0xFFFFFFE0U; /* the clock wraps between trigger and echo */
+  uint8_t value = 0U;
+
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0, &value) == UP_I2C_NOTHING);
+  CHECK(ranger.triggers == 1U && memcmp(ranger.last_trigger, ranging, 2U) == 0);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 40U, &value) == UP_I2C_NOTHING);
+  CHECK(ranger.readings == 0U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 80U, &value) == UP_I2C_FRESH && value == 42U);
+  CHECK(ranger.triggers == 2U); /* the next measurement is under way */
+  ranger.echo[0] = 1U;
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 145U, &value) == UP_I2C_FRESH && value == 255U);
+  ranger.answers = false;
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 210U, &value) == UP_I2C_ERROR);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 250U, &value) == UP_I2C_ERROR);
+  CHECK(state.errors == 2U && state.readings == 2U && value == 255U);
+  ranger.answers = true;
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 290U, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 355U, &value) == UP_I2C_FRESH);
+}
+
+static void test_i2c_without_trigger(void) {
+  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT16, UP_TO_HOST, 1U, 0U};
+  const up_field_t out = {"Out", 20U, UP_TYPE_UINT8, UP_TO_BOARD, 1U, 0U};
+  const up_i2c_script_t script = {NULL, 0U, 0U, 0x73U, 0x02U, true, 2U, true};
+  const up_i2c_script_t slow = {NULL, 50U, 0U, 0x73U, 0x02U, true, 2U, true};
+  const up_i2c_script_t output = {NULL, 0U, 0U, 0x73U, 0x10U, true, 1U, false};
+  ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x34U, 0x12U}};
+  const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
+  up_i2c_state_t state = {false, 0U, 0U, 0U};
+  uint16_t value = 0U;
+  const uint8_t level = 0x5AU;
+
+  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, &value) == UP_I2C_FRESH && value == 0x1234U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, &value) == UP_I2C_FRESH && ranger.triggers == 0U);
+  state.is_waiting = false;
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 100U, &value) == UP_I2C_FRESH);
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 149U, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 150U, &value) == UP_I2C_FRESH);
+  CHECK(up_i2c_write_value(&output, &state, &bus, &out, &level) == UP_I2C_FRESH);
+  CHECK(ranger.last_trigger[0] == 0x10U && ranger.last_trigger[1] == 0x5AU);
+}
+
+/* ---- capture ---- */
+
+static void test_count(void) {
+  const up_capture_config_t config = {UP_CAPTURE_COUNT, false, 10000U, 1000U};
+  up_capture_state_t state = {0U, 0U, 0U, false, false};
+  up_capture_raw_t raw = {0U, 0U, 0U, 0U, false};
+  uint32_t count = 99U;
+
+  /* A wheel that stands still counts 0: that is read, not assumed. */
+  CHECK(up_capture_read(&config, &state, &raw, false, 5U, UP_TYPE_UINT32, &count) && count == 0U);
+  CHECK(!up_capture_read(&config, &state, &raw, false, 15U, UP_TYPE_UINT32, &count));
+  /* The driver keeps the first edge to itself. */
+  CHECK(up_capture_read(&config, &state, &raw, true, 25U, UP_TYPE_UINT32, &count) && count == 1U);
+  up_capture_on_period(&raw, 100U);
+  up_capture_on_width(&raw, 50U, false);
+  up_capture_on_period(&raw, 100U);
+  CHECK(up_capture_read(&config, &state, &raw, true, 35U, UP_TYPE_UINT32, &count) && count == 3U);
+  CHECK(!up_capture_read(&config, &state, &raw, true, 1034U, UP_TYPE_UINT32, &count));
+  CHECK(up_capture_read(&config, &state, &raw, true, 1035U, UP_TYPE_UINT32, &count) && count == 3U);
+  up_capture_on_width(&raw, 50U, true);
+  CHECK(up_capture_read(&config, &state, &raw, true, 1036U, UP_TYPE_UINT32, &count) && count == 4U);
+}
+
+static uint32_t captured(up_capture_mode_t mode, const up_capture_raw_t *raw) {
+  const up_capture_config_t config = {(uint8_t)mode, false, 1000000U, 1000U};
+  up_capture_state_t state = {0U, 0U, 0U, false, false};
+  uint32_t value = 0U;
+
+  CHECK(up_capture_read(&config, &state, raw, true, 1U, UP_TYPE_UINT32, &value));
+  CHECK(!up_capture_read(&config, &state, raw, true, 2U, UP_TYPE_UINT32, &value));
+  return value;
+}
+
+static void test_captures(void) {
+  const up_capture_config_t config = {UP_CAPTURE_FREQUENCY, false, 1000000U, 1000U};
+  up_capture_state_t state = {0U, 0U, 0U, false, false};
+  up_capture_raw_t raw = {0U, 0U, 0U, 0U, false};
+  uint16_t value = 7U;
+
+  CHECK(!up_capture_read(&config, &state, &raw, false, 999U, UP_TYPE_UINT16, &value) && value == 7U);
+  CHECK(up_capture_read(&config, &state, &raw, false, 1000U, UP_TYPE_UINT16, &value) && value == 0U);
+  CHECK(!up_capture_read(&config, &state, &raw, false, 3000U, UP_TYPE_UINT16, &value));
+  up_capture_on_width(&raw, 1500U, false);
+  up_capture_on_period(&raw, 20000U);
+  CHECK(captured(UP_CAPTURE_WIDTH, &raw) == 1500U);
+  CHECK(captured(UP_CAPTURE_PERIOD, &raw) == 20000U);
+  CHECK(captured(UP_CAPTURE_FREQUENCY, &raw) == 50U);
+  CHECK(captured(UP_CAPTURE_DUTY, &raw) == 8U); /* 7.5 rounds up */
+  CHECK(up_capture_read(&config, &state, &raw, true, 3010U, UP_TYPE_UINT16, &value) && value == 50U);
+  /* A period in which the timer wrapped is unknown. */
+  up_capture_on_overflow(&raw);
+  up_capture_on_period(&raw, 3U);
+  CHECK(raw.periods == 1U && raw.edges == 2U && raw.period_ticks == 20000U);
+  up_capture_on_period(&raw, 40000U);
+  CHECK(up_capture_read(&config, &state, &raw, true, 3020U, UP_TYPE_UINT16, &value) && value == 25U);
+}
+
+void test_units(void) {
+  test_saturation();
+  test_mean();
+  test_bytes();
+  test_text();
+  test_reports();
+  test_link();
+  test_noise();
+  test_i2c();
+  test_i2c_without_trigger();
+  test_count();
+  test_captures();
+}
