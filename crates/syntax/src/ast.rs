@@ -3,8 +3,14 @@
 //! A view is a cheap handle. Where the text is incomplete the accessors return `None` or leave the
 //! broken part out; whoever needs all of it first looks whether the parse has errors.
 
+mod values;
+
+pub use values::{
+    List, Magnitude, Name, NameValue, Number, Sign, StringLiteral, StringValue, Value,
+};
+
 use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
-use crate::{literal, unit::Unit};
+use crate::literal;
 use rowan::TextRange;
 
 /// A view over one kind of node, or several.
@@ -37,6 +43,8 @@ macro_rules! node {
     };
 }
 
+use node;
+
 /// Declares a view over any of several views.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident($view:ty)),+ $(,)? }) => {
@@ -61,6 +69,8 @@ macro_rules! choice {
         }
     };
 }
+
+use choice;
 
 node!(
     /// A whole file.
@@ -114,23 +124,6 @@ node!(
     /// `allow CODE "REASON";`
     Allow = Allow
 );
-node!(
-    /// A number with its sign and its unit.
-    Number = Number
-);
-node!(
-    /// A name as a value.
-    NameValue = NameValue
-);
-node!(
-    /// A string as a value.
-    StringValue = StringValue
-);
-node!(
-    /// `[VALUE, ...]`
-    List = List
-);
-
 choice!(
     /// What a file is made of.
     FileItem {
@@ -181,64 +174,6 @@ choice!(
         Allow(Allow),
     }
 );
-choice!(
-    /// The value of a property.
-    Value {
-        /// A number.
-        Number(Number),
-        /// A name: a pin, a kind, `true`.
-        Name(NameValue),
-        /// A text.
-        String(StringValue),
-        /// Several values.
-        List(List),
-    }
-);
-
-/// A name as it stands in the text.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Name(SyntaxToken);
-
-impl Name {
-    /// The name.
-    #[must_use]
-    pub fn text(&self) -> &str {
-        self.0.text()
-    }
-    /// Where it is.
-    #[must_use]
-    pub fn range(&self) -> TextRange {
-        self.0.text_range()
-    }
-    /// The token.
-    #[must_use]
-    pub fn token(&self) -> &SyntaxToken {
-        &self.0
-    }
-}
-
-/// A string as it stands in the text.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct StringLiteral(SyntaxToken);
-
-impl StringLiteral {
-    /// The text that is meant: without the quotes, the escapes replaced.
-    #[must_use]
-    pub fn value(&self) -> String {
-        literal::unescape(self.0.text())
-    }
-    /// Where it is, with the quotes.
-    #[must_use]
-    pub fn range(&self) -> TextRange {
-        self.0.text_range()
-    }
-    /// The token.
-    #[must_use]
-    pub fn token(&self) -> &SyntaxToken {
-        &self.0
-    }
-}
-
 /// Where the pins of a board are told.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum BoardSource {
@@ -266,24 +201,6 @@ pub enum Direction {
     Sensor,
     /// From the host.
     Actuator,
-}
-
-/// The sign that is written before a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Sign {
-    /// `+`
-    Plus,
-    /// `-`
-    Minus,
-}
-
-/// A number without its sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Magnitude {
-    /// An integer, exactly.
-    Integer(u64),
-    /// A number with a fraction or an exponent; always finite.
-    Float(f64),
 }
 
 impl SourceFile {
@@ -493,61 +410,6 @@ impl Allow {
     #[must_use]
     pub fn reason(&self) -> Option<StringLiteral> {
         string(&self.0)
-    }
-}
-
-impl Number {
-    /// The sign, when one is written.
-    #[must_use]
-    pub fn sign(&self) -> Option<Sign> {
-        let plus = token(&self.0, SyntaxKind::Plus).map(|_| Sign::Plus);
-        plus.or_else(|| token(&self.0, SyntaxKind::Minus).map(|_| Sign::Minus))
-    }
-    /// The number without its sign; `None` where it is out of range, which is an error already.
-    #[must_use]
-    pub fn magnitude(&self) -> Option<Magnitude> {
-        if let Some(digits) = token(&self.0, SyntaxKind::Int) {
-            return literal::integer(digits.text()).map(Magnitude::Integer);
-        }
-        literal::float(token(&self.0, SyntaxKind::Float)?.text()).map(Magnitude::Float)
-    }
-    /// The digits as they are written, without sign and unit.
-    #[must_use]
-    pub fn digits(&self) -> Option<SyntaxToken> {
-        token(&self.0, SyntaxKind::Int).or_else(|| token(&self.0, SyntaxKind::Float))
-    }
-    /// The unit; `None` also where there is no such unit, which is an error already.
-    #[must_use]
-    pub fn unit(&self) -> Option<Unit> {
-        Unit::from_name(self.unit_token()?.text())
-    }
-    /// The unit as it is written.
-    #[must_use]
-    pub fn unit_token(&self) -> Option<SyntaxToken> {
-        token(&self.0, SyntaxKind::Unit)
-    }
-}
-
-impl NameValue {
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
-}
-
-impl StringValue {
-    /// The string.
-    #[must_use]
-    pub fn literal(&self) -> Option<StringLiteral> {
-        string(&self.0)
-    }
-}
-
-impl List {
-    /// The values.
-    pub fn values(&self) -> impl Iterator<Item = Value> + use<> {
-        children(&self.0)
     }
 }
 

@@ -67,7 +67,7 @@ pub enum SyntaxErrorKind {
     UnknownItem {
         /// The word.
         found: String,
-        /// The keyword that is probably meant. It is then parsed as if it had been written.
+        /// The keyword that is probably meant.
         suggestion: Option<&'static str>,
         /// The block it stands in.
         block: Block,

@@ -237,8 +237,12 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// A run of characters that no token begins with, reported once.
+    /// A run of characters that no token begins with, reported once. A `#` takes the rest of its
+    /// line along: it is meant to begin a comment.
     fn unknown(&mut self, start: usize, first: char) -> SyntaxKind {
+        if first == '#' {
+            self.bump_while(|character| !is_line_end(character));
+        }
         while self.peek().is_some_and(is_unknown) && !starts_token(self.rest()) {
             self.bump();
         }
@@ -367,7 +371,8 @@ mod tests {
         let large = "18446744073709551616";
         check_error(large, &format!("NumberTooLarge {{ number: {large:?} }}"), large);
         check_error("1e999", r#"NumberTooLarge { number: "1e999" }"#, "1e999");
-        check_error("a @#@ b", "UnexpectedCharacter { character: '@' }", "@#@");
+        check_error("a @?@ b", "UnexpectedCharacter { character: '@' }", "@?@");
+        check_error("a # b\nc", "UnexpectedCharacter { character: '#' }", "# b");
         check_error("a\u{a0}b", "UnexpectedCharacter { character: '\\u{a0}' }", "\u{a0}");
         check_error("a\u{feff}", "UnexpectedCharacter { character: '\\u{feff}' }", "\u{feff}");
     }

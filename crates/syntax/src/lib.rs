@@ -15,6 +15,7 @@
 
 pub mod ast;
 mod error;
+mod fmt;
 mod kind;
 mod lexer;
 mod literal;
@@ -63,4 +64,13 @@ impl Parse {
 pub fn parse(text: &str) -> Parse {
     let (green, errors) = parser::parse(text, &lexer::lex(text));
     Parse { green, errors }
+}
+
+/// The text in its canonical layout.
+///
+/// # Errors
+///
+/// A text with mistakes is not laid out: the mistakes are returned.
+pub fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
+    fmt::format(text)
 }

@@ -16,6 +16,7 @@ use crate::error::{Block, Expected, Found, SyntaxError, SyntaxErrorKind};
 use crate::kind::{SenseDsl, SyntaxKind};
 use crate::lexer::{Lexed, Token};
 use rowan::{GreenNode, GreenNodeBuilder, Language, TextRange, TextSize};
+use std::collections::BTreeSet;
 
 /// How deep blocks and lists may nest, together. The grammar needs four at most; the bound protects
 /// the stack from hostile input.
@@ -25,9 +26,10 @@ pub(crate) const NESTING_LIMIT: usize = 32;
 pub(crate) fn parse(text: &str, lexed: &Lexed) -> (GreenNode, Vec<SyntaxError>) {
     let mut parser = Parser::new(text, &lexed.tokens);
     parser.file();
-    let mut errors = lexed.errors.clone();
-    errors.append(&mut parser.errors);
-    errors.sort_by_key(|error| error.range.start());
+    let mut errors = parser.unswallowed_errors(&lexed.errors);
+    errors.extend_from_slice(&lexed.errors);
+    // At one place, what is missing comes before what is wrong with the next token.
+    errors.sort_by_key(|error| (error.range.start(), error.range.end()));
     (parser.builder.finish(), errors)
 }
 
@@ -183,11 +185,11 @@ impl<'a> Parser<'a> {
     /// Consumes a `{` and everything up to its `}`, without recursion.
     fn bump_braces(&mut self) {
         let mut open = 0_usize;
-        while let Some(kind) = self.kind() {
-            match kind {
-                SyntaxKind::LBrace => open += 1,
-                SyntaxKind::RBrace => open = open.saturating_sub(1),
-                _ => {}
+        while self.kind().is_some() {
+            if self.at(SyntaxKind::LBrace) {
+                open += 1;
+            } else if self.at(SyntaxKind::RBrace) {
+                open = open.saturating_sub(1);
             }
             self.bump();
             if open == 0 {
@@ -245,5 +247,20 @@ impl<'a> Parser<'a> {
     fn expected(&mut self, expected: Expected) {
         let range = if self.begins_line() { self.gap() } else { self.here() };
         self.complain(SyntaxErrorKind::Expected { expected, found: self.found() }, range);
+    }
+
+    /// The errors without those that something is missing which an unterminated comment or string
+    /// has swallowed.
+    fn unswallowed_errors(&mut self, lexer_errors: &[SyntaxError]) -> Vec<SyntaxError> {
+        let in_comment = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnterminatedComment;
+        let in_string = |error: &&SyntaxError| error.kind == SyntaxErrorKind::UnterminatedString;
+        let strings = lexer_errors.iter().filter(in_string);
+        let mut swallowed: BTreeSet<_> = strings.map(|error| error.range.end()).collect();
+        if lexer_errors.iter().any(in_comment) {
+            swallowed.insert(self.gap().end());
+        }
+        let mut errors = std::mem::take(&mut self.errors);
+        errors.retain(|error| !error.range.is_empty() || !swallowed.contains(&error.range.end()));
+        errors
     }
 }

@@ -1,5 +1,6 @@
 //! The units a number may have, and the way from a word to one of them.
 
+use crate::suggest;
 use std::fmt;
 
 /// The unit of a time or a frequency.
@@ -68,6 +69,7 @@ impl Unit {
             entry.filter(|_| lower.len() > 2).map(|(_, unit)| *unit)
         })
         .map(Self::name)
+        .or_else(|| suggest::nearest(word, Self::ALL.map(Self::name)))
     }
 }
 

@@ -7,31 +7,61 @@ use crate::kind::SyntaxKind;
 use crate::suggest;
 
 /// A word that begins an item.
-#[derive(Clone, Copy)]
-pub(super) struct Keyword {
-    word: &'static str,
-    kind: SyntaxKind,
-    item: Item,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keyword {
+    Use,
+    Spare,
+    Board,
+    Sensor,
+    Actuator,
+    Driver,
+    Link,
+    Rule(RuleKeyword),
 }
 
-const fn keyword(word: &'static str, kind: SyntaxKind, item: Item) -> Keyword {
-    Keyword { word, kind, item }
+/// A word that begins a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RuleKeyword {
+    Prefer,
+    Avoid,
+    Reserve,
+    Release,
+    Allow,
 }
 
-const KEYWORDS: [Keyword; 12] = [
-    keyword("use", SyntaxKind::UseKw, Item::Use),
-    keyword("spare", SyntaxKind::SpareKw, Item::Board),
-    keyword("board", SyntaxKind::BoardKw, Item::Board),
-    keyword("sensor", SyntaxKind::SensorKw, Item::Sensor),
-    keyword("actuator", SyntaxKind::ActuatorKw, Item::Actuator),
-    keyword("driver", SyntaxKind::DriverKw, Item::Driver),
-    keyword("link", SyntaxKind::LinkKw, Item::Link),
-    keyword("prefer", SyntaxKind::PreferKw, Item::Rule),
-    keyword("avoid", SyntaxKind::AvoidKw, Item::Rule),
-    keyword("reserve", SyntaxKind::ReserveKw, Item::Rule),
-    keyword("release", SyntaxKind::ReleaseKw, Item::Rule),
-    keyword("allow", SyntaxKind::AllowKw, Item::Rule),
+const KEYWORDS: [(&str, Keyword); 12] = [
+    ("use", Keyword::Use),
+    ("spare", Keyword::Spare),
+    ("board", Keyword::Board),
+    ("sensor", Keyword::Sensor),
+    ("actuator", Keyword::Actuator),
+    ("driver", Keyword::Driver),
+    ("link", Keyword::Link),
+    ("prefer", Keyword::Rule(RuleKeyword::Prefer)),
+    ("avoid", Keyword::Rule(RuleKeyword::Avoid)),
+    ("reserve", Keyword::Rule(RuleKeyword::Reserve)),
+    ("release", Keyword::Rule(RuleKeyword::Release)),
+    ("allow", Keyword::Rule(RuleKeyword::Allow)),
 ];
+
+impl Keyword {
+    fn from_word(word: &str) -> Option<Self> {
+        KEYWORDS.into_iter().find(|entry| entry.0 == word).map(|entry| entry.1)
+    }
+
+    /// The item that the word begins.
+    fn item(self) -> Item {
+        match self {
+            Self::Use => Item::Use,
+            Self::Spare | Self::Board => Item::Board,
+            Self::Sensor => Item::Sensor,
+            Self::Actuator => Item::Actuator,
+            Self::Driver => Item::Driver,
+            Self::Link => Item::Link,
+            Self::Rule(_) => Item::Rule,
+        }
+    }
+}
 
 /// Whether a block may hold an item.
 fn allows(block: Block, item: Item) -> bool {
@@ -90,7 +120,7 @@ impl Parser<'_> {
             return true;
         }
         self.expected(Expected::OpenBrace);
-        // Words too many before the `{`, on its line.
+        // Words too many before the `{`, on its line. The bound keeps this from quadratic time.
         let between = |parser: &Self, n: usize| {
             parser.nth(n).is_some_and(|token| {
                 !matches!(
@@ -99,7 +129,7 @@ impl Parser<'_> {
                 )
             }) && !parser.nth_begins_line(n)
         };
-        let count = (0..).find(|&n| !between(self, n)).unwrap_or_default();
+        let count = (0..8).find(|&n| !between(self, n)).unwrap_or(8);
         if self.nth_at(count, SyntaxKind::LBrace) && !self.nth_begins_line(count) {
             self.start(SyntaxKind::Error);
             (0..count).for_each(|_| self.bump());
@@ -111,22 +141,17 @@ impl Parser<'_> {
     }
 
     fn items_of(&mut self, block: Block, open: rowan::TextRange) {
-        loop {
-            match self.kind() {
-                Some(SyntaxKind::RBrace) => {
-                    self.bump();
-                    return;
-                }
-                Some(_) if self.item() => {}
-                // The end of the file, or an item that shows that a `}` is missing before it.
-                Some(_) | None => {
-                    self.unclosed = self.unclosed.saturating_sub(1);
-                    let kind = SyntaxErrorKind::MissingCloseBrace { block, open };
-                    self.report(kind, self.gap());
-                    return;
-                }
+        while self.kind().is_some() {
+            if self.eat(SyntaxKind::RBrace) {
+                return;
+            }
+            if !self.item() {
+                break;
             }
         }
+        // The end of the file, or an item that shows that a `}` is missing before it.
+        self.unclosed = self.unclosed.saturating_sub(1);
+        self.report(SyntaxErrorKind::MissingCloseBrace { block, open }, self.gap());
     }
 
     /// Parses one item. Returns false, without consuming anything, where the block must end.
@@ -150,9 +175,8 @@ impl Parser<'_> {
 
     /// The keyword of the item that begins here, if one does.
     fn keyword_ahead(&self) -> Option<Keyword> {
-        let word = self.nth_text(0);
-        let keyword = KEYWORDS.into_iter().find(|keyword| keyword.word == word)?;
-        (allows(self.block, keyword.item) || self.has_shape(keyword)).then_some(keyword)
+        let keyword = Keyword::from_word(self.nth_text(0))?;
+        (allows(self.block, keyword.item()) || self.has_shape(keyword)).then_some(keyword)
     }
 
     /// Whether what follows the next word is as it must be after this keyword. With this a misspelled
@@ -160,42 +184,41 @@ impl Parser<'_> {
     /// of the same name.
     fn has_shape(&self, keyword: Keyword) -> bool {
         let ident = |n| self.nth_at(n, SyntaxKind::Ident);
-        match keyword.kind {
-            SyntaxKind::UseKw => self.nth_at(1, SyntaxKind::Str),
-            SyntaxKind::SpareKw => self.nth_word(1, "board"),
-            SyntaxKind::BoardKw => {
+        match keyword {
+            Keyword::Use => self.nth_at(1, SyntaxKind::Str),
+            Keyword::Spare => self.nth_word(1, "board"),
+            Keyword::Board => {
                 let end = self.name_end(1);
                 ident(1) && (self.nth_at(end, SyntaxKind::LBrace) || self.nth_word(end, "on"))
             }
-            SyntaxKind::SensorKw | SyntaxKind::ActuatorKw => {
-                let word = self.nth_text(2);
-                let near = |keyword: &str| suggest::distance(word, keyword) <= 2;
+            Keyword::Sensor | Keyword::Actuator => {
+                let near = |verb: &str| suggest::distance(self.nth_text(2), verb) <= 2;
                 ident(1) && ident(2) && (near("returns") || near("accepts"))
             }
-            SyntaxKind::DriverKw => ident(1) && self.nth_word(2, "for"),
-            SyntaxKind::LinkKw => self.nth_at(1, SyntaxKind::LBrace),
-            SyntaxKind::PreferKw | SyntaxKind::AvoidKw => {
+            Keyword::Driver => ident(1) && self.nth_word(2, "for"),
+            Keyword::Link => self.nth_at(1, SyntaxKind::LBrace),
+            Keyword::Rule(RuleKeyword::Prefer | RuleKeyword::Avoid) => {
                 ident(1) && self.nth_at(2, SyntaxKind::Eq)
             }
-            SyntaxKind::ReserveKw | SyntaxKind::ReleaseKw => {
-                let after =
+            Keyword::Rule(RuleKeyword::Reserve | RuleKeyword::Release) => {
+                let ends =
                     self.nth_at(2, SyntaxKind::Comma) || self.nth_at(2, SyntaxKind::Semicolon);
-                ident(1) && after
+                ident(1) && ends
             }
-            _ => ident(1) && self.nth_at(2, SyntaxKind::Str),
+            Keyword::Rule(RuleKeyword::Allow) => ident(1) && self.nth_at(2, SyntaxKind::Str),
         }
     }
 
-    /// Whether a statement or block visibly begins here.
+    /// Whether a property or an item visibly begins here.
     pub(super) fn at_item(&self) -> bool {
-        let keyword = || KEYWORDS.into_iter().find(|keyword| self.at_word(keyword.word));
+        let keyword = || Keyword::from_word(self.nth_text(0));
         self.at_property() || keyword().is_some_and(|keyword| self.has_shape(keyword))
     }
 
     fn keyword_item(&mut self, keyword: Keyword) -> bool {
-        let (item, block) = (keyword.item, self.block);
+        let (item, block) = (keyword.item(), self.block);
         if !allows(block, item) {
-            let is_block = !matches!(item, Item::Rule | Item::Property);
+            let is_block = item != Item::Rule;
             if is_block && block != Block::File && self.unclosed > 0 {
                 return false;
             }
@@ -206,44 +229,38 @@ impl Parser<'_> {
     }
 
     fn parse_item(&mut self, keyword: Keyword) {
-        match keyword.item {
-            Item::Use => self.use_file(),
-            Item::Board => self.board(keyword.kind),
-            Item::Sensor => self.device(keyword.kind, Block::Sensor),
-            Item::Actuator => self.device(keyword.kind, Block::Actuator),
-            Item::Driver => self.driver(),
-            Item::Link => {
+        match keyword {
+            Keyword::Use => self.use_file(),
+            Keyword::Spare | Keyword::Board => self.board(keyword == Keyword::Spare),
+            Keyword::Sensor => self.device(Block::Sensor),
+            Keyword::Actuator => self.device(Block::Actuator),
+            Keyword::Driver => self.driver(),
+            Keyword::Link => {
                 self.start(SyntaxKind::Link);
                 self.bump_as(SyntaxKind::LinkKw);
                 self.body(Block::Link);
                 self.finish();
             }
-            Item::Rule | Item::Property => self.rule(keyword.kind),
+            Keyword::Rule(rule) => self.rule(rule),
         }
     }
 
     /// A word that is no keyword and has no `=` after it.
     fn unknown_item(&mut self) {
         let (word, block) = (self.nth_text(0), self.block);
-        let words = |all: bool| {
-            let candidates = KEYWORDS.into_iter();
-            candidates.filter(move |k| all || allows(block, k.item)).map(|keyword| keyword.word)
-        };
-        let similar =
-            suggest::nearest(word, words(false)).or_else(|| suggest::nearest(word, words(true)));
-        let keyword = KEYWORDS.into_iter().find(|keyword| similar == Some(keyword.word));
-        let unknown = || SyntaxErrorKind::UnknownItem {
-            found: word.to_owned(),
-            suggestion: keyword.map(|keyword| keyword.word),
-            block,
-        };
+        let allowed = KEYWORDS.into_iter().filter(|entry| allows(block, entry.1.item()));
+        let similar = suggest::nearest(word, allowed.map(|entry| entry.0))
+            .or_else(|| suggest::nearest(word, KEYWORDS.map(|entry| entry.0)));
+        let unknown =
+            SyntaxErrorKind::UnknownItem { found: word.to_owned(), suggestion: similar, block };
+        let keyword = similar.and_then(Keyword::from_word);
         if let Some(keyword) = keyword.filter(|&keyword| self.has_shape(keyword)) {
-            self.report(unknown(), self.here());
+            self.report(unknown, self.here());
             self.parse_item(keyword);
         } else if block != Block::File && self.at_broken_property() {
             self.property();
         } else {
-            self.report(unknown(), self.here());
+            self.report(unknown, self.here());
             self.skip_statement();
         }
     }
@@ -255,23 +272,21 @@ impl Parser<'_> {
         if self.nth_begins_line(end) {
             return next.kind != SyntaxKind::LBrace;
         }
-        match next.kind {
-            SyntaxKind::LBrace => false,
-            SyntaxKind::Ident => {
-                let end = self.name_end(end);
-                let more =
-                    self.nth_at(end, SyntaxKind::Ident) || self.nth_at(end, SyntaxKind::LBrace);
-                !more || self.nth_begins_line(end)
-            }
-            _ => true,
+        if next.kind == SyntaxKind::Ident {
+            let end = self.name_end(end);
+            let more = self.nth_at(end, SyntaxKind::Ident) || self.nth_at(end, SyntaxKind::LBrace);
+            return !more || self.nth_begins_line(end);
         }
+        next.kind != SyntaxKind::LBrace
     }
 
-    fn board(&mut self, first: SyntaxKind) {
+    fn board(&mut self, spare: bool) {
         self.start(SyntaxKind::Board);
-        self.bump_as(first);
-        if first == SyntaxKind::SpareKw {
+        if spare {
+            self.bump_as(SyntaxKind::SpareKw);
             self.keyword("board", SyntaxKind::BoardKw);
+        } else {
+            self.bump_as(SyntaxKind::BoardKw);
         }
         // `board on X {` lacks its name; `board on {` is named so.
         let source = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Str);
@@ -292,11 +307,11 @@ impl Parser<'_> {
         self.finish();
     }
 
-    fn device(&mut self, first: SyntaxKind, block: Block) {
-        let (item, verb, verb_kind) = if block == Block::Sensor {
-            (Item::Sensor, "returns", SyntaxKind::ReturnsKw)
+    fn device(&mut self, block: Block) {
+        let (item, first, verb, verb_kind) = if block == Block::Sensor {
+            (Item::Sensor, SyntaxKind::SensorKw, "returns", SyntaxKind::ReturnsKw)
         } else {
-            (Item::Actuator, "accepts", SyntaxKind::AcceptsKw)
+            (Item::Actuator, SyntaxKind::ActuatorKw, "accepts", SyntaxKind::AcceptsKw)
         };
         self.start(SyntaxKind::Device);
         self.bump_as(first);

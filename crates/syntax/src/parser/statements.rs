@@ -1,6 +1,7 @@
 //! Statements that end with `;`: `use`, properties and rules; and how to go on after a broken one.
 
 use super::Parser;
+use super::items::RuleKeyword;
 use crate::error::{Expected, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
@@ -41,18 +42,18 @@ impl Parser<'_> {
         self.finish();
     }
 
-    pub(super) fn rule(&mut self, keyword: SyntaxKind) {
-        let node = match keyword {
-            SyntaxKind::PreferKw => SyntaxKind::Prefer,
-            SyntaxKind::AvoidKw => SyntaxKind::Avoid,
-            SyntaxKind::ReserveKw => SyntaxKind::Reserve,
-            SyntaxKind::ReleaseKw => SyntaxKind::Release,
-            _ => SyntaxKind::Allow,
+    pub(super) fn rule(&mut self, keyword: RuleKeyword) {
+        let (node, kind) = match keyword {
+            RuleKeyword::Prefer => (SyntaxKind::Prefer, SyntaxKind::PreferKw),
+            RuleKeyword::Avoid => (SyntaxKind::Avoid, SyntaxKind::AvoidKw),
+            RuleKeyword::Reserve => (SyntaxKind::Reserve, SyntaxKind::ReserveKw),
+            RuleKeyword::Release => (SyntaxKind::Release, SyntaxKind::ReleaseKw),
+            RuleKeyword::Allow => (SyntaxKind::Allow, SyntaxKind::AllowKw),
         };
         self.start(node);
-        self.bump_as(keyword);
-        match node {
-            SyntaxKind::Prefer | SyntaxKind::Avoid => {
+        self.bump_as(kind);
+        match keyword {
+            RuleKeyword::Prefer | RuleKeyword::Avoid => {
                 if self.at(SyntaxKind::Ident) {
                     self.property();
                 } else {
@@ -60,9 +61,13 @@ impl Parser<'_> {
                     self.end_statement();
                 }
             }
-            SyntaxKind::Reserve | SyntaxKind::Release => self.resource_names(),
-            _ => {
-                self.name(Expected::Code);
+            RuleKeyword::Reserve | RuleKeyword::Release => self.resource_names(),
+            RuleKeyword::Allow => {
+                if self.at(SyntaxKind::Str) {
+                    self.expected(Expected::Code);
+                } else {
+                    self.name(Expected::Code);
+                }
                 if !self.eat(SyntaxKind::Str) {
                     self.expected(Expected::Reason);
                 }

@@ -9,10 +9,12 @@ impl Parser<'_> {
     /// The token after the name that begins `n` tokens ahead. Hyphens between touching words count
     /// to the name, so that `STM32F407G-DISC1` is one mistake and not several.
     pub(super) fn name_end(&self, n: usize) -> usize {
+        // More words than any name has; without a bound, looking ahead would take quadratic time.
+        let last = n + 16;
         let mut end = n + 1;
         let word = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Int);
         let touch = |n| self.touches(n) && self.touches(n + 1);
-        while self.nth_at(end, SyntaxKind::Minus) && word(end + 1) && touch(end) {
+        while end < last && self.nth_at(end, SyntaxKind::Minus) && word(end + 1) && touch(end) {
             end += 2;
             // `407G` is a number and a word to the lexer.
             while word(end) && self.touches(end) {
@@ -218,12 +220,13 @@ impl Parser<'_> {
     fn skip_brackets(&mut self) {
         self.start(SyntaxKind::Error);
         let mut open = 0_usize;
-        while let Some(kind) = self.kind() {
-            match kind {
-                SyntaxKind::LBracket => open += 1,
-                SyntaxKind::RBracket => open = open.saturating_sub(1),
-                SyntaxKind::Semicolon | SyntaxKind::LBrace | SyntaxKind::RBrace => break,
-                _ => {}
+        let ends =
+            |kind| matches!(kind, SyntaxKind::Semicolon | SyntaxKind::LBrace | SyntaxKind::RBrace);
+        while self.kind().is_some_and(|kind| !ends(kind)) {
+            if self.at(SyntaxKind::LBracket) {
+                open += 1;
+            } else if self.at(SyntaxKind::RBracket) {
+                open = open.saturating_sub(1);
             }
             self.bump();
             if open == 0 {

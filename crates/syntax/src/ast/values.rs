@@ -1,0 +1,154 @@
+//! Views over names, strings, numbers and lists.
+
+use super::{AstNode, children, choice, name, node, string, token};
+use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
+use crate::{literal, unit::Unit};
+use rowan::TextRange;
+
+node!(
+    /// A number with its sign and its unit.
+    Number = Number
+);
+node!(
+    /// A name as a value.
+    NameValue = NameValue
+);
+node!(
+    /// A string as a value.
+    StringValue = StringValue
+);
+node!(
+    /// `[VALUE, ...]`
+    List = List
+);
+
+choice!(
+    /// The value of a property.
+    Value {
+        /// A number.
+        Number(Number),
+        /// A name: a pin, a kind, `true`.
+        Name(NameValue),
+        /// A text.
+        String(StringValue),
+        /// Several values.
+        List(List),
+    }
+);
+
+/// A name as it stands in the text.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Name(pub(super) SyntaxToken);
+
+impl Name {
+    /// The name.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.0.text()
+    }
+    /// Where it is.
+    #[must_use]
+    pub fn range(&self) -> TextRange {
+        self.0.text_range()
+    }
+    /// The token.
+    #[must_use]
+    pub fn token(&self) -> &SyntaxToken {
+        &self.0
+    }
+}
+
+/// A string as it stands in the text.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct StringLiteral(pub(super) SyntaxToken);
+
+impl StringLiteral {
+    /// The text that is meant: without the quotes, the escapes replaced.
+    #[must_use]
+    pub fn value(&self) -> String {
+        literal::unescape(self.0.text())
+    }
+    /// Where it is, with the quotes.
+    #[must_use]
+    pub fn range(&self) -> TextRange {
+        self.0.text_range()
+    }
+    /// The token.
+    #[must_use]
+    pub fn token(&self) -> &SyntaxToken {
+        &self.0
+    }
+}
+
+/// The sign that is written before a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+}
+
+/// A number without its sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Magnitude {
+    /// An integer, exactly.
+    Integer(u64),
+    /// A number with a fraction or an exponent; always finite.
+    Float(f64),
+}
+
+impl Number {
+    /// The sign, when one is written.
+    #[must_use]
+    pub fn sign(&self) -> Option<Sign> {
+        let plus = token(&self.0, SyntaxKind::Plus).map(|_| Sign::Plus);
+        plus.or_else(|| token(&self.0, SyntaxKind::Minus).map(|_| Sign::Minus))
+    }
+    /// The number without its sign; `None` where it is out of range, which is an error already.
+    #[must_use]
+    pub fn magnitude(&self) -> Option<Magnitude> {
+        if let Some(digits) = token(&self.0, SyntaxKind::Int) {
+            return literal::integer(digits.text()).map(Magnitude::Integer);
+        }
+        literal::float(token(&self.0, SyntaxKind::Float)?.text()).map(Magnitude::Float)
+    }
+    /// The digits as they are written, without sign and unit.
+    #[must_use]
+    pub fn digits(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::Int).or_else(|| token(&self.0, SyntaxKind::Float))
+    }
+    /// The unit; `None` also where there is no such unit, which is an error already.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        Unit::from_name(self.unit_token()?.text())
+    }
+    /// The unit as it is written.
+    #[must_use]
+    pub fn unit_token(&self) -> Option<SyntaxToken> {
+        token(&self.0, SyntaxKind::Unit)
+    }
+}
+
+impl NameValue {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+}
+
+impl StringValue {
+    /// The string.
+    #[must_use]
+    pub fn literal(&self) -> Option<StringLiteral> {
+        string(&self.0)
+    }
+}
+
+impl List {
+    /// The values.
+    pub fn values(&self) -> impl Iterator<Item = Value> + use<> {
+        children(&self.0)
+    }
+}

@@ -1,0 +1,165 @@
+//! The canonical layout: in comes a text, out comes the same sequence of tokens and comments with
+//! one statement a line, four spaces for each block and one space between words.
+//!
+//! Numbers and strings keep their spelling. Comments keep their place: behind a statement, on a line
+//! of their own or within a statement. At most one blank line is kept between statements, none at
+//! the edges of a block. Laying out twice changes nothing.
+
+use crate::error::SyntaxError;
+use crate::kind::SyntaxKind;
+use crate::{lexer, parser};
+
+const INDENT: &str = "    ";
+
+/// The text in its canonical layout, or the mistakes that prevent it.
+pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
+    let lexed = lexer::lex(text);
+    let (_, errors) = parser::parse(text, &lexed);
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let mut printer = Printer::new(text.len());
+    for token in &lexed.tokens {
+        let text = text.get(std::ops::Range::from(token.range)).unwrap_or_default();
+        if token.kind == SyntaxKind::Whitespace {
+            printer.breaks += lines(text).count() - 1;
+        } else if token.kind.is_comment() {
+            printer.comment(token.kind, text);
+        } else if token.kind != SyntaxKind::Bom {
+            printer.token(token.kind, text);
+        }
+    }
+    Ok(printer.finish())
+}
+
+/// The lines of a text, whichever way they end.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.split("\r\n").flat_map(|lines| lines.split(['\n', '\r']))
+}
+
+/// What was printed last.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Last {
+    Nothing,
+    Token,
+    LineComment,
+    BlockComment {
+        /// Whether nothing but comments stands before it on its line.
+        leads: bool,
+    },
+}
+
+struct Printer {
+    out: String,
+    /// How many blocks are open.
+    depth: usize,
+    last: Last,
+    /// The last token, comments aside.
+    last_token: Option<SyntaxKind>,
+    /// The line breaks in the source since the last token or comment.
+    breaks: usize,
+}
+
+impl Printer {
+    fn new(capacity: usize) -> Self {
+        let out = String::with_capacity(capacity);
+        Self { out, depth: 0, last: Last::Nothing, last_token: None, breaks: 0 }
+    }
+
+    fn between_statements(&self) -> bool {
+        matches!(
+            self.last_token,
+            None | Some(SyntaxKind::LBrace | SyntaxKind::RBrace | SyntaxKind::Semicolon)
+        )
+    }
+
+    fn opens_block(&self) -> bool {
+        self.last == Last::Token && self.last_token == Some(SyntaxKind::LBrace)
+    }
+
+    fn comment(&mut self, kind: SyntaxKind, text: &str) {
+        let own_line = self.breaks > 0 || matches!(self.last, Last::Nothing | Last::LineComment);
+        let leads = own_line || self.last == (Last::BlockComment { leads: true });
+        if own_line {
+            self.new_line();
+        } else if self.last != Last::Token || self.last_token != Some(SyntaxKind::LBracket) {
+            self.out.push(' ');
+        }
+        for (index, line) in lines(text).enumerate() {
+            if index > 0 {
+                self.out.push('\n');
+            }
+            self.out.push_str(line.trim_end());
+        }
+        self.breaks = 0;
+        self.last = if kind == SyntaxKind::BlockComment {
+            Last::BlockComment { leads }
+        } else {
+            Last::LineComment
+        };
+    }
+
+    fn token(&mut self, kind: SyntaxKind, text: &str) {
+        if kind == SyntaxKind::RBrace {
+            self.depth = self.depth.saturating_sub(1);
+            if !self.opens_block() {
+                self.breaks = 0;
+                self.new_line();
+            }
+        } else if self.between_statements() {
+            if self.breaks == 0 && self.last == (Last::BlockComment { leads: true }) {
+                self.out.push(' ');
+            } else {
+                self.new_line();
+            }
+        } else if self.last == Last::LineComment {
+            self.new_line();
+        } else if self.spaced(kind) {
+            self.out.push(' ');
+        }
+        self.out.push_str(text);
+        if kind == SyntaxKind::LBrace {
+            self.depth += 1;
+        }
+        self.breaks = 0;
+        self.last = Last::Token;
+        self.last_token = Some(kind);
+    }
+
+    /// Whether a space stands before this token within a statement.
+    fn spaced(&self, kind: SyntaxKind) -> bool {
+        if matches!(kind, SyntaxKind::Semicolon | SyntaxKind::Comma | SyntaxKind::RBracket) {
+            return false;
+        }
+        if self.last != Last::Token {
+            return true;
+        }
+        match self.last_token {
+            Some(SyntaxKind::LBracket | SyntaxKind::Plus | SyntaxKind::Minus) => false,
+            // The length of an array type.
+            Some(SyntaxKind::Ident) => kind != SyntaxKind::LBracket,
+            _ => true,
+        }
+    }
+
+    /// Begins a line, after a blank one if the source has one here. A line within a statement is
+    /// indented once more.
+    fn new_line(&mut self) {
+        let between = self.between_statements();
+        if self.last != Last::Nothing {
+            self.out.push('\n');
+            if self.breaks > 1 && between && !self.opens_block() {
+                self.out.push('\n');
+            }
+        }
+        let depth = self.depth + usize::from(!between);
+        (0..depth).for_each(|_| self.out.push_str(INDENT));
+    }
+
+    fn finish(mut self) -> String {
+        if self.last != Last::Nothing {
+            self.out.push('\n');
+        }
+        self.out
+    }
+}

@@ -1,0 +1,279 @@
+//! What holds for every text: the tree spells it, parsing does not panic or take long, and the
+//! layout keeps the tokens and is stable.
+
+use proptest::prelude::*;
+use sensedsl_syntax::{SyntaxKind, format, parse};
+
+/// The tokens of a text without white space and comments.
+fn tokens(text: &str) -> Vec<(SyntaxKind, String)> {
+    let elements = parse(text).syntax().descendants_with_tokens();
+    let tokens = elements.filter_map(|element| element.into_token());
+    let meaningful = tokens.filter(|token| !token.kind().is_trivia());
+    meaningful.map(|token| (token.kind(), token.text().to_owned())).collect()
+}
+
+/// The comments of a text, white space at the ends of their lines aside.
+fn comments(text: &str) -> Vec<String> {
+    let elements = parse(text).syntax().descendants_with_tokens();
+    let comments = elements
+        .filter_map(|element| element.into_token())
+        .filter(|token| token.kind().is_comment());
+    let trimmed = |comment: &str| {
+        let unified = comment.replace("\r\n", "\n").replace('\r', "\n");
+        unified.split('\n').map(str::trim_end).collect::<Vec<_>>().join("\n")
+    };
+    comments.map(|token| trimmed(token.text())).collect()
+}
+
+fn check(text: &str) -> Result<(), TestCaseError> {
+    let parsed = parse(text);
+    prop_assert_eq!(parsed.syntax().text().to_string(), text);
+    for error in parsed.errors() {
+        // Slicing panics when a range is outside the text or splits a character.
+        let _ = &text[error.range];
+    }
+    let has_error_node = parsed.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);
+    prop_assert!(!has_error_node || !parsed.errors().is_empty(), "an error node without an error");
+    match format(text) {
+        Err(errors) => prop_assert_eq!(&errors[..], parsed.errors()),
+        Ok(formatted) => {
+            prop_assert_eq!(tokens(&formatted), tokens(text));
+            prop_assert_eq!(comments(&formatted), comments(text));
+            prop_assert_eq!(format(&formatted), Ok(formatted.clone()), "laid out twice");
+            prop_assert!(formatted.lines().all(|line| line.trim_end() == line), "{formatted:?}");
+            prop_assert!(!formatted.contains("\n\n\n") || text.contains("/*"), "{formatted:?}");
+        }
+    }
+    Ok(())
+}
+
+/// Pieces that texts of the language are made of, and some that are not.
+fn piece() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(vec![
+        "board",
+        "sensor",
+        "actuator",
+        "driver",
+        "link",
+        "use",
+        "spare",
+        "on",
+        "returns",
+        "accepts",
+        "for",
+        "prefer",
+        "avoid",
+        "reserve",
+        "release",
+        "allow",
+        "id",
+        "A",
+        "PA0",
+        "uint8",
+        "{",
+        "}",
+        "[",
+        "]",
+        "=",
+        ";",
+        ",",
+        "+",
+        "-",
+        "17",
+        "0xE6",
+        "0b12",
+        "1.5e3",
+        "1.",
+        "ms",
+        "\"a\"",
+        "\"b",
+        "\"\\q\"",
+        "// c\n",
+        "/* d */",
+        "/* e\n f */",
+        "/*",
+        "\n",
+        "\n\n\n",
+        "\r\n",
+        "\r",
+        " ",
+        "\t",
+        "@",
+        ":",
+        "#",
+        "é",
+        "\u{feff}",
+        "sensr",
+        "brd",
+        "=",
+        ";",
+        "{",
+        "}",
+        " ",
+        " ",
+        " ",
+    ])
+}
+
+/// White space and comments that may stand anywhere.
+fn trivia() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(vec![
+        " ",
+        "  ",
+        "\n",
+        "\n\n",
+        "\r\n\r\n\r\n",
+        "\t",
+        " // c \n",
+        "/* d */",
+        " /* e\n   f */ ",
+        "\n// g\n",
+        "\n\n/* h */\n",
+        "/**//**/",
+        "\r",
+        "//\r\n",
+    ])
+}
+
+/// The tokens of one correct item.
+fn item() -> impl Strategy<Value = Vec<&'static str>> {
+    let value = prop::sample::select(vec![
+        vec!["17"],
+        vec!["+", "2"],
+        vec!["-", "1.051e-3"],
+        vec!["60", "ms"],
+        vec!["0x10", "us"],
+        vec!["analog"],
+        vec!["\"a \\\" // b\""],
+        vec!["[", "]"],
+        vec!["[", "0x00", ",", "0x51", "]"],
+        vec!["[", "a", ",", "[", "-", "1", "]", ",", "\"s\"", "]"],
+    ]);
+    let name = prop::sample::select(vec!["id", "driver", "on", "sensor", "reserve", "link"]);
+    let property =
+        (name, value).prop_map(|(name, value)| [vec![name, "="], value, vec![";"]].concat());
+    let rule = (prop::sample::select(vec!["prefer", "avoid"]), property.clone())
+        .prop_map(|(keyword, property)| [vec![keyword], property].concat());
+    let other_rule = prop::sample::select(vec![
+        vec!["reserve", "PA0", ",", "PA1", ";"],
+        vec!["release", "PA0", ";"],
+        vec!["allow", "W0301", "\"known\"", ";"],
+    ]);
+    let content = prop_oneof![4 => property.clone(), 1 => rule, 1 => other_rule];
+    let head = prop::sample::select(vec![
+        vec!["sensor", "X", "returns", "uint8", "{"],
+        vec!["actuator", "board", "accepts", "float32", "[", "4", "]", "{"],
+    ]);
+    let device = (head, prop::collection::vec(content.clone(), 0..4))
+        .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
+    let link = prop::collection::vec(property.clone(), 0..2)
+        .prop_map(|content| [vec!["link", "{"], content.concat(), vec!["}"]].concat());
+    let board_head = prop::sample::select(vec![
+        vec!["board", "A", "{"],
+        vec!["spare", "board", "on", "on", "\"t.csv\"", "{"],
+        vec!["board", "B", "on", "STM32F407VGT6", "{"],
+    ]);
+    let board_content = prop_oneof![2 => device.clone(), 1 => content, 1 => link];
+    let board = (board_head, prop::collection::vec(board_content, 0..4))
+        .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
+    let driver = prop::collection::vec(property, 0..3).prop_map(|content| {
+        [vec!["driver", "for", "for", "i2c", "{"], content.concat(), vec!["}"]].concat()
+    });
+    prop_oneof![board, device, driver, Just(vec!["use", "\"lib.sense\"", ";"])]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2000, ..Default::default() })]
+
+    #[test]
+    fn any_sequence_of_pieces(pieces in prop::collection::vec(piece(), 0..60)) {
+        check(&pieces.concat())?;
+        check(&pieces.join(" "))?;
+    }
+
+    #[test]
+    fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        check(&String::from_utf8_lossy(&bytes))?;
+    }
+
+    #[test]
+    fn any_characters(text in "\\PC*") {
+        check(&text)?;
+    }
+
+    #[test]
+    fn correct_files_are_laid_out(
+        items in prop::collection::vec(item(), 0..4),
+        spaces in prop::collection::vec(trivia(), 1..20),
+    ) {
+        let mut spaces = spaces.into_iter().cycle();
+        let mut text = String::new();
+        for token in items.concat() {
+            text.push_str(token);
+            // Numbers and units excepted, a line break is as good as a space.
+            let space = spaces.next().unwrap_or(" ");
+            let in_number = token.starts_with(|c: char| c.is_ascii_digit());
+            text.push_str(if in_number { " " } else { space });
+        }
+        let parsed = parse(&text);
+        prop_assert_eq!(parsed.errors(), &[], "{}", text);
+        check(&text)?;
+        prop_assert!(format(&text).is_ok());
+    }
+
+    #[test]
+    fn correct_files_with_one_token_lost(items in prop::collection::vec(item(), 1..4), at in any::<prop::sample::Index>()) {
+        let mut tokens = items.concat();
+        tokens.remove(at.index(tokens.len()));
+        check(&tokens.join(" "))?;
+        check(&tokens.join("\n"))?;
+    }
+}
+
+#[test]
+fn hostile_texts_take_linear_time_and_little_stack() {
+    let pieces = [
+        "[",
+        "]",
+        "{",
+        "}",
+        "a=[",
+        "a=[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
+        "board a{",
+        "sensor ",
+        "sensor a returns b{",
+        "a-",
+        "x=1 a-a-a-a-a-a-a-a-",
+        "a ",
+        "a=",
+        "a;",
+        "1 ",
+        "\"",
+        "\"\n",
+        "/*",
+        "/**/",
+        "@ ",
+        "=",
+        "reserve a,",
+        "reserve ",
+        "prefer ",
+        "link{",
+        "\u{feff}",
+        "\\",
+        "\"\\u{",
+        "é",
+        "a=1\n",
+        "for ",
+        "use ",
+        "+",
+        "a=1 b ",
+    ];
+    for piece in pieces {
+        let text = piece.repeat(200_000 / piece.len());
+        let start = std::time::Instant::now();
+        let parsed = parse(&text);
+        assert_eq!(parsed.syntax().text(), text.as_str());
+        // Linear time is some 20 ms here; quadratic time would be minutes.
+        assert!(start.elapsed().as_secs() < 5, "{piece:?} takes {:?}", start.elapsed());
+    }
+}
