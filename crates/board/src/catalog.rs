@@ -1,0 +1,228 @@
+//! Built-in boards: a name in, the board's table and facts out.
+//!
+//! The boards are the folders of `boards/`, embedded by the generated module `registry`. Names are
+//! looked up without reading any of them.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::nearest;
+use serde::{Deserialize, Deserializer};
+
+use crate::mcu;
+use crate::pin::PinName;
+use crate::profile::{Transport, pin, pins};
+use crate::registry::BOARDS;
+use crate::table::{Table, load};
+
+/// What the registry knows of a board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The name.
+    pub name: &'static str,
+    /// Other names.
+    pub aliases: &'static [&'static str],
+    /// The part number of the MCU.
+    pub mcu: &'static str,
+    /// One line on what it is.
+    pub description: &'static str,
+    /// The text of `board.toml`.
+    facts: &'static str,
+    /// The text of `pins.csv`.
+    pins: &'static str,
+}
+
+/// All built-in boards, in natural order of their names.
+#[must_use]
+pub fn all() -> &'static [Entry] {
+    BOARDS
+}
+
+/// The board of a name or alias. Case, `-` and `_` do not matter.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Entry> {
+    let wanted = fold(name);
+    let called = |entry: &&Entry| names_of(entry).any(|name| fold(name) == wanted);
+    BOARDS.iter().find(called)
+}
+
+/// The board name that a misspelt one is near to.
+#[must_use]
+pub fn nearest_name(name: &str) -> Option<&'static str> {
+    let folded: Vec<(String, &'static str)> =
+        BOARDS.iter().flat_map(names_of).map(|name| (fold(name), name)).collect();
+    let found = nearest(&fold(name), folded.iter().map(|(folded, _)| folded.as_str()))?;
+    folded.iter().find(|(folded, _)| folded == found).map(|(_, name)| *name)
+}
+
+/// A board with that MCU which the system can be built for: where a table of the user alone says
+/// which MCU it is, its clocks and folders are taken from there.
+#[must_use]
+pub fn of_mcu(name: &str) -> Option<&'static Entry> {
+    BOARDS.iter().find(|entry| mcu::same_part(entry.mcu, name))
+}
+
+/// The part numbers of all built-in boards.
+pub fn mcus() -> impl Iterator<Item = &'static str> {
+    BOARDS.iter().map(|entry| entry.mcu)
+}
+
+fn names_of(entry: &Entry) -> impl Iterator<Item = &'static str> + use<> {
+    std::iter::once(entry.name).chain(entry.aliases.iter().copied())
+}
+
+/// A name without case, `-` and `_`.
+fn fold(name: &str) -> String {
+    name.chars().filter(|c| !matches!(c, '-' | '_')).flat_map(char::to_lowercase).collect()
+}
+
+impl Entry {
+    pub(crate) const fn new(
+        names: (&'static str, &'static [&'static str]),
+        mcu: &'static str,
+        description: &'static str,
+        (facts, pins): (&'static str, &'static str),
+    ) -> Self {
+        let (name, aliases) = names;
+        Self { name, aliases, mcu, description, facts, pins }
+    }
+
+    /// The table as it is printed.
+    #[must_use]
+    pub fn csv(&self) -> &'static str {
+        self.pins
+    }
+
+    /// The pins; the MCU is that of the board where the table names none.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let mut table = load(self.pins).board;
+        table.mcu.get_or_insert_with(|| self.mcu.to_owned());
+        table
+    }
+
+    /// The facts beside the pins.
+    ///
+    /// # Errors
+    ///
+    /// When the file is damaged; tests rule that out.
+    pub fn board(&self) -> Result<Board, String> {
+        Board::parse(self.facts)
+    }
+}
+
+/// A board beside its pins: the file `board.toml`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Board {
+    /// The name.
+    pub name: String,
+    /// Other names.
+    #[serde(default)]
+    pub aliases: Vec<String>,
+    /// The part number of the MCU.
+    pub mcu: String,
+    /// One line on what it is.
+    pub description: String,
+    /// Where the facts come from.
+    pub source: Vec<Source>,
+    /// Crystals.
+    #[serde(default)]
+    pub crystal: Crystal,
+    /// What ChibiOS has for the board.
+    pub chibios: Option<Chibios>,
+    /// Links to a host; the first is the default one.
+    #[serde(default)]
+    pub link: Vec<Link>,
+    /// The user's button.
+    pub button: Option<Lever>,
+    /// A light that the firmware may blink.
+    pub led: Option<Lever>,
+}
+
+/// Where facts come from.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// Which facts.
+    pub what: String,
+    /// From where.
+    pub from: String,
+    /// Under which licence.
+    pub licence: String,
+}
+
+/// Crystals.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Crystal {
+    /// The main one.
+    pub hse_hz: Option<u32>,
+    /// The one of the clock.
+    pub lse_hz: Option<u32>,
+}
+
+/// What ChibiOS has for a board; paths are relative to its tree.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Chibios {
+    /// The folder below `os/hal/boards`.
+    pub board: String,
+    /// The demo whose configuration is the base.
+    pub demo: String,
+    /// The folder of the configuration below the demo.
+    pub cfg: String,
+    /// The linker script.
+    pub ldscript: String,
+    /// The macro by which the configuration tells its MCU.
+    pub mcuconf: String,
+    /// What the configuration's clock tree gives, by macro.
+    #[serde(default)]
+    pub clocks_hz: BTreeMap<String, u32>,
+}
+
+/// A link to a host.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// What carries the frames.
+    pub transport: Transport,
+    /// The peripheral instance: `OTG1`, `USART2`.
+    pub unit: String,
+    /// The pins that the link takes: minus, plus and more of a USB device, TX and RX of a serial
+    /// port.
+    #[serde(deserialize_with = "pins")]
+    pub pins: Vec<PinName>,
+    /// A remark.
+    pub note: Option<String>,
+}
+
+/// A button or a light.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lever {
+    /// Its pin.
+    #[serde(deserialize_with = "pin")]
+    pub pin: PinName,
+    /// The level that means pressed, or lit.
+    #[serde(rename = "active", deserialize_with = "level")]
+    pub active_high: bool,
+}
+
+fn level<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
+    match String::deserialize(deserializer)?.as_str() {
+        "high" => Ok(true),
+        "low" => Ok(false),
+        other => Err(serde::de::Error::custom(format!("`{other}` is neither high nor low"))),
+    }
+}
+
+impl Board {
+    /// Reads a `board.toml`.
+    ///
+    /// # Errors
+    ///
+    /// When the text does not say what a board needs.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| error.to_string())
+    }
+}

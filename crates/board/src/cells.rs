@@ -1,0 +1,247 @@
+//! Comma-separated text in, cells with their places out.
+//!
+//! The common reader crates hand out texts without byte ranges, and a diagnostic must point at a
+//! cell; so this is the dialect of RFC 4180 with what spreadsheets of all countries write: `,`,
+//! `;` or tab between the cells, any line end, a byte order mark, Excel's `sep=` line. `#` starts
+//! a comment line.
+
+use std::ops::Range;
+
+/// The text, cut into pieces.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Sheet {
+    /// Comment lines without their `#`, in order.
+    pub(crate) comments: Vec<Range<usize>>,
+    /// All other lines that are not blank, in order.
+    pub(crate) rows: Vec<Vec<Cell>>,
+    /// Quotes that do not end, and what follows a closing quote.
+    pub(crate) bad_quotes: Vec<Range<usize>>,
+}
+
+/// One cell: the bytes between its separators, or between its quotes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Cell {
+    /// Where its content is.
+    pub(crate) range: Range<usize>,
+    /// True where `""` stands for one quote.
+    pub(crate) quoted: bool,
+}
+
+/// Cuts a text. Never fails.
+pub(crate) fn split(text: &str) -> Sheet {
+    let mut cutter = Cutter { bytes: text.as_bytes(), at: 0, separator: b',' };
+    if text.starts_with('\u{feff}') {
+        cutter.at = '\u{feff}'.len_utf8();
+    }
+    let mut sheet = Sheet::default();
+    let mut header_seen = false;
+    while cutter.at < text.len() {
+        let line = cutter.line();
+        if let Some(comment) = comment(text, &line) {
+            sheet.comments.push(comment);
+            cutter.at = cutter.line_end_after(line.end);
+        } else if text.get(line.clone()).is_none_or(|line| line.trim().is_empty()) {
+            cutter.at = cutter.line_end_after(line.end);
+        } else if let Some(separator) = announced(text, &line).filter(|_| !header_seen) {
+            cutter.separator = separator;
+            header_seen = true;
+            cutter.at = cutter.line_end_after(line.end);
+        } else {
+            if !header_seen {
+                cutter.separator = guess(text.get(line.clone()).unwrap_or_default());
+                header_seen = true;
+            }
+            let row = cutter.row(&mut sheet.bad_quotes);
+            sheet.rows.push(row);
+        }
+    }
+    sheet
+}
+
+/// The content of a comment line. A spreadsheet may have quoted it.
+fn comment(text: &str, line: &Range<usize>) -> Option<Range<usize>> {
+    let content = text.get(line.clone())?;
+    let start = content.trim_start().trim_start_matches('"').trim_start().strip_prefix('#')?;
+    Some(line.end - start.len()..line.end)
+}
+
+/// The separator that a line `sep=;` states.
+fn announced(text: &str, line: &Range<usize>) -> Option<u8> {
+    let stated = text.get(line.clone())?.strip_prefix("sep=")?;
+    match stated.as_bytes() {
+        [separator] => Some(*separator).filter(|b| matches!(b, b',' | b';' | b'\t' | b'|')),
+        _ => None,
+    }
+}
+
+/// The separator a header line uses most; the comma when in doubt.
+fn guess(header: &str) -> u8 {
+    let mut quoted = false;
+    let mut counts = [(b',', 0_usize), (b';', 0), (b'\t', 0)];
+    for byte in header.bytes() {
+        quoted ^= byte == b'"';
+        for (_, count) in counts.iter_mut().filter(|(separator, _)| !quoted && *separator == byte) {
+            *count += 1;
+        }
+    }
+    // The last of several maxima wins, so the comma goes last.
+    counts.iter().rev().max_by_key(|(_, count)| *count).map_or(b',', |(separator, _)| *separator)
+}
+
+struct Cutter<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    separator: u8,
+}
+
+impl Cutter<'_> {
+    fn byte(&self, at: usize) -> Option<u8> {
+        self.bytes.get(at).copied()
+    }
+
+    /// The first place from `at` on where `stop` holds, or the end.
+    fn find(&self, at: usize, stop: impl Fn(u8) -> bool) -> usize {
+        let rest = self.bytes.get(at..).unwrap_or_default();
+        rest.iter().position(|&byte| stop(byte)).map_or(self.bytes.len(), |offset| at + offset)
+    }
+
+    /// The line that starts here, without its end.
+    fn line(&self) -> Range<usize> {
+        self.at..self.find(self.at, |byte| matches!(byte, b'\n' | b'\r'))
+    }
+
+    /// Behind the line end at `at`.
+    fn line_end_after(&self, at: usize) -> usize {
+        match (self.byte(at), self.byte(at + 1)) {
+            (Some(b'\r'), Some(b'\n')) => at + 2,
+            (Some(_), _) => at + 1,
+            (None, _) => at,
+        }
+    }
+
+    fn ends_cell(&self, byte: u8) -> bool {
+        byte == self.separator || matches!(byte, b'\n' | b'\r')
+    }
+
+    /// Reads one row and its line end.
+    fn row(&mut self, bad_quotes: &mut Vec<Range<usize>>) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        loop {
+            cells.push(self.cell(bad_quotes));
+            if self.byte(self.at) != Some(self.separator) {
+                self.at = self.line_end_after(self.at);
+                return cells;
+            }
+            self.at += 1;
+        }
+    }
+
+    /// Reads one cell up to its separator or line end.
+    fn cell(&mut self, bad_quotes: &mut Vec<Range<usize>>) -> Cell {
+        let start = self.at;
+        if self.byte(start) == Some(b'"') {
+            if let Some(close) = self.closing_quote(start + 1) {
+                self.at = self.find(close + 1, |byte| self.ends_cell(byte));
+                let rest = self.bytes.get(close + 1..self.at).unwrap_or_default();
+                if !rest.trim_ascii().is_empty() {
+                    bad_quotes.push(start..self.at);
+                }
+                return Cell { range: start + 1..close, quoted: true };
+            }
+            // Without an end the rest of the file would be one cell: read on as if the quote
+            // were not there, so that one slip costs one cell.
+            bad_quotes.push(start..start + 1);
+            self.at = self.find(start + 1, |byte| self.ends_cell(byte));
+            return Cell { range: start + 1..self.at, quoted: false };
+        }
+        self.at = self.find(start, |byte| self.ends_cell(byte));
+        Cell { range: start..self.at, quoted: false }
+    }
+
+    /// The quote that ends the cell whose content starts at `at`.
+    fn closing_quote(&self, mut at: usize) -> Option<usize> {
+        loop {
+            at = self.find(at, |byte| byte == b'"');
+            self.byte(at)?;
+            if self.byte(at + 1) != Some(b'"') {
+                return Some(at);
+            }
+            at += 2;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(text: &str) -> Vec<Vec<String>> {
+        let content = |cell: &Cell| {
+            let raw = &text[cell.range.clone()];
+            if cell.quoted { raw.replace("\"\"", "\"") } else { raw.to_owned() }
+        };
+        split(text).rows.iter().map(|row| row.iter().map(content).collect()).collect()
+    }
+
+    fn trim(cell: &str) -> String {
+        cell.trim_matches(' ').to_owned()
+    }
+
+    #[test]
+    fn every_dialect_gives_the_same_cells() {
+        let expected = vec![vec!["Pin", "ADC"], vec!["PA1", "a b"]];
+        for text in [
+            "Pin,ADC\nPA1,a b\n",
+            "Pin,ADC\r\nPA1,a b",
+            "Pin,ADC\rPA1,a b\r",
+            "Pin;ADC\nPA1;a b\n",
+            "Pin\tADC\nPA1\ta b\n",
+            "\u{feff}Pin,ADC\n\n# no row, ever\nPA1,\"a b\"\n",
+            "sep=;\nPin;ADC\nPA1;a b\n",
+            "sep=|\nPin|ADC\nPA1|a b\n",
+        ] {
+            assert_eq!(texts(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn comments_are_kept_without_their_sign() {
+        let text = "# mcu = X\r\n  #b\n\"# c\",,\nPin\n# d";
+        let comments: Vec<&str> =
+            split(text).comments.iter().map(|range| &text[range.clone()]).collect();
+        assert_eq!(comments, [" mcu = X", "b", " c\",,", " d"]);
+    }
+
+    #[test]
+    fn an_open_quote_costs_one_cell() {
+        let text = "Pin,ADC\nPA1,\"x\nPA2,y\n";
+        let sheet = split(text);
+        assert_eq!(sheet.bad_quotes, vec![12..13]);
+        assert_eq!(texts(text), [["Pin", "ADC"], ["PA1", "x"], ["PA2", "y"]]);
+    }
+
+    proptest::proptest! {
+        /// Where no quote is bad, the cells are those of the crate `csv`, which keeps the blanks
+        /// behind a closing quote.
+        #[test]
+        fn cells_agree_with_the_csv_crate(text in "[ab,\"\n\r; ]{0,40}") {
+            let sheet = split(&text);
+            proptest::prop_assume!(sheet.bad_quotes.is_empty());
+            let lines: Vec<&str> = text.split(['\n', '\r']).collect();
+            proptest::prop_assume!(!lines.iter().any(|line| !line.is_empty() && line.trim().is_empty()));
+            let header = lines.iter().find(|line| !line.is_empty()).copied().unwrap_or_default();
+            let mut reader = csv::ReaderBuilder::new()
+                .has_headers(false)
+                .flexible(true)
+                .delimiter(guess(header))
+                .from_reader(text.as_bytes());
+            let expected: Vec<Vec<String>> = reader
+                .records()
+                .map(|record| record.unwrap().iter().map(trim).collect())
+                .collect();
+            let found: Vec<Vec<String>> =
+                texts(&text).iter().map(|row| row.iter().map(|cell| trim(cell)).collect()).collect();
+            proptest::prop_assert_eq!(found, expected);
+        }
+    }
+}

@@ -1,0 +1,425 @@
+//! Reading a board table: cells in, pins and findings out.
+//!
+//! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest
+//! is read, so that one run reports them all.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use sensedsl_diagnostics::nearest;
+
+use crate::cells::{self, Cell, Sheet};
+use crate::finding::{Finding, FindingKind};
+use crate::mcu;
+use crate::pin::PinName;
+use crate::signal::Signal;
+use crate::table::{Column, Loaded, Occupation, Onboard, Pin, Property, Role, Table, Usage};
+
+/// See [`crate::table::load`].
+pub(crate) fn load(text: &str) -> Loaded {
+    let mut loader = Loader { text, lines: line_starts(text), findings: Vec::new() };
+    let sheet = cells::split(text);
+    for range in &sheet.bad_quotes {
+        loader.report(FindingKind::BadQuote, range, None);
+    }
+    let mut board = Table::default();
+    loader.properties(&sheet, &mut board);
+    loader.rows(&sheet, &mut board);
+    let mut findings = loader.findings;
+    findings.sort_by_key(|finding| finding.range.start);
+    Loaded { board, findings }
+}
+
+/// Where each line starts.
+fn line_starts(text: &str) -> Vec<usize> {
+    let bytes = text.as_bytes();
+    let ends_line = |at: &usize| match (bytes.get(*at), bytes.get(at + 1)) {
+        (Some(b'\n'), _) => true,
+        (Some(b'\r'), next) => next != Some(&b'\n'),
+        _ => false,
+    };
+    let starts = (0..bytes.len()).filter(ends_line).map(|at| at + 1);
+    std::iter::once(0).chain(starts).collect()
+}
+
+/// A column of the sheet; `None` where its cells are not read.
+type Slot = Option<Column>;
+
+struct Loader<'a> {
+    text: &'a str,
+    lines: Vec<usize>,
+    findings: Vec<Finding>,
+}
+
+/// A piece of a cell between white space.
+struct Word {
+    text: String,
+    range: Range<usize>,
+}
+
+impl Loader<'_> {
+    fn report(&mut self, kind: FindingKind, range: &Range<usize>, column: Option<&str>) {
+        self.findings.push(Finding {
+            kind,
+            range: range.clone(),
+            row: self.line_of(range.start),
+            column: column.map(str::to_owned),
+        });
+    }
+
+    fn line_of(&self, at: usize) -> usize {
+        self.lines.partition_point(|start| *start <= at)
+    }
+
+    fn raw(&self, range: &Range<usize>) -> &str {
+        self.text.get(range.clone()).unwrap_or_default()
+    }
+
+    /// The content of a cell without what cannot be seen, and where it is.
+    fn content(&self, cell: &Cell) -> Word {
+        let raw = self.raw(&cell.range);
+        let blank = |c: char| c.is_whitespace() || is_zero_width(c);
+        let start = cell.range.start + (raw.len() - raw.trim_start_matches(blank).len());
+        let end = cell.range.end - (raw.len() - raw.trim_end_matches(blank).len());
+        // A cell of blanks alone has nothing to point at.
+        let range = if start < end { start..end } else { cell.range.clone() };
+        let mut text = String::new();
+        for c in raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c)) {
+            text.push(if c.is_whitespace() { ' ' } else { c });
+        }
+        let text = if cell.quoted { text.replace("\"\"", "\"") } else { text };
+        Word { text, range }
+    }
+
+    /// The content, or nothing for an empty cell or a dash.
+    fn value(&self, cell: &Cell) -> Option<Word> {
+        Some(self.content(cell)).filter(|word| !matches!(word.text.as_str(), "" | "-" | "–" | "—"))
+    }
+
+    /// The pieces of a cell between white space.
+    fn words(&self, cell: &Cell) -> Vec<Word> {
+        let raw = self.raw(&cell.range);
+        let mut words = Vec::new();
+        let mut rest = raw;
+        while let Some(at) = rest.find(|c: char| !c.is_whitespace() && !is_zero_width(c)) {
+            let tail = rest.get(at..).unwrap_or_default();
+            let end = tail.find(char::is_whitespace).unwrap_or(tail.len());
+            let start = cell.range.start + (raw.len() - tail.len());
+            let word = Cell { range: start..start + end, quoted: cell.quoted };
+            words.extend(self.value(&word));
+            rest = tail.get(end..).unwrap_or_default();
+        }
+        words
+    }
+
+    /// Finds what cannot be seen in a cell that is read, once.
+    fn invisible(&mut self, cell: &Cell, column: &str) {
+        let raw = self.raw(&cell.range);
+        let odd = |c: &char| is_zero_width(*c) || (c.is_whitespace() && !c.is_ascii());
+        if let Some((at, character)) = raw.char_indices().find(|(_, c)| odd(c)) {
+            let start = cell.range.start + at;
+            let range = start..start + character.len_utf8();
+            self.report(FindingKind::InvisibleCharacter { character }, &range, Some(column));
+        }
+    }
+
+    /// Reads the `# key = value` lines above the header.
+    fn properties(&mut self, sheet: &Sheet, board: &mut Table) {
+        let header = sheet.rows.first().and_then(|row| row.first());
+        let end = header.map_or(self.text.len(), |cell| cell.range.start);
+        for comment in sheet.comments.iter().filter(|comment| comment.start < end) {
+            let Some(property) = property(self.raw(comment), comment.start) else { continue };
+            if board.properties.iter().any(|known| known.key == property.key) {
+                let key = property.key;
+                self.report(FindingKind::DuplicateProperty { key }, &property.range, None);
+                continue;
+            }
+            if property.key == "mcu" {
+                self.mcu(&property);
+                board.mcu = Some(property.value.clone());
+            }
+            board.properties.push(property);
+        }
+    }
+
+    fn mcu(&mut self, property: &Property) {
+        if !mcu::is_plausible(&property.value) {
+            let known = crate::catalog::mcus();
+            let nearest = nearest(&property.value, known).map(str::to_owned);
+            let spelled = property.value.clone();
+            self.report(FindingKind::UnknownMcu { spelled, nearest }, &property.range, None);
+        }
+    }
+
+    /// Reads the header and the pins.
+    fn rows(&mut self, sheet: &Sheet, board: &mut Table) {
+        let end = self.text.len()..self.text.len();
+        let Some((header, rows)) = sheet.rows.split_first() else {
+            return self.report(FindingKind::EmptyTable, &end, None);
+        };
+        let slots = self.header(header, rows);
+        board.columns = slots.iter().flatten().cloned().collect();
+        let line = header_range(header);
+        if !board.columns.iter().any(|column| column.role == Role::Pin) {
+            let headers = board.columns.iter().map(|column| column.header.as_str());
+            let nearest = headers
+                .filter(|header| nearest(header, ["Pin", "Pins", "Pin name"]).is_some())
+                .map(str::to_owned)
+                .next();
+            return self.report(FindingKind::NoPinColumn { nearest }, &line, None);
+        }
+        let mut pins: BTreeMap<PinName, Pin> = BTreeMap::new();
+        let mut blank = true;
+        for row in rows {
+            if !row.iter().any(|cell| self.is_filled(cell)) {
+                continue;
+            }
+            blank = false;
+            let Some(pin) = self.row(row, &slots) else { continue };
+            if let Some(first) = pins.get(&pin.name) {
+                let kind = FindingKind::DuplicatePin { pin: pin.name, first: first.range.clone() };
+                self.report(kind, &pin.range, Some("Pin"));
+            } else {
+                pins.insert(pin.name.clone(), pin);
+            }
+        }
+        if blank {
+            self.report(FindingKind::EmptyTable, &line, None);
+        }
+        board.pins = pins.into_values().collect();
+    }
+
+    fn is_filled(&self, cell: &Cell) -> bool {
+        !self.content(cell).text.is_empty()
+    }
+
+    /// Names the columns.
+    fn header(&mut self, header: &[Cell], rows: &[Vec<Cell>]) -> Vec<Slot> {
+        let mut slots: Vec<Slot> = Vec::new();
+        for (index, cell) in header.iter().enumerate() {
+            let Word { text, range } = self.content(cell);
+            let used = |row: &Vec<Cell>| row.get(index).is_some_and(|cell| self.is_filled(cell));
+            if text.is_empty() {
+                if rows.iter().any(used) {
+                    self.report(FindingKind::UnnamedColumn, &range, None);
+                }
+                slots.push(None);
+                continue;
+            }
+            self.invisible(cell, &text);
+            let twin =
+                slots.iter().flatten().find(|known| known.header.eq_ignore_ascii_case(&text));
+            if let Some(first) = twin.map(|twin| twin.range.clone()) {
+                let kind = FindingKind::DuplicateColumn { header: text.clone(), first };
+                self.report(kind, &range, Some(&text));
+                slots.push(None);
+                continue;
+            }
+            let role = Role::of(&text);
+            slots.push(Some(Column { header: text, role, range }));
+        }
+        slots
+    }
+
+    /// Reads one row; `None` when it names no pin.
+    fn row(&mut self, row: &[Cell], slots: &[Slot]) -> Option<Pin> {
+        let beyond = row.get(slots.len()..).unwrap_or_default();
+        if row.len() < slots.len() || beyond.iter().any(|cell| self.is_filled(cell)) {
+            let kind = FindingKind::RaggedRow { expected: slots.len(), found: row.len() };
+            self.report(kind, &header_range(row), None);
+        }
+        let mut pin = self.pin(row, slots)?;
+        let mut alternates = None;
+        for (cell, column) in row.iter().zip(slots) {
+            let Some(column) = column else { continue };
+            self.invisible(cell, &column.header);
+            match column.role {
+                Role::Usages => self.usages(cell, column, &mut pin),
+                Role::Onboard => pin.onboard = self.onboard(cell, column),
+                Role::Alternate => alternates = Some((cell, column)),
+                Role::Position => pin.position = self.text_of(cell),
+                Role::Side => pin.side = self.text_of(cell),
+                Role::Header => pin.header = self.text_of(cell),
+                Role::Label => pin.label = self.text_of(cell),
+                Role::Voltage => pin.voltage = self.text_of(cell),
+                Role::Note => pin.note = self.text_of(cell),
+                Role::Pin => {}
+            }
+        }
+        if let Some((cell, column)) = alternates {
+            self.alternates(cell, column, &mut pin);
+        }
+        Some(pin)
+    }
+
+    fn text_of(&self, cell: &Cell) -> Option<String> {
+        self.value(cell).map(|word| word.text)
+    }
+
+    /// Reads the pin cell of a row.
+    fn pin(&mut self, row: &[Cell], slots: &[Slot]) -> Option<Pin> {
+        let at = |slot: &Slot| slot.as_ref().is_some_and(|column| column.role == Role::Pin);
+        let index = slots.iter().position(at)?;
+        let cell = row.get(index).and_then(|cell| self.value(cell));
+        let Some(Word { text, range }) = cell else {
+            self.report(FindingKind::MissingPin, &header_range(row), Some("Pin"));
+            return None;
+        };
+        let Some(name) = PinName::parse(&text) else {
+            self.report(FindingKind::BadPinName { spelled: text }, &range, Some("Pin"));
+            return None;
+        };
+        Some(Pin {
+            name,
+            spelled: text,
+            usages: Vec::new(),
+            position: None,
+            side: None,
+            header: None,
+            label: None,
+            voltage: None,
+            note: None,
+            onboard: None,
+            row: self.line_of(range.start),
+            range,
+        })
+    }
+
+    /// Reads a cell of usages.
+    fn usages(&mut self, cell: &Cell, column: &Column, pin: &mut Pin) {
+        for Word { text, range } in self.words(cell) {
+            let (spelled, alternate) = match text.split_once('@') {
+                Some((spelled, number)) => (spelled.to_owned(), Some(number)),
+                None => (text.clone(), None),
+            };
+            let number = alternate.and_then(alternate_number);
+            if spelled.is_empty() || (alternate.is_some() && number.is_none()) {
+                let kind = FindingKind::BadAlternate { spelled: text.clone() };
+                self.report(kind, &range, Some(&column.header));
+            }
+            if spelled.is_empty() {
+                continue;
+            }
+            let (signal, malformed) = Signal::parse(&spelled);
+            if let Some(malformed) = malformed {
+                let kind = FindingKind::MalformedSignal {
+                    spelled: spelled.clone(),
+                    nearest: malformed.nearest,
+                };
+                self.report(kind, &range, Some(&column.header));
+            }
+            if let Some(first) = pin.usage(&signal) {
+                let first = first.range.clone();
+                let kind = FindingKind::DuplicateUsage { spelled, first };
+                self.report(kind, &range, Some(&column.header));
+                continue;
+            }
+            let column = column.header.clone();
+            pin.usages.push(Usage { spelled, signal, alternate: number, column, range });
+        }
+    }
+
+    /// Reads an `Onboard` cell: `PART` or `PART:HOW`.
+    fn onboard(&mut self, cell: &Cell, column: &Column) -> Option<Onboard> {
+        let Word { text, range } = self.value(cell)?;
+        let Some((part, word)) = text.rsplit_once(':') else {
+            return Some(Onboard { part: text, how: Occupation::Taken });
+        };
+        let (part, word) = (part.trim().to_owned(), word.trim());
+        let known = Occupation::WORDS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
+        let how = known.map(|(_, how)| *how).unwrap_or_else(|| {
+            let words = Occupation::WORDS.iter().map(|(name, _)| *name);
+            let nearest = nearest(word, words).map(str::to_owned);
+            let spelled = word.to_owned();
+            let kind = FindingKind::BadOccupation { spelled, nearest };
+            self.report(kind, &range, Some(&column.header));
+            // The careful reading: what nobody understands is not offered.
+            Occupation::Taken
+        });
+        Some(Onboard { part, how })
+    }
+
+    /// Reads an `AF` cell: `SIGNAL=n` each, or one number for each usage that has one.
+    fn alternates(&mut self, cell: &Cell, column: &Column, pin: &mut Pin) {
+        let words = self.words(cell);
+        let (named, bare): (Vec<&Word>, Vec<&Word>) =
+            words.iter().partition(|word| word.text.contains('='));
+        for word in named {
+            self.named_alternate(word, column, pin);
+        }
+        if bare.is_empty() {
+            return;
+        }
+        let digital = |usage: &&mut Usage| !usage.signal.function().is_analog();
+        let expected = pin.usages.iter_mut().filter(digital).count();
+        if bare.len() != expected {
+            let kind = FindingKind::AlternateCount { expected, found: bare.len() };
+            let range = self.content(cell).range;
+            self.report(kind, &range, Some(&column.header));
+            return;
+        }
+        for (word, usage) in bare.into_iter().zip(pin.usages.iter_mut().filter(digital)) {
+            self.set_alternate(&word.text, word, column, usage);
+        }
+    }
+
+    fn named_alternate(&mut self, word: &Word, column: &Column, pin: &mut Pin) {
+        let Some((spelled, number)) = word.text.split_once('=') else { return };
+        let (signal, _) = Signal::parse(spelled);
+        if let Some(usage) = pin.usages.iter_mut().find(|usage| usage.signal == signal) {
+            return self.set_alternate(number, word, column, usage);
+        }
+        let usages = pin.usages.iter().map(|usage| usage.spelled.as_str());
+        let nearest = nearest(spelled, usages).map(str::to_owned);
+        let kind = FindingKind::UnknownAlternate { signal: spelled.to_owned(), nearest };
+        self.report(kind, &word.range, Some(&column.header));
+    }
+
+    fn set_alternate(&mut self, number: &str, word: &Word, column: &Column, usage: &mut Usage) {
+        let spelled = word.text.clone();
+        let kind = match (alternate_number(number), usage.alternate) {
+            (None, _) => FindingKind::BadAlternate { spelled },
+            (Some(cell), Some(usage)) if cell != usage => {
+                FindingKind::AlternateConflict { spelled, usage, cell }
+            }
+            (Some(cell), _) => {
+                usage.alternate = Some(cell);
+                return;
+            }
+        };
+        self.report(kind, &word.range, Some(&column.header));
+    }
+}
+
+/// From the first cell to the last.
+fn header_range(row: &[Cell]) -> Range<usize> {
+    let start = row.first().map_or(0, |cell| cell.range.start);
+    start..row.last().map_or(start, |cell| cell.range.end)
+}
+
+/// The alternate functions of all multiplexers known are numbered 0 to 15, with or without `AF`.
+fn alternate_number(text: &str) -> Option<u8> {
+    let digits = text.strip_prefix("AF").unwrap_or(text);
+    let plain = digits.bytes().all(|b| b.is_ascii_digit());
+    digits.parse().ok().filter(|number| plain && *number < 16)
+}
+
+/// Characters without width that spreadsheets and web pages leave in a text.
+fn is_zero_width(c: char) -> bool {
+    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}')
+}
+
+/// Reads ` key = value`; a comment of another shape is a comment.
+fn property(comment: &str, start: usize) -> Option<Property> {
+    let (key, value) = comment.split_once('=')?;
+    let key = key.trim();
+    let word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+    if key.is_empty() || !key.chars().all(word) {
+        return None;
+    }
+    // A spreadsheet adds the separators, and a quote, of its empty cells.
+    let blank = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
+    let start = start + (comment.len() - value.trim_start_matches(blank).len());
+    let value = value.trim_matches(blank).to_owned();
+    Some(Property { key: key.to_ascii_lowercase(), range: start..start + value.len(), value })
+}

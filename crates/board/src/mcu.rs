@@ -1,0 +1,60 @@
+//! The names of MCUs: what looks like one, and which part a name means.
+
+/// The starts of part numbers by which a name is taken for an MCU. It is a spelling check only:
+/// which parts are known in detail is told by boards and target profiles.
+const STARTS: [&str; 17] = [
+    "STM32", "STM8", "RP20", "RP23", "ATMEGA", "ATTINY", "ATXMEGA", "AVR", "ATSAM", "SAM", "NRF5",
+    "ESP32", "LPC", "MIMXRT", "MSP430", "GD32", "PIC",
+];
+
+/// The canonical spelling: upper case, without white space.
+#[must_use]
+pub fn normalise(spelled: &str) -> String {
+    spelled.trim().to_ascii_uppercase()
+}
+
+/// True for what may be the name of an MCU.
+#[must_use]
+pub fn is_plausible(spelled: &str) -> bool {
+    let name = normalise(spelled);
+    let shaped = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    let model = STARTS.iter().find_map(|start| name.strip_prefix(start));
+    shaped && model.is_some_and(|model| model.contains(|c: char| c.is_ascii_digit()))
+}
+
+/// True when one name is the other with more of the ordering code, where `X` stands for any
+/// letter: `STM32F407VG` and `STM32F407VGTx` both mean `STM32F407VGT6`.
+#[must_use]
+pub fn same_part(left: &str, right: &str) -> bool {
+    let (left, right) = (normalise(left), normalise(right));
+    // Die, pin count and flash size, as in STM32F407VG, are the least that tells two parts apart.
+    let shortest = left.len().min(right.len());
+    let alike = |(a, b): (u8, u8)| a == b || a == b'X' || b == b'X';
+    shortest >= 6
+        && left.len().abs_diff(right.len()) <= 3
+        && left.bytes().zip(right.bytes()).all(alike)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plausible_names() {
+        for name in ["STM32F407VGT6", "stm32g031j6", "RP2040", "ATmega328P", "nRF52840", "AT90CAN"]
+        {
+            assert_eq!(is_plausible(name), name != "AT90CAN", "{name}");
+        }
+        for name in ["", "STM32", "F407", "SMT32F407VG", "STM32 F407", "Discovery"] {
+            assert!(!is_plausible(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn parts_match_by_what_is_given() {
+        assert!(same_part("STM32F407VG", "STM32F407VGT6"));
+        assert!(same_part("stm32f407vgtx", "STM32F407VGT6"));
+        assert!(!same_part("STM32F407ZG", "STM32F407VGT6"));
+        assert!(!same_part("STM32F407", "STM32F407VGT6"));
+    }
+}

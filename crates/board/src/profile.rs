@@ -1,0 +1,126 @@
+//! Target profiles: what an operating system's drivers can do on an MCU family.
+//!
+//! A target name and an MCU come in, the facts of that MCU under that system go out. All facts are
+//! data of `targets/`; this module only finds and serves them.
+
+mod file;
+mod lookup;
+mod types;
+
+use sensedsl_diagnostics::nearest;
+
+use crate::mcu;
+use crate::registry::TARGETS;
+use file::File;
+pub use types::{
+    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
+    Fallback, I2cs, Kernel, Off, Sourced, Stream, TargetProfile, Timer, TimerDriver, Transport,
+    Tree, Unit, Usb,
+};
+pub(crate) use types::{pin, pins};
+
+/// The target without an operating system: pins and signals alone.
+pub const NONE: &str = "none";
+
+/// The target that is meant when none is named.
+pub const DEFAULT: &str = "chibios";
+
+/// What a target name and an MCU lead to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// `none`: the pure pin model.
+    None,
+    /// An operating system on an MCU family.
+    Profile(Box<TargetProfile>),
+}
+
+/// Why there is no profile.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoProfile {
+    /// No target has that name.
+    UnknownTarget {
+        /// All names.
+        known: Vec<String>,
+        /// The one that was probably meant.
+        nearest: Option<String>,
+    },
+    /// The target covers other MCUs.
+    UnknownMcu {
+        /// The full name of the target.
+        target: String,
+        /// The starts of the part numbers it covers.
+        covered: Vec<String>,
+    },
+    /// A file of `targets/` is damaged; tests rule that out.
+    Broken {
+        /// What the reader says.
+        message: String,
+    },
+}
+
+/// All names a target can be called by.
+#[must_use]
+pub fn names() -> Vec<String> {
+    let mut names = vec![NONE.to_owned(), DEFAULT.to_owned()];
+    for entry in TARGETS {
+        if names.iter().all(|name| name != entry.target) {
+            names.push(entry.target.to_owned());
+        }
+    }
+    names
+}
+
+/// The full name of a target: `chibios` is the newest ChibiOS there is a profile for.
+#[must_use]
+pub fn full_name(target: &str) -> Option<&'static str> {
+    let wanted = target.to_ascii_lowercase();
+    if wanted == NONE {
+        return Some(NONE);
+    }
+    let versions = TARGETS.iter().map(|entry| entry.target).filter(|name| {
+        *name == wanted || name.rsplit_once('-').is_some_and(|(system, _)| system == wanted)
+    });
+    versions.max_by(|a, b| crate::pin::natural(a, b))
+}
+
+/// Finds the profile of an MCU under a target.
+///
+/// # Errors
+///
+/// When the target is unknown or has no profile for the MCU.
+pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
+    let Some(target) = full_name(target) else {
+        let known = names();
+        let nearest = nearest(target, known.iter().map(String::as_str)).map(str::to_owned);
+        return Err(NoProfile::UnknownTarget { nearest, known });
+    };
+    if target == NONE {
+        return Ok(Target::None);
+    }
+    let name = mcu::normalise(mcu);
+    let entries = || TARGETS.iter().filter(|entry| entry.target == target);
+    let covers = |parts: &[&str]| parts.iter().any(|part| name.starts_with(part));
+    let Some(entry) = entries().find(|entry| covers(entry.parts)) else {
+        let covered = entries().flat_map(|entry| entry.parts).map(|part| (*part).to_owned());
+        return Err(NoProfile::UnknownMcu {
+            target: target.to_owned(),
+            covered: covered.collect(),
+        });
+    };
+    read(entry.text, &name).map_err(|message| NoProfile::Broken { message })
+}
+
+fn read(text: &str, mcu: &str) -> Result<Target, String> {
+    let file = File::parse(text)?;
+    let line = file.line_of(mcu).cloned().ok_or_else(|| format!("no line for {mcu}"))?;
+    Ok(Target::Profile(Box::new(file.into_profile(&line))))
+}
+
+/// Reads a profile file and says what is wrong with it.
+///
+/// # Errors
+///
+/// When the text is no profile at all.
+pub fn check(text: &str) -> Result<Vec<String>, String> {
+    Ok(File::parse(text)?.problems())
+}

@@ -1,0 +1,109 @@
+//! Questions to a target profile: a unit, a signal or a pin in, its facts out.
+
+use super::types::{
+    Adc, Dac, DacOutput, DmaRequest, ExtiRule, TargetProfile, Timer, Transport, Unit, Usb,
+};
+use crate::pin::PinName;
+use crate::signal::{Function, Signal};
+
+impl TargetProfile {
+    /// A timer by its number.
+    #[must_use]
+    pub fn timer(&self, number: u8) -> Option<&Timer> {
+        self.timers.iter().find(|timer| timer.number() == Some(number))
+    }
+
+    /// A converter by its number.
+    #[must_use]
+    pub fn adc(&self, number: u8) -> Option<&Adc> {
+        self.adcs.iter().find(|adc| adc.number() == Some(number))
+    }
+
+    /// An I²C, SPI, serial or CAN unit by its name (`CAN` is the only one, `CAN1`).
+    #[must_use]
+    pub fn unit(&self, name: &str) -> Option<&Unit> {
+        let name = if name == "CAN" { "CAN1" } else { name };
+        let units = self.i2cs.iter().chain(&self.spis).chain(&self.serials).chain(&self.cans);
+        units.into_iter().find(|unit| unit.name == name)
+    }
+
+    /// An output of a digital-analog converter.
+    #[must_use]
+    pub fn dac_output(&self, unit: u8, channel: u8) -> Option<&DacOutput> {
+        let named = |dac: &&Dac| dac.name.strip_prefix("DAC") == Some(unit.to_string().as_str());
+        let dac = self.dacs.iter().find(named)?;
+        dac.outputs.iter().find(|output| output.channel == channel)
+    }
+
+    /// A USB device by its name; without a name the first.
+    #[must_use]
+    pub fn usb(&self, name: Option<&str>) -> Option<&Usb> {
+        self.usbs.iter().find(|usb| name.is_none_or(|name| usb.name.eq_ignore_ascii_case(name)))
+    }
+
+    /// The DMA streams that the driver of a unit takes: none for one that takes no stream.
+    #[must_use]
+    pub fn dma(&self, unit: &str) -> &[DmaRequest] {
+        let adc = self.adcs.iter().find(|adc| adc.name == unit).map(|adc| adc.dma.as_slice());
+        adc.or_else(|| self.unit(unit).map(|unit| unit.dma.as_slice())).unwrap_or_default()
+    }
+
+    /// The interrupt line of a pin; pins of one line exclude each other. `None` where pins have
+    /// lines of their own.
+    #[must_use]
+    pub fn exti_group(&self, pin: &PinName) -> Option<u8> {
+        match self.exti.rule {
+            ExtiRule::OnePortPerNumber => pin.number(),
+            ExtiRule::OneLinePerPin => None,
+        }
+    }
+
+    /// The pins a link takes whatever the board: those of a USB device. A serial link's pins are
+    /// chosen like those of any device.
+    #[must_use]
+    pub fn link_pins(&self, transport: Transport, unit: Option<&str>) -> &[PinName] {
+        match transport {
+            Transport::Usb => self.usb(unit).map(|usb| usb.pins.as_slice()).unwrap_or_default(),
+            Transport::Uart => &[],
+        }
+    }
+
+    /// The usual alternate function of a signal at a pin; a number in the table comes first.
+    #[must_use]
+    pub fn alternate(&self, signal: &Signal, pin: &PinName) -> Option<u8> {
+        let unit = |unit: &Unit| {
+            let exception = unit.exceptions.iter().find(|exception| exception.pin == *pin);
+            exception.map(|exception| exception.alternate).or(unit.alternate)
+        };
+        match signal.function() {
+            Function::Timer { timer, .. } => self.timer(*timer)?.alternate,
+            Function::I2c { .. }
+            | Function::Uart { .. }
+            | Function::Spi { .. }
+            | Function::Can { .. } => {
+                let name = signal.function().units().into_iter().next()?;
+                unit(self.unit(name.as_str())?)
+            }
+            Function::Adc { .. } | Function::Dac { .. } | Function::Other => None,
+        }
+    }
+
+    /// True when the driver of some unit of the system can serve the function.
+    #[must_use]
+    pub fn serves(&self, function: &Function) -> bool {
+        match function {
+            Function::Adc { units, channel } => units
+                .iter()
+                .any(|unit| self.adc(*unit).is_some_and(|adc| adc.inputs.contains(channel))),
+            Function::Timer { timer, .. } => self.timer(*timer).is_some(),
+            Function::Dac { unit, channel } => self.dac_output(*unit, *channel).is_some(),
+            Function::I2c { .. }
+            | Function::Uart { .. }
+            | Function::Spi { .. }
+            | Function::Can { .. } => {
+                function.units().iter().any(|unit| self.unit(unit.as_str()).is_some())
+            }
+            Function::Other => false,
+        }
+    }
+}

@@ -1,0 +1,481 @@
+//! The facts of a target profile, as its data file states them.
+
+use std::fmt;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use super::file::Entry;
+use crate::pin::PinName;
+
+/// What an operating system can do on one MCU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetProfile {
+    /// The full name of the target: `chibios-21.11`.
+    pub name: String,
+    /// The MCU family: `STM32F4`.
+    pub family: String,
+    /// The line of the family.
+    pub line: String,
+    /// The starts of the part numbers of the line.
+    pub parts: Vec<String>,
+    /// Letters of the GPIO ports.
+    pub gpio_ports: Vec<char>,
+    /// Files of the system's tree.
+    pub tree: Tree,
+    /// Versions of the drivers.
+    pub drivers: Drivers,
+    /// What the kernel takes.
+    pub kernel: Kernel,
+    /// Pin interrupts.
+    pub exti: Exti,
+    /// Pins of the debug port.
+    pub debug: Debug,
+    /// What the base configuration turns on unasked.
+    pub off: Off,
+    /// Timers.
+    pub timers: Vec<Timer>,
+    /// What all converters have in common.
+    pub adc: Adcs,
+    /// Analog-digital converters.
+    pub adcs: Vec<Adc>,
+    /// What all I²C units have in common.
+    pub i2c: I2cs,
+    /// I²C units.
+    pub i2cs: Vec<Unit>,
+    /// SPI units.
+    pub spis: Vec<Unit>,
+    /// U(S)ARTs with a serial driver.
+    pub serials: Vec<Unit>,
+    /// CAN controllers.
+    pub cans: Vec<Unit>,
+    /// What all digital-analog converters have in common.
+    pub dac: Dacs,
+    /// Digital-analog converters.
+    pub dacs: Vec<Dac>,
+    /// USB devices.
+    pub usbs: Vec<Usb>,
+}
+
+/// What carries frames between board and host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Transport {
+    /// The MCU's own USB device, seen as a serial port.
+    Usb,
+    /// A serial port of the MCU, often behind the board's debug probe.
+    Uart,
+}
+
+/// A group of facts with nothing but their source.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sourced {
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// Files of the system's tree, relative to its root.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tree {
+    /// The core, as the compiler is told.
+    pub mcu: String,
+    /// Start-up code.
+    pub startup_mk: String,
+    /// The platform's drivers.
+    pub platform_mk: String,
+    /// The kernel's port.
+    pub port_mk: String,
+    /// The layer between drivers and kernel.
+    pub osal_mk: String,
+    /// Folder of the make rules.
+    pub rules_dir: String,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// Versions of the drivers; each chooses a variant of the generated code.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drivers {
+    /// Analog-digital conversion.
+    pub adc: String,
+    /// CAN.
+    pub can: String,
+    /// Digital-analog conversion.
+    pub dac: String,
+    /// DMA.
+    pub dma: String,
+    /// Pin interrupts.
+    pub exti: String,
+    /// Pins.
+    pub gpio: String,
+    /// I²C.
+    pub i2c: String,
+    /// Serial ports.
+    pub serial: String,
+    /// SPI.
+    pub spi: String,
+    /// Timers.
+    pub timer: String,
+    /// USB.
+    pub usb: String,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// The kernel's clock.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kernel {
+    /// Timers it can take, best first; the first that no device has is taken.
+    pub timers: Vec<String>,
+    /// What it takes when they are all gone; without one the last timer is not offered.
+    pub fallback: Option<Fallback>,
+    /// The option that names the timer.
+    pub option: String,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// A clock of the kernel that is no timer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fallback {
+    /// The core's own tick.
+    Systick,
+}
+
+/// Pin interrupts.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exti {
+    /// Number of lines.
+    pub lines: u8,
+    /// Which pins exclude each other.
+    pub rule: ExtiRule,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// Which pins exclude each other as interrupt lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum ExtiRule {
+    /// Pins of the same number, whatever their port: PA0 and PB0.
+    #[serde(rename = "one port per number")]
+    OnePortPerNumber,
+    /// None: every pin has a line of its own.
+    #[serde(rename = "one line per pin")]
+    OneLinePerPin,
+}
+
+/// Pins of the debug port.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Debug {
+    /// Pins without which the MCU cannot be programmed; they are not offered.
+    #[serde(deserialize_with = "pins")]
+    pub pins: Vec<PinName>,
+    /// Pins of trace output; they are offered.
+    #[serde(default, deserialize_with = "pins")]
+    pub trace: Vec<PinName>,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// What the base configuration turns on unasked.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Off {
+    /// Switches to turn off unless they are used.
+    pub switches: Vec<String>,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// A timer.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timer {
+    /// `TIM3`.
+    pub name: String,
+    /// Lines it is for; none means all.
+    #[serde(default)]
+    pub lines: Vec<String>,
+    /// Width of the counter.
+    pub bits: u8,
+    /// The macro of the clock that drives it.
+    pub clock: String,
+    /// The usual alternate function of its pins.
+    pub alternate: Option<u8>,
+    /// The input-capture driver; `None` where it cannot measure.
+    pub icu: Option<TimerDriver>,
+    /// The pulse-width driver.
+    pub pwm: Option<TimerDriver>,
+    /// The hardware can count quadrature on channels 1 and 2.
+    #[serde(default)]
+    pub encoder: bool,
+}
+
+/// A driver of a timer.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimerDriver {
+    /// The driver object: `ICUD3`.
+    pub driver: String,
+    /// The option that turns it on.
+    pub switch: String,
+    /// The channels it can use.
+    pub channels: Vec<u8>,
+    /// The channels whose inverted output it can use.
+    #[serde(default)]
+    pub complementary: Vec<u8>,
+}
+
+impl Timer {
+    /// The number in the name.
+    #[must_use]
+    pub fn number(&self) -> Option<u8> {
+        self.name.strip_prefix("TIM")?.parse().ok()
+    }
+
+    pub(crate) fn problem(&self) -> Option<String> {
+        let ranged = |driver: &TimerDriver| {
+            let all = driver.channels.iter().chain(&driver.complementary);
+            !driver.channels.is_empty() && all.into_iter().all(|c| (1..=6).contains(c))
+        };
+        let drivers = self.icu.iter().chain(&self.pwm).all(ranged);
+        let sound = self.number().is_some() && matches!(self.bits, 16 | 32) && drivers;
+        (!sound).then(|| format!("{}: name, bits or channels are impossible", self.name))
+    }
+}
+
+/// What all converters have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adcs {
+    /// Sampling times there are, in cycles.
+    pub sample_cycles: Vec<u32>,
+    /// The one that is taken when nothing is said.
+    pub sample_cycles_default: u32,
+    /// Bits of a result.
+    pub resolution_bits: u8,
+    /// Inputs in one conversion group.
+    pub channels_max: u8,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// An analog-digital converter.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adc {
+    /// `ADC1`.
+    pub name: String,
+    /// Lines it is for; none means all.
+    #[serde(default)]
+    pub lines: Vec<String>,
+    /// The driver object.
+    pub driver: String,
+    /// The option that turns it on.
+    pub switch: String,
+    /// Inputs that can be pins.
+    pub inputs: Vec<u8>,
+    /// DMA requests of the driver.
+    #[serde(default)]
+    pub dma: Vec<DmaRequest>,
+}
+
+impl Adc {
+    /// The number in the name.
+    #[must_use]
+    pub fn number(&self) -> Option<u8> {
+        self.name.strip_prefix("ADC")?.parse().ok()
+    }
+
+    pub(crate) fn problem(&self) -> Option<String> {
+        let sound = self.number().is_some() && !self.inputs.is_empty();
+        (!sound).then(|| format!("{}: name or inputs are impossible", self.name))
+    }
+}
+
+/// What all I²C units have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct I2cs {
+    /// The fastest bus the driver accepts.
+    pub speed_max_hz: u32,
+    /// The shortest read the driver accepts.
+    pub read_bytes_min: u8,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// A unit with one driver: I²C, SPI, serial, CAN.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unit {
+    /// `I2C1`.
+    pub name: String,
+    /// Lines it is for; none means all.
+    #[serde(default)]
+    pub lines: Vec<String>,
+    /// The driver object: `I2CD1`.
+    pub driver: String,
+    /// The option that turns it on.
+    pub switch: String,
+    /// The macro of the clock that drives it, where the generated code must know.
+    pub clock: Option<String>,
+    /// The usual alternate function of its pins.
+    pub alternate: Option<u8>,
+    /// Pins with another alternate function.
+    #[serde(default)]
+    pub exceptions: Vec<Exception>,
+    /// DMA requests of the driver.
+    #[serde(default)]
+    pub dma: Vec<DmaRequest>,
+    /// Options that must be on as well.
+    #[serde(default)]
+    pub needs: Vec<String>,
+}
+
+/// A pin whose alternate function is not the usual one of the unit.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exception {
+    /// The pin.
+    #[serde(deserialize_with = "pin")]
+    pub pin: PinName,
+    /// The number.
+    pub alternate: u8,
+}
+
+/// What all digital-analog converters have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dacs {
+    /// Bits of a value.
+    pub resolution_bits: u8,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// A digital-analog converter.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dac {
+    /// `DAC1`.
+    pub name: String,
+    /// Lines it is for; none means all.
+    #[serde(default)]
+    pub lines: Vec<String>,
+    /// Its outputs.
+    pub outputs: Vec<DacOutput>,
+}
+
+/// An output of a digital-analog converter.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DacOutput {
+    /// The output's number.
+    pub channel: u8,
+    /// The driver object.
+    pub driver: String,
+    /// The option that turns it on.
+    pub switch: String,
+}
+
+/// A USB device.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Usb {
+    /// `OTG1`.
+    pub name: String,
+    /// Lines it is for; none means all.
+    #[serde(default)]
+    pub lines: Vec<String>,
+    /// The driver object.
+    pub driver: String,
+    /// The option that turns it on.
+    pub switch: String,
+    /// The alternate function of its pins.
+    pub alternate: Option<u8>,
+    /// The data lines: minus, plus.
+    #[serde(deserialize_with = "pins")]
+    pub pins: Vec<PinName>,
+    /// Options that must be on as well.
+    #[serde(default)]
+    pub needs: Vec<String>,
+    /// Endpoints beside the control endpoint.
+    pub endpoints: u8,
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// A request of a driver for a DMA stream of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DmaRequest {
+    /// `I2C1_RX`.
+    #[serde(rename = "request")]
+    pub name: String,
+    /// The option that names the stream.
+    pub option: String,
+    /// Streams that can serve it, best first.
+    pub streams: Vec<Stream>,
+}
+
+/// A DMA stream (or channel): `1,0` is stream 0 of controller 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Stream {
+    /// The controller's number.
+    pub controller: u8,
+    /// The stream's number in its controller.
+    pub stream: u8,
+}
+
+impl fmt::Display for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.controller, self.stream)
+    }
+}
+
+impl<'de> Deserialize<'de> for Stream {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let pair = text.split_once(',').and_then(|(controller, stream)| {
+            Some(Self { controller: controller.parse().ok()?, stream: stream.parse().ok()? })
+        });
+        pair.ok_or_else(|| D::Error::custom(format!("`{text}` is no DMA stream")))
+    }
+}
+
+/// Reads a pin name of a data file.
+pub(crate) fn pin<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PinName, D::Error> {
+    let text = String::deserialize(deserializer)?;
+    PinName::parse(&text).ok_or_else(|| D::Error::custom(format!("`{text}` is no pin")))
+}
+
+/// Reads the pin names of a data file.
+pub(crate) fn pins<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<PinName>, D::Error> {
+    let texts = Vec::<String>::deserialize(deserializer)?;
+    let read = |text: &String| {
+        PinName::parse(text).ok_or_else(|| D::Error::custom(format!("`{text}` is no pin")))
+    };
+    texts.iter().map(read).collect()
+}
+
+macro_rules! entries {
+    ($($entry:ty),*) => {
+        $(impl Entry for $entry {
+            fn name(&self) -> &str {
+                &self.name
+            }
+            fn lines(&self) -> &[String] {
+                &self.lines
+            }
+        })*
+    };
+}
+entries!(Timer, Adc, Unit, Dac, Usb);

@@ -1,0 +1,455 @@
+//! Signals: the spelling of a table in, a canonical name and its meaning out.
+//!
+//! The grammar of the names is that of the language page: a peripheral unit, `_`, a line. It is
+//! the same for every MCU; which units exist is told by the table and the target profile.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use sensedsl_diagnostics::nearest;
+
+use crate::pin::natural;
+
+/// A signal, told apart by its canonical name: `I2C1-SCL`, `i2c1_scl` and `I²C1-SCL` are equal.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Signal {
+    name: String,
+    function: Function,
+}
+
+/// What a signal is for, as far as a device kind can use it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Function {
+    /// An input of one of several converters: `ADC12_IN8`.
+    Adc {
+        /// The units that can sample it, ascending.
+        units: Vec<u8>,
+        /// The input number.
+        channel: u8,
+    },
+    /// `I2C1_SCL`.
+    I2c {
+        /// The unit's number.
+        unit: u8,
+        /// Which wire of the bus.
+        line: I2cLine,
+    },
+    /// `TIM1_CH2`, `TIM1_CH2N`.
+    Timer {
+        /// The timer's number.
+        timer: u8,
+        /// The channel's number, from 1.
+        channel: u8,
+        /// The inverted output of the channel (`CH2N`).
+        complementary: bool,
+    },
+    /// `USART1_TX`.
+    Uart {
+        /// `USART1`, `UART4`, `LPUART1`.
+        unit: UnitName,
+        /// Which wire.
+        line: UartLine,
+    },
+    /// `SPI1_SCK`.
+    Spi {
+        /// The unit's number.
+        unit: u8,
+        /// Which wire of the bus.
+        line: SpiLine,
+    },
+    /// `CAN1_TX`, `FDCAN1_TX`.
+    Can {
+        /// `CAN1`, `FDCAN1`; `CAN` where the MCU has but one.
+        unit: UnitName,
+        /// Which wire.
+        line: CanLine,
+    },
+    /// `DAC1_OUT2`.
+    Dac {
+        /// The unit's number.
+        unit: u8,
+        /// The output's number.
+        channel: u8,
+    },
+    /// Any other usage: it costs, but no device kind asks for it.
+    Other,
+}
+
+/// A wire of an I²C bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum I2cLine {
+    /// Clock.
+    Scl,
+    /// Data.
+    Sda,
+}
+
+/// A wire of a serial port, seen from the MCU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum UartLine {
+    /// Transmit.
+    Tx,
+    /// Receive.
+    Rx,
+}
+
+/// A wire of an SPI bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SpiLine {
+    /// Clock.
+    Sck,
+    /// To the controller.
+    Miso,
+    /// From the controller.
+    Mosi,
+    /// The unit's own select line.
+    Nss,
+}
+
+/// A wire of a CAN controller, seen from the MCU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum CanLine {
+    /// Transmit.
+    Tx,
+    /// Receive.
+    Rx,
+}
+
+/// The name of a peripheral instance: `ADC1`, `TIM3`, `LPUART1`. The order is natural.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct UnitName(String);
+
+impl UnitName {
+    /// Normalises a spelling (`i²c1` is `I2C1`).
+    #[must_use]
+    pub fn new(spelled: &str) -> Self {
+        Self(normalise(spelled))
+    }
+
+    /// The canonical spelling.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for UnitName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Ord for UnitName {
+    fn cmp(&self, other: &Self) -> Ordering {
+        natural(&self.0, &other.0)
+    }
+}
+
+impl PartialOrd for UnitName {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// A spelling that looks like a signal of a known peripheral and is none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Malformed {
+    /// The known spelling that was probably meant.
+    pub nearest: Option<String>,
+}
+
+impl Signal {
+    /// Reads a spelling. Every text is a signal; one that is malformed has the function
+    /// [`Function::Other`] and comes with what was probably meant.
+    #[must_use]
+    pub fn parse(spelled: &str) -> (Self, Option<Malformed>) {
+        let name = normalise(spelled);
+        match read(&name) {
+            Reading::Function(function) => {
+                let name = canonical(&function).unwrap_or(name);
+                (Self { name, function }, None)
+            }
+            Reading::Unused => (Self { name, function: Function::Other }, None),
+            Reading::Malformed => {
+                let nearest = mend(&name);
+                (Self { name, function: Function::Other }, Some(Malformed { nearest }))
+            }
+        }
+    }
+
+    /// The canonical name: `ADC12_IN8`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the signal is for.
+    #[must_use]
+    pub fn function(&self) -> &Function {
+        &self.function
+    }
+}
+
+impl fmt::Display for Signal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+impl Ord for Signal {
+    fn cmp(&self, other: &Self) -> Ordering {
+        natural(&self.name, &other.name)
+    }
+}
+
+impl PartialOrd for Signal {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Function {
+    /// The peripheral instances that can serve the signal, lowest first: `ADC1` and `ADC2` for
+    /// `ADC12_IN8`. Empty for [`Function::Other`].
+    #[must_use]
+    pub fn units(&self) -> Vec<UnitName> {
+        let numbered = |stem: &str, number: u8| UnitName(format!("{stem}{number}"));
+        match self {
+            Self::Adc { units, .. } => units.iter().map(|&n| numbered("ADC", n)).collect(),
+            Self::I2c { unit, .. } => vec![numbered("I2C", *unit)],
+            Self::Timer { timer, .. } => vec![numbered("TIM", *timer)],
+            Self::Spi { unit, .. } => vec![numbered("SPI", *unit)],
+            Self::Dac { unit, .. } => vec![numbered("DAC", *unit)],
+            Self::Uart { unit, .. } | Self::Can { unit, .. } => vec![unit.clone()],
+            Self::Other => Vec::new(),
+        }
+    }
+
+    /// Analog functions bypass the alternate-function multiplexer.
+    #[must_use]
+    pub fn is_analog(&self) -> bool {
+        matches!(self, Self::Adc { .. } | Self::Dac { .. })
+    }
+}
+
+/// Upper case, `²` as 2, and `_` for every other separator.
+fn normalise(spelled: &str) -> String {
+    spelled
+        .trim()
+        .chars()
+        .flat_map(char::to_uppercase)
+        .map(|c| match c {
+            '²' => '2',
+            '-' | '.' | ' ' | '\u{2010}'..='\u{2015}' => '_',
+            other => other,
+        })
+        .collect()
+}
+
+/// The one name of a function that has several spellings.
+fn canonical(function: &Function) -> Option<String> {
+    match function {
+        Function::Adc { units, channel } => {
+            let units: String = units.iter().map(u8::to_string).collect();
+            Some(format!("ADC{units}_IN{channel}"))
+        }
+        Function::Timer { timer, channel, complementary } => {
+            Some(format!("TIM{timer}_CH{channel}{}", if *complementary { "N" } else { "" }))
+        }
+        Function::Dac { unit, channel } => Some(format!("DAC{unit}_OUT{channel}")),
+        Function::I2c { .. }
+        | Function::Uart { .. }
+        | Function::Spi { .. }
+        | Function::Can { .. }
+        | Function::Other => None,
+    }
+}
+
+/// What a normalised name was read as.
+enum Reading {
+    Function(Function),
+    /// Free text, or a line that no device kind uses (`USART1_CTS`).
+    Unused,
+    Malformed,
+}
+
+/// The peripheral families and the lines of each that no device kind uses (a trailing `*` stands
+/// for anything).
+const FAMILIES: [(&str, &[&str]); 10] = [
+    ("LPUART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
+    ("USART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
+    ("UART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
+    ("FDCAN", &[]),
+    ("ADC", &["INN*", "EXTI*", "VINM*", "VINP*"]),
+    ("I2C", &["SMBA*", "WS"]),
+    ("TIM", &["ETR*", "BKIN*"]),
+    ("SPI", &["RDY"]),
+    ("CAN", &[]),
+    ("DAC", &["EXTI*"]),
+];
+
+/// Peripherals with a name one letter from a family's, which are something else.
+const NEIGHBOURS: [&str; 9] = ["I2S", "I3C", "SAI", "QSPI", "OSPI", "HSPI", "XSPI", "FSPI", "VSPI"];
+
+fn read(name: &str) -> Reading {
+    let Some((stem, number, line)) = split(name) else {
+        return if misses_separator(name) { Reading::Malformed } else { Reading::Unused };
+    };
+    let Some((family, unused)) = FAMILIES.iter().find(|(family, _)| *family == stem) else {
+        return if misspelt_family(stem, line) { Reading::Malformed } else { Reading::Unused };
+    };
+    if let Some(function) = function(family, number, line) {
+        return Reading::Function(function);
+    }
+    let fits = |pattern: &&str| match pattern.strip_suffix('*') {
+        Some(start) => line.starts_with(start),
+        None => line == *pattern,
+    };
+    let numbered = number.parse::<u32>().is_ok();
+    if numbered && unused.iter().any(|pattern| fits(pattern)) {
+        Reading::Unused
+    } else {
+        Reading::Malformed
+    }
+}
+
+/// `TIM3_CH1` to (`TIM`, `3`, `CH1`). A stem ends in a letter; `I2C` holds a digit of its own.
+fn split(name: &str) -> Option<(&str, &str, &str)> {
+    let (unit, line) = name.split_once('_')?;
+    let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
+    Some((stem, unit.strip_prefix(stem)?, line))
+}
+
+/// A family's name and a digit, with no separator behind: `ADC12IN8`, `TIM3`.
+fn misses_separator(name: &str) -> bool {
+    FAMILIES.iter().any(|(family, _)| {
+        name.strip_prefix(family).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    })
+}
+
+/// An unknown stem one slip from a family's, before a line of just that family: `USRAT1_TX`.
+fn misspelt_family(stem: &str, line: &str) -> bool {
+    if stem.len() < 2 || NEIGHBOURS.contains(&stem) || stem.starts_with("LP") {
+        return false;
+    }
+    let families = FAMILIES.iter().map(|(family, _)| *family);
+    nearest(stem, families).is_some_and(|family| function(family, "1", line).is_some())
+}
+
+/// The function of a family's line, when that is what it is.
+fn function(family: &str, number: &str, line: &str) -> Option<Function> {
+    // A number has no sign and no leading zero; `ADC_IN5` and `DAC_OUT1` stand for the only unit.
+    let unit = || small(number);
+    let only = || if number.is_empty() { Some(1) } else { small(number) };
+    match family {
+        "ADC" => {
+            let channel = line.strip_prefix("INP").or_else(|| line.strip_prefix("IN"))?;
+            Some(Function::Adc { units: adc_units(number)?, channel: small(channel)? })
+        }
+        "I2C" => Some(Function::I2c { unit: unit()?, line: i2c_line(line)? }),
+        "TIM" => timer(unit()?, line),
+        "SPI" => Some(Function::Spi { unit: unit()?, line: spi_line(line)? }),
+        "DAC" => Some(Function::Dac { unit: only()?, channel: small(line.strip_prefix("OUT")?)? }),
+        "USART" | "UART" | "LPUART" => {
+            let unit = UnitName(format!("{family}{}", unit()?));
+            let line = match line {
+                "TX" => UartLine::Tx,
+                "RX" => UartLine::Rx,
+                _ => return None,
+            };
+            Some(Function::Uart { unit, line })
+        }
+        "CAN" | "FDCAN" => {
+            only()?;
+            let unit = UnitName(format!("{family}{number}"));
+            let line = match line {
+                "TX" => CanLine::Tx,
+                "RX" => CanLine::Rx,
+                _ => return None,
+            };
+            Some(Function::Can { unit, line })
+        }
+        _ => None,
+    }
+}
+
+fn i2c_line(line: &str) -> Option<I2cLine> {
+    match line {
+        "SCL" => Some(I2cLine::Scl),
+        "SDA" => Some(I2cLine::Sda),
+        _ => None,
+    }
+}
+
+fn spi_line(line: &str) -> Option<SpiLine> {
+    match line {
+        "SCK" => Some(SpiLine::Sck),
+        "MISO" => Some(SpiLine::Miso),
+        "MOSI" => Some(SpiLine::Mosi),
+        "NSS" => Some(SpiLine::Nss),
+        _ => None,
+    }
+}
+
+/// `CH2`, `CH2N`, and `CH1_ETR` where the channel shares its pin with the trigger input.
+fn timer(timer: u8, line: &str) -> Option<Function> {
+    let channel = line.strip_prefix("CH")?;
+    let channel = channel.strip_suffix("_ETR").unwrap_or(channel);
+    let plain = channel.strip_suffix('N');
+    let complementary = plain.is_some();
+    let channel = small(plain.unwrap_or(channel)).filter(|n| (1..=6).contains(n))?;
+    Some(Function::Timer { timer, channel, complementary })
+}
+
+/// One digit a unit, ascending; `ADC_IN5` is the only unit's.
+fn adc_units(digits: &str) -> Option<Vec<u8>> {
+    if digits.is_empty() {
+        return Some(vec![1]);
+    }
+    let units: Vec<u8> = digits.bytes().map(|b| b.checked_sub(b'0')).collect::<Option<_>>()?;
+    let ascending = units.windows(2).all(|pair| pair.first() < pair.last());
+    ascending.then_some(units)
+}
+
+/// A number from 0 to 99 without sign or leading zero.
+fn small(digits: &str) -> Option<u8> {
+    let plain = digits.len() <= 2
+        && digits.bytes().all(|b| b.is_ascii_digit())
+        && (digits.len() == 1 || !digits.starts_with('0'));
+    if plain { digits.parse().ok() } else { None }
+}
+
+/// The known spelling nearest to a malformed one.
+fn mend(name: &str) -> Option<String> {
+    let digits = |text: &str| -> String { text.chars().filter(char::is_ascii_digit).collect() };
+    let start = FAMILIES.iter().map(|(family, _)| *family).find(|f| name.starts_with(f));
+    let (family, rest) = if let Some(family) = start {
+        (family, name.strip_prefix(family)?)
+    } else {
+        let (stem, _, _) = split(name)?;
+        let family = nearest(stem, FAMILIES.iter().map(|(family, _)| *family))?;
+        (family, name.strip_prefix(stem)?)
+    };
+    // A unit that is not given is the first: nobody can know which was meant.
+    let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    let (number, line) = rest.split_at_checked(end)?;
+    let unit = if number.is_empty() && family != "CAN" { "1" } else { number };
+    let channel = digits(line).trim_start_matches('0').to_owned();
+    let channel = if channel.is_empty() { "1".to_owned() } else { channel };
+    let lines: Vec<String> = match family {
+        "ADC" => vec![format!("IN{channel}")],
+        "DAC" => vec![format!("OUT{channel}")],
+        "TIM" => vec![format!("CH{channel}"), format!("CH{channel}N")],
+        "I2C" => vec!["SCL".to_owned(), "SDA".to_owned()],
+        "SPI" => ["SCK", "MISO", "MOSI", "NSS"].map(str::to_owned).to_vec(),
+        _ => vec!["TX".to_owned(), "RX".to_owned()],
+    };
+    let line = line.trim_start_matches('_');
+    let meant = match nearest(line, lines.iter().map(String::as_str)) {
+        Some(meant) => meant.to_owned(),
+        None if lines.len() == 1 || (family == "TIM" && !line.is_empty()) => lines.first()?.clone(),
+        None => return None,
+    };
+    let mended = format!("{family}{unit}_{meant}");
+    function(family, unit, &meant).is_some().then_some(mended)
+}
