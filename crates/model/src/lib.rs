@@ -1,1 +1,26 @@
-//! placeholder
+//! From a syntax tree and boards to a checked design.
+//!
+//! [`resolve`] reads a file and what it uses, binds names, fills defaults, converts units and
+//! checks kinds. User text never makes it fail: what is wrong comes back as diagnostics. It does
+//! no I/O of its own; files are read through [`Files`].
+
+mod boards;
+mod checks;
+pub mod design;
+mod devices;
+mod drivers;
+mod fields;
+pub mod kind;
+mod names;
+mod resolve;
+mod rules;
+mod sources;
+mod syntax_errors;
+mod table_findings;
+
+pub use drivers::LIBRARY;
+pub use resolve::{Request, Resolved, resolve, sort};
+pub use rules::apply_allows;
+pub use sources::Files;
+pub use syntax_errors::diagnostic as syntax_diagnostic;
+pub use table_findings::diagnostic as table_diagnostic;

@@ -1,0 +1,232 @@
+//! One board: its table, its MCU, its target, its link, its rules.
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::{self, NoProfile, Target};
+use sensedsl_board::table::{self, Table};
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0202_property_twice, e0301_unknown_board, e0302_table_unreadable,
+    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
+use sensedsl_wire::Checksum;
+
+use crate::design::{Board, Link, Spanned, Transport};
+use crate::fields::{Fields, span};
+use crate::resolve::Request;
+use crate::rules;
+use crate::sources::{Files, beside};
+use crate::table_findings;
+
+/// The properties of a link.
+const LINK_PROPERTIES: &[&str] = &["transport", "unit", "baud", "checksum", "rate"];
+/// Bits per second of a serial link where the file says nothing.
+const LINK_BAUD_DEFAULT: u32 = 115_200;
+
+/// What reading boards needs beside the node.
+pub(crate) struct Context<'a> {
+    pub(crate) request: &'a Request<'a>,
+    pub(crate) files: &'a dyn Files,
+    pub(crate) sources: &'a mut SourceMap,
+    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+/// Where a board's pins come from.
+struct Pins {
+    table: Table,
+    file: FileId,
+    /// The built-in board whose pins these are.
+    entry: Option<&'static catalog::Entry>,
+}
+
+/// Reads the board `node` of `file`; none when its pins cannot be had.
+pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -> Option<Board> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let rules = rules::of_board(file, node, context.diagnostics);
+    for property in node.properties() {
+        let Some(property) = property.name() else { continue };
+        context.diagnostics.push(e0201_unknown_property::unknown_property(
+            span(file, property.range()),
+            property.text(),
+            "a board",
+            None,
+        ));
+    }
+    let link = link(file, node, context.diagnostics);
+    let pins = pins(context, file, node, &name)?;
+    let like = pins.entry.or_else(|| catalog::find(&name.value));
+    let mcu = pins.table.mcu.clone().or_else(|| like.map(|entry| entry.mcu.to_owned()));
+    let same_mcu = || mcu.as_deref().and_then(catalog::of_mcu);
+    let facts = like.filter(|entry| Some(entry.mcu) == mcu.as_deref()).or_else(same_mcu);
+    let target = target(context, name.span, pins.file, mcu.as_deref())?;
+    Some(Board {
+        spare: node.is_spare(),
+        table: pins.table,
+        table_file: pins.file,
+        facts: facts.and_then(|entry| entry.board().ok()),
+        built_in: pins.entry.is_some(),
+        mcu,
+        target,
+        link,
+        reserved: rules.reserved,
+        released: rules.released,
+        wishes: rules.wishes,
+        allows: rules.allows,
+        name,
+    })
+}
+
+fn pins(
+    context: &mut Context<'_>,
+    file: FileId,
+    node: &ast::Board,
+    name: &Spanned<String>,
+) -> Option<Pins> {
+    if let Some(path) = context.request.board {
+        let as_name = Spanned { value: path.to_owned(), span: name.span };
+        let is_path = path.contains(['/', '\\', '.']) || path == "-";
+        return if is_path {
+            from_file(context, path, name.span)
+        } else {
+            built_in(context, &as_name)
+        };
+    }
+    match node.on() {
+        Some(BoardSource::File(path)) => {
+            let target = beside(context.sources.name(file), &path.value());
+            from_file(context, &target, span(file, path.range()))
+        }
+        Some(BoardSource::Name(on)) => {
+            let on = Spanned { value: on.text().to_owned(), span: span(file, on.range()) };
+            built_in(context, &on)
+        }
+        None => built_in(context, name),
+    }
+}
+
+fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
+    let Some(entry) = catalog::find(&name.value) else {
+        let meant = catalog::nearest_name(&name.value);
+        let unknown = e0301_unknown_board::unknown_board(name.span, &name.value, meant);
+        context.diagnostics.push(unknown);
+        return None;
+    };
+    let shown = format!("boards/{}/pins.csv", entry.name);
+    let file = context.sources.find(&shown);
+    let file = file.unwrap_or_else(|| context.sources.add(shown, entry.csv()));
+    Some(Pins { table: entry.table(), file, entry: Some(entry) })
+}
+
+fn from_file(context: &mut Context<'_>, path: &str, at: Span) -> Option<Pins> {
+    let file = match context.sources.find(path) {
+        Some(file) => file,
+        None => match context.files.read(path) {
+            Ok(text) => context.sources.add(path, text),
+            Err(why) => {
+                let report = e0302_table_unreadable::table_unreadable(at, path, &why);
+                context.diagnostics.push(report);
+                return None;
+            }
+        },
+    };
+    let loaded = table::load(context.sources.text(file));
+    for finding in &loaded.findings {
+        let diagnostic = table_findings::diagnostic(finding, file, context.sources);
+        // A table that two boards share is read twice and complained about once.
+        if !context.diagnostics.contains(&diagnostic) {
+            context.diagnostics.push(diagnostic);
+        }
+    }
+    Some(Pins { table: loaded.board, file, entry: None })
+}
+
+fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>) -> Option<Target> {
+    let asked = context.request.target;
+    let shown = context.sources.name(table).to_owned();
+    let Some(mcu) = mcu else {
+        let named = asked.unwrap_or(profile::NONE);
+        if profile::full_name(named) == Some(profile::NONE) {
+            if asked.is_none() {
+                let why = "it does not say which MCU it describes";
+                context.diagnostics.push(h0702_target_none::target_none(at, &shown, why));
+            }
+            return Some(Target::None);
+        }
+        let why = "its table does not say which MCU it describes";
+        context.diagnostics.push(e0504_no_firmware_target::no_firmware_target(at, &shown, why));
+        return None;
+    };
+    match profile::find(asked.unwrap_or(profile::DEFAULT), mcu) {
+        Ok(target) => Some(target),
+        Err(NoProfile::UnknownTarget { known, .. }) => {
+            let known = known.join(", ");
+            let name = asked.unwrap_or_default();
+            let report = e0313_unknown_target::unknown_target(at, name, &known);
+            context.diagnostics.push(report);
+            None
+        }
+        Err(NoProfile::UnknownMcu { covered, .. }) => {
+            let why =
+                format!("there is no target profile for {mcu}, only for {}", covered.join(", "));
+            if asked.is_none() {
+                context.diagnostics.push(h0702_target_none::target_none(at, &shown, &why));
+                return Some(Target::None);
+            }
+            let report = e0504_no_firmware_target::no_firmware_target(at, &shown, &why);
+            context.diagnostics.push(report);
+            None
+        }
+        Err(NoProfile::Broken { message }) => {
+            let why = format!("its target profile is damaged ({message})");
+            let report = e0504_no_firmware_target::no_firmware_target(at, &shown, &why);
+            context.diagnostics.push(report);
+            None
+        }
+    }
+}
+
+fn link(file: FileId, node: &ast::Board, diagnostics: &mut Vec<Diagnostic>) -> Link {
+    let mut links = node.links();
+    let Some(link) = links.next() else {
+        return Link { baud: LINK_BAUD_DEFAULT, ..Link::default() };
+    };
+    let place = |link: &ast::Link| {
+        span(file, link.keyword().map_or_else(|| link.range(), |keyword| keyword.text_range()))
+    };
+    for again in links {
+        let first = place(&link);
+        diagnostics.push(e0202_property_twice::property_twice(place(&again), "link", first));
+    }
+    let at = place(&link);
+    let mut fields = Fields::new(link.properties(), file, "a link", at, diagnostics);
+    let transports = [("usb", Transport::Usb), ("uart", Transport::Uart)];
+    let transport = fields.word("transport", &transports);
+    let unit = fields.name("unit", "a peripheral such as USART2");
+    let baud = fields.integer("baud", 1_200..=10_000_000);
+    let checksums = [("none", Checksum::None), ("crc16", Checksum::Crc16)];
+    let checksum = fields.word("checksum", &checksums);
+    let rate = fields.frequency_hz("rate", 1..=10_000);
+    for field in fields.rest() {
+        let meant = nearest(&field.name, LINK_PROPERTIES.iter().copied());
+        fields.say(e0201_unknown_property::unknown_property(
+            field.name_span,
+            &field.name,
+            "a link",
+            meant,
+        ));
+    }
+    let transport = transport.map(|word| word.value).unwrap_or_default();
+    if transport == Transport::Usb
+        && let Some(baud) = baud
+    {
+        fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
+    }
+    Link {
+        transport,
+        unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
+        baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
+        checksum: checksum.map(|word| word.value).unwrap_or_default(),
+        rate_hz: rate.map(|rate| rate.value),
+    }
+}

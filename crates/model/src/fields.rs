@@ -1,0 +1,496 @@
+//! The properties of one block: taken one by one by name, converted, and complained about.
+//!
+//! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
+//! parts that every device has, and asked at the end what nobody took.
+
+use std::ops::RangeInclusive;
+
+use sensedsl_diagnostics::codes::{
+    e0202_property_twice, e0206_missing_property, e0209_wrong_value, e0210_wrong_unit,
+    e0211_out_of_range, e0212_unknown_word, e0222_contradiction,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::ast::{AstNode as _, Magnitude, Property, Sign, Value};
+use sensedsl_syntax::{TextRange, Unit};
+use sensedsl_wire::Direction;
+
+use crate::design::Spanned;
+
+/// The span of a syntax range.
+pub(crate) fn span(file: FileId, range: TextRange) -> Span {
+    Span::new(file, range.start().into()..range.end().into())
+}
+
+/// One property that was written.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    pub(crate) name: String,
+    pub(crate) name_span: Span,
+    pub(crate) value: Value,
+    pub(crate) value_span: Span,
+    /// It comes from the device's driver, not from the device.
+    pub(crate) inherited: bool,
+    taken: bool,
+}
+
+/// The properties of one block.
+pub(crate) struct Fields<'a> {
+    fields: Vec<Field>,
+    /// What the block is, for messages ("an analog device").
+    owner: String,
+    owner_span: Span,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl<'a> Fields<'a> {
+    /// The properties `own` of a block in `file`; a name that stands twice is reported.
+    pub(crate) fn new(
+        own: impl Iterator<Item = Property>,
+        file: FileId,
+        owner: &str,
+        owner_span: Span,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut fields = Self { fields: Vec::new(), owner: owner.into(), owner_span, diagnostics };
+        fields.add(own, file, false);
+        fields
+    }
+
+    /// What the block is called in messages from now on.
+    pub(crate) fn rename_owner(&mut self, owner: String) {
+        self.owner = owner;
+    }
+
+    /// Takes over the properties of a driver; what the block itself says wins.
+    pub(crate) fn inherit(&mut self, driver: impl Iterator<Item = Property>, file: FileId) {
+        self.add(driver, file, true);
+    }
+
+    fn add(&mut self, properties: impl Iterator<Item = Property>, file: FileId, inherited: bool) {
+        for property in properties {
+            let (Some(name), Some(value)) = (property.name(), property.value()) else { continue };
+            let name_span = span(file, name.range());
+            let known = self.fields.iter().find(|field| field.name == name.text());
+            if let Some(first) = known {
+                if first.inherited == inherited {
+                    self.diagnostics.push(e0202_property_twice::property_twice(
+                        name_span,
+                        name.text(),
+                        first.name_span,
+                    ));
+                }
+                continue;
+            }
+            self.fields.push(Field {
+                name: name.text().into(),
+                name_span,
+                value_span: span(file, value.range()),
+                value,
+                inherited,
+                taken: false,
+            });
+        }
+    }
+
+    /// Reports something.
+    pub(crate) fn say(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// True when the property was written, by the block or its driver.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.fields.iter().any(|field| field.name == name)
+    }
+
+    /// The whole number of a property that is not taken by looking.
+    pub(crate) fn peek_integer(&self, name: &str) -> Option<i64> {
+        let field = self.fields.iter().find(|field| field.name == name)?;
+        i64::try_from(plain_integer(&field.value)?).ok()
+    }
+
+    /// Where the value of a property stands.
+    pub(crate) fn value_span(&self, name: &str) -> Option<Span> {
+        self.fields.iter().find(|field| field.name == name).map(|field| field.value_span)
+    }
+
+    /// Where a property that the block itself wrote stands, name and value.
+    pub(crate) fn own_span(&self, name: &str) -> Option<Span> {
+        let field = self.fields.iter().find(|field| field.name == name && !field.inherited)?;
+        Some(field.name_span.cover(field.value_span))
+    }
+
+    /// What nobody took, those of the driver included.
+    pub(crate) fn rest(&self) -> Vec<Field> {
+        self.fields.iter().filter(|field| !field.taken).cloned().collect()
+    }
+
+    pub(crate) fn take(&mut self, name: &str) -> Option<Field> {
+        let field = self.fields.iter_mut().find(|field| field.name == name)?;
+        field.taken = true;
+        Some(field.clone())
+    }
+
+    fn wrong(&mut self, field: &Field, takes: &str) {
+        let found = describe(&field.value);
+        let wrong = e0209_wrong_value::wrong_value(field.value_span, &field.name, takes, found);
+        self.diagnostics.push(wrong);
+    }
+
+    fn out_of_range(&mut self, field: &Field, written: &str, range: &str) {
+        self.diagnostics.push(e0211_out_of_range::out_of_range(
+            field.value_span,
+            &field.name,
+            written,
+            range,
+        ));
+    }
+
+    /// A whole number without a unit.
+    pub(crate) fn integer(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<i64>,
+    ) -> Option<Spanned<i64>> {
+        let field = self.take(name)?;
+        let Some(value) = plain_integer(&field.value) else {
+            self.wrong(
+                &field,
+                &format!("a whole number from {} to {}", range.start(), range.end()),
+            );
+            return None;
+        };
+        match i64::try_from(value) {
+            Ok(value) if range.contains(&value) => Some(Spanned { value, span: field.value_span }),
+            Ok(_) | Err(_) => {
+                let range = format!("{} to {}", range.start(), range.end());
+                self.out_of_range(&field, &value.to_string(), &range);
+                None
+            }
+        }
+    }
+
+    /// A whole number that must be there; `example` is a line that would do.
+    pub(crate) fn required_integer(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<i64>,
+        example: &str,
+    ) -> Option<Spanned<i64>> {
+        if self.has(name) {
+            return self.integer(name, range);
+        }
+        self.missing(name, example);
+        None
+    }
+
+    /// Reports that a required property is missing.
+    pub(crate) fn missing(&mut self, name: &str, example: &str) {
+        self.diagnostics.push(e0206_missing_property::missing_property(
+            self.owner_span,
+            name,
+            &self.owner,
+            example,
+        ));
+    }
+
+    /// Any number without a unit.
+    pub(crate) fn number(&mut self, name: &str) -> Option<Spanned<f64>> {
+        let field = self.take(name)?;
+        match plain_number(&field.value) {
+            Some(value) => Some(Spanned { value, span: field.value_span }),
+            None => {
+                self.wrong(&field, "a number");
+                None
+            }
+        }
+    }
+
+    /// A time in microseconds; a bare number is milliseconds.
+    pub(crate) fn time_us(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u32>,
+    ) -> Option<Spanned<u32>> {
+        let field = self.take(name)?;
+        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        self.whole(&field, us, range, "us")
+    }
+
+    /// A cycle time in whole milliseconds.
+    pub(crate) fn time_ms(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u32>,
+    ) -> Option<Spanned<u32>> {
+        let field = self.take(name)?;
+        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        self.whole(&field, us / 1000.0, range, "ms")
+    }
+
+    /// A frequency in hertz; a bare number is hertz.
+    pub(crate) fn frequency_hz(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u32>,
+    ) -> Option<Spanned<u32>> {
+        let field = self.take(name)?;
+        let hz = self.quantity(&field, Unit::Hertz, &FREQUENCIES, "a frequency such as 400 kHz")?;
+        self.whole(&field, hz, range, "Hz")
+    }
+
+    /// A pace given as a frequency or as the time of one tick.
+    pub(crate) fn rate_hz(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u32>,
+        bare: Unit,
+    ) -> Option<Spanned<u32>> {
+        let field = self.take(name)?;
+        let Value::Number(number) = &field.value else {
+            self.wrong(&field, "a frequency such as 1 MHz, or the time of one tick such as 1 us");
+            return None;
+        };
+        let unit = number.unit().unwrap_or(bare);
+        let value = signed_magnitude(number)?;
+        let hz = match factor(unit) {
+            (Dimension::Time, us) => 1_000_000.0 / (value * us),
+            (Dimension::Frequency, hz) => value * hz,
+        };
+        self.whole(&field, hz, range, "Hz")
+    }
+
+    fn quantity(
+        &mut self,
+        field: &Field,
+        bare: Unit,
+        dimension: &(Dimension, &str),
+        takes: &str,
+    ) -> Option<f64> {
+        let Value::Number(number) = &field.value else {
+            self.wrong(field, takes);
+            return None;
+        };
+        let unit = number.unit().unwrap_or(bare);
+        let (found, factor) = factor(unit);
+        if found != dimension.0 {
+            self.diagnostics.push(e0210_wrong_unit::wrong_unit(
+                field.value_span,
+                &field.name,
+                unit.name(),
+                dimension.1,
+            ));
+            return None;
+        }
+        Some(signed_magnitude(number)? * factor)
+    }
+
+    fn whole(
+        &mut self,
+        field: &Field,
+        value: f64,
+        range: RangeInclusive<u32>,
+        unit: &str,
+    ) -> Option<Spanned<u32>> {
+        let least = f64::from(*range.start());
+        let most = f64::from(*range.end());
+        let rounded = value.round();
+        if !(rounded >= least && rounded <= most && (value - rounded).abs() <= 1e-6 * most.max(1.0))
+        {
+            let text = format!("a whole number of {unit} from {least} to {most}");
+            self.out_of_range(field, &format!("{value} {unit}"), &text);
+            return None;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "compared with the u32 range just before"
+        )]
+        let value = rounded as u32;
+        Some(Spanned { value, span: field.value_span })
+    }
+
+    /// One word out of a few.
+    pub(crate) fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Option<Spanned<T>> {
+        let field = self.take(name)?;
+        let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
+        let Some(found) = name_or_text(&field.value) else {
+            self.wrong(&field, &format!("one of {}", all()));
+            return None;
+        };
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
+            return Some(Spanned { value: *value, span: field.value_span });
+        }
+        let meant = nearest(&found, words.iter().map(|(word, _)| *word));
+        self.diagnostics.push(e0212_unknown_word::unknown_word(
+            field.value_span,
+            name,
+            &found,
+            &all(),
+            meant,
+        ));
+        None
+    }
+
+    /// Takes the property when it is the given word, and leaves it otherwise.
+    pub(crate) fn take_word_if(&mut self, name: &str, word: &str) -> bool {
+        let field = self.fields.iter().find(|field| field.name == name);
+        let is = field.is_some_and(|field| name_or_text(&field.value).as_deref() == Some(word));
+        is && self.take(name).is_some()
+    }
+
+    /// `true` or `false`.
+    pub(crate) fn boolean(&mut self, name: &str) -> Option<Spanned<bool>> {
+        self.word(name, &[("true", true), ("false", false)])
+    }
+
+    /// A name, or a text that is one.
+    pub(crate) fn name(&mut self, name: &str, takes: &str) -> Option<Spanned<String>> {
+        let field = self.take(name)?;
+        match name_or_text(&field.value) {
+            Some(value) => Some(Spanned { value, span: field.value_span }),
+            None => {
+                self.wrong(&field, takes);
+                None
+            }
+        }
+    }
+
+    /// A text between quotes, or a single name.
+    pub(crate) fn text(&mut self, name: &str) -> Option<Spanned<String>> {
+        self.name(name, "a text between quotes")
+    }
+
+    /// A list of bytes; a text stands for its bytes, one number for a list of one.
+    pub(crate) fn bytes(
+        &mut self,
+        name: &str,
+        lengths: RangeInclusive<usize>,
+    ) -> Option<Spanned<Vec<u8>>> {
+        let field = self.take(name)?;
+        let Some(numbers) = byte_list(&field.value) else {
+            self.wrong(&field, "a list of bytes such as [0x00, 0x51]");
+            return None;
+        };
+        let mut bytes = Vec::with_capacity(numbers.len());
+        for number in numbers {
+            match u8::try_from(number) {
+                Ok(byte) => bytes.push(byte),
+                Err(_) => {
+                    self.out_of_range(&field, &number.to_string(), "bytes from 0 to 255");
+                    return None;
+                }
+            }
+        }
+        if !lengths.contains(&bytes.len()) {
+            let range = format!("{} to {} bytes", lengths.start(), lengths.end());
+            self.out_of_range(&field, &format!("{} bytes", bytes.len()), &range);
+            return None;
+        }
+        Some(Spanned { value: bytes, span: field.value_span })
+    }
+
+    /// Reports that the property at `here` contradicts another one.
+    pub(crate) fn contradiction(&mut self, here: Span, other: &str, message: &str) {
+        let other_span = self.value_span(other).unwrap_or(self.owner_span);
+        self.diagnostics.push(e0222_contradiction::contradiction(
+            here,
+            message,
+            other_span,
+            &format!("`{other}`"),
+            "change or remove one of the two",
+        ));
+    }
+
+    /// Reports a property that only sensors, or only actuators, have.
+    pub(crate) fn needs_direction(&mut self, here: Span, name: &str, direction: Direction) {
+        self.diagnostics.push(e0222_contradiction::contradiction(
+            here,
+            &format!("`{name}` is for {}s only", direction.name()),
+            self.owner_span,
+            "this device is none",
+            "remove the line",
+        ));
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Dimension {
+    Time,
+    Frequency,
+}
+
+const TIMES: (Dimension, &str) = (Dimension::Time, "us, ms or s");
+const FREQUENCIES: (Dimension, &str) = (Dimension::Frequency, "Hz, kHz or MHz");
+
+/// A unit's dimension and its factor to microseconds or hertz.
+fn factor(unit: Unit) -> (Dimension, f64) {
+    match unit {
+        Unit::Microseconds => (Dimension::Time, 1.0),
+        Unit::Milliseconds => (Dimension::Time, 1e3),
+        Unit::Seconds => (Dimension::Time, 1e6),
+        Unit::Hertz => (Dimension::Frequency, 1.0),
+        Unit::Kilohertz => (Dimension::Frequency, 1e3),
+        Unit::Megahertz => (Dimension::Frequency, 1e6),
+    }
+}
+
+fn signed_magnitude(number: &sensedsl_syntax::ast::Number) -> Option<f64> {
+    let magnitude = match number.magnitude()? {
+        #[expect(clippy::cast_precision_loss, reason = "quantities are far below 2^53")]
+        Magnitude::Integer(value) => value as f64,
+        Magnitude::Float(value) => value,
+    };
+    Some(if number.sign() == Some(Sign::Minus) { -magnitude } else { magnitude })
+}
+
+fn plain_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) if number.unit_token().is_none() => signed_magnitude(number),
+        Value::Number(_) | Value::Name(_) | Value::String(_) | Value::List(_) => None,
+    }
+}
+
+fn plain_integer(value: &Value) -> Option<i128> {
+    match value {
+        Value::Number(number) if number.unit_token().is_none() => match number.magnitude()? {
+            Magnitude::Integer(value) if number.sign() == Some(Sign::Minus) => {
+                Some(-i128::from(value))
+            }
+            Magnitude::Integer(value) => Some(i128::from(value)),
+            Magnitude::Float(_) => None,
+        },
+        Value::Number(_) | Value::Name(_) | Value::String(_) | Value::List(_) => None,
+    }
+}
+
+/// The text of a name or a string.
+pub(crate) fn name_or_text(value: &Value) -> Option<String> {
+    match value {
+        Value::Name(name) => Some(name.name()?.text().into()),
+        Value::String(text) => Some(text.literal()?.value()),
+        Value::Number(_) | Value::List(_) => None,
+    }
+}
+
+fn byte_list(value: &Value) -> Option<Vec<i128>> {
+    match value {
+        Value::List(list) => list.values().map(|value| plain_integer(&value)).collect(),
+        Value::String(text) => Some(text.literal()?.value().bytes().map(i128::from).collect()),
+        Value::Number(_) => Some(vec![plain_integer(value)?]),
+        Value::Name(_) => None,
+    }
+}
+
+/// What a value is, for messages.
+fn describe(value: &Value) -> &'static str {
+    match value {
+        Value::Number(number) if number.unit_token().is_some() => "a number with a unit",
+        Value::Number(number) => match number.magnitude() {
+            Some(Magnitude::Float(_)) => "a number with a fraction",
+            Some(Magnitude::Integer(_)) | None => "a number",
+        },
+        Value::Name(_) => "a name",
+        Value::String(_) => "a text",
+        Value::List(_) => "a list",
+    }
+}

@@ -1,0 +1,24 @@
+//! `analog`: a voltage on an ADC input.
+
+use crate::fields::Fields;
+
+/// The properties of this kind.
+pub const PROPERTIES: &[&str] = &["samples", "sampling", "pin"];
+
+/// Samples per value where the file says nothing: what the car's firmware took.
+const SAMPLES_DEFAULT: u16 = 32;
+
+/// An analog input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Analog {
+    /// The value is the mean of that many conversions.
+    pub samples: u16,
+    /// Sampling time in ADC clock cycles; none for the target's default.
+    pub sampling_cycles: Option<u16>,
+}
+
+pub(crate) fn read(fields: &mut Fields<'_>) -> Analog {
+    let samples = fields.integer("samples", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
+    let cycles = fields.integer("sampling", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
+    Analog { samples: samples.unwrap_or(SAMPLES_DEFAULT), sampling_cycles: cycles }
+}

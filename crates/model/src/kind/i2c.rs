@@ -1,0 +1,117 @@
+//! `i2c`: a device on an I2C bus.
+
+use sensedsl_diagnostics::codes::{e0215_bad_address, h0701_eight_bit_address};
+use sensedsl_wire::ValueType;
+
+use crate::design::Spanned;
+use crate::fields::Fields;
+
+/// The properties of this kind.
+pub const PROPERTIES: &[&str] = &[
+    "address",
+    "speed",
+    "exclusive",
+    "trigger",
+    "wait",
+    "register",
+    "length",
+    "order",
+    "scl",
+    "sda",
+];
+
+/// The properties that make a protocol; a device without any of them has none of its own.
+pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"];
+
+/// Bus clock where the file says nothing: the standard mode.
+const SPEED_DEFAULT_HZ: u32 = 100_000;
+
+/// 7-bit addresses that the I2C specification leaves to devices.
+const ADDRESSES: std::ops::RangeInclusive<u64> = 0x08..=0x77;
+
+/// Order of the bytes of one number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ByteOrder {
+    /// Most significant first.
+    #[default]
+    Big,
+    /// Least significant first.
+    Little,
+}
+
+/// A device on a bus.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct I2c {
+    /// 7-bit form.
+    pub address: u8,
+    /// Where the address stands.
+    pub address_span: Option<sensedsl_diagnostics::Span>,
+    /// Clock of the bus while it is talked to.
+    pub speed_hz: u32,
+    /// No other device on the same bus.
+    pub exclusive: bool,
+    /// Bytes written to start a measurement; may be empty.
+    pub trigger: Vec<u8>,
+    /// From the trigger until the measurement can be read.
+    pub wait_us: u32,
+    /// Where the waiting time is given.
+    pub wait_span: Option<sensedsl_diagnostics::Span>,
+    /// Register written before reading; none to read at once.
+    pub register: Option<u8>,
+    /// Bytes read (sensor) or written after the register (actuator).
+    pub length_bytes: u16,
+    /// Order of the bytes of each number.
+    pub order: ByteOrder,
+}
+
+pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> I2c {
+    let address = read_address(fields);
+    let speed = fields.frequency_hz("speed", 1_000..=1_000_000);
+    let exclusive = fields.boolean("exclusive").is_some_and(|flag| flag.value);
+    let trigger = fields.bytes("trigger", 0..=32);
+    let wait = fields.time_us("wait", 0..=60_000_000);
+    let register = fields.integer("register", 0..=255).and_then(|n| u8::try_from(n.value).ok());
+    let size_bytes = u64::try_from(value.size_bytes()).unwrap_or(u64::MAX);
+    let length = fields.integer("length", 1..=2048).map_or(size_bytes, |n| n.value.unsigned_abs());
+    let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
+    let order = fields.word("order", &orders).map(|word| word.value);
+    I2c {
+        address: address.as_ref().map_or(0, |address| address.value),
+        address_span: address.map(|address| address.span),
+        speed_hz: speed.map_or(SPEED_DEFAULT_HZ, |speed| speed.value),
+        exclusive,
+        trigger: trigger.map(|bytes| bytes.value).unwrap_or_default(),
+        wait_us: wait.map_or(0, |wait| wait.value),
+        wait_span: wait.map(|wait| wait.span),
+        register,
+        length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+        order: order.unwrap_or_default(),
+    }
+}
+
+fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
+    let written = fields.required_integer("address", 0..=255, "address = 0x73;")?;
+    let Spanned { value, span } = written;
+    let byte = u8::try_from(value).ok()?;
+    let seven_bit = if byte >= 0x80 { byte >> 1 } else { byte };
+    let text = format!("0x{byte:02X}");
+    if byte >= 0x80 && byte % 2 == 1 {
+        let why = "from 0x80 on it is the 8-bit form, which is even";
+        fields.say(e0215_bad_address::bad_address(span, &text, why));
+        return None;
+    }
+    if !ADDRESSES.contains(&u64::from(seven_bit)) && !allowed_by_devices(byte) {
+        let why = format!("0x{seven_bit:02X} is reserved by the I2C specification");
+        fields.say(e0215_bad_address::bad_address(span, &text, &why));
+        return None;
+    }
+    if byte >= 0x80 {
+        fields.say(h0701_eight_bit_address::eight_bit_address(span, byte));
+    }
+    Some(Spanned { value: seven_bit, span })
+}
+
+/// Devantech rangers use 8-bit addresses up to 0xFE although the specification reserves the last.
+fn allowed_by_devices(eight_bit: u8) -> bool {
+    (0xF0..=0xFE).contains(&eight_bit)
+}

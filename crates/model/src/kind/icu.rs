@@ -1,0 +1,97 @@
+//! `icu`: edges on an input-capture channel; the hardware measures, callbacks collect.
+
+use sensedsl_syntax::Unit;
+
+use crate::fields::Fields;
+
+/// The properties of this kind.
+pub const PROPERTIES: &[&str] = &["mode", "edge", "resolution", "pulse", "pin", "trigger"];
+
+/// What is made of the edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Number of edges seen since the start; wraps around.
+    #[default]
+    Count,
+    /// Length of the active pulse in ticks of the resolution.
+    Width,
+    /// From one active edge to the next, in ticks of the resolution.
+    Period,
+    /// Active edges per second.
+    Frequency,
+    /// Active part of a period in ten-thousandths.
+    Duty,
+}
+
+impl Mode {
+    /// The word of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Count => "count",
+            Self::Width => "width",
+            Self::Period => "period",
+            Self::Frequency => "frequency",
+            Self::Duty => "duty",
+        }
+    }
+}
+
+/// Which edge begins a pulse.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Edge {
+    /// Low to high.
+    #[default]
+    Rising,
+    /// High to low.
+    Falling,
+    /// Each change; only for counting.
+    Both,
+}
+
+/// An input-capture channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Icu {
+    /// What is made of the edges.
+    pub mode: Mode,
+    /// Which edges.
+    pub edge: Edge,
+    /// Ticks per second of the measuring timer.
+    pub tick_hz: u32,
+    /// Where the resolution is given.
+    pub tick_span: Option<sensedsl_diagnostics::Span>,
+    /// Length of the pulse on the role `trigger` that makes the device measure.
+    pub pulse_us: Option<u32>,
+}
+
+/// Ticks per second where the file says nothing: counting needs none, so what the car's firmware
+/// had; measuring gets microseconds.
+const fn tick_default_hz(mode: Mode) -> u32 {
+    match mode {
+        Mode::Count => 10_000,
+        Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty => 1_000_000,
+    }
+}
+
+pub(crate) fn read(fields: &mut Fields<'_>) -> Icu {
+    let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty];
+    let modes = modes.map(|mode| (mode.name(), mode));
+    let mode = fields.word("mode", &modes).map(|word| word.value).unwrap_or_default();
+    let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
+    let edge = fields.word("edge", &edges);
+    if let Some(edge) = edge
+        && edge.value == Edge::Both
+        && mode != Mode::Count
+    {
+        fields.contradiction(edge.span, "mode", "`edge = both` is for counting only");
+    }
+    let tick = fields.rate_hz("resolution", 1..=100_000_000, Unit::Hertz);
+    let pulse = fields.time_us("pulse", 1..=10_000);
+    Icu {
+        mode,
+        edge: edge.map(|word| word.value).unwrap_or_default(),
+        tick_hz: tick.map_or(tick_default_hz(mode), |tick| tick.value),
+        tick_span: tick.map(|tick| tick.span),
+        pulse_us: pulse.map(|pulse| pulse.value),
+    }
+}

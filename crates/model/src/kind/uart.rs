@@ -1,0 +1,74 @@
+//! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
+//! `tx = none` takes the receiving wire alone.
+
+use sensedsl_wire::{Direction, ValueType};
+
+use crate::fields::Fields;
+
+/// The properties of this kind.
+pub const PROPERTIES: &[&str] = &["baud", "frame", "start", "end", "length", "tx", "rx"];
+
+/// Bits per second where the file says nothing.
+const BAUD_DEFAULT: u32 = 9_600;
+
+/// Parity of a character.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parity {
+    /// `N`
+    #[default]
+    None,
+    /// `E`
+    Even,
+    /// `O`
+    Odd,
+}
+
+/// A serial port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Uart {
+    /// Bits per second.
+    pub baud: u32,
+    /// Data bits per character: 7 or 8.
+    pub data_bits: u8,
+    /// Parity.
+    pub parity: Parity,
+    /// 1 or 2.
+    pub stop_bits: u8,
+    /// Bytes a message begins with; may be empty.
+    pub start: Vec<u8>,
+    /// Bytes a message ends with; may be empty.
+    pub end: Vec<u8>,
+    /// Bytes of a message between the delimiters.
+    pub length_bytes: u16,
+    /// Nothing is sent: the device needs RX alone.
+    pub receive_only: bool,
+}
+
+pub(crate) fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Uart {
+    let baud = fields.integer("baud", 300..=10_000_000).and_then(|n| u32::try_from(n.value).ok());
+    let frames = [
+        ("8N1", (8, Parity::None, 1)),
+        ("8N2", (8, Parity::None, 2)),
+        ("8E1", (8, Parity::Even, 1)),
+        ("8O1", (8, Parity::Odd, 1)),
+        ("7E1", (7, Parity::Even, 1)),
+        ("7O1", (7, Parity::Odd, 1)),
+    ];
+    let frame = fields.word("frame", &frames).map(|word| word.value);
+    let (data_bits, parity, stop_bits) = frame.unwrap_or((8, Parity::None, 1));
+    let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
+    let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
+    let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
+    let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
+    let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
+    Uart {
+        baud: baud.unwrap_or(BAUD_DEFAULT),
+        data_bits,
+        parity,
+        stop_bits,
+        start,
+        end,
+        length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+        receive_only,
+    }
+}

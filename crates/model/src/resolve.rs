@@ -1,0 +1,180 @@
+//! From the text of a file to a checked design.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::codes::{
+    e0203_duplicate_identifier, e0206_missing_property, e0310_unknown_pin, e0312_unknown_place,
+    e0315_no_board,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span, nearest};
+
+use crate::boards::{self, Context};
+use crate::checks;
+use crate::design::{Board, BoardIndex, Design, Device, Spanned};
+use crate::devices;
+use crate::drivers::Drivers;
+use crate::names;
+use crate::sources::{Files, Items, Reader};
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Request<'a> {
+    /// Path of the file, as people shall see it.
+    pub path: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// A table or a built-in board that wins over what the file says.
+    pub board: Option<&'a str>,
+    /// The target; none for the default.
+    pub target: Option<&'a str>,
+}
+
+/// What became of it.
+#[derive(Debug)]
+pub struct Resolved {
+    /// The design; none when there are errors.
+    pub design: Option<Design>,
+    /// What is to be said, in the order of the places.
+    pub diagnostics: Vec<Diagnostic>,
+    /// All files that were read.
+    pub sources: SourceMap,
+}
+
+/// Reads a file, what it uses and its tables. Never fails on user text.
+#[must_use]
+pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
+    let mut sources = SourceMap::default();
+    let mut diagnostics = Vec::new();
+    let mut reader = Reader::new(files, &mut sources, &mut diagnostics);
+    let file = reader.read(request.path, request.text.to_owned());
+    let items = std::mem::take(&mut reader.items);
+    let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
+    let boards = read_boards(request, files, &items, &mut sources, &mut diagnostics);
+    let devices = read_devices(&items, &drivers, &mut diagnostics);
+    check_names(&items, &boards, &devices, &drivers, &mut diagnostics);
+    if items.boards.is_empty() && !items.broken {
+        let first = devices.first().map(|device| device.name.span);
+        let at = first.unwrap_or_else(|| Span::new(file, 0..0));
+        diagnostics.push(e0315_no_board::no_board(at));
+    }
+    let boards: Option<Vec<Board>> = boards.into_iter().collect();
+    let design = boards.map(|boards| Design { file, boards, devices });
+    if let Some(design) = &design {
+        check_places(design, &mut diagnostics);
+        checks::run(design, &mut diagnostics);
+    }
+    if items.broken {
+        // What is missing may only be unreadable.
+        let missing = &e0206_missing_property::INFO;
+        diagnostics.retain(|one| one.code.info() != missing);
+    }
+    sort(&mut diagnostics);
+    let wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
+    Resolved { design: design.filter(|_| !wrong), diagnostics, sources }
+}
+
+/// Orders diagnostics by place, the worse first where the place is the same.
+pub fn sort(diagnostics: &mut [Diagnostic]) {
+    diagnostics.sort_by_key(|one| (one.primary.span, one.severity, one.code));
+}
+
+fn read_boards(
+    request: &Request<'_>,
+    files: &dyn Files,
+    items: &Items,
+    sources: &mut SourceMap,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Option<Board>> {
+    let mut context = Context { request, files, sources, diagnostics };
+    items.boards.iter().map(|(file, node)| boards::read(&mut context, *file, node)).collect()
+}
+
+fn read_devices(
+    items: &Items,
+    drivers: &Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Device> {
+    let read = |(file, node, board): &(FileId, _, Option<usize>)| {
+        devices::read(*file, node, board.map(BoardIndex), drivers, diagnostics)
+    };
+    items.devices.iter().filter_map(read).collect()
+}
+
+fn check_names(
+    items: &Items,
+    boards: &[Option<Board>],
+    devices: &[Device],
+    drivers: &Drivers,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let board_names: Vec<Spanned<String>> = items
+        .boards
+        .iter()
+        .filter_map(|(file, node)| {
+            let name = node.name()?;
+            let span = crate::fields::span(*file, name.range());
+            Some(Spanned { value: name.text().to_owned(), span })
+        })
+        .collect();
+    debug_assert!(board_names.len() <= boards.len());
+    names::check("board", &board_names.iter().collect::<Vec<_>>(), diagnostics);
+    names::check("driver", &drivers.own_names(), diagnostics);
+    let device_names: Vec<_> = devices.iter().map(|device| &device.name).collect();
+    names::check("device", &device_names, diagnostics);
+    let mut seen: BTreeMap<u8, Span> = BTreeMap::new();
+    let free = (1..=254_u8).find(|id| devices.iter().all(|device| device.id.value != *id));
+    for Spanned { value, span } in devices.iter().map(|device| device.id) {
+        match seen.get(&value) {
+            Some(first) => diagnostics
+                .push(e0203_duplicate_identifier::duplicate_identifier(span, value, *first, free)),
+            None => {
+                seen.insert(value, span);
+            }
+        }
+    }
+}
+
+/// Fixed pins, sides and headers must be in the tables of the boards a device may go to.
+fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
+    for device in &design.devices {
+        let boards: Vec<&Board> = match device.board {
+            Some(index) => design.board(index).into_iter().collect(),
+            None => design.boards.iter().collect(),
+        };
+        let Some(first) = boards.first() else { continue };
+        for (_, pin) in &device.placement.pins {
+            if boards.iter().any(|board| board.table.pin(&pin.value).is_some()) {
+                continue;
+            }
+            let all = first.table.pins.iter().map(|pin| pin.name.as_str());
+            let meant = nearest(pin.value.as_str(), all);
+            let board = &first.name.value;
+            let pin_name = pin.value.as_str();
+            diagnostics.push(e0310_unknown_pin::unknown_pin(pin.span, pin_name, board, meant));
+        }
+        let side = (&device.placement.side, "side");
+        let header = (&device.placement.header, "header");
+        for (wanted, what) in [side, header] {
+            let Some(wanted) = wanted else { continue };
+            let known = places(&boards, what);
+            if !known.iter().any(|name| name.eq_ignore_ascii_case(&wanted.value)) {
+                diagnostics.push(e0312_unknown_place::unknown_place(
+                    wanted.span,
+                    what,
+                    &wanted.value,
+                    &known.join(", "),
+                ));
+            }
+        }
+    }
+}
+
+fn places(boards: &[&Board], what: &str) -> Vec<String> {
+    let pins = boards.iter().flat_map(|board| &board.table.pins);
+    let names =
+        pins.filter_map(|pin| if what == "side" { pin.side.clone() } else { pin.header.clone() });
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names.dedup();
+    names
+}

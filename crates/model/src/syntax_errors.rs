@@ -1,0 +1,108 @@
+//! Syntax errors as diagnostics.
+
+use sensedsl_diagnostics::codes::{
+    e0101_unexpected_token, e0102_unknown_character, e0103_unterminated, e0104_missing_semicolon,
+    e0105_missing_closing, e0106_bad_number, e0107_misspelled_keyword, e0108_nested_too_deep,
+    e0109_bad_string, e0110_misplaced_item, e0221_identifier_reserved,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span};
+use sensedsl_syntax::{Block, Item, SyntaxError, SyntaxErrorKind};
+
+use crate::fields::span;
+
+/// The diagnostic of one syntax error in `file`.
+#[must_use]
+pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
+    use SyntaxErrorKind as Kind;
+    let at = span(file, error.range);
+    let expected =
+        |what: &str, found: &str| e0101_unexpected_token::unexpected_token(at, what, found);
+    match &error.kind {
+        Kind::UnexpectedCharacter { character } => {
+            e0102_unknown_character::unknown_character(at, &character.to_string())
+        }
+        Kind::UnterminatedComment => e0103_unterminated::unterminated(at, "comment", "*/"),
+        Kind::UnterminatedString => e0103_unterminated::unterminated(at, "string", "\""),
+        Kind::UnknownEscape { escape } => e0109_bad_string::bad_string(at, escape),
+        Kind::InvalidDigit { digit, base } => {
+            let why = format!("base {base} has no such digit");
+            e0106_bad_number::bad_number(at, &digit.to_string(), &why)
+        }
+        Kind::MissingDigits { number } => {
+            e0106_bad_number::bad_number(at, number, "digits are missing")
+        }
+        Kind::NumberTooLarge { number } => {
+            e0106_bad_number::bad_number(at, number, "it is too large")
+        }
+        Kind::UnknownUnit { found, suggestion } => unknown_unit(at, found, *suggestion),
+        Kind::NonAsciiName { name } => e0221_identifier_reserved::identifier_reserved(
+            at,
+            name,
+            "it has letters that generated code cannot spell",
+        ),
+        Kind::HyphenInName { name, suggestion } => {
+            e0221_identifier_reserved::identifier_reserved(at, name, "it has a hyphen")
+                .here(format!("write `{suggestion}`"))
+                .replace(format!("change to `{suggestion}`"), at, suggestion.as_str())
+        }
+        Kind::UnknownItem { found, suggestion: Some(meant), .. } => {
+            e0107_misspelled_keyword::misspelled_keyword(at, found, meant)
+        }
+        Kind::UnknownItem { found, suggestion: None, block } => {
+            expected(inside(*block), &format!("`{found}`"))
+        }
+        Kind::NotAllowedHere { item, block } => e0110_misplaced_item::misplaced_item(
+            at,
+            &format!("a {item} in a {block}"),
+            belongs(*item),
+        ),
+        Kind::Expected { expected: what, found } => expected(&what.to_string(), &found.to_string()),
+        Kind::StrayToken { found, block } => expected(inside(*block), &found.to_string()),
+        Kind::StrayCloseBrace => expected("nothing to close", "`}`"),
+        Kind::MissingSemicolon => e0104_missing_semicolon::missing_semicolon(at),
+        Kind::MissingEquals { property } => expected(&format!("`=` after `{property}`"), "a value"),
+        Kind::MissingValue { property } => expected(&format!("a value for `{property}`"), "none"),
+        Kind::MissingCloseBrace { open, .. } => {
+            e0105_missing_closing::missing_closing(at, "}", Some(span(file, *open)))
+        }
+        Kind::MissingCloseBracket { open } => {
+            e0105_missing_closing::missing_closing(at, "]", Some(span(file, *open)))
+        }
+        Kind::MissingComma => expected("`,`", "the next value"),
+        Kind::TrailingComma => expected("another value after `,`", "none"),
+        Kind::NestingTooDeep { limit } => e0108_nested_too_deep::nested_too_deep(at, *limit),
+    }
+}
+
+fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
+    let diagnostic = e0106_bad_number::bad_number(at, found, "there is no such unit");
+    match suggestion {
+        Some(meant) => diagnostic.here(format!("did you mean `{meant}`?")).replace(
+            format!("change to `{meant}`"),
+            at,
+            meant,
+        ),
+        None => diagnostic,
+    }
+}
+
+/// What a block is made of.
+fn inside(block: Block) -> &'static str {
+    match block {
+        Block::File => "`board`, `sensor`, `actuator`, `driver` or `use`",
+        Block::Board => "a sensor, an actuator, a rule, a link or a property",
+        Block::Sensor | Block::Actuator => "a property or a rule",
+        Block::Driver | Block::Link => "a property",
+    }
+}
+
+/// Where an item belongs.
+fn belongs(item: Item) -> &'static str {
+    match item {
+        Item::Use | Item::Board | Item::Driver => "at the top of a file",
+        Item::Sensor | Item::Actuator => "into a board or at the top of a file",
+        Item::Link => "into a board",
+        Item::Rule => "into a board or, for `prefer`, `avoid` and `allow`, into a device",
+        Item::Property => "into a board, a device, a driver or a link",
+    }
+}
