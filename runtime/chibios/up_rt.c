@@ -1,0 +1,164 @@
+/* Start of the application, the shared store of values, and the reporter. */
+#include "up_rt.h"
+
+#include <string.h>
+
+#include "up_link.h"
+#include "up_shell.h"
+
+static up_store_t store;
+static mutex_t store_lock;
+static uint32_t sequences[UP_FIELDS_COUNT];
+static uint32_t errors[UP_FIELDS_COUNT];
+static uint32_t read_ms[UP_FIELDS_COUNT];
+
+__attribute__((weak)) void up_user_init(void) {
+}
+
+__attribute__((weak)) void up_user_received(size_t field) {
+  (void)field;
+}
+
+uint32_t up_now_ms(void) {
+  return (uint32_t)TIME_I2MS(chVTGetSystemTimeX());
+}
+
+void up_put(size_t field, void *value) {
+  if (up_config.transforms[field] != NULL) {
+    up_config.transforms[field](value);
+  }
+  chMtxLock(&store_lock);
+  up_store_put(&store, field, value);
+  sequences[field]++;
+  read_ms[field] = up_now_ms();
+  chMtxUnlock(&store_lock);
+}
+
+void up_fail(size_t field) {
+  chMtxLock(&store_lock);
+  errors[field]++;
+  chMtxUnlock(&store_lock);
+}
+
+bool up_get(size_t field, void *value) {
+  const void *latest;
+
+  chMtxLock(&store_lock);
+  latest = up_store_get(&store, field);
+  if (latest != NULL) {
+    memcpy(value, latest, up_field_bytes(&up_config.schema->fields[field]));
+  }
+  chMtxUnlock(&store_lock);
+  return latest != NULL;
+}
+
+uint32_t up_sequence(size_t field) {
+  return sequences[field];
+}
+
+uint32_t up_errors(size_t field) {
+  return errors[field];
+}
+
+uint32_t up_age_ms(size_t field) {
+  return up_now_ms() - read_ms[field];
+}
+
+size_t up_take_report(uint8_t *frame, size_t frame_bytes, uint8_t *taken) {
+  size_t bytes;
+
+  chMtxLock(&store_lock);
+  bytes = up_report_take(&store, frame, frame_bytes, taken);
+  chMtxUnlock(&store_lock);
+  return bytes;
+}
+
+void up_restore_report(const uint8_t *taken) {
+  chMtxLock(&store_lock);
+  up_report_restore(&store, taken);
+  chMtxUnlock(&store_lock);
+}
+
+/* Fixed rate: a late cycle does not shift the following ones, and a lost one is not made up for. */
+static void sleep_cycle(systime_t *previous, sysinterval_t cycle) {
+  *previous = chThdSleepUntilWindowed(*previous, chTimeAddX(*previous, cycle));
+}
+
+static THD_FUNCTION(run_task, argument) {
+  const up_task_t *task = argument;
+  systime_t previous = chVTGetSystemTime();
+
+  chRegSetThreadName(task->name);
+  for (;;) {
+    task->cycle(task->work);
+    sleep_cycle(&previous, TIME_MS2I(task->delay_ms));
+  }
+}
+
+static void start_drivers(void) {
+  size_t i;
+
+  for (i = 0U; i < up_config.pads_count; i++) {
+    palSetLineMode(up_config.pads[i].line, up_config.pads[i].mode);
+  }
+#if HAL_USE_ADC == TRUE
+  for (i = 0U; i < up_config.adcs_count; i++) {
+    (void)adcStart(up_config.adcs[i], NULL);
+  }
+#endif
+#if HAL_USE_I2C == TRUE
+  for (i = 0U; i < up_config.ports_count; i++) {
+    up_i2c_start(&up_config.ports[i]);
+  }
+#endif
+#if HAL_USE_ICU == TRUE
+  for (i = 0U; i < up_config.icus_count; i++) {
+    up_icu_start(&up_config.icus[i]);
+  }
+#endif
+}
+
+static void start_tasks(void) {
+  size_t i;
+
+  for (i = 0U; i < up_config.tasks_count; i++) {
+    const up_task_t *task = &up_config.tasks[i];
+    /* The argument is a const table; the kernel's signature knows only void pointers. */
+    (void)chThdCreateStatic(task->stack, task->stack_bytes, (tprio_t)(NORMALPRIO + task->prio), run_task,
+                            (void *)(uintptr_t)task);
+  }
+}
+
+static void report_cycle(void) {
+#if HAL_USE_ICU == TRUE
+  size_t i;
+
+  for (i = 0U; i < up_config.icus_count; i++) {
+    up_icu_poll(&up_config.icus[i]);
+  }
+#endif
+  if (up_shell_cycle()) {
+    up_link_pause();
+  } else {
+    up_link_cycle();
+  }
+}
+
+int main(void) {
+  systime_t previous;
+
+  halInit();
+  chSysInit();
+  chMtxObjectInit(&store_lock);
+  up_store_init(&store, up_config.schema, up_config.values);
+  up_user_init();
+  start_drivers();
+  start_tasks();
+  up_link_start();
+  up_shell_start();
+  previous = chVTGetSystemTime();
+  for (;;) {
+    report_cycle();
+    sleep_cycle(&previous, TIME_MS2I(up_config.report_ms));
+  }
+}

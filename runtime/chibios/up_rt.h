@@ -1,0 +1,182 @@
+/*
+ * The runtime on ChibiOS: what a generated table says about an application, and what all parts share.
+ *
+ * The generated folder defines `up_config`; everything else of the application is in these tables. Threads write
+ * values through up_put() and up_fail(), the reporter (the main thread) sends what is due.
+ */
+#ifndef UP_RT_H
+#define UP_RT_H
+
+#include "ch.h"
+#include "hal.h"
+
+#include "up_capture.h"
+#include "up_conf.h"
+#include "up_i2c.h"
+#include "up_report.h"
+
+/* ---- tables ---- */
+
+/* How one pad is set up at the start. */
+typedef struct {
+  ioline_t line;
+  iomode_t mode;
+} up_pad_t;
+
+/* A thread that does one cycle every `delay_ms`. */
+typedef struct {
+  const char *name;
+  void (*cycle)(const void *work);
+  const void *work;
+  void *stack; /* a working area and its bytes */
+  size_t stack_bytes;
+  uint32_t delay_ms;
+  int16_t prio; /* relative to NORMALPRIO */
+} up_task_t;
+
+#if HAL_USE_ADC == TRUE
+/* One sensor of a conversion group. */
+typedef struct {
+  uint16_t field;
+  uint8_t column;  /* place in the group's sequence */
+  uint8_t samples; /* the mean of so many, at most the group's depth */
+} up_analog_t;
+
+/* One conversion group: what up_adc_cycle() works on. */
+typedef struct {
+  ADCDriver *driver;
+  const ADCConversionGroup *group;
+  adcsample_t *buffer; /* depth rows of num_channels columns */
+  size_t depth;
+  const up_analog_t *sensors;
+  uint8_t sensors_count;
+} up_adc_t;
+
+void up_adc_cycle(const void *work);
+#endif
+
+#if HAL_USE_I2C == TRUE
+/* One bus, shared by all that use its driver. */
+typedef struct {
+  I2CDriver *driver;
+  const I2CConfig *config;
+  ioline_t scl, sda;
+  iomode_t mode; /* of both pads; set again after a recovery */
+  uint32_t timeout_ms;
+  uint32_t *recoveries;
+} up_i2c_port_t;
+
+typedef struct {
+  uint16_t field;
+  up_i2c_script_t script;
+} up_i2c_device_t;
+
+/* The devices of one bus with one cycle time: what up_i2c_cycle() works on. */
+typedef struct {
+  const up_i2c_port_t *port;
+  const up_i2c_device_t *devices;
+  up_i2c_state_t *states; /* one a device */
+  uint64_t *scratch;      /* as large as the largest value */
+  uint8_t devices_count;
+} up_i2c_t;
+
+void up_i2c_start(const up_i2c_port_t *port);
+void up_i2c_cycle(const void *work);
+#endif
+
+#if HAL_USE_ICU == TRUE
+typedef struct {
+  ICUDriver *driver;
+  const ICUConfig *config;
+  up_capture_config_t capture;
+  up_capture_raw_t *raw;
+  up_capture_state_t *state;
+  uint16_t field;
+} up_icu_t;
+
+void up_icu_start(const up_icu_t *icu);
+void up_icu_poll(const up_icu_t *icu);
+
+/* The callbacks of one input: `raw` is where its captures go. */
+#define UP_ICU_WIDTH_CALLBACK(name, raw, both_edges)                                                         \
+  static void name(ICUDriver *driver) {                                                                      \
+    up_capture_on_width(&(raw), (uint32_t)icuGetWidthX(driver), (both_edges));                               \
+  }
+#define UP_ICU_PERIOD_CALLBACK(name, raw)                                                                    \
+  static void name(ICUDriver *driver) {                                                                      \
+    up_capture_on_period(&(raw), (uint32_t)icuGetPeriodX(driver));                                           \
+  }
+#define UP_ICU_OVERFLOW_CALLBACK(name, raw)                                                                  \
+  static void name(ICUDriver *driver) {                                                                      \
+    (void)driver;                                                                                            \
+    up_capture_on_overflow(&(raw));                                                                          \
+  }
+#endif
+
+/* A whole application. */
+typedef struct {
+  const char *board;
+  const up_schema_t *schema;
+  void *values;
+  void (*const *transforms)(void *value); /* one a field, NULL where there is none */
+  const up_pad_t *pads;
+  size_t pads_count;
+  const up_task_t *tasks;
+  size_t tasks_count;
+#if HAL_USE_ADC == TRUE
+  ADCDriver *const *adcs;
+  size_t adcs_count;
+#endif
+#if HAL_USE_I2C == TRUE
+  const up_i2c_port_t *ports;
+  size_t ports_count;
+#endif
+#if HAL_USE_ICU == TRUE
+  const up_icu_t *icus;
+  size_t icus_count;
+#endif
+#if UP_LINK_USB == FALSE
+  SerialDriver *link_driver;
+  const SerialConfig *link_config;
+#endif
+#if UP_HAS_BUTTON == TRUE
+  ioline_t button;
+  uint8_t button_pressed; /* PAL_HIGH or PAL_LOW */
+#endif
+  uint32_t report_ms; /* the reporter's cycle */
+} up_config_t;
+
+extern const up_config_t up_config;
+
+/* ---- values ---- */
+
+/* Milliseconds since the start; wraps. */
+uint32_t up_now_ms(void);
+
+/* A sensor was read: `value` (which the user's transform may change) becomes due. From a thread. */
+void up_put(size_t field, void *value);
+
+/* A sensor could not be read; its last value stands. */
+void up_fail(size_t field);
+
+/* Copies the latest value; false while there is none. */
+bool up_get(size_t field, void *value);
+
+/* How often a value came in (0: never), how often reading it failed, and how old it is. */
+uint32_t up_sequence(size_t field);
+uint32_t up_errors(size_t field);
+uint32_t up_age_ms(size_t field);
+
+/* The reporter's way to the store: packs what is due, or makes it due again. */
+size_t up_take_report(uint8_t *frame, size_t frame_bytes, uint8_t *taken);
+void up_restore_report(const uint8_t *taken);
+
+/* ---- the user's part; empty unless user/ defines it ---- */
+
+/* Called once after the kernel has started and before any sensor thread runs. */
+void up_user_init(void);
+
+/* Called after a frame of the host has changed an actuator's value. From the reporter. */
+void up_user_received(size_t field);
+
+#endif

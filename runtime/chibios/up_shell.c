@@ -1,0 +1,260 @@
+/* Commands for people, over the same channel as the frames. */
+#include "up_shell.h"
+
+#if UP_SHELL == TRUE
+
+#include <string.h>
+
+#include "chprintf.h"
+#include "shell.h"
+#include "up_link.h"
+#include "up_text.h"
+
+#define WRITE_MS 500U
+#define READ_MS 100U
+#define PRINT_MS 100U
+#define STACK_BYTES 1024U
+/* Arrays are shown up to so many elements. */
+#define ELEMENTS_SHOWN 16U
+
+static THD_WORKING_AREA(shell_stack, STACK_BYTES);
+static thread_t *shell_thread;
+static volatile bool is_streaming;
+static bool starts_streaming;
+
+/* ---- the stream the shell reads and writes ---- */
+
+/* Never blocks for good: a host that went away must not hold the shell. */
+static size_t stream_write(void *instance, const uint8_t *bytes, size_t size) {
+  (void)instance;
+  return chnWriteTimeout(up_channel(), bytes, size, TIME_MS2I(WRITE_MS));
+}
+
+static msg_t stream_put(void *instance, uint8_t byte) {
+  return (stream_write(instance, &byte, 1U) == 1U) ? MSG_OK : MSG_RESET;
+}
+
+/* Ends with MSG_RESET when the host has gone or asks for frames. */
+static msg_t stream_get(void *instance) {
+  uint8_t byte;
+
+  (void)instance;
+  while (up_channel_is_open() && !is_streaming) {
+    if (chnReadTimeout(up_channel(), &byte, 1U, TIME_MS2I(READ_MS)) == 1U) {
+      if (up_link_peek(byte)) {
+        is_streaming = true;
+        return MSG_RESET;
+      }
+      return (msg_t)byte;
+    }
+  }
+  return MSG_RESET;
+}
+
+static size_t stream_read(void *instance, uint8_t *bytes, size_t size) {
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    const msg_t byte = stream_get(instance);
+    if (byte < 0) {
+      break;
+    }
+    bytes[i] = (uint8_t)byte;
+  }
+  return i;
+}
+
+static const struct BaseSequentialStreamVMT stream_methods = {
+    .instance_offset = 0U,
+    .write = stream_write,
+    .read = stream_read,
+    .put = stream_put,
+    .get = stream_get,
+};
+static BaseSequentialStream stream = {.vmt = &stream_methods};
+
+/* ---- commands ---- */
+
+static void print_value(BaseSequentialStream *out, size_t index) {
+  static uint64_t value[(UP_VALUE_BYTES_MAX + 7U) / 8U];
+  const up_field_t *field = &up_config.schema->fields[index];
+  const size_t element_bytes = up_type_bytes(field->type);
+  char text[UP_TEXT_BYTES];
+  size_t i;
+
+  if (!up_get(index, value)) {
+    chprintf(out, "-");
+    return;
+  }
+  for (i = 0U; i < field->count && i < ELEMENTS_SHOWN; i++) {
+    (void)up_text_element(field->type, (const uint8_t *)value + i * element_bytes, text);
+    chprintf(out, "%s%s", (i == 0U) ? "" : " ", text);
+  }
+  if (field->count > ELEMENTS_SHOWN) {
+    chprintf(out, " ...");
+  }
+}
+
+static void print_field(BaseSequentialStream *out, size_t index) {
+  const up_field_t *field = &up_config.schema->fields[index];
+
+  chprintf(out, "%3u %-24s ", (unsigned)field->id, field->name);
+  print_value(out, index);
+  if (up_sequence(index) > 0U) {
+    chprintf(out, " (%lu ms old)", (unsigned long)up_age_ms(index));
+  }
+  if (up_errors(index) > 0U) {
+    chprintf(out, " %lu errors", (unsigned long)up_errors(index));
+  }
+  chprintf(out, SHELL_NEWLINE_STR);
+}
+
+static void command_sensors(BaseSequentialStream *out, int argc, char *argv[]) {
+  size_t i;
+
+  (void)argc;
+  (void)argv;
+  for (i = 0U; i < up_config.schema->fields_count; i++) {
+    print_field(out, i);
+  }
+}
+
+static bool find_field(const char *name, size_t *index) {
+  size_t i;
+
+  for (i = 0U; i < up_config.schema->fields_count; i++) {
+    if (strcmp(up_config.schema->fields[i].name, name) == 0) {
+      *index = i;
+      return true;
+    }
+  }
+  return false;
+}
+
+static unsigned parse_times(const char *text) {
+  unsigned times = 0U;
+
+  for (; *text >= '0' && *text <= '9' && times < 10000U; text++) {
+    times = times * 10U + (unsigned)(*text - '0');
+  }
+  return times;
+}
+
+static void command_print(BaseSequentialStream *out, int argc, char *argv[]) {
+  unsigned times = (argc == 2) ? parse_times(argv[1]) : 1U;
+  size_t index;
+
+  if (argc < 1 || argc > 2) {
+    shellUsage(out, "print NAME [TIMES]");
+    return;
+  }
+  if (!find_field(argv[0], &index)) {
+    chprintf(out, "no such sensor: %s" SHELL_NEWLINE_STR, argv[0]);
+    return;
+  }
+  for (; times > 0U && up_channel_is_open(); times--) {
+    print_field(out, index);
+    if (times > 1U) {
+      chThdSleepMilliseconds(PRINT_MS);
+    }
+  }
+}
+
+static void command_stream(BaseSequentialStream *out, int argc, char *argv[]) {
+  (void)argc;
+  (void)argv;
+  chprintf(out, "frames follow; q brings the shell back" SHELL_NEWLINE_STR);
+  is_streaming = true;
+  shellExit(MSG_OK);
+}
+
+static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
+  const up_link_counters_t *counters = up_link_counters();
+  const up_decoder_t *decoder = up_link_decoder();
+
+  (void)argc;
+  (void)argv;
+  chprintf(out, "schema 0x%08lx, checksum %s" SHELL_NEWLINE_STR, (unsigned long)up_config.schema->hash,
+           up_config.schema->checksum_crc16 ? "crc16" : "none");
+  chprintf(out, "sent %lu, refused %lu, torn %lu frames" SHELL_NEWLINE_STR,
+           (unsigned long)counters->frames_sent, (unsigned long)counters->frames_refused,
+           (unsigned long)counters->frames_torn);
+  chprintf(out, "received %lu frames, dropped %lu bytes" SHELL_NEWLINE_STR, (unsigned long)decoder->frames,
+           (unsigned long)decoder->dropped_bytes);
+#if HAL_USE_I2C == TRUE
+  for (size_t i = 0U; i < up_config.ports_count; i++) {
+    chprintf(out, "bus %u recovered %lu times" SHELL_NEWLINE_STR, (unsigned)i,
+             (unsigned long)*up_config.ports[i].recoveries);
+  }
+#endif
+}
+
+static const ShellCommand commands[] = {
+    {"sensors", command_sensors}, {"print", command_print}, {"stream", command_stream},
+    {"link", command_link},       {NULL, NULL},
+};
+
+/* ---- who has the channel ---- */
+
+static void run_shell(void) {
+  static const ShellConfig config = {.sc_channel = &stream, .sc_commands = commands};
+
+  shell_thread = chThdCreateStatic(shell_stack, sizeof shell_stack, NORMALPRIO, shellThread,
+                                   (void *)(uintptr_t)&config);
+}
+
+void up_shell_start(void) {
+  shellInit();
+#if UP_HAS_BUTTON == TRUE
+  starts_streaming = palReadLine(up_config.button) == up_config.button_pressed;
+#endif
+  is_streaming = starts_streaming;
+}
+
+void up_shell_channel_closed(void) {
+  is_streaming = starts_streaming;
+}
+
+bool up_shell_cycle(void) {
+  if (shell_thread != NULL) {
+    if (!chThdTerminatedX(shell_thread)) {
+      return true;
+    }
+    (void)chThdWait(shell_thread);
+    shell_thread = NULL;
+  }
+  if (!is_streaming && up_channel_is_open()) {
+    run_shell();
+    return true;
+  }
+  return !is_streaming;
+}
+
+bool up_shell_wants(const up_decoder_t *decoder, uint8_t byte) {
+  /* A frame starts with a digit: between two frames the letter can mean nothing else. */
+  if (byte != (uint8_t)'q' || !up_decoder_is_idle(decoder)) {
+    return false;
+  }
+  is_streaming = false;
+  return true;
+}
+
+#else
+
+void up_shell_start(void) {
+}
+
+void up_shell_channel_closed(void) {
+}
+
+bool up_shell_cycle(void) {
+  return false;
+}
+
+bool up_shell_wants(const up_decoder_t *decoder, uint8_t byte) {
+  (void)decoder;
+  (void)byte;
+  return false;
+}
+
+#endif
