@@ -2,12 +2,12 @@
 //! layout keeps the tokens and is stable.
 
 use proptest::prelude::*;
-use sensedsl_syntax::{SyntaxKind, format, parse};
+use sensedsl_syntax::{SyntaxElement, SyntaxKind, format, parse};
 
 /// The tokens of a text without white space and comments.
 fn tokens(text: &str) -> Vec<(SyntaxKind, String)> {
     let elements = parse(text).syntax().descendants_with_tokens();
-    let tokens = elements.filter_map(|element| element.into_token());
+    let tokens = elements.filter_map(SyntaxElement::into_token);
     let meaningful = tokens.filter(|token| !token.kind().is_trivia());
     meaningful.map(|token| (token.kind(), token.text().to_owned())).collect()
 }
@@ -15,9 +15,8 @@ fn tokens(text: &str) -> Vec<(SyntaxKind, String)> {
 /// The comments of a text, white space at the ends of their lines aside.
 fn comments(text: &str) -> Vec<String> {
     let elements = parse(text).syntax().descendants_with_tokens();
-    let comments = elements
-        .filter_map(|element| element.into_token())
-        .filter(|token| token.kind().is_comment());
+    let comments =
+        elements.filter_map(SyntaxElement::into_token).filter(|token| token.kind().is_comment());
     let trimmed = |comment: &str| {
         let unified = comment.replace("\r\n", "\n").replace('\r', "\n");
         unified.split('\n').map(str::trim_end).collect::<Vec<_>>().join("\n")

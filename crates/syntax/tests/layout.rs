@@ -1,0 +1,68 @@
+//! The canonical layout, case by case.
+
+use sensedsl_syntax::{format, parse};
+
+const FIG2: &str = include_str!("../../../examples/fig2.sense");
+
+fn check(text: &str, expected: &str) {
+    assert_eq!(format(text).as_deref(), Ok(expected), "{text:?}");
+    assert_eq!(format(expected).as_deref(), Ok(expected), "laid out again");
+}
+
+#[test]
+fn the_papers_example_is_laid_out_already() {
+    check(FIG2, FIG2);
+    let squeezed: Vec<&str> = FIG2.lines().map(str::trim).collect();
+    check(&squeezed.join("\n"), FIG2);
+    check(&FIG2.replace('\n', "\r\n"), FIG2);
+    check(&format!("\u{feff}\n\n{FIG2}\n\n"), FIG2);
+}
+
+#[test]
+fn statements_and_blocks() {
+    check("", "");
+    check(" \n\t\n", "");
+    check("board A{}", "board A {}\n");
+    check(
+        "spare board A on\"t.csv\"{link{transport=usb;}prio=+ 2;}",
+        "spare board A on \"t.csv\" {\n    link {\n        transport = usb;\n    }\n    prio = +2;\n}\n",
+    );
+    check(
+        "sensor X returns uint8 [ 4 ] {trigger=[ 0x00,0x51 , - 1 ];a=[];b=[[1],[2 ]];}",
+        "sensor X returns uint8[4] {\n    trigger = [0x00, 0x51, -1];\n    a = [];\n    b = [[1], [2]];\n}\n",
+    );
+    check(
+        "board A {reserve PA0,PA1 ;prefer side=left;allow W0301\"why\";delay=60ms;clock=1_000kHz;}",
+        "board A {\n    reserve PA0, PA1;\n    prefer side = left;\n    allow W0301 \"why\";\n    delay = 60 ms;\n    clock = 1_000 kHz;\n}\n",
+    );
+}
+
+#[test]
+fn blank_lines() {
+    check(
+        "\n\nuse \"a\";\n\n\n\nuse \"b\";\ndriver D for i2c {\n\n\na = 1;\n\n\nb = 2;\n\n\n}\n\n\n",
+        "use \"a\";\n\nuse \"b\";\ndriver D for i2c {\n    a = 1;\n\n    b = 2;\n}\n",
+    );
+}
+
+#[test]
+fn comments_keep_their_place() {
+    check(
+        "//a\n\n\n//b\nboard A { // c\n// d\n\n// e\nid=1;// f  \n/* g */ id=2; /* h */ id=3;\n\n\n// i\n} // j\n// k",
+        "//a\n\n//b\nboard A { // c\n    // d\n\n    // e\n    id = 1; // f\n    /* g */ id = 2; /* h */\n    id = 3;\n\n    // i\n} // j\n// k\n",
+    );
+    // Within a statement.
+    check(
+        "board A {\nid = // why\n17;\na = /* b */ 17 /* c */ ;\nl = [ /* d */ 1, // e\n2\n// f\n];\n}",
+        "board A {\n    id = // why\n        17;\n    a = /* b */ 17 /* c */;\n    l = [/* d */ 1, // e\n        2\n        // f\n        ];\n}\n",
+    );
+    // The lines of a comment are left as they are.
+    check("board A {\r\n/* a\r\n   b  \r\n */\r\n}", "board A {\n    /* a\n   b\n */\n}\n");
+    check("board A { /* empty */ }", "board A { /* empty */\n}\n");
+}
+
+#[test]
+fn a_text_with_mistakes_is_returned_with_them() {
+    let text = "board A { id = 1 }";
+    assert_eq!(format(text), Err(parse(text).errors().to_vec()));
+}

@@ -1,0 +1,239 @@
+//! The typed views over correct files, and the shape of the tree.
+
+use sensedsl_syntax::ast::{
+    AstNode, BoardItem, BoardSource, Direction, FileItem, Magnitude, Rule, Sign, Value,
+};
+use sensedsl_syntax::{Unit, parse};
+
+const FIG2: &str = include_str!("../../../examples/fig2.sense");
+
+const EXTENDED: &str = r#"use "drivers.sense";
+spare board Rover on "tables/mine.csv" {
+    link {
+        transport = usb;
+        baud = 115_200;
+    }
+    reserve PA0, PA1;
+    release PD12;
+    allow W0301 "known \u{b5}\n";
+    label = "a \"b\" \\";
+    sensor Front returns uint8[4] {
+        driver = srf08;
+        delay = 60ms;
+        prefer side = left;
+        avoid pin = PA0;
+        trigger = [0x00, 0x51, +1, [a, "b"]];
+        offset = -1.051e-3;
+        mask = 0b1010;
+        clock = 100 kHz;
+        top = 18446744073709551615;
+    }
+    actuator on accepts float32 {}
+}
+board B on STM32F407VGT6 {}
+driver srf08 for i2c {
+    sensor = board;
+}
+actuator Free accepts bool {}
+"#;
+
+/// A value in the words of the views, if it is complete.
+fn describe(value: &Value) -> Option<String> {
+    Some(match value {
+        Value::Number(number) => {
+            let sign = number.sign().map_or("", |sign| if sign == Sign::Plus { "+" } else { "-" });
+            let unit = number.unit().map_or(String::new(), |unit| format!(" {unit:?}"));
+            match number.magnitude()? {
+                Magnitude::Integer(integer) => format!("{sign}{integer}{unit}"),
+                Magnitude::Float(float) => format!("{sign}{float:e}{unit}"),
+            }
+        }
+        Value::Name(name) => format!("name {}", name.name()?.text()),
+        Value::String(string) => format!("{:?}", string.literal()?.value()),
+        Value::List(list) => {
+            let values: Option<Vec<_>> = list.values().map(|value| describe(&value)).collect();
+            format!("{:?}", values?)
+        }
+    })
+}
+
+#[test]
+fn the_papers_example() {
+    let parsed = parse(FIG2);
+    assert_eq!(parsed.errors(), &[]);
+    let board = parsed.ast().boards().next().expect("one board");
+    assert_eq!(board.name().expect("a name").text(), "STM32F4DiscoveryBoard");
+    assert!(!board.is_spare() && board.on().is_none());
+    let devices: Vec<String> = board
+        .devices()
+        .map(|device| {
+            let properties: Vec<String> = device
+                .properties()
+                .map(|p| {
+                    format!(
+                        "{}={}",
+                        p.name().expect("a name").text(),
+                        p.value().and_then(|value| describe(&value)).expect("a value")
+                    )
+                })
+                .collect();
+            let scalar = device.ty().and_then(|ty| ty.scalar()).expect("a type");
+            let name = device.name().expect("a name");
+            format!(
+                "{:?} {} {}: {}",
+                device.direction(),
+                name.text(),
+                scalar.text(),
+                properties.join(", ")
+            )
+        })
+        .collect();
+    assert_eq!(
+        devices,
+        [
+            "Some(Sensor) IRFront uint16: id=17, type=name analog",
+            "Some(Sensor) IRFrontRight uint16: id=18, type=name analog, delay=60",
+            "Some(Sensor) USRear uint8: id=19, type=name i2c, address=230, delay=40, prio=+2",
+            "Some(Sensor) WheelEncoder uint32: id=20, type=name icu",
+        ]
+    );
+}
+
+#[test]
+fn every_construct_has_its_view() {
+    let parsed = parse(EXTENDED);
+    assert_eq!(parsed.errors(), &[]);
+    let file = parsed.ast();
+    let items: Vec<&str> = file
+        .items()
+        .map(|item| match item {
+            FileItem::Use(_) => "use",
+            FileItem::Board(_) => "board",
+            FileItem::Device(_) => "device",
+            FileItem::Driver(_) => "driver",
+        })
+        .collect();
+    assert_eq!(items, ["use", "board", "board", "driver", "device"]);
+    assert_eq!(file.uses().next().and_then(|u| u.path()).expect("a path").value(), "drivers.sense");
+
+    let boards: Vec<_> = file.boards().collect();
+    assert!(boards[0].is_spare() && !boards[1].is_spare());
+    assert!(matches!(boards[0].on(), Some(BoardSource::File(f)) if f.value() == "tables/mine.csv"));
+    assert!(matches!(boards[1].on(), Some(BoardSource::Name(n)) if n.text() == "STM32F407VGT6"));
+    let items: Vec<&str> = boards[0]
+        .items()
+        .map(|item| match item {
+            BoardItem::Link(_) => "link",
+            BoardItem::Rule(_) => "rule",
+            BoardItem::Property(_) => "property",
+            BoardItem::Device(_) => "device",
+        })
+        .collect();
+    assert_eq!(items, ["link", "rule", "rule", "rule", "property", "device", "device"]);
+    assert_eq!(boards[0].links().next().expect("a link").properties().count(), 2);
+
+    let driver = file.drivers().next().expect("a driver");
+    assert_eq!(driver.name().expect("a name").text(), "srf08");
+    assert_eq!(driver.kind().expect("a kind").text(), "i2c");
+    let property = driver.properties().next().expect("a property");
+    assert_eq!(property.name().expect("a name").text(), "sensor");
+    assert_eq!(property.value().and_then(|value| describe(&value)).expect("a value"), "name board");
+}
+
+#[test]
+fn rules() {
+    let parsed = parse(EXTENDED);
+    let board = parsed.ast().boards().next().expect("a board");
+    let device = board.devices().next().expect("a device");
+    let rules: Vec<String> = board
+        .rules()
+        .chain(device.rules())
+        .map(|rule| {
+            let names = |names: Vec<sensedsl_syntax::ast::Name>| {
+                names.iter().map(|name| name.text().to_owned()).collect::<Vec<_>>().join(" ")
+            };
+            match rule {
+                Rule::Reserve(rule) => format!("reserve {}", names(rule.names().collect())),
+                Rule::Release(rule) => format!("release {}", names(rule.names().collect())),
+                Rule::Allow(rule) => {
+                    let reason = rule.reason().expect("a reason").value();
+                    format!("allow {} {reason:?}", rule.code().expect("a code").text())
+                }
+                Rule::Prefer(rule) => format!("prefer {}", rule.property().expect("it").syntax()),
+                Rule::Avoid(rule) => format!("avoid {}", rule.property().expect("it").syntax()),
+            }
+        })
+        .collect();
+    assert_eq!(
+        rules,
+        [
+            "reserve PA0 PA1",
+            "release PD12",
+            "allow W0301 \"known µ\\n\"",
+            "prefer side = left;",
+            "avoid pin = PA0;",
+        ]
+    );
+}
+
+#[test]
+fn values() {
+    let parsed = parse(EXTENDED);
+    let board = parsed.ast().boards().next().expect("a board");
+    let label = board.properties().next().and_then(|property| property.value()).expect("a value");
+    assert_eq!(describe(&label).as_deref(), Some(r#""a \"b\" \\""#));
+    let device = board.devices().next().expect("a device");
+    let values: Vec<String> = device
+        .properties()
+        .map(|property| property.value().and_then(|value| describe(&value)).expect("a value"))
+        .collect();
+    assert_eq!(
+        values,
+        [
+            "name srf08",
+            "60 Milliseconds",
+            r#"["0", "81", "+1", "[\"name a\", \"\\\"b\\\"\"]"]"#,
+            "-1.051e-3",
+            "10",
+            "100 Kilohertz",
+            "18446744073709551615",
+        ]
+    );
+    let ty = device.ty().expect("a type");
+    assert!(ty.is_array());
+    let (length, range) = ty.length().expect("a length");
+    assert_eq!((length, &EXTENDED[range]), (4, "4"));
+    let actuator = board.devices().nth(1).expect("a device");
+    assert_eq!(actuator.direction(), Some(Direction::Actuator));
+    assert_eq!(actuator.name().expect("a name").text(), "on");
+    assert_eq!(Unit::from_name("kHz"), Some(Unit::Kilohertz));
+}
+
+#[test]
+fn ranges_leave_out_the_trivia() {
+    let text = "// a\nsensor X returns uint8 { // b\n  /* c */ id = 17 ms; // d\n} // e\n";
+    let device = parse(text).ast().devices().next().expect("a device");
+    assert!(text[device.range()].starts_with("sensor") && text[device.range()].ends_with('}'));
+    let property = device.properties().next().expect("a property");
+    assert_eq!(&text[property.range()], "id = 17 ms;");
+    assert_eq!(&text[property.value().expect("a value").range()], "17 ms");
+}
+
+#[test]
+fn trees() {
+    let texts = [
+        ("keywords_as_names", "board on on on { sensor returns returns uint8[2] { driver = x; } }"),
+        ("comments", "// a\nuse /* b */ \"c\"; // d\n"),
+        ("numbers_and_lists", "driver d for for { a = [+1, -0.5 ms, [x, \"y\"]]; }"),
+        (
+            "rules",
+            "board b { reserve A, B; release A; allow W1 \"r\"; prefer a = 1; avoid a = 2; }",
+        ),
+        ("broken_head", "sensor 2nd return [ { id = 1; }"),
+        ("broken_statements", "board b { id 17; x = ; y = 1 2 { 3 }; @ z = 4 }"),
+        ("broken_blocks", "board b { foo bar { baz = 1; } sensor s returns uint8 {"),
+    ];
+    for (name, text) in texts {
+        insta::assert_snapshot!(name, format!("{text}\n\n{:#?}", parse(text).syntax()));
+    }
+}
