@@ -293,11 +293,12 @@ impl Loader<'_> {
                 None => (text.clone(), None),
             };
             let number = alternate.and_then(alternate_number);
-            if spelled.is_empty() || (alternate.is_some() && number.is_none()) {
+            let unnamed = matches!(spelled.as_str(), "" | "-");
+            if unnamed || (alternate.is_some() && number.is_none()) {
                 let kind = FindingKind::BadAlternate { spelled: text.clone() };
                 self.report(kind, &range, Some(&column.header));
             }
-            if spelled.is_empty() {
+            if unnamed {
                 continue;
             }
             let (signal, malformed) = Signal::parse(&spelled);
@@ -327,16 +328,15 @@ impl Loader<'_> {
         };
         let (part, word) = (part.trim().to_owned(), word.trim());
         let known = Occupation::WORDS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
-        let how = known.map(|(_, how)| *how).unwrap_or_else(|| {
-            let words = Occupation::WORDS.iter().map(|(name, _)| *name);
-            let nearest = nearest(word, words).map(str::to_owned);
-            let spelled = word.to_owned();
-            let kind = FindingKind::BadOccupation { spelled, nearest };
-            self.report(kind, &range, Some(&column.header));
-            // The careful reading: what nobody understands is not offered.
-            Occupation::Taken
-        });
-        Some(Onboard { part, how })
+        if let Some((_, how)) = known {
+            return Some(Onboard { part, how: *how });
+        }
+        let words = Occupation::WORDS.iter().map(|(name, _)| *name);
+        let nearest = nearest(word, words).map(str::to_owned);
+        let kind = FindingKind::BadOccupation { spelled: word.to_owned(), nearest };
+        self.report(kind, &range, Some(&column.header));
+        // The careful reading: what nobody understands is not offered.
+        Some(Onboard { part, how: Occupation::Taken })
     }
 
     /// Reads an `AF` cell: `SIGNAL=n` each, or one number for each usage that has one.

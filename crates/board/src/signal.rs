@@ -306,11 +306,7 @@ fn read(name: &str) -> Reading {
         None => line == *pattern,
     };
     let numbered = number.parse::<u32>().is_ok();
-    if numbered && unused.iter().any(|pattern| fits(pattern)) {
-        Reading::Unused
-    } else {
-        Reading::Malformed
-    }
+    if numbered && unused.iter().any(fits) { Reading::Unused } else { Reading::Malformed }
 }
 
 /// `TIM3_CH1` to (`TIM`, `3`, `CH1`). A stem ends in a letter; `I2C` holds a digit of its own.
@@ -452,4 +448,99 @@ fn mend(name: &str) -> Option<String> {
     };
     let mended = format!("{family}{unit}_{meant}");
     function(family, unit, &meant).is_some().then_some(mended)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The canonical name, and `?` with what was meant for a malformed one.
+    fn read(spelled: &str) -> String {
+        match Signal::parse(spelled) {
+            (signal, None) => signal.name().to_owned(),
+            (_, Some(Malformed { nearest })) => format!("?{}", nearest.unwrap_or_default()),
+        }
+    }
+
+    #[test]
+    fn spellings_of_one_signal_are_one_name() {
+        for (spelled, expected) in [
+            ("ADC123-IN1", "ADC123_IN1"),
+            ("adc12_inp8", "ADC12_IN8"),
+            ("ADC_IN5", "ADC1_IN5"),
+            ("I2C1-SCL", "I2C1_SCL"),
+            ("I²C1-SCL", "I2C1_SCL"),
+            ("i2c1_scl", "I2C1_SCL"),
+            ("I2C1\u{2013}SCL", "I2C1_SCL"),
+            ("TIM2_CH1_ETR", "TIM2_CH1"),
+            ("tim8-ch2n", "TIM8_CH2N"),
+            ("DAC_OUT1", "DAC1_OUT1"),
+            ("LPUART1_TX", "LPUART1_TX"),
+            ("CAN_RX", "CAN_RX"),
+            ("USART2_CTS_NSS", "USART2_CTS_NSS"),
+            ("TIM1_BKIN2", "TIM1_BKIN2"),
+            ("ADC1_INN3", "ADC1_INN3"),
+            ("FSMC_D4", "FSMC_D4"),
+            ("I3C1_SCL", "I3C1_SCL"),
+            ("QSPI1_NSS", "QSPI1_NSS"),
+            ("SPINDLE", "SPINDLE"),
+            ("tacho", "TACHO"),
+        ] {
+            assert_eq!(read(spelled), expected, "{spelled}");
+        }
+    }
+
+    #[test]
+    fn malformed_signals_come_with_what_was_meant() {
+        for (spelled, expected) in [
+            ("ADC12IN8", "?ADC12_IN8"),
+            ("ADC12_8", "?ADC12_IN8"),
+            ("ADC21_IN8", "?"),
+            ("TIM_CH1", "?TIM1_CH1"),
+            ("TIM3_C2", "?TIM3_CH2"),
+            ("TIM3_CH9", "?"),
+            ("TIM3", "?"),
+            ("I2C1-SLC", "?I2C1_SCL"),
+            ("I2C1SDA", "?I2C1_SDA"),
+            ("I2C_SDA", "?I2C1_SDA"),
+            ("USRAT1_TX", "?USART1_TX"),
+            ("SPI1_SKC", "?SPI1_SCK"),
+            ("SPI1_QUUX", "?"),
+            ("DAC1_1", "?DAC1_OUT1"),
+            ("CAN1_TXD", "?CAN1_TX"),
+            ("TIM256_CH1", "?"),
+        ] {
+            assert_eq!(read(spelled), expected, "{spelled}");
+        }
+    }
+
+    #[test]
+    fn functions_know_their_units() {
+        let units = |spelled: &str| -> Vec<String> {
+            let (signal, _) = Signal::parse(spelled);
+            signal.function().units().iter().map(UnitName::to_string).collect()
+        };
+        assert_eq!(units("ADC123-IN1"), ["ADC1", "ADC2", "ADC3"]);
+        assert_eq!(units("TIM12_CH1"), ["TIM12"]);
+        assert_eq!(units("UART4_TX"), ["UART4"]);
+        assert_eq!(units("FDCAN2_RX"), ["FDCAN2"]);
+        assert_eq!(units("nothing"), Vec::<String>::new());
+        let (signal, _) = Signal::parse("TIM8_CH2N");
+        let expected = Function::Timer { timer: 8, channel: 2, complementary: true };
+        assert_eq!(signal.function(), &expected);
+    }
+
+    proptest::proptest! {
+        /// A canonical name reads as itself, and what was meant is well formed.
+        #[test]
+        fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
+            let (signal, malformed) = Signal::parse(&spelled);
+            if let Some(nearest) = malformed.clone().and_then(|malformed| malformed.nearest) {
+                proptest::prop_assert_eq!(Signal::parse(&nearest).1, None);
+            }
+            let (again, twice) = Signal::parse(signal.name());
+            proptest::prop_assert_eq!(again, signal);
+            proptest::prop_assert_eq!(twice, malformed);
+        }
+    }
 }

@@ -195,6 +195,11 @@ impl Occupation {
 impl fmt::Display for Onboard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.how {
+            // The word is left out where the part alone says the same.
+            Occupation::Taken if matches!(self.part.as_str(), "" | "-") => {
+                write!(f, "{}:taken", self.part)
+            }
+            Occupation::Taken if self.part.contains(':') => write!(f, "{}:taken", self.part),
             Occupation::Taken => f.write_str(&self.part),
             Occupation::Bus => write!(f, "{}:bus", self.part),
             Occupation::Care => write!(f, "{}:care", self.part),

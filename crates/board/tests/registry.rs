@@ -1,6 +1,7 @@
 //! The generated module `registry` is what `boards/` and `targets/` say, and every file there is
 //! sound. `SENSEDSL_BLESS=1 cargo test -p sensedsl-board --test registry` writes the module anew.
 #![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
