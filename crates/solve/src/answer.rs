@@ -1,7 +1,9 @@
 //! What the solver answers.
 
+use crate::check::Violation;
 use crate::problem::{DeviceId, DmaUserId, PinId, ResourceId, StreamId};
 use num_bigint::BigUint;
+use std::fmt;
 
 /// The choice for one device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,7 +69,39 @@ pub enum Outcome {
     Solved(Answer),
     /// Proved to have none.
     Infeasible(Conflict),
+    /// The caller's stop came before the proof.
+    Stopped {
+        /// The best answer so far; `None` does not mean that there is none.
+        answer: Option<Answer>,
+        /// Proved: no answer is better than this.
+        bound: Objective,
+    },
 }
+
+/// A question that cannot be answered. None of these is the fault of whoever wrote the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The problem names a pin, board, resource, rule, DMA user or stream that it does not have.
+    Malformed(&'static str),
+    /// The objective's parts do not fit into 63 bits together.
+    TooLarge,
+    /// The checker rejected the answer of the search: a mistake in this crate.
+    Rejected(Violation),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Malformed(what) => write!(f, "the pin problem is malformed: {what}"),
+            Self::TooLarge => f.write_str("the pin problem's costs are too large"),
+            Self::Rejected(violation) => {
+                write!(f, "the solver's answer failed its check: {violation}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
 
 /// Exact number of answers.
 pub type Count = BigUint;

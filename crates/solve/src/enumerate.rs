@@ -1,0 +1,188 @@
+//! All answers, best first: a problem in, an iterator out that works only as far as it is asked.
+//!
+//! The answers of one objective are walked in order by a depth-first search over the entries of
+//! the tie-break; a branch is entered only when some answer within the objective lies there. What
+//! is cut off tells the least objective that can come next.
+#![expect(clippy::indexing_slicing, reason = "frames hold positions in `entries`")]
+
+use crate::answer::{Answer, Fault, Optimality};
+use crate::flow::Saved;
+use crate::model::Model;
+use crate::order::{Entry, entries};
+use crate::problem::Problem;
+use crate::search::{Choices, Engine, Parked};
+use crate::solve::finish;
+
+/// Iterator over all answers of a problem: by objective, then pins, then signals.
+///
+/// An item is an error only as [`crate::solve`] gives one; nothing follows it.
+pub struct Answers<'a> {
+    problem: &'a Problem,
+    model: Model,
+    entries: Vec<Entry>,
+    walk: Walk,
+    /// Objective of the answers now given.
+    level: u64,
+    best: u64,
+}
+
+enum Walk {
+    Failed(Fault),
+    New(Parked),
+    Under(Parked, Vec<Frame>),
+    Over,
+}
+
+/// An entry with its values, of which those before `next` are done.
+struct Frame {
+    entry: usize,
+    values: Vec<Option<usize>>,
+    next: usize,
+    mark: usize,
+    saved: Saved,
+    /// An answer below this frame.
+    known: Choices,
+}
+
+/// All answers of a problem, best first.
+#[must_use]
+pub fn enumerate(problem: &Problem) -> Answers<'_> {
+    let (model, fault) = match Model::new(problem) {
+        Ok(model) => (model, None),
+        Err(fault) => (Model::default(), Some(fault)),
+    };
+    let walk = match (fault, Engine::new(problem, &model, None)) {
+        (Some(fault), _) => Walk::Failed(fault),
+        (None, Ok(engine)) => Walk::New(engine.park()),
+        (None, Err(_)) => Walk::Over,
+    };
+    Answers { problem, entries: entries(&model), walk, model, level: 0, best: 0 }
+}
+
+impl Iterator for Answers<'_> {
+    type Item = Result<Answer, Fault>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (choices, parked, frames) = match std::mem::replace(&mut self.walk, Walk::Over) {
+            Walk::Failed(fault) => return Some(Err(fault)),
+            Walk::Over => return None,
+            Walk::New(parked) => {
+                let mut engine = Engine::unpark(self.problem, &self.model, parked);
+                let (weight, known) = engine.search(u64::MAX, false)?;
+                (self.level, self.best) = (weight, weight);
+                engine.cut = u64::MAX;
+                let mut frames = Vec::new();
+                let first = begin(&mut engine, &self.entries, known, &mut frames);
+                let choices = match first {
+                    Some(only) => Some(only),
+                    None => advance(&mut engine, &self.entries, self.level, &mut frames),
+                };
+                (choices, engine.park(), frames)
+            }
+            Walk::Under(parked, mut frames) => {
+                let mut engine = Engine::unpark(self.problem, &self.model, parked);
+                let choices = advance(&mut engine, &self.entries, self.level, &mut frames);
+                (choices, engine.park(), frames)
+            }
+        };
+        let (choices, parked, frames) = match choices {
+            Some(choices) => (choices, parked, frames),
+            None => self.next_level(parked)?,
+        };
+        self.walk = Walk::Under(parked, frames);
+        let proof = if self.level == self.best { Optimality::Proved } else { Optimality::Feasible };
+        let answer = finish(self.problem, &self.model, &choices, proof);
+        if answer.is_err() {
+            self.walk = Walk::Over;
+        }
+        Some(answer)
+    }
+}
+
+impl Answers<'_> {
+    /// Goes up to the next objective that some answer has.
+    fn next_level(&mut self, parked: Parked) -> Option<(Choices, Parked, Vec<Frame>)> {
+        let mut engine = Engine::unpark(self.problem, &self.model, parked);
+        loop {
+            if engine.cut == u64::MAX {
+                return None;
+            }
+            self.level = engine.cut;
+            engine.cut = u64::MAX;
+            engine.settle().ok()?;
+            let Some((_, known)) = engine.search(self.level + 1, true) else { continue };
+            let mut frames = Vec::new();
+            if begin(&mut engine, &self.entries, known, &mut frames).is_some() {
+                return None;
+            }
+            if let Some(choices) = advance(&mut engine, &self.entries, self.level, &mut frames) {
+                return Some((choices, engine.park(), frames));
+            }
+        }
+    }
+}
+
+/// Opens the first entry that is not settled; the answer itself when there is none.
+fn begin(
+    engine: &mut Engine<'_>,
+    entries: &[Entry],
+    known: Choices,
+    frames: &mut Vec<Frame>,
+) -> Option<Choices> {
+    if engine.settle().is_err() {
+        return None;
+    }
+    open(engine, entries, 0, known, frames)
+}
+
+fn open(
+    engine: &Engine<'_>,
+    entries: &[Entry],
+    from: usize,
+    known: Choices,
+    frames: &mut Vec<Frame>,
+) -> Option<Choices> {
+    let Some(entry) = (from..entries.len()).find(|&e| !engine.settled(entries[e])) else {
+        return Some(known);
+    };
+    frames.push(Frame {
+        entry,
+        values: engine.values(entries[entry]),
+        next: 0,
+        mark: engine.state.mark(),
+        saved: engine.flow.save(),
+        known,
+    });
+    None
+}
+
+/// The next answer of exactly this objective.
+fn advance(
+    engine: &mut Engine<'_>,
+    entries: &[Entry],
+    level: u64,
+    frames: &mut Vec<Frame>,
+) -> Option<Choices> {
+    while let Some(frame) = frames.last_mut() {
+        engine.back(frame.mark, &frame.saved);
+        let Some(&value) = frame.values.get(frame.next) else {
+            frames.pop();
+            continue;
+        };
+        frame.next += 1;
+        let entry = frame.entry;
+        let same = entries[entry].of(engine.model, &frame.known) == value;
+        let known = same.then(|| frame.known.clone());
+        if engine.restrict(entries[entry], value).is_err() {
+            continue;
+        }
+        let found = known.or_else(|| engine.search(level + 1, true).map(|(_, choices)| choices));
+        let Some(known) = found else { continue };
+        if let Some(choices) = open(engine, entries, entry + 1, known, frames)
+            && engine.model.evaluate(&choices) == level
+        {
+            return Some(choices);
+        }
+    }
+    None
+}

@@ -1,0 +1,364 @@
+//! Counts how wires can be put on pins: classes of alike wires with their options in, a number out.
+//!
+//! The pins are taken one after another. All that the rest depends on is how many wires of each
+//! class are still to be placed and who holds the resources that later pins can claim; ways that
+//! agree in that are added up. Classes that share no pin and no resource are counted apart.
+#![expect(clippy::indexing_slicing, reason = "pins, classes and fields are renumbered here")]
+
+use num_bigint::BigUint;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One way to place a wire. Claims are pairs of resource and holder code (0 excludes everybody).
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Place {
+    pub(crate) pin: usize,
+    pub(crate) claims: Vec<(usize, usize)>,
+}
+
+/// Wires that can be placed in the same ways.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Class {
+    /// Sorted; a place that stands twice counts twice.
+    pub(crate) places: Vec<Place>,
+    pub(crate) wires: u32,
+}
+
+/// Counts with a memory for the parts that come again.
+#[derive(Default)]
+pub(crate) struct Counter {
+    known: BTreeMap<Vec<Class>, BigUint>,
+}
+
+impl Counter {
+    /// Number of ways to place all wires of all classes.
+    pub(crate) fn count(&mut self, classes: Vec<Class>) -> BigUint {
+        let mut total = BigUint::from(1u32);
+        for part in components(classes) {
+            let count = match self.known.get(&part) {
+                Some(count) => count.clone(),
+                None => {
+                    let count = count_part(&part);
+                    self.known.insert(part, count.clone());
+                    count
+                }
+            };
+            total *= count;
+            if total == BigUint::ZERO {
+                break;
+            }
+        }
+        total
+    }
+}
+
+/// Splits the classes where they share neither pin nor resource.
+fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
+    let mut parts: Vec<(BTreeSet<(bool, usize)>, Vec<Class>)> = Vec::new();
+    for class in classes {
+        let mut keys: BTreeSet<(bool, usize)> = class
+            .places
+            .iter()
+            .flat_map(|p| p.claims.iter().map(|c| (true, c.0)).chain([(false, p.pin)]))
+            .collect();
+        let mut members = vec![class];
+        let mut apart = Vec::new();
+        for (other, mut its) in parts {
+            if keys.is_disjoint(&other) {
+                apart.push((other, its));
+            } else {
+                keys.extend(other);
+                members.append(&mut its);
+            }
+        }
+        apart.push((keys, members));
+        parts = apart;
+    }
+    let sorted = |(_, mut part): (_, Vec<Class>)| {
+        part.sort_unstable();
+        part
+    };
+    parts.into_iter().map(sorted).collect()
+}
+
+fn count_part(classes: &[Class]) -> BigUint {
+    if classes.iter().any(|c| c.places.is_empty() && c.wires > 0) {
+        return BigUint::ZERO;
+    }
+    match Plan::new(classes) {
+        Some(plan) => match plan.run::<u128>() {
+            Some(count) => BigUint::from(count),
+            None => plan.run::<BigUint>().unwrap_or_default(),
+        },
+        None => split(classes),
+    }
+}
+
+/// Too much to remember for one key: places one wire in every way and counts the rest.
+fn split(classes: &[Class]) -> BigUint {
+    let mut total = BigUint::ZERO;
+    let Some(first) = classes.iter().position(|c| c.wires > 0) else { return BigUint::from(1u32) };
+    for place in &classes[first].places {
+        let mut rest = Vec::new();
+        for (index, class) in classes.iter().enumerate() {
+            let wires = class.wires - u32::from(index == first);
+            let places = class.places.iter().filter(|p| compatible(place, p)).cloned().collect();
+            if wires > 0 {
+                rest.push(Class { places, wires });
+            }
+        }
+        total += Counter::default().count(rest);
+    }
+    total
+}
+
+fn compatible(one: &Place, other: &Place) -> bool {
+    let clash = |a: &(usize, usize)| {
+        other.claims.iter().any(|b| a.0 == b.0 && !crate::model::agree(a.1, b.1))
+    };
+    one.pin != other.pin && !one.claims.iter().any(clash)
+}
+
+/// A number that may overflow, and one that cannot.
+trait Tally: Sized + Clone {
+    fn one() -> Self;
+    fn times(&self, factor: u32) -> Option<Self>;
+    fn plus(&mut self, other: &Self) -> Option<()>;
+}
+
+impl Tally for u128 {
+    fn one() -> Self {
+        1
+    }
+
+    fn times(&self, factor: u32) -> Option<Self> {
+        self.checked_mul(Self::from(factor))
+    }
+
+    fn plus(&mut self, other: &Self) -> Option<()> {
+        *self = self.checked_add(*other)?;
+        Some(())
+    }
+}
+
+impl Tally for BigUint {
+    fn one() -> Self {
+        Self::from(1u32)
+    }
+
+    fn times(&self, factor: u32) -> Option<Self> {
+        Some(self * factor)
+    }
+
+    fn plus(&mut self, other: &Self) -> Option<()> {
+        *self += other;
+        Some(())
+    }
+}
+
+/// Bits of the key.
+#[derive(Clone, Copy, Debug, Default)]
+struct Field {
+    shift: u32,
+    mask: u128,
+}
+
+impl Field {
+    fn get(self, key: u128) -> u128 {
+        key >> self.shift & self.mask
+    }
+
+    fn bits(self) -> u128 {
+        self.mask << self.shift
+    }
+}
+
+/// A claim within a place: the field must be 0 or (for a group) `value`.
+#[derive(Clone, Copy, Debug)]
+struct Take {
+    field: Field,
+    value: u128,
+    shared: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Step {
+    /// Class and claims of each way to use the pin.
+    uses: Vec<(usize, Vec<Take>)>,
+    /// Fields that nobody asks for after this pin.
+    forget: u128,
+    /// Most wires of each class that later pins can take.
+    later: Vec<u32>,
+}
+
+struct Plan {
+    wires: Vec<Field>,
+    start: u128,
+    steps: Vec<Step>,
+}
+
+impl Plan {
+    /// `None` when a key has too few bits.
+    fn new(classes: &[Class]) -> Option<Self> {
+        let order = order(classes);
+        let mut last: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut codes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (step, pin) in order.iter().enumerate() {
+            for place in classes.iter().flat_map(|c| &c.places).filter(|p| p.pin == *pin) {
+                for &(resource, code) in &place.claims {
+                    last.insert(resource, step);
+                    let codes = codes.entry(resource).or_default();
+                    if !codes.contains(&code) {
+                        codes.push(code);
+                    }
+                }
+            }
+        }
+        let mut used: u128 = 0;
+        let mut wires = Vec::new();
+        let mut start = 0;
+        for class in classes {
+            let field = claim_bits(&mut used, u128::from(class.wires))?;
+            start |= u128::from(class.wires) << field.shift;
+            wires.push(field);
+        }
+        let mut fields: BTreeMap<usize, Field> = BTreeMap::new();
+        let mut steps = Vec::new();
+        for (step, pin) in order.iter().enumerate() {
+            let mut uses = Vec::new();
+            for (index, class) in classes.iter().enumerate() {
+                for place in class.places.iter().filter(|p| p.pin == *pin) {
+                    let mut takes = Vec::new();
+                    for (resource, code) in &place.claims {
+                        let codes = &codes[resource];
+                        let field = match fields.get(resource) {
+                            Some(field) => *field,
+                            None => claim_bits(&mut used, codes.len() as u128)?,
+                        };
+                        fields.insert(*resource, field);
+                        let value = codes.iter().position(|c| c == code)? as u128 + 1;
+                        takes.push(Take { field, value, shared: *code != 0 });
+                    }
+                    uses.push((index, takes));
+                }
+            }
+            let mut forget = 0;
+            for (resource, field) in &fields {
+                if last[resource] == step {
+                    forget |= field.bits();
+                }
+            }
+            used &= !forget;
+            fields.retain(|resource, _| last[resource] != step);
+            let rest: BTreeSet<usize> = order[step + 1..].iter().copied().collect();
+            let later = |class: &Class| {
+                let pins: BTreeSet<usize> = class.places.iter().map(|p| p.pin).collect();
+                pins.intersection(&rest).count() as u32
+            };
+            steps.push(Step { uses, forget, later: classes.iter().map(later).collect() });
+        }
+        Some(Self { wires, start, steps })
+    }
+
+    fn run<T: Tally>(&self) -> Option<T> {
+        let mut states: Vec<(u128, T)> = vec![(self.start, T::one())];
+        let mut next: Vec<(u128, T)> = Vec::new();
+        for step in &self.steps {
+            next.clear();
+            let possible = |key: u128| {
+                let fields = self.wires.iter().zip(&step.later);
+                fields.clone().all(|(field, later)| field.get(key) <= u128::from(*later))
+            };
+            for (key, ways) in &states {
+                if possible(*key) {
+                    next.push((key & !step.forget, ways.clone()));
+                }
+                for (class, takes) in &step.uses {
+                    let left = self.wires[*class].get(*key);
+                    if left == 0 {
+                        continue;
+                    }
+                    let Some(taken) = take(*key, takes) else { continue };
+                    let new = (taken - (1 << self.wires[*class].shift)) & !step.forget;
+                    if possible(new) {
+                        next.push((new, ways.times(left as u32)?));
+                    }
+                }
+            }
+            next.sort_unstable_by_key(|state| state.0);
+            states.clear();
+            for (key, ways) in next.drain(..) {
+                match states.last_mut() {
+                    Some((old, sum)) if *old == key => sum.plus(&ways)?,
+                    _ => states.push((key, ways)),
+                }
+            }
+        }
+        match states.pop() {
+            Some((_, ways)) => Some(ways),
+            // Nothing survived, which is no way rather than too many.
+            None => T::one().times(0),
+        }
+    }
+}
+
+fn take(key: u128, takes: &[Take]) -> Option<u128> {
+    let mut key = key;
+    for take in takes {
+        let held = take.field.get(key);
+        if held == 0 {
+            key |= take.value << take.field.shift;
+        } else if !take.shared || held != take.value {
+            return None;
+        }
+    }
+    Some(key)
+}
+
+/// Finds free neighbouring bits for the values 0 to `most`.
+fn claim_bits(used: &mut u128, most: u128) -> Option<Field> {
+    let width = 128 - most.leading_zeros();
+    let mask = if width >= 128 { u128::MAX } else { (1 << width) - 1 };
+    let shift = (0..=128 - width.max(1)).find(|s| *used & (mask << s) == 0)?;
+    *used |= mask << shift;
+    Some(Field { shift, mask })
+}
+
+/// Orders the pins so that few resources are open at a time.
+fn order(classes: &[Class]) -> Vec<usize> {
+    let mut claims: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    let mut users: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for (index, class) in classes.iter().enumerate() {
+        for place in &class.places {
+            let keys = claims.entry(place.pin).or_default();
+            keys.extend(place.claims.iter().map(|c| c.0 + classes.len()));
+            keys.insert(index);
+        }
+    }
+    for (pin, keys) in &claims {
+        for key in keys {
+            users.entry(*key).or_default().insert(*pin);
+        }
+    }
+    let mut open: BTreeSet<usize> = BTreeSet::new();
+    let mut order = Vec::new();
+    while !claims.is_empty() {
+        // Opening costs, closing pays; ties go to the pin with the fewest relatives left.
+        let price = |(pin, keys): &(&usize, &BTreeSet<usize>)| {
+            let opens = keys.iter().filter(|k| !open.contains(k) && users[k].len() > 1).count();
+            let closes = keys.iter().filter(|k| open.contains(k) && users[k].len() == 1).count();
+            let relatives: usize = keys.iter().map(|k| users[k].len()).sum();
+            (opens as isize - closes as isize, relatives, **pin)
+        };
+        let Some((pin, keys)) = claims.iter().min_by_key(price) else { break };
+        let (pin, keys) = (*pin, keys.clone());
+        claims.remove(&pin);
+        for key in keys {
+            if let Some(pins) = users.get_mut(&key) {
+                pins.remove(&pin);
+            }
+            open.insert(key);
+        }
+        order.push(pin);
+    }
+    order
+}

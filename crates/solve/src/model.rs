@@ -1,0 +1,689 @@
+//! The problem made flat: nested vectors in, index ranges with inverse tables out.
+//!
+//! What can never matter is dropped here (claims nobody contests, DMA that always fits), roles are
+//! told apart by how they hold their pins, and every cost becomes one number whose order is the
+//! lexicographic order of the objective.
+#![expect(clippy::indexing_slicing, reason = "all ids are checked once by `validate`")]
+
+use crate::answer::{Choice, Fault, Objective};
+use crate::dma;
+use crate::problem::{Claim, Holder, Problem};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// No gate, no candidate, no owner.
+pub(crate) const NONE: usize = usize::MAX;
+
+/// Rows of different lengths in one vector.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows<T> {
+    start: Vec<usize>,
+    items: Vec<T>,
+}
+
+impl<T> Default for Rows<T> {
+    fn default() -> Self {
+        Self { start: vec![0], items: Vec::new() }
+    }
+}
+
+impl<T> Rows<T> {
+    /// Ends the row that `add` filled.
+    pub(crate) fn close(&mut self) {
+        self.start.push(self.items.len());
+    }
+
+    pub(crate) fn add(&mut self, item: T) {
+        self.items.push(item);
+    }
+
+    pub(crate) fn range(&self, row: usize) -> Range<usize> {
+        self.start[row]..self.start[row + 1]
+    }
+
+    pub(crate) fn at(&self, row: usize) -> &[T] {
+        &self.items[self.range(row)]
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+}
+
+impl<T: Copy + Default> Rows<T> {
+    /// Sorts pairs of row and item into rows, keeping the order within each row.
+    pub(crate) fn collect(rows: usize, pairs: &[(usize, T)]) -> Self {
+        let mut start = vec![0; rows + 1];
+        for (row, _) in pairs {
+            start[row + 1] += 1;
+        }
+        for row in 0..rows {
+            start[row + 1] += start[row];
+        }
+        let mut next = start.clone();
+        let mut items = vec![T::default(); pairs.len()];
+        for &(row, item) in pairs {
+            items[next[row]] = item;
+            next[row] += 1;
+        }
+        Self { start, items }
+    }
+}
+
+/// How a role holds its pin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// The device alone.
+    Own,
+    /// All devices with this wire hold one pin together.
+    Wire(usize),
+    /// Shared in a way that no bound knows; only propagation and branching see it.
+    Odd,
+}
+
+/// Who claims a resource or violates a rule: an alternative or a candidate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct User {
+    /// Alternative or candidate id.
+    pub(crate) id: usize,
+    /// Which of the two.
+    pub(crate) is_candidate: bool,
+    /// Holder code (0 is the device alone).
+    pub(crate) holder: usize,
+}
+
+/// The weights that pack an [`Objective`] into one number.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Weights {
+    pub(crate) moved: u64,
+    pub(crate) rule: u64,
+    pub(crate) cost: u64,
+}
+
+impl Weights {
+    pub(crate) fn unpack(self, weight: u64) -> Objective {
+        Objective {
+            moved: (weight / self.moved) as u32,
+            violated: (weight % self.moved / self.rule) as u32,
+            cost: (weight % self.rule / self.cost) as u32,
+            spares: (weight % self.cost) as u32,
+        }
+    }
+
+    pub(crate) fn pack(self, o: &Objective) -> u64 {
+        u64::from(o.moved) * self.moved
+            + u64::from(o.violated) * self.rule
+            + u64::from(o.cost) * self.cost
+            + u64::from(o.spares)
+    }
+}
+
+/// One candidate, flat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cand {
+    pub(crate) role: usize,
+    pub(crate) pin: usize,
+    /// 0 is the device alone, else the group's number + 1.
+    pub(crate) holder: usize,
+    pub(crate) signal: usize,
+    pub(crate) moved: bool,
+    /// What it costs beside its pin.
+    pub(crate) extra: u64,
+    /// Resource that at most one wire can pass, or [`NONE`].
+    pub(crate) gate: usize,
+}
+
+/// The flat problem.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Model {
+    pub(crate) devices: usize,
+    pub(crate) pins: usize,
+    pub(crate) gates: usize,
+    pub(crate) wires: usize,
+    pub(crate) weights: Weights,
+    pub(crate) pin_weight: Vec<u64>,
+    pub(crate) spare: Vec<bool>,
+    /// First device that is interchangeable with this one.
+    pub(crate) class: Vec<usize>,
+    /// Device to its alternatives (ids are consecutive).
+    pub(crate) alts: Rows<()>,
+    pub(crate) alt_device: Vec<usize>,
+    pub(crate) alt_board: Vec<usize>,
+    pub(crate) alt_claims: Rows<(usize, usize)>,
+    pub(crate) alt_rules: Rows<usize>,
+    pub(crate) alt_dma: Rows<usize>,
+    /// Alternative to its roles (ids are consecutive).
+    pub(crate) roles: Rows<()>,
+    pub(crate) role_alt: Vec<usize>,
+    pub(crate) role_kind: Vec<Kind>,
+    /// Role to its candidates (ids are consecutive).
+    pub(crate) cands: Rows<Cand>,
+    pub(crate) cand_claims: Rows<(usize, usize)>,
+    pub(crate) cand_rules: Rows<usize>,
+    /// Rules whose weight is part of `extra`.
+    pub(crate) rule_local: Vec<bool>,
+    pub(crate) pin_cands: Rows<usize>,
+    pub(crate) resource_users: Rows<User>,
+    pub(crate) rule_users: Rows<User>,
+    pub(crate) wire_cands: Rows<usize>,
+    pub(crate) gate_cands: Rows<usize>,
+    pub(crate) board_alts: Rows<usize>,
+    /// First demand of each device; demand = role position of a device.
+    pub(crate) demand: Vec<usize>,
+    pub(crate) demand_cands: Rows<usize>,
+    /// Whether DMA can fail at all.
+    pub(crate) dma_matters: bool,
+    /// Every use of this DMA user excludes all others.
+    pub(crate) user_private: Vec<bool>,
+}
+
+fn code(holder: Holder) -> usize {
+    match holder {
+        Holder::Own => 0,
+        Holder::Group(number) => number as usize + 1,
+    }
+}
+
+/// Whether two devices may hold one thing with these holder codes.
+pub(crate) fn agree(one: usize, other: usize) -> bool {
+    one != 0 && one == other
+}
+
+impl Model {
+    pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
+        validate(problem)?;
+        let mut model = Self {
+            devices: problem.devices.len(),
+            pins: problem.pins.len(),
+            weights: weights(problem)?,
+            spare: problem.boards.iter().map(|b| b.spare).collect(),
+            dma_matters: !dma::all_fit(problem),
+            ..Self::default()
+        };
+        let unit = model.weights.cost;
+        model.pin_weight = problem.pins.iter().map(|p| u64::from(p.cost) * unit).collect();
+        model.flatten(problem, &contested(problem));
+        model.invert(problem);
+        model.find_kinds(problem);
+        model.find_local_rules();
+        model.find_gates();
+        model.find_classes();
+        model.find_demands();
+        model.find_private_users(problem);
+        Ok(model)
+    }
+
+    pub(crate) fn cand(&self, id: usize) -> &Cand {
+        &self.cands.items[id]
+    }
+
+    pub(crate) fn cand_count(&self) -> usize {
+        self.cands.items.len()
+    }
+
+    pub(crate) fn cand_alt(&self, id: usize) -> usize {
+        self.role_alt[self.cand(id).role]
+    }
+
+    pub(crate) fn cand_device(&self, id: usize) -> usize {
+        self.alt_device[self.cand_alt(id)]
+    }
+
+    pub(crate) fn user_alt(&self, user: &User) -> usize {
+        if user.is_candidate { self.cand_alt(user.id) } else { user.id }
+    }
+
+    fn flatten(&mut self, problem: &Problem, contested: &[bool]) {
+        let keep = |claim: &&Claim| contested[claim.resource.0 as usize];
+        let pair = |claim: &Claim| (claim.resource.0 as usize, code(claim.holder));
+        for (device, d) in problem.devices.iter().enumerate() {
+            for a in &d.alternatives {
+                let alt = self.alt_device.len();
+                self.alts.add(());
+                self.alt_device.push(device);
+                self.alt_board.push(a.board.0 as usize);
+                a.claims.iter().filter(keep).for_each(|c| self.alt_claims.add(pair(c)));
+                self.alt_claims.close();
+                a.violates.iter().for_each(|r| self.alt_rules.add(r.0 as usize));
+                self.alt_rules.close();
+                if self.dma_matters {
+                    a.dma.iter().for_each(|u| self.alt_dma.add(u.0 as usize));
+                }
+                self.alt_dma.close();
+                for r in &a.roles {
+                    let role = self.role_alt.len();
+                    self.roles.add(());
+                    self.role_alt.push(alt);
+                    for c in &r.candidates {
+                        self.cands.add(Cand {
+                            role,
+                            pin: c.pin.0 as usize,
+                            holder: code(c.holder),
+                            signal: c.signal.0 as usize,
+                            moved: c.moved,
+                            extra: if c.moved { self.weights.moved } else { 0 },
+                            gate: NONE,
+                        });
+                        c.claims.iter().filter(keep).for_each(|c| self.cand_claims.add(pair(c)));
+                        self.cand_claims.close();
+                        c.violates.iter().for_each(|r| self.cand_rules.add(r.0 as usize));
+                        self.cand_rules.close();
+                    }
+                    self.cands.close();
+                }
+                self.roles.close();
+            }
+            self.alts.close();
+        }
+    }
+
+    fn invert(&mut self, problem: &Problem) {
+        let mut pins = Vec::with_capacity(self.cand_count());
+        let mut resources = Vec::new();
+        let mut rules = Vec::new();
+        let mut boards = Vec::new();
+        for alt in 0..self.alt_device.len() {
+            let user = User { id: alt, is_candidate: false, holder: 0 };
+            let claims = self.alt_claims.at(alt).iter();
+            resources.extend(claims.map(|&(r, holder)| (r, User { holder, ..user })));
+            rules.extend(self.alt_rules.at(alt).iter().map(|&r| (r, user)));
+            boards.push((self.alt_board[alt], alt));
+        }
+        for (id, c) in self.cands.items.iter().enumerate() {
+            pins.push((c.pin, id));
+            let user = User { id, is_candidate: true, holder: 0 };
+            let claims = self.cand_claims.at(id).iter();
+            resources.extend(claims.map(|&(r, holder)| (r, User { holder, ..user })));
+            rules.extend(self.cand_rules.at(id).iter().map(|&r| (r, user)));
+        }
+        self.pin_cands = Rows::collect(self.pins, &pins);
+        self.resource_users = Rows::collect(problem.resources as usize, &resources);
+        self.rule_users = Rows::collect(problem.rules as usize, &rules);
+        self.board_alts = Rows::collect(problem.boards.len(), &boards);
+    }
+
+    /// Finds the wires: roles all of whose candidates claim one resource as a group of their pin,
+    /// so that all devices on it must take one pin.
+    fn find_kinds(&mut self, problem: &Problem) {
+        let shared = |c: &Cand| {
+            let device = self.alt_device[self.role_alt[c.role]];
+            c.holder != 0
+                && self.pin_cands.at(c.pin).iter().any(|&o| {
+                    self.cand(o).holder == c.holder && self.cand_device(o) != device
+                })
+        };
+        self.role_kind = (0..self.role_alt.len())
+            .map(|r| {
+                if self.cands.at(r).iter().any(shared) { Kind::Odd } else { Kind::Own }
+            })
+            .collect();
+        if self.role_kind.iter().all(|k| *k == Kind::Own) {
+            self.wire_cands = Rows::default();
+            return;
+        }
+        let mut wires = Ties::default();
+        let all = problem.devices.iter().flat_map(|d| &d.alternatives).flat_map(|a| &a.roles);
+        for (role, r) in all.enumerate() {
+            if self.role_kind[role] == Kind::Odd {
+                wires.read(role, r);
+            }
+        }
+        self.wires = wires.number(self);
+        let mut pairs = Vec::new();
+        for (id, c) in self.cands.items.iter().enumerate() {
+            if let Kind::Wire(wire) = self.role_kind[c.role] {
+                pairs.push((wire, id));
+            }
+        }
+        self.wire_cands = Rows::collect(self.wires, &pairs);
+        self.cheapen_wires();
+    }
+
+    /// Devices of one wire may disagree on whether a pin is a move: the bound takes the least.
+    fn cheapen_wires(&mut self) {
+        let place = |c: &Cand| (c.pin, c.signal, c.holder);
+        for wire in 0..self.wires {
+            let mut least = BTreeMap::new();
+            for &id in self.wire_cands.at(wire) {
+                let c = self.cand(id);
+                let entry = least.entry(place(c)).or_insert(c.extra);
+                *entry = c.extra.min(*entry);
+            }
+            for &id in self.wire_cands.at(wire) {
+                let c = &mut self.cands.items[id];
+                c.extra = least.get(&place(c)).copied().unwrap_or(c.extra);
+            }
+        }
+    }
+
+    /// A rule that one wire alone can violate costs that wire; no branching is needed.
+    fn find_local_rules(&mut self) {
+        self.rule_local = vec![false; self.rule_users.len()];
+        for rule in 0..self.rule_users.len() {
+            let users = self.rule_users.at(rule);
+            let place = |user: &User| {
+                let alt = self.user_alt(user);
+                let first = self.roles.range(alt).start;
+                let role = if user.is_candidate { self.cand(user.id).role } else { first };
+                let empty = self.roles.range(alt).is_empty();
+                let own = !empty && self.role_kind[role] == Kind::Own;
+                own.then(|| (self.alt_device[alt], role - first))
+            };
+            let pin = |user: &User| {
+                let own = user.is_candidate && self.role_kind[self.cand(user.id).role] == Kind::Own;
+                own.then(|| self.cand(user.id).pin)
+            };
+            let Some(first) = users.first() else { continue };
+            let one_wire = place(first).is_some() && users.iter().all(|u| place(u) == place(first));
+            let one_pin = pin(first).is_some() && users.iter().all(|u| pin(u) == pin(first));
+            self.rule_local[rule] = one_wire || one_pin;
+        }
+        for rule in (0..self.rule_users.len()).filter(|&r| self.rule_local[r]) {
+            let mut charged = BTreeSet::new();
+            for user in self.rule_users.at(rule) {
+                let range = if user.is_candidate {
+                    user.id..user.id + 1
+                } else {
+                    self.cands.range(self.roles.range(user.id).start)
+                };
+                charged.extend(range);
+            }
+            for id in charged {
+                self.cands.items[id].extra += self.weights.rule;
+            }
+        }
+    }
+
+    /// Gives each own wire the most contested resource that only one device can hold.
+    fn find_gates(&mut self) {
+        let mut numbers = BTreeMap::new();
+        let crowd = |r: usize| self.resource_users.at(r).len();
+        let mut pairs = Vec::new();
+        for id in 0..self.cand_count() {
+            let role = self.cand(id).role;
+            if self.role_kind[role] != Kind::Own {
+                continue;
+            }
+            let alt = self.role_alt[role];
+            let own = |claims: &[(usize, usize)]| {
+                let owned = claims.iter().filter(|c| c.1 == 0).map(|c| c.0);
+                owned.max_by_key(|&r| (crowd(r), std::cmp::Reverse(r)))
+            };
+            let position = role - self.roles.range(alt).start;
+            let key = own(self.alt_claims.at(alt)).map(|r| (r, position)).or_else(|| {
+                let resource = own(self.cand_claims.at(id))?;
+                self.claimed_by_one_role(resource, alt).then_some((resource, NONE))
+            });
+            if let Some(key) = key {
+                let next = numbers.len();
+                pairs.push((*numbers.entry(key).or_insert(next), id));
+            }
+        }
+        for &(gate, id) in &pairs {
+            self.cands.items[id].gate = gate;
+        }
+        self.gates = numbers.len();
+        self.gate_cands = Rows::collect(self.gates, &pairs);
+    }
+
+    /// Whether no other role of the alternative can claim the resource too.
+    fn claimed_by_one_role(&self, resource: usize, alt: usize) -> bool {
+        let claims = |id: usize| self.cand_claims.at(id).iter().any(|c| c.0 == resource);
+        self.roles.range(alt).filter(|&r| self.cands.range(r).any(claims)).count() == 1
+    }
+
+    fn find_classes(&mut self) {
+        self.class = (0..self.devices).collect();
+        for device in 1..self.devices {
+            let same = (0..device).find(|&d| self.class[d] == d && self.same(d, device));
+            self.class[device] = same.unwrap_or(device);
+        }
+    }
+
+    fn same(&self, one: usize, other: usize) -> bool {
+        let (a, b) = (self.alts.range(one), self.alts.range(other));
+        a.len() == b.len() && a.zip(b).all(|(a, b)| self.same_alt(a, b))
+    }
+
+    fn same_alt(&self, a: usize, b: usize) -> bool {
+        let same_cand = |x: usize, y: usize| {
+            let (c, d) = (self.cand(x), self.cand(y));
+            (c.pin, c.holder, c.signal, c.moved, c.extra)
+                == (d.pin, d.holder, d.signal, d.moved, d.extra)
+                && self.cand_claims.at(x) == self.cand_claims.at(y)
+                && self.cand_rules.at(x) == self.cand_rules.at(y)
+        };
+        let same_role = |(x, y): (usize, usize)| {
+            let (c, d) = (self.cands.range(x), self.cands.range(y));
+            c.len() == d.len() && c.zip(d).all(|(x, y)| same_cand(x, y))
+        };
+        let (p, q) = (self.roles.range(a), self.roles.range(b));
+        self.alt_board[a] == self.alt_board[b]
+            && self.alt_claims.at(a) == self.alt_claims.at(b)
+            && self.alt_rules.at(a) == self.alt_rules.at(b)
+            && self.alt_dma.at(a) == self.alt_dma.at(b)
+            && p.len() == q.len()
+            && p.zip(q).all(same_role)
+    }
+
+    fn find_demands(&mut self) {
+        let mut pairs = Vec::with_capacity(self.cand_count());
+        let mut next = 0;
+        for device in 0..self.devices {
+            self.demand.push(next);
+            let mut most = 0;
+            for alt in self.alts.range(device) {
+                let roles = self.roles.range(alt);
+                most = most.max(roles.len());
+                for (position, role) in roles.enumerate() {
+                    pairs.extend(self.cands.range(role).map(|c| (next + position, c)));
+                }
+            }
+            next += most;
+        }
+        self.demand.push(next);
+        self.demand_cands = Rows::collect(next, &pairs);
+    }
+
+    fn find_private_users(&mut self, problem: &Problem) {
+        let mut common: Vec<Option<BTreeSet<usize>>> = vec![None; problem.dma.len()];
+        for alt in 0..self.alt_device.len() {
+            for &user in self.alt_dma.at(alt) {
+                let own: BTreeSet<usize> =
+                    self.alt_claims.at(alt).iter().filter(|c| c.1 == 0).map(|c| c.0).collect();
+                let entry = &mut common[user];
+                *entry = Some(match entry.take() {
+                    Some(old) => old.intersection(&own).copied().collect(),
+                    None => own,
+                });
+            }
+        }
+        let private = |c: &Option<BTreeSet<usize>>| c.as_ref().is_some_and(|s| !s.is_empty());
+        self.user_private = common.iter().map(private).collect();
+    }
+
+    /// The exact objective of complete choices.
+    pub(crate) fn evaluate(&self, choices: &[(usize, Vec<usize>)]) -> u64 {
+        let mut pins = BTreeMap::new();
+        let mut rules: BTreeSet<usize> = BTreeSet::new();
+        let mut boards = BTreeSet::new();
+        for (alt, cands) in choices {
+            rules.extend(self.alt_rules.at(*alt));
+            boards.insert(self.alt_board[*alt]);
+            for &id in cands {
+                let c = self.cand(id);
+                *pins.entry(c.pin).or_insert(false) |= c.moved;
+                rules.extend(self.cand_rules.at(id));
+            }
+        }
+        let cost: u64 = pins.keys().map(|&p| self.pin_weight[p]).sum();
+        cost + pins.values().filter(|m| **m).count() as u64 * self.weights.moved
+            + rules.len() as u64 * self.weights.rule
+            + boards.iter().filter(|b| self.spare[**b]).count() as u64
+    }
+
+    /// Back to indices of the problem.
+    pub(crate) fn choices(&self, flat: &[(usize, Vec<usize>)]) -> Vec<Choice> {
+        flat.iter()
+            .enumerate()
+            .map(|(device, (alt, cands))| Choice {
+                alternative: alt - self.alts.range(device).start,
+                candidates: cands
+                    .iter()
+                    .map(|&c| c - self.cands.range(self.cand(c).role).start)
+                    .collect(),
+            })
+            .collect()
+    }
+}
+
+/// Which resource ties which roles to one pin.
+#[derive(Default)]
+struct Ties {
+    /// Role and the resources that may tie it.
+    roles: Vec<(usize, Vec<usize>)>,
+    /// Resource and group to the one pin that all its claimants mean.
+    pins: BTreeMap<(usize, usize), BTreeSet<usize>>,
+    /// Resource and pin to its groups.
+    groups: BTreeMap<(usize, usize), BTreeSet<usize>>,
+}
+
+impl Ties {
+    fn read(&mut self, role: usize, r: &crate::problem::Role) {
+        let mut common: Option<Vec<usize>> = None;
+        for c in &r.candidates {
+            let grouped = c.claims.iter().filter(|claim| claim.holder != Holder::Own);
+            let mut resources = Vec::new();
+            for claim in grouped.filter(|_| c.holder != Holder::Own) {
+                let (resource, pin) = (claim.resource.0 as usize, c.pin.0 as usize);
+                resources.push(resource);
+                self.pins.entry((resource, code(claim.holder))).or_default().insert(pin);
+                self.groups.entry((resource, pin)).or_default().insert(code(claim.holder));
+            }
+            common = Some(match common {
+                None => resources,
+                Some(old) => old.into_iter().filter(|r| resources.contains(r)).collect(),
+            });
+        }
+        self.roles.push((role, common.unwrap_or_default()));
+    }
+
+    /// Writes the kinds into the model and returns the number of wires.
+    fn number(&self, model: &mut Model) -> usize {
+        let clean = |table: &BTreeMap<(usize, usize), BTreeSet<usize>>, resource: usize| {
+            table.range((resource, 0)..(resource + 1, 0)).all(|(_, set)| set.len() == 1)
+        };
+        let tie = |resources: &[usize]| {
+            let clean = |r: &&usize| clean(&self.pins, **r) && clean(&self.groups, **r);
+            resources.iter().find(clean).copied()
+        };
+        let mut found: Vec<(usize, Option<usize>)> =
+            self.roles.iter().map(|(role, r)| (*role, tie(r))).collect();
+        loop {
+            // A pin held by one group on two wires would be one pin of two wires: leave both.
+            let mut owners: BTreeMap<(usize, usize), BTreeSet<Option<usize>>> = BTreeMap::new();
+            for (role, wire) in &found {
+                for c in model.cands.at(*role) {
+                    owners.entry((c.pin, c.holder)).or_default().insert(*wire);
+                }
+            }
+            let mut mixed: BTreeSet<usize> =
+                owners.values().filter(|s| s.len() > 1).flatten().flatten().copied().collect();
+            // Two roles of one alternative on one wire may differ, so it is no wire either.
+            let mut seen = BTreeSet::new();
+            for (role, wire) in &found {
+                mixed.extend(wire.filter(|w| !seen.insert((model.role_alt[*role], *w))));
+            }
+            if mixed.is_empty() {
+                break;
+            }
+            for (_, wire) in &mut found {
+                *wire = wire.filter(|w| !mixed.contains(w));
+            }
+        }
+        let mut numbers = BTreeMap::new();
+        for (role, wire) in found {
+            if let Some(resource) = wire {
+                let next = numbers.len();
+                model.role_kind[role] = Kind::Wire(*numbers.entry(resource).or_insert(next));
+            }
+        }
+        numbers.len()
+    }
+}
+
+/// Resources that two devices may quarrel about.
+fn contested(problem: &Problem) -> Vec<bool> {
+    let mut first: Vec<Option<(usize, usize)>> = vec![None; problem.resources as usize];
+    let mut contested = vec![false; problem.resources as usize];
+    for (device, d) in problem.devices.iter().enumerate() {
+        for a in &d.alternatives {
+            let wires = a.roles.iter().flat_map(|r| &r.candidates).flat_map(|c| &c.claims);
+            for claim in a.claims.iter().chain(wires) {
+                let (r, holder) = (claim.resource.0 as usize, code(claim.holder));
+                match first[r] {
+                    None => first[r] = Some((device, holder)),
+                    Some((d, h)) => contested[r] |= d != device && !agree(h, holder),
+                }
+                // One device with two holders: remember the quarrelsome one.
+                if first[r].is_some_and(|(d, h)| d == device && h != holder) {
+                    first[r] = Some((device, 0));
+                }
+            }
+        }
+    }
+    contested
+}
+
+fn weights(problem: &Problem) -> Result<Weights, Fault> {
+    let spares = problem.boards.iter().filter(|b| b.spare).count() as u64;
+    let total: u64 = problem.pins.iter().map(|p| u64::from(p.cost)).sum();
+    if u32::try_from(total).is_err() {
+        return Err(Fault::TooLarge);
+    }
+    let cost = spares + 1;
+    let rule = (total + 1).checked_mul(cost).ok_or(Fault::TooLarge)?;
+    let moved = rule.checked_mul(u64::from(problem.rules) + 1).ok_or(Fault::TooLarge)?;
+    let most = moved.checked_mul(problem.pins.len() as u64 + 1).ok_or(Fault::TooLarge)?;
+    // The search adds and subtracts such numbers along a path as signed ones.
+    if most > i64::MAX as u64 / 4 {
+        return Err(Fault::TooLarge);
+    }
+    Ok(Weights { moved, rule, cost })
+}
+
+fn validate(problem: &Problem) -> Result<(), Fault> {
+    let bad = |what| Err(Fault::Malformed(what));
+    let resource = |claims: &[Claim]| claims.iter().all(|c| c.resource.0 < problem.resources);
+    let boards = problem.boards.len();
+    if problem.pins.iter().any(|p| p.board.0 as usize >= boards) {
+        return bad("board of a pin");
+    }
+    for a in problem.devices.iter().flat_map(|d| &d.alternatives) {
+        if a.board.0 as usize >= boards {
+            return bad("board of an alternative");
+        }
+        if a.violates.iter().any(|r| r.0 >= problem.rules) {
+            return bad("rule of an alternative");
+        }
+        if a.dma.iter().any(|u| u.0 as usize >= problem.dma.len()) {
+            return bad("DMA user of an alternative");
+        }
+        if !resource(&a.claims) {
+            return bad("resource of an alternative");
+        }
+        for c in a.roles.iter().flat_map(|r| &r.candidates) {
+            if problem.pins.get(c.pin.0 as usize).is_none_or(|p| p.board != a.board) {
+                return bad("pin of a candidate");
+            }
+            if c.violates.iter().any(|r| r.0 >= problem.rules) {
+                return bad("rule of a candidate");
+            }
+            if !resource(&c.claims) {
+                return bad("resource of a candidate");
+            }
+        }
+    }
+    let mut requests = problem.dma.iter().flat_map(|u| &u.requests).flat_map(|r| &r.streams);
+    if requests.any(|s| s.0 >= problem.streams) { bad("stream of a DMA request") } else { Ok(()) }
+}

@@ -1,0 +1,91 @@
+//! One answer: a problem in, the best wiring or the reason why there is none out.
+
+use crate::answer::{Answer, Fault, Optimality, Outcome};
+use crate::check::check;
+use crate::conflict;
+use crate::dma;
+use crate::model::Model;
+use crate::problem::Problem;
+use crate::search::{Choices, Engine};
+use crate::state::Dead;
+use std::collections::BTreeSet;
+
+/// What is asked for.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// Any valid answer will do.
+    pub any: bool,
+    /// Asked between the steps of the search; true ends it with what is known by then.
+    pub stop: Option<&'a dyn Fn() -> bool>,
+}
+
+/// Finds the best answer, proved and unique, or a minimal conflict.
+///
+/// # Errors
+/// [`Fault`] when the problem is no proper problem, or when an answer fails [`check`].
+pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault> {
+    let model = Model::new(problem)?;
+    let Ok(mut engine) = Engine::new(problem, &model, options.stop) else {
+        return conflict::explain(problem, None, options.stop);
+    };
+    if let Err(Dead) = engine.settle() {
+        let seed = engine.flow.stuck(&model);
+        return conflict::explain(problem, Some(seed), options.stop);
+    }
+    let bound = engine.bound();
+    let found = engine.search(u64::MAX, options.any);
+    let stopped = |answer| Outcome::Stopped { answer, bound: model.weights.unpack(bound) };
+    let Some((weight, choices)) = found else {
+        if engine.stopped {
+            return Ok(stopped(None));
+        }
+        return conflict::explain(problem, None, options.stop);
+    };
+    if options.any || engine.stopped {
+        let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
+        return Ok(if engine.stopped { stopped(Some(answer)) } else { Outcome::Solved(answer) });
+    }
+    let least = engine.least(weight, choices);
+    if engine.stopped {
+        let answer = finish(problem, &model, &least, Optimality::Feasible)?;
+        let bound = answer.objective;
+        return Ok(Outcome::Stopped { answer: Some(answer), bound });
+    }
+    finish(problem, &model, &least, Optimality::Proved).map(Outcome::Solved)
+}
+
+/// Whether there is an answer at all; `None` when stopped before that is known.
+pub(crate) fn feasible(
+    problem: &Problem,
+    stop: Option<&dyn Fn() -> bool>,
+) -> Result<Option<bool>, Fault> {
+    let model = Model::new(problem)?;
+    let Ok(mut engine) = Engine::new(problem, &model, stop) else { return Ok(Some(false)) };
+    let found = engine.search(u64::MAX, true).is_some();
+    Ok(if engine.stopped { None } else { Some(found) })
+}
+
+/// Makes choices an answer and has it checked.
+pub(crate) fn finish(
+    problem: &Problem,
+    model: &Model,
+    choices: &Choices,
+    optimality: Optimality,
+) -> Result<Answer, Fault> {
+    let choice = model.choices(choices);
+    let users: BTreeSet<usize> = problem
+        .devices
+        .iter()
+        .zip(&choice)
+        .filter_map(|(device, choice)| device.alternatives.get(choice.alternative))
+        .flat_map(|alternative| alternative.dma.iter().map(|user| user.0 as usize))
+        .collect();
+    let answer = Answer {
+        choices: choice,
+        dma: dma::assign(problem, &users).unwrap_or_default(),
+        objective: model.weights.unpack(model.evaluate(choices)),
+        optimality,
+    };
+    check(problem, &answer).map_err(Fault::Rejected)?;
+    Ok(answer)
+}

@@ -1,0 +1,168 @@
+//! Random small problems against the oracle: objective, exact answer, order, count, conflicts.
+
+mod support;
+
+use proptest::prelude::*;
+use sensedsl_solve::problem::{
+    Alternative, Board, BoardId, Candidate, Claim, Device, DmaRequest, DmaUser, DmaUserId, Holder,
+    Pin, PinId, Problem, ResourceId, Role, RuleId, SignalId, StreamId,
+};
+use sensedsl_solve::{Options, Outcome, check, count, enumerate, solve};
+use support::brute::{self, Found};
+
+const RESOURCES: u32 = 6;
+const RULES: u32 = 3;
+
+fn holder() -> impl Strategy<Value = Holder> {
+    prop_oneof![3 => Just(Holder::Own), 1 => (0..2u32).prop_map(Holder::Group)]
+}
+
+fn claims(most: usize) -> impl Strategy<Value = Vec<Claim>> {
+    let claim = ((0..RESOURCES).prop_map(ResourceId), holder());
+    prop::collection::vec(claim.prop_map(|(resource, holder)| Claim { resource, holder }), 0..=most)
+}
+
+fn violates() -> impl Strategy<Value = Vec<RuleId>> {
+    prop_oneof![
+        4 => Just(vec![]),
+        1 => (0..RULES).prop_map(|r| vec![RuleId(r)]),
+    ]
+}
+
+/// A role of its own, or a wire of a bus: one pin for all that are on it.
+fn role(pins: u32, base: u32) -> impl Strategy<Value = Role> {
+    let candidate = ((0..pins), 0..2u32, claims(1), violates(), prop::bool::weighted(0.2));
+    let bus = prop_oneof![3 => Just(None), 2 => (0..2u32).prop_map(Some)];
+    (prop::collection::vec((candidate, holder()), 1..4), bus, prop::bool::weighted(0.15)).prop_map(
+        move |(list, bus, wild)| {
+            let mut candidates: Vec<Candidate> = list
+                .into_iter()
+                .map(|((pin, signal, mut claims, violates, moved), holder)| {
+                    let mut signal = signal;
+                    let holder = match bus {
+                        Some(wire) => {
+                            let resource = ResourceId(RESOURCES + wire);
+                            claims.push(Claim { resource, holder: Holder::Group(base + pin) });
+                            signal = 2 + wire;
+                            Holder::Group(10 + wire)
+                        }
+                        None if wild => holder,
+                        None => Holder::Own,
+                    };
+                    let pin = PinId(base + pin);
+                    let signal = SignalId(signal);
+                    Candidate { pin, holder, signal, claims, violates, moved }
+                })
+                .collect();
+            candidates.sort_by_key(|c| (c.pin, c.signal));
+            candidates.dedup_by_key(|c| (c.pin, c.signal));
+            Role { candidates }
+        },
+    )
+}
+
+fn alternative(board: u32, pins: u32, wires: usize) -> impl Strategy<Value = Alternative> {
+    let roles = prop::collection::vec(role(pins, board * pins), wires..=wires);
+    let dma = prop_oneof![2 => Just(vec![]), 1 => (0..3u32).prop_map(|u| vec![DmaUserId(u)])];
+    (roles, claims(2), violates(), dma).prop_map(move |(roles, claims, violates, dma)| {
+        Alternative { board: BoardId(board), claims, violates, dma, roles }
+    })
+}
+
+fn device(boards: u32, pins: u32) -> impl Strategy<Value = Device> {
+    let choice = (0..boards, 1..3usize)
+        .prop_flat_map(move |(board, wires)| alternative(board, pins, wires));
+    prop::collection::vec(choice, 1..4).prop_map(|mut alternatives| {
+        // No answer may be reachable through two alternatives of one board.
+        for (index, a) in alternatives.iter_mut().enumerate() {
+            for c in a.roles.iter_mut().flat_map(|r| &mut r.candidates) {
+                if c.holder == Holder::Own {
+                    c.signal.0 = c.signal.0 * 4 + index as u32 + 10;
+                }
+            }
+            for r in &mut a.roles {
+                r.candidates.sort_by_key(|c| (c.pin, c.signal));
+            }
+        }
+        Device { alternatives }
+    })
+}
+
+/// Devices, some of which stand several times.
+fn problem() -> impl Strategy<Value = Problem> {
+    let shape = (1..3u32, 3..6u32);
+    let devices = move |(boards, pins): (u32, u32)| {
+        let device = (device(boards, pins), 1..3usize);
+        let costs = prop::collection::vec(0..4u32, (boards * pins) as usize);
+        let spare = prop::collection::vec(prop::bool::weighted(0.4), boards as usize);
+        let user = prop::collection::vec(prop::collection::btree_set(0..4u32, 1..3), 1..3);
+        let dma = prop::collection::vec(user, 3);
+        (prop::collection::vec(device, 1..4), costs, spare, dma, Just(pins))
+    };
+    shape.prop_flat_map(devices).prop_map(|(devices, costs, spare, dma, pins)| {
+        let request = |s: std::collections::BTreeSet<u32>| DmaRequest {
+            streams: s.into_iter().map(StreamId).collect(),
+        };
+        Problem {
+            pins: (0..)
+                .zip(costs)
+                .map(|(i, cost): (u32, u32)| Pin { board: BoardId(i / pins), cost })
+                .collect(),
+            boards: spare.into_iter().map(|spare| Board { spare }).collect(),
+            devices: devices.into_iter().flat_map(|(d, n)| vec![d; n]).take(4).collect(),
+            dma: dma
+                .into_iter()
+                .map(|user| DmaUser { requests: user.into_iter().map(request).collect() })
+                .collect(),
+            rules: RULES,
+            resources: RESOURCES + 2,
+            streams: 4,
+        }
+    })
+}
+
+fn only(problem: &Problem, keep: impl Fn(u32) -> bool) -> Problem {
+    let devices = (0..).zip(&problem.devices).filter(|(i, _)| keep(*i)).map(|(_, d)| d.clone());
+    Problem { devices: devices.collect(), ..problem.clone() }
+}
+
+fn compare(problem: &Problem) -> Result<(), TestCaseError> {
+    let found: Vec<Found> = brute::all(problem);
+    prop_assert_eq!(count(problem), Ok(found.len().into()));
+    let listed: Result<Vec<_>, _> = enumerate(problem).collect();
+    let listed = listed.map_err(|fault| TestCaseError::fail(fault.to_string()))?;
+    prop_assert_eq!(listed.len(), found.len());
+    for (answer, expected) in listed.iter().zip(&found) {
+        prop_assert_eq!(answer.objective, expected.objective);
+        prop_assert_eq!(&answer.choices, &expected.choices());
+    }
+    match (solve(problem, &Options::default()), found.first()) {
+        (Ok(Outcome::Solved(answer)), Some(best)) => {
+            prop_assert_eq!(answer.objective, best.objective);
+            prop_assert_eq!(&answer.choices, &best.choices());
+            prop_assert_eq!(check(problem, &answer), Ok(()));
+            let any = Options { any: true, ..Options::default() };
+            prop_assert!(matches!(solve(problem, &any), Ok(Outcome::Solved(_))));
+        }
+        (Ok(Outcome::Infeasible(conflict)), None) => {
+            let inside = |i: u32| conflict.devices.iter().any(|d| d.0 == i);
+            prop_assert!(brute::all(&only(problem, inside)).is_empty());
+            for device in &conflict.devices {
+                let rest = only(problem, |i| inside(i) && i != device.0);
+                prop_assert!(!brute::all(&rest).is_empty(), "not minimal without {:?}", device);
+            }
+        }
+        (outcome, best) => prop_assert!(false, "{outcome:?} where the oracle has {best:?}"),
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn agrees_with_the_oracle(problem in problem()) {
+        prop_assume!(brute::combinations(&problem) < 30_000.0);
+        compare(&problem)?;
+    }
+}
