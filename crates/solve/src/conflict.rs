@@ -5,9 +5,7 @@
 //! and pins stop being exclusive one by one as long as there is still no answer.
 
 use crate::answer::{Conflict, Fault, Outcome};
-use crate::problem::{
-    Claim, DeviceId, DmaRequest, PinId, Problem, ResourceId, StreamId,
-};
+use crate::problem::{Claim, DeviceId, DmaRequest, PinId, Problem, ResourceId, StreamId};
 use crate::solve::feasible;
 use std::collections::BTreeSet;
 
@@ -51,8 +49,8 @@ pub(crate) fn explain(
         }
     }
     let streams = contested(&mut core, STREAMS, stop)?;
-    let resources = contested(&mut core, RESOURCES, stop)?;
     let pins = contested(&mut core, PINS, stop)?;
+    let resources = contested(&mut core, RESOURCES, stop)?;
     // Copies made for sharing stand for nothing of the problem.
     let pins = pins.into_iter().filter(|p| (*p as usize) < problem.pins.len());
     let streams = streams.into_iter().filter(|s| *s < problem.streams);

@@ -220,9 +220,8 @@ impl Census<'_> {
 
 /// Whether devices on one wire claim one resource for different holders.
 fn quarrel(claims: &[&(usize, usize)], several: bool) -> bool {
-    let clash = |a: &&(usize, usize), b: &&(usize, usize)| {
-        a.0 == b.0 && !crate::model::agree(a.1, b.1)
-    };
+    let clash =
+        |a: &&(usize, usize), b: &&(usize, usize)| a.0 == b.0 && !crate::model::agree(a.1, b.1);
     several
         && claims.iter().enumerate().any(|(i, a)| claims.iter().skip(i + 1).any(|b| clash(a, b)))
 }

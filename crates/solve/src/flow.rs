@@ -60,9 +60,7 @@ impl Flow {
         let nodes = demands + 2 * model.gates + model.pins;
         let mut always = vec![false; devices];
         for device in 0..model.devices {
-            for (position, demand) in
-                (model.demand[device]..model.demand[device + 1]).enumerate()
-            {
+            for (position, demand) in (model.demand[device]..model.demand[device + 1]).enumerate() {
                 always[demand] = model.alts.range(device).all(|alt| {
                     let role = model.roles.range(alt).start + position;
                     position < model.roles.range(alt).len() && model.role_kind[role] == Kind::Own
@@ -104,7 +102,12 @@ impl Flow {
     }
 
     /// Pin and candidate of a role position of a device, when the flow has it.
-    pub(crate) fn at(&self, model: &Model, device: usize, position: usize) -> Option<(usize, usize)> {
+    pub(crate) fn at(
+        &self,
+        model: &Model,
+        device: usize,
+        position: usize,
+    ) -> Option<(usize, usize)> {
         let demand = model.demand[device] + position;
         self.now.active[demand].then(|| (self.pin_of(model, demand), self.now.arc[demand]))
     }
@@ -220,10 +223,11 @@ impl Flow {
         let c = model.cand(self.now.arc[demand]);
         if c.gate == NONE {
             // The representative of a shared wire changes; any candidate on the pin will do.
-            return self
-                .arcs(model, demand)
-                .any(|id| state.cand_on(model, id) && model.cand(id).pin == c.pin
-                    && model.cand(id).extra == c.extra);
+            return self.arcs(model, demand).any(|id| {
+                state.cand_on(model, id)
+                    && model.cand(id).pin == c.pin
+                    && model.cand(id).extra == c.extra
+            });
         }
         let pin = self.now.gate_out[c.gate];
         let enters = |id: usize| {

@@ -19,13 +19,10 @@ mod search;
 mod solve;
 mod state;
 
-pub use answer::{
-    Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome,
-};
+pub use answer::{Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome};
 pub use check::{Violation, check};
 pub use count::count;
 pub use enumerate::{Answers, enumerate};
-
 
 pub use problem::Problem;
 pub use solve::{Options, solve};

@@ -308,14 +308,14 @@ impl Model {
         let shared = |c: &Cand| {
             let device = self.alt_device[self.role_alt[c.role]];
             c.holder != 0
-                && self.pin_cands.at(c.pin).iter().any(|&o| {
-                    self.cand(o).holder == c.holder && self.cand_device(o) != device
-                })
+                && self
+                    .pin_cands
+                    .at(c.pin)
+                    .iter()
+                    .any(|&o| self.cand(o).holder == c.holder && self.cand_device(o) != device)
         };
         self.role_kind = (0..self.role_alt.len())
-            .map(|r| {
-                if self.cands.at(r).iter().any(shared) { Kind::Odd } else { Kind::Own }
-            })
+            .map(|r| if self.cands.at(r).iter().any(shared) { Kind::Odd } else { Kind::Own })
             .collect();
         if self.role_kind.iter().all(|k| *k == Kind::Own) {
             self.wire_cands = Rows::default();

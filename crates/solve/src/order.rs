@@ -83,8 +83,7 @@ impl Engine<'_> {
             Entry::Pin(device, position) | Entry::Signal(device, position) => {
                 self.state.decided(device).is_some_and(|alt| {
                     let roles = model.roles.range(alt);
-                    position >= roles.len()
-                        || self.state.pinned(roles.start + position).is_some()
+                    position >= roles.len() || self.state.pinned(roles.start + position).is_some()
                 })
             }
         }

@@ -166,6 +166,8 @@ impl<'a> Engine<'a> {
                     if weight < self.limit {
                         self.limit = weight;
                         self.best = Some((weight, choices));
+                    } else {
+                        self.cut = self.cut.min(weight);
                     }
                     if self.first && self.best.is_some() || weight == bound {
                         return;
@@ -270,8 +272,7 @@ impl<'a> Engine<'a> {
         }
         let mut matching = Matching::new(self.problem.streams);
         let certain = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
-        let mut all =
-            certain.map(|r| r.streams.as_slice()).chain(unions.iter().map(Vec::as_slice));
+        let mut all = certain.map(|r| r.streams.as_slice()).chain(unions.iter().map(Vec::as_slice));
         all.all(|streams| matching.add(streams))
     }
 
@@ -451,7 +452,12 @@ impl<'a> Engine<'a> {
         Err(culprit)
     }
 
-    fn read_alt(&mut self, device: usize, alt: usize, wires: &[usize]) -> Result<Vec<usize>, usize> {
+    fn read_alt(
+        &mut self,
+        device: usize,
+        alt: usize,
+        wires: &[usize],
+    ) -> Result<Vec<usize>, usize> {
         let model = self.model;
         self.hold_all(device, model.alt_claims.at(alt))?;
         let mut cands = Vec::with_capacity(model.roles.range(alt).len());
@@ -459,9 +465,11 @@ impl<'a> Engine<'a> {
             let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
             let wanted = match model.role_kind[role] {
                 Kind::Own => flow,
-                Kind::Wire(wire) => {
-                    self.flow.wire(model, wire).or(Some(wires[wire]).filter(|p| *p != NONE)).or(flow)
-                }
+                Kind::Wire(wire) => self
+                    .flow
+                    .wire(model, wire)
+                    .or(Some(wires[wire]).filter(|p| *p != NONE))
+                    .or(flow),
                 Kind::Odd => None,
             };
             let mut culprit = NOBODY;

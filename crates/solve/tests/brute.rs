@@ -70,8 +70,8 @@ fn alternative(board: u32, pins: u32, wires: usize) -> impl Strategy<Value = Alt
 }
 
 fn device(boards: u32, pins: u32) -> impl Strategy<Value = Device> {
-    let choice = (0..boards, 1..3usize)
-        .prop_flat_map(move |(board, wires)| alternative(board, pins, wires));
+    let choice =
+        (0..boards, 1..3usize).prop_flat_map(move |(board, wires)| alternative(board, pins, wires));
     prop::collection::vec(choice, 1..4).prop_map(|mut alternatives| {
         // No answer may be reachable through two alternatives of one board.
         for (index, a) in alternatives.iter_mut().enumerate() {

@@ -52,16 +52,23 @@ pub enum Target {
 pub enum Kind {
     Analog,
     /// Shared unless exclusive; devices of one address are kept apart.
-    I2c { address: u32, exclusive: bool },
+    I2c {
+        address: u32,
+        exclusive: bool,
+    },
     Icu,
     Encoder,
     /// Outputs of one group share a timer.
-    Pwm { group: u32 },
+    Pwm {
+        group: u32,
+    },
     Uart,
     Spi,
     Can,
     Dac,
-    Digital { edge: bool },
+    Digital {
+        edge: bool,
+    },
 }
 
 /// Builds a problem device by device.
@@ -209,7 +216,13 @@ impl Builder {
     }
 
     fn alternative(&self, board: usize, claims: Vec<Claim>, roles: Vec<Role>) -> Alternative {
-        Alternative { board: BoardId(board as u32), claims, violates: Vec::new(), dma: Vec::new(), roles }
+        Alternative {
+            board: BoardId(board as u32),
+            claims,
+            violates: Vec::new(),
+            dma: Vec::new(),
+            roles,
+        }
     }
 
     /// Adds a device that may go to any of the boards.

@@ -67,7 +67,11 @@ fn walk(problem: &Problem, chosen: &mut Vec<(usize, Vec<usize>)>, found: &mut Ve
     }
 }
 
-fn wires<'a>(problem: &'a Problem, device: usize, choice: &(usize, Vec<usize>)) -> Vec<&'a Candidate> {
+fn wires<'a>(
+    problem: &'a Problem,
+    device: usize,
+    choice: &(usize, Vec<usize>),
+) -> Vec<&'a Candidate> {
     let roles = &problem.devices[device].alternatives[choice.0].roles;
     roles.iter().zip(&choice.1).map(|(r, &c)| &r.candidates[c]).collect()
 }
@@ -90,14 +94,13 @@ fn consistent(problem: &Problem, chosen: &[(usize, Vec<usize>)]) -> bool {
     before.iter().enumerate().all(|(device, old)| {
         let old_wires = wires(problem, device, old);
         let pins = old_wires.iter().all(|o| {
-            new.iter().all(|n| {
-                o.pin != n.pin || (agree(o.holder, n.holder) && o.signal == n.signal)
-            })
+            new.iter()
+                .all(|n| o.pin != n.pin || (agree(o.holder, n.holder) && o.signal == n.signal))
         });
         let mine = claims(before.len(), last);
-        pins && claims(device, old).iter().all(|o| {
-            mine.iter().all(|n| o.resource != n.resource || agree(o.holder, n.holder))
-        })
+        pins && claims(device, old)
+            .iter()
+            .all(|o| mine.iter().all(|n| o.resource != n.resource || agree(o.holder, n.holder)))
     })
 }
 
