@@ -1,1 +1,122 @@
-//! placeholder
+//! From a design to a wiring: the pin problem is put to the solver, and its answer read back.
+
+mod alternatives;
+pub mod assignment;
+mod checks;
+mod conflict;
+mod converters;
+mod formulate;
+mod names;
+mod offer;
+mod read_back;
+mod streams;
+mod wishes;
+
+use sensedsl_diagnostics::codes::{e0402_solver_disagrees, e0506_hardware_limit};
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_model::design::Design;
+use sensedsl_solve::{Answers, Count, Fault, Options, Outcome};
+
+use assignment::Assignment;
+use formulate::{Formulation, formulate};
+
+pub use conflict::{NoWiring, Repair};
+pub use sensedsl_solve as solver;
+
+/// The pin problem of a design, ready to be asked.
+pub struct Wiring<'a> {
+    design: &'a Design,
+    formulation: Formulation<'a>,
+}
+
+/// What became of a question.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Solved {
+    /// A wiring.
+    Wired(Box<Assignment>),
+    /// There is none.
+    Infeasible(NoWiring),
+    /// The solver failed its own check; to be reported as it stands.
+    Failed(Box<Diagnostic>),
+}
+
+impl<'a> Wiring<'a> {
+    /// Puts the problem of a design.
+    #[must_use]
+    pub fn new(design: &'a Design) -> Self {
+        Self { design, formulation: formulate(design) }
+    }
+
+    /// What is wrong with the placement of single devices, and rules that do nothing. When there is
+    /// an error among them there is no wiring, and a conflict would say less.
+    #[must_use]
+    pub fn check(&self) -> Vec<Diagnostic> {
+        let mut diagnostics = checks::hopeless(self.design, &self.formulation);
+        diagnostics.extend(checks::rules(self.design));
+        diagnostics
+    }
+
+    /// Warnings about a wiring.
+    #[must_use]
+    pub fn warnings(&self, assignment: &Assignment) -> Vec<Diagnostic> {
+        checks::of_wiring(self.design, assignment)
+    }
+
+    /// The best wiring, or any.
+    #[must_use]
+    pub fn solve(&self, any: bool) -> Solved {
+        let options = Options { any, ..Options::default() };
+        match solver::solve(&self.formulation.problem, &options) {
+            Ok(Outcome::Solved(answer)) => self.read(&answer),
+            Ok(Outcome::Stopped { answer: Some(answer), .. }) => self.read(&answer),
+            Ok(Outcome::Infeasible(conflict)) => {
+                Solved::Infeasible(conflict::read(&self.formulation, &conflict))
+            }
+            Ok(Outcome::Stopped { answer: None, .. }) => {
+                Solved::Failed(Box::new(self.disagrees("it stopped without being told to")))
+            }
+            Err(fault) => Solved::Failed(Box::new(self.fault(&fault))),
+        }
+    }
+
+    /// All wirings, best first.
+    pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
+        let answers: Answers<'_> = solver::enumerate(&self.formulation.problem);
+        answers.map(|answer| match answer {
+            Ok(answer) => self.read(&answer),
+            Err(fault) => Solved::Failed(Box::new(self.fault(&fault))),
+        })
+    }
+
+    /// The exact number of wirings.
+    ///
+    /// # Errors
+    /// The diagnostic of a fault in the solver.
+    pub fn count(&self) -> Result<Count, Box<Diagnostic>> {
+        solver::count(&self.formulation.problem).map_err(|fault| Box::new(self.fault(&fault)))
+    }
+
+    fn read(&self, answer: &solver::Answer) -> Solved {
+        match read_back::read_back(self.design, &self.formulation, answer) {
+            Some(assignment) => Solved::Wired(Box::new(assignment)),
+            None => Solved::Failed(Box::new(e0506_hardware_limit::hardware_limit(
+                self.place(),
+                "the converters find no DMA stream beside the other peripherals",
+                "fix another `unit` for one of the analog devices, or take another bus",
+            ))),
+        }
+    }
+
+    fn place(&self) -> Span {
+        let board = self.design.boards.first();
+        board.map_or_else(|| Span::new(self.design.file, 0..0), |board| board.name.span)
+    }
+
+    fn fault(&self, fault: &Fault) -> Diagnostic {
+        self.disagrees(&fault.to_string())
+    }
+
+    fn disagrees(&self, why: &str) -> Diagnostic {
+        e0402_solver_disagrees::solver_disagrees(self.place(), why)
+    }
+}

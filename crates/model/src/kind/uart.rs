@@ -72,3 +72,20 @@ pub(crate) fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueTy
         receive_only,
     }
 }
+
+impl Uart {
+    /// The serial port of a link: 8N1, both ways.
+    #[must_use]
+    pub fn link(baud: u32) -> Self {
+        Self {
+            baud,
+            data_bits: 8,
+            parity: Parity::None,
+            stop_bits: 1,
+            start: Vec::new(),
+            end: Vec::new(),
+            length_bytes: 1,
+            receive_only: false,
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The answer in names: which device is on which pins of which board.
+
+use sensedsl_board::table::{Pin, Usage};
+use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
+use sensedsl_model::kind::Role;
+
+/// How good a wiring is known to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Proved: no other wiring is better.
+    Optimal,
+    /// Valid, not compared with all others.
+    Feasible,
+}
+
+impl Status {
+    /// The word of the JSON output.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal",
+            Self::Feasible => "feasible",
+        }
+    }
+}
+
+/// A wiring of all devices.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    /// What is known of it.
+    pub status: Status,
+    /// Wires that differ from the wiring to keep.
+    pub moved: u32,
+    /// `prefer` and `avoid` rules that are violated.
+    pub violated: u32,
+    /// Opportunity cost: usages of all pins used, each pin once.
+    pub cost: u32,
+    /// One for each board of the design, in its order.
+    pub boards: Vec<BoardAssignment>,
+}
+
+/// What one board carries.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BoardAssignment {
+    /// Which board.
+    pub board: BoardIndex,
+    /// Its part of the opportunity cost.
+    pub cost: u32,
+    /// Its devices, in file order.
+    pub devices: Vec<DeviceWiring>,
+    /// The wires of a serial link.
+    pub link: Option<LinkWiring>,
+    /// The DMA streams of the peripherals in use, by unit and request.
+    pub dma: Vec<DmaAssignment>,
+}
+
+/// The wires of one device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceWiring {
+    /// Which device.
+    pub device: DeviceIndex,
+    /// The peripheral instance (`ADC1`, `I2C3`, `TIM3`); none for a bare GPIO.
+    pub unit: Option<String>,
+    /// Its wires, in the order of the roles.
+    pub wires: Vec<Wire>,
+}
+
+/// The wires of a serial link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinkWiring {
+    /// The serial port.
+    pub unit: String,
+    /// TX and RX.
+    pub wires: Vec<Wire>,
+}
+
+/// One wire: a role on a pin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wire {
+    /// What the wire is to the device.
+    pub role: Role,
+    /// Index into the pins of the board's table.
+    pub pin: usize,
+    /// Index into the usages of that pin; none for a plain GPIO.
+    pub usage: Option<usize>,
+}
+
+impl Wire {
+    /// The pin in the board's table.
+    #[must_use]
+    pub fn pin<'a>(&self, board: &'a Board) -> Option<&'a Pin> {
+        board.table.pins.get(self.pin)
+    }
+
+    /// The usage in the board's table.
+    #[must_use]
+    pub fn usage<'a>(&self, board: &'a Board) -> Option<&'a Usage> {
+        self.pin(board)?.usages.get(self.usage?)
+    }
+
+    /// The signal as the table spells it; `GPIO` for a plain one.
+    #[must_use]
+    pub fn signal<'a>(&self, board: &'a Board) -> &'a str {
+        self.usage(board).map_or("GPIO", |usage| usage.spelled.as_str())
+    }
+}
+
+/// A DMA stream given to a peripheral.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DmaAssignment {
+    /// The peripheral instance.
+    pub unit: String,
+    /// The request, as the target profile names it (`I2C1_RX`).
+    pub request: String,
+    /// The stream, as the target profile spells it (`1,0`).
+    pub stream: String,
+}
+
+impl Assignment {
+    /// The wiring of one device and its board.
+    #[must_use]
+    pub fn device(&self, index: DeviceIndex) -> Option<(BoardIndex, &DeviceWiring)> {
+        self.boards.iter().find_map(|board| {
+            let wiring = board.devices.iter().find(|wiring| wiring.device == index)?;
+            Some((board.board, wiring))
+        })
+    }
+
+    /// The boards that carry a device, with their boards of the design.
+    pub fn used<'a>(
+        &'a self,
+        design: &'a Design,
+    ) -> impl Iterator<Item = (&'a BoardAssignment, &'a Board)> {
+        let used = self.boards.iter().filter(|board| !board.devices.is_empty());
+        used.filter_map(|board| Some((board, design.board(board.board)?)))
+    }
+}

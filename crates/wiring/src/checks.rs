@@ -1,0 +1,259 @@
+//! What can be said before and after solving: fixed pins that cannot serve, instances that do not
+//! exist, on-board parts that are touched.
+
+use sensedsl_board::pin::natural;
+use sensedsl_board::table::Occupation;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::{
+    e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, w0604_unused_rule,
+    w0605_onboard_part,
+};
+use sensedsl_model::design::{BoardIndex, Design, Device, Spanned, WishFor};
+use sensedsl_model::kind::Role;
+
+use crate::alternatives::{Wanted, alternatives};
+use crate::assignment::Assignment;
+use crate::formulate::{Builder, Formulation, wanted};
+use crate::offer::{Offer, Withheld};
+
+/// Reports what is wrong with the placement of devices that have no way to be connected at all.
+pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    for (device, meanings) in design.devices.iter().zip(&formulation.meanings) {
+        if meanings.is_empty() {
+            diagnostics.extend(why_hopeless(design, formulation, device));
+        }
+    }
+    diagnostics
+}
+
+fn why_hopeless(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    device: &Device,
+) -> Option<Diagnostic> {
+    let offers = offers(formulation, device);
+    for (role, pin) in &device.placement.pins {
+        if let Some(withheld) = withheld(&offers, pin) {
+            return Some(withheld);
+        }
+        if !possible(design, &offers, device, |wanted| {
+            wanted.unit = None;
+            wanted.side = None;
+            wanted.header = None;
+            wanted.pins.retain(|(fixed, _)| fixed == role);
+        }) {
+            return Some(cannot_serve(design, &offers, device, *role, pin));
+        }
+    }
+    let unit = device.placement.unit.as_ref()?;
+    let reachable = possible(design, &offers, device, |wanted| {
+        wanted.pins.clear();
+        wanted.side = None;
+        wanted.header = None;
+    });
+    if reachable {
+        return None;
+    }
+    let units = units(design, &offers, device);
+    let kind = device.kind.name().with_article();
+    Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units.join(", ")))
+}
+
+fn offers<'f, 'a>(formulation: &'f Formulation<'a>, device: &Device) -> Vec<&'f Offer<'a>> {
+    let bound = |offer: &&Offer<'a>| device.board.is_none_or(|board| board == offer.index);
+    formulation.offers.iter().filter(bound).collect()
+}
+
+/// The report for a fixed pin that is withheld on every board that has it.
+fn withheld(
+    offers: &[&Offer<'_>],
+    pin: &Spanned<sensedsl_board::pin::PinName>,
+) -> Option<Diagnostic> {
+    let at = |offer: &&Offer<'_>| {
+        let index = offer.board.table.pins.iter().position(|one| one.name == pin.value)?;
+        Some(offer.why_withheld(index).cloned())
+    };
+    let all: Option<Vec<Withheld>> = offers.iter().filter_map(at).collect();
+    let first = all?.into_iter().next()?;
+    let name = pin.value.as_str();
+    let (by, place, help) = match &first {
+        Withheld::Reserved(rule) => (
+            "a `reserve` rule".to_owned(),
+            Some(*rule),
+            "take another pin, or change the rule".to_owned(),
+        ),
+        Withheld::Onboard(part) => (
+            format!("{part} on the board"),
+            None,
+            format!("take another pin, or write `release {name};` if {part} is not needed"),
+        ),
+        Withheld::Link => {
+            ("the USB link".to_owned(), None, "take another pin, or another link".to_owned())
+        }
+        Withheld::Debug => (
+            "the debugger".to_owned(),
+            None,
+            format!("take another pin, or write `release {name};` and give up debugging"),
+        ),
+    };
+    Some(e0316_pin_not_available::pin_not_available(pin.span, name, &by, place, &help))
+}
+
+fn cannot_serve(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+    pin: &Spanned<sensedsl_board::pin::PinName>,
+) -> Diagnostic {
+    let row = offers.iter().find_map(|offer| {
+        let row = offer.board.table.pin(&pin.value)?;
+        Some(offer.board.table_span(row.range.clone()))
+    });
+    let needs = format!("`{role}` of {}", device.kind.name().with_article());
+    let pins = pins_of(design, offers, device, role);
+    e0314_pin_cannot_serve::pin_cannot_serve(
+        pin.span,
+        pin.value.as_str(),
+        &needs,
+        row,
+        &pins.join(", "),
+    )
+}
+
+/// Whether the device could be connected to one of the boards with its placement relaxed.
+fn possible(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    relax: impl Fn(&mut Wanted<'_>),
+) -> bool {
+    !relaxed(design, offers, device, relax).is_empty()
+}
+
+fn relaxed(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    relax: impl Fn(&mut Wanted<'_>),
+) -> Vec<crate::formulate::Meaning> {
+    let mut wanted = wanted(design, device);
+    relax(&mut wanted);
+    let mut builder = Builder::new(design);
+    let boards: Vec<BoardIndex> = offers.iter().map(|offer| offer.index).collect();
+    wanted.boards.retain(|board| boards.contains(board));
+    let fresh: Vec<Offer<'_>> =
+        offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
+    alternatives(&mut builder, &fresh, &wanted).1
+}
+
+fn free(wanted: &mut Wanted<'_>) {
+    wanted.pins.clear();
+    wanted.unit = None;
+    wanted.side = None;
+    wanted.header = None;
+}
+
+fn units(design: &Design, offers: &[&Offer<'_>], device: &Device) -> Vec<String> {
+    let meanings = relaxed(design, offers, device, free);
+    let mut units: Vec<String> = meanings.into_iter().filter_map(|one| one.unit).collect();
+    if units.is_empty() {
+        for meaning in relaxed(design, offers, device, free) {
+            let Some(board) = design.board(meaning.board) else { continue };
+            for chosen in meaning.roles.iter().flatten() {
+                let pin = board.table.pins.get(chosen.pin);
+                let usage = pin.zip(chosen.usage).and_then(|(pin, at)| pin.usages.get(at));
+                let of = usage.map(|usage| usage.signal.function().units()).unwrap_or_default();
+                units.extend(of.iter().map(ToString::to_string));
+            }
+        }
+    }
+    units.sort_by(|a, b| natural(a, b));
+    units.dedup();
+    units
+}
+
+fn pins_of(design: &Design, offers: &[&Offer<'_>], device: &Device, role: Role) -> Vec<String> {
+    let at = device.kind.roles(device.direction).iter().position(|one| *one == role);
+    let mut pins: Vec<String> = Vec::new();
+    for meaning in relaxed(design, offers, device, free) {
+        let Some(board) = design.board(meaning.board) else { continue };
+        let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
+        let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
+        pins.extend(names.map(|pin| pin.name.to_string()));
+    }
+    pins.sort_by(|a, b| natural(a, b));
+    pins.dedup();
+    pins
+}
+
+/// Warnings about a wiring.
+pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    for (on, board) in assignment.used(design) {
+        for wiring in &on.devices {
+            let Some(device) = design.device(wiring.device) else { continue };
+            for wire in &wiring.wires {
+                let Some(pin) = wire.pin(board) else { continue };
+                let Some(part) = &pin.onboard else { continue };
+                if part.how == Occupation::Care {
+                    diagnostics.push(w0605_onboard_part::onboard_part(
+                        device.name.span,
+                        &device.name.value,
+                        pin.name.as_str(),
+                        &part.part,
+                    ));
+                }
+            }
+        }
+    }
+    diagnostics
+}
+
+/// Rules that cannot do anything.
+pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    for board in &design.boards {
+        let known = |name: &str| {
+            let pins = board.table.pins.iter();
+            pins.clone().any(|pin| pin.name.as_str() == name)
+                || pins.clone().flat_map(|pin| &pin.usages).any(|usage| {
+                    let units = usage.signal.function().units();
+                    units.iter().any(|unit| unit.as_str() == name)
+                })
+        };
+        for rule in board.reserved.iter().filter(|rule| !known(&rule.value)) {
+            let text = format!("reserve {}", rule.value);
+            let why = "the board has no such pin or peripheral";
+            diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));
+        }
+        for rule in &board.released {
+            let has = board.table.pins.iter().any(|pin| {
+                let part = pin.onboard.as_ref();
+                let debug = || {
+                    board.profile().is_some_and(|profile| profile.debug.pins.contains(&pin.name))
+                };
+                (pin.name.as_str() == rule.value && (part.is_some() || debug()))
+                    || part.is_some_and(|part| part.part.eq_ignore_ascii_case(&rule.value))
+            });
+            if !has {
+                let text = format!("release {}", rule.value);
+                let why = "no on-board part is there";
+                diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));
+            }
+        }
+    }
+    for device in &design.devices {
+        let several = device.kind.roles(device.direction).len() > 1;
+        for wish in &device.wishes {
+            if several && wish.prefer && matches!(wish.what, WishFor::Pin(None, _)) {
+                let roles: Vec<&str> =
+                    device.kind.roles(device.direction).iter().map(|role| role.name()).collect();
+                let why = format!("the device has several wires: name one of {}", roles.join(", "));
+                diagnostics.push(w0604_unused_rule::unused_rule(wish.span, "prefer pin", &why));
+            }
+        }
+    }
+    diagnostics
+}

@@ -1,0 +1,238 @@
+//! From a design to the solver's problem: every rule becomes a domain, a claim, a DMA request, a
+//! soft rule or a board.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::pin::natural;
+use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Transport};
+use sensedsl_model::kind::{Kind, uart};
+use sensedsl_solve::problem::{
+    self as solver, BoardId, DmaRequest, DmaUser, DmaUserId, PinId, Problem, RuleId, SignalId,
+    StreamId,
+};
+
+use crate::alternatives::{Wanted, alternatives};
+use crate::names::{Names, Resource};
+use crate::offer::Offer;
+
+/// Name of a wire that needs no signal.
+pub(crate) const GPIO: &str = "GPIO";
+
+/// Who asks for wires.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Asker {
+    Device(DeviceIndex),
+    /// The serial link of a board.
+    Link(BoardIndex),
+}
+
+/// What a solver's candidate stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Chosen {
+    pub(crate) pin: usize,
+    pub(crate) usage: Option<usize>,
+}
+
+/// What a solver's alternative stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Meaning {
+    pub(crate) board: BoardIndex,
+    /// The peripheral instance, where the alternative decides it.
+    pub(crate) unit: Option<String>,
+    pub(crate) roles: Vec<Vec<Chosen>>,
+}
+
+/// The problem and what its numbers stand for.
+pub(crate) struct Formulation<'a> {
+    pub(crate) problem: Problem,
+    pub(crate) offers: Vec<Offer<'a>>,
+    /// For each device of the problem who it is.
+    pub(crate) askers: Vec<Asker>,
+    /// For each device of the problem what its alternatives mean.
+    pub(crate) meanings: Vec<Vec<Meaning>>,
+    pub(crate) resources: Vec<Resource>,
+    /// For each DMA stream its board and spelling.
+    pub(crate) streams: Vec<(BoardIndex, String)>,
+    /// For each pin of the problem its board and index in the table.
+    pub(crate) pins: Vec<(BoardIndex, usize)>,
+}
+
+/// What making alternatives needs beside the device.
+pub(crate) struct Builder<'a> {
+    pub(crate) names: Names,
+    /// First pin of each board in the problem.
+    first_pins: Vec<u32>,
+    /// Rank of each signal name.
+    signals: BTreeMap<String, u32>,
+    dma: Vec<DmaUser>,
+    dma_ids: BTreeMap<(BoardIndex, String), DmaUserId>,
+    stream_ids: BTreeMap<(BoardIndex, String), StreamId>,
+    streams: Vec<(BoardIndex, String)>,
+    /// The wishes for each soft rule.
+    rules: u32,
+    pub(crate) design: &'a Design,
+}
+
+impl<'a> Builder<'a> {
+    pub(crate) fn new(design: &'a Design) -> Self {
+        Self {
+            names: Names::default(),
+            first_pins: pins(design).1,
+            signals: signal_ranks(design),
+            dma: Vec::new(),
+            dma_ids: BTreeMap::new(),
+            stream_ids: BTreeMap::new(),
+            streams: Vec::new(),
+            rules: 0,
+            design,
+        }
+    }
+
+    /// The problem's pin for a pin of a board's table.
+    pub(crate) fn pin(&self, board: BoardIndex, pin: usize) -> PinId {
+        let first = self.first_pins.get(board.0).copied().unwrap_or_default();
+        PinId(first + u32::try_from(pin).unwrap_or_default())
+    }
+
+    /// The rank of a signal.
+    pub(crate) fn signal(&self, name: &str) -> SignalId {
+        SignalId(self.signals.get(name).copied().unwrap_or(u32::MAX))
+    }
+
+    /// A new soft rule.
+    pub(crate) fn rule(&mut self) -> RuleId {
+        self.rules += 1;
+        RuleId(self.rules - 1)
+    }
+
+    /// The DMA user of a peripheral instance; none where its driver takes no streams.
+    pub(crate) fn dma(&mut self, board: BoardIndex, unit: &str) -> Vec<DmaUserId> {
+        let key = (board, unit.to_owned());
+        if let Some(id) = self.dma_ids.get(&key) {
+            return vec![*id];
+        }
+        let design = self.design;
+        let profile = design.board(board).and_then(Board::profile);
+        let requests = profile.map(|profile| profile.dma(unit)).unwrap_or_default();
+        if requests.is_empty() {
+            return Vec::new();
+        }
+        let requests = requests
+            .iter()
+            .map(|request| DmaRequest {
+                streams: request
+                    .streams
+                    .iter()
+                    .map(|stream| self.stream(board, &stream.to_string()))
+                    .collect(),
+            })
+            .collect();
+        let id = DmaUserId(u32::try_from(self.dma.len()).unwrap_or(u32::MAX));
+        self.dma.push(DmaUser { requests });
+        self.dma_ids.insert(key, id);
+        vec![id]
+    }
+
+    fn stream(&mut self, board: BoardIndex, name: &str) -> StreamId {
+        let next = StreamId(u32::try_from(self.streams.len()).unwrap_or(u32::MAX));
+        let key = (board, name.to_owned());
+        let id = *self.stream_ids.entry(key.clone()).or_insert(next);
+        if id == next {
+            self.streams.push(key);
+        }
+        id
+    }
+}
+
+/// Makes the solver's problem of a design.
+pub(crate) fn formulate(design: &Design) -> Formulation<'_> {
+    let offers: Vec<Offer<'_>> = design
+        .boards
+        .iter()
+        .enumerate()
+        .map(|(index, board)| Offer::new(BoardIndex(index), board))
+        .collect();
+    let pins = pins(design).0;
+    let links = links(design);
+    let mut builder = Builder::new(design);
+    let mut askers = Vec::new();
+    let mut devices = Vec::new();
+    let mut meanings = Vec::new();
+    let of_devices = design
+        .devices
+        .iter()
+        .enumerate()
+        .map(|(index, device)| (Asker::Device(DeviceIndex(index)), wanted(design, device)));
+    let of_links = links.iter().map(|(board, kind, unit)| {
+        (Asker::Link(*board), Wanted::link(*board, kind, unit.as_deref()))
+    });
+    for (asker, wanted) in of_devices.chain(of_links) {
+        let (list, meaning) = alternatives(&mut builder, &offers, &wanted);
+        askers.push(asker);
+        devices.push(solver::Device { alternatives: list });
+        meanings.push(meaning);
+    }
+    let solver_pins = pins.iter().filter_map(|(board, pin)| {
+        let cost = design.board(*board)?.table.pins.get(*pin)?.cost();
+        Some(solver::Pin { board: board_id(*board), cost })
+    });
+    let boards = design.boards.iter().map(|board| solver::Board { spare: board.spare });
+    let Builder { names, dma, streams, rules, .. } = builder;
+    let resources = names.resources();
+    let problem = Problem {
+        pins: solver_pins.collect(),
+        boards: boards.collect(),
+        devices,
+        dma,
+        rules,
+        resources: u32::try_from(resources.len()).unwrap_or(u32::MAX),
+        streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
+    };
+    Formulation { problem, offers, askers, meanings, resources, streams, pins }
+}
+
+pub(crate) fn board_id(board: BoardIndex) -> BoardId {
+    BoardId(u32::try_from(board.0).unwrap_or(u32::MAX))
+}
+
+pub(crate) fn wanted<'a>(design: &'a Design, device: &'a Device) -> Wanted<'a> {
+    let boards = match device.board {
+        Some(board) => vec![board],
+        None => (0..design.boards.len()).map(BoardIndex).collect(),
+    };
+    Wanted::device(device, boards)
+}
+
+/// All pins of all boards in tie-break order, and where each board begins.
+fn pins(design: &Design) -> (Vec<(BoardIndex, usize)>, Vec<u32>) {
+    let mut pins = Vec::new();
+    let mut first = Vec::new();
+    for (index, board) in design.boards.iter().enumerate() {
+        first.push(u32::try_from(pins.len()).unwrap_or(u32::MAX));
+        pins.extend((0..board.table.pins.len()).map(|pin| (BoardIndex(index), pin)));
+    }
+    (pins, first)
+}
+
+/// All signal names in natural order.
+fn signal_ranks(design: &Design) -> BTreeMap<String, u32> {
+    let usages = design.boards.iter().flat_map(|board| &board.table.pins);
+    let usages = usages.flat_map(|pin| &pin.usages);
+    let mut names: Vec<&str> = usages.map(|usage| usage.signal.name()).chain([GPIO]).collect();
+    names.sort_by(|a, b| natural(a, b));
+    names.dedup();
+    names.iter().zip(0..).map(|(name, rank)| ((*name).to_owned(), rank)).collect()
+}
+
+/// The boards whose link needs wires of the table, as serial ports.
+fn links(design: &Design) -> Vec<(BoardIndex, Kind, Option<String>)> {
+    let serial = |(index, board): (usize, &Board)| {
+        if board.link.transport != Transport::Uart {
+            return None;
+        }
+        let kind = Kind::Uart(uart::Uart::link(board.link.baud));
+        let unit = board.link.unit.as_ref().map(|unit| unit.value.clone());
+        Some((BoardIndex(index), kind, unit))
+    };
+    design.boards.iter().enumerate().filter_map(serial).collect()
+}

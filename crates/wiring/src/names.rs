@@ -1,0 +1,96 @@
+//! The solver's numbers and what they stand for.
+
+use std::collections::BTreeMap;
+
+use sensedsl_model::design::BoardIndex;
+use sensedsl_model::kind::Role;
+use sensedsl_solve::problem::{Claim, Holder, ResourceId};
+
+/// A resource beside the pins.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Resource {
+    /// A signal, used at most once.
+    Signal(BoardIndex, String),
+    /// A whole peripheral instance: a timer, a bus, a serial port.
+    Unit(BoardIndex, String),
+    /// One wire of a bus, which is on one pin.
+    BusWire(BoardIndex, String, Role),
+    /// An address on a bus.
+    Address(BoardIndex, String, u8),
+    /// An interrupt line.
+    Exti(BoardIndex, u8),
+}
+
+impl Resource {
+    /// The name in messages and JSON.
+    #[must_use]
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::Signal(_, name) | Self::Unit(_, name) => name.clone(),
+            Self::BusWire(_, unit, role) => format!("{unit}_{}", role.name().to_uppercase()),
+            Self::Address(_, unit, address) => format!("{unit} address 0x{address:02X}"),
+            Self::Exti(_, line) => format!("EXTI{line}"),
+        }
+    }
+
+    /// The board it is on.
+    #[must_use]
+    pub(crate) fn board(&self) -> BoardIndex {
+        match self {
+            Self::Signal(board, _)
+            | Self::Unit(board, _)
+            | Self::BusWire(board, ..)
+            | Self::Address(board, ..)
+            | Self::Exti(board, _) => *board,
+        }
+    }
+}
+
+/// On whose behalf several devices hold something together.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Group {
+    /// The devices of a bus that agree on a setting (0 where there is none to agree on).
+    Bus(BoardIndex, String, u32),
+    /// The outputs of a timer that run at one frequency.
+    Frequency(BoardIndex, String, u32),
+    /// The devices that use a pin, with that signal, for one wire of their bus.
+    Pin(BoardIndex, String, Role, usize, usize),
+}
+
+/// Numbers for things, given in the order in which they are first seen.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    resources: Vec<Resource>,
+    resource_ids: BTreeMap<Resource, u32>,
+    group_ids: BTreeMap<Group, u32>,
+}
+
+impl Names {
+    pub(crate) fn resource(&mut self, resource: Resource) -> ResourceId {
+        let next = u32::try_from(self.resources.len()).unwrap_or(u32::MAX);
+        let id = *self.resource_ids.entry(resource.clone()).or_insert(next);
+        if id == next {
+            self.resources.push(resource);
+        }
+        ResourceId(id)
+    }
+
+    pub(crate) fn group(&mut self, group: Group) -> Holder {
+        let next = u32::try_from(self.group_ids.len()).unwrap_or(u32::MAX);
+        Holder::Group(*self.group_ids.entry(group).or_insert(next))
+    }
+
+    /// A claim of the device alone.
+    pub(crate) fn own(&mut self, resource: Resource) -> Claim {
+        Claim { resource: self.resource(resource), holder: Holder::Own }
+    }
+
+    /// A claim together with others.
+    pub(crate) fn shared(&mut self, resource: Resource, group: Group) -> Claim {
+        Claim { resource: self.resource(resource), holder: self.group(group) }
+    }
+
+    pub(crate) fn resources(self) -> Vec<Resource> {
+        self.resources
+    }
+}

@@ -1,0 +1,97 @@
+//! Soft rules: which candidates violate which `prefer` or `avoid`.
+//!
+//! A rule counts once for each device it is violated by; a board's rule is read as if it stood in
+//! each device on that board.
+
+use sensedsl_board::signal::Function;
+use sensedsl_board::table::{Pin, Usage};
+use sensedsl_model::design::{BoardIndex, Wish, WishFor};
+use sensedsl_model::kind::Role;
+use sensedsl_solve::problem::RuleId;
+
+use crate::alternatives::Wanted;
+use crate::formulate::Builder;
+
+/// The soft rules for one device.
+pub(crate) struct Rules<'a> {
+    /// With the board a rule is bound to, where it stands in one.
+    rules: Vec<(RuleId, Option<BoardIndex>, &'a Wish)>,
+    single: bool,
+}
+
+/// Collects the rules for a device: its own, and those of the boards it may go to.
+pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules<'a> {
+    let mut rules = Vec::new();
+    for wish in wanted.wishes {
+        rules.push((builder.rule(), None, wish));
+    }
+    for index in &wanted.boards {
+        let design = builder.design;
+        let Some(board) = design.board(*index) else { continue };
+        for wish in &board.wishes {
+            rules.push((builder.rule(), Some(*index), wish));
+        }
+    }
+    Rules { rules, single: wanted.kind.roles(wanted.direction).len() == 1 }
+}
+
+impl Rules<'_> {
+    fn on(&self, board: BoardIndex) -> impl Iterator<Item = (RuleId, &Wish)> {
+        let here = move |bound: Option<BoardIndex>| bound.is_none_or(|bound| bound == board);
+        let rules = self.rules.iter().filter(move |(_, bound, _)| here(*bound));
+        rules.map(|(id, _, wish)| (*id, *wish))
+    }
+
+    /// The rules that one wire on that pin violates.
+    pub(crate) fn violated_by(
+        &self,
+        board: BoardIndex,
+        role: Role,
+        pin: &Pin,
+        usage: Option<&Usage>,
+    ) -> Vec<RuleId> {
+        let place = |has: &Option<String>, wanted: &str| {
+            has.as_deref().is_some_and(|has| has.eq_ignore_ascii_case(wanted))
+        };
+        let violated = |wish: &Wish| match &wish.what {
+            WishFor::Pin(Some(of), _) if *of != role => false,
+            // One pin for a device of several wires: nothing to prefer, but something to avoid.
+            WishFor::Pin(None, _) if wish.prefer && !self.single => false,
+            WishFor::Pin(_, name) => (pin.name == *name) != wish.prefer,
+            WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
+            WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
+            WishFor::Unit(unit) => converter_violates(usage, unit, wish.prefer),
+        };
+        self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
+    }
+
+    /// The rules that taking that peripheral instance violates.
+    pub(crate) fn violated_by_unit(&self, board: BoardIndex, unit: Option<&str>) -> Vec<RuleId> {
+        let Some(unit) = unit else { return Vec::new() };
+        let violated = |wish: &Wish| match &wish.what {
+            WishFor::Unit(wanted) => (wanted == unit) != wish.prefer,
+            WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => false,
+        };
+        self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
+    }
+}
+
+/// Converters and single channels are not chosen as instances, so the wire itself tells: it
+/// violates a `prefer` when that instance cannot have it, an `avoid` when no other can.
+fn converter_violates(usage: Option<&Usage>, unit: &str, prefer: bool) -> bool {
+    let Some(usage) = usage else { return false };
+    let units = match usage.signal.function() {
+        Function::Adc { .. } | Function::Dac { .. } => usage.signal.function().units(),
+        Function::I2c { .. }
+        | Function::Timer { .. }
+        | Function::Uart { .. }
+        | Function::Spi { .. }
+        | Function::Can { .. }
+        | Function::Other => return false,
+    };
+    if prefer {
+        units.iter().all(|one| one.as_str() != unit)
+    } else {
+        units.iter().all(|one| one.as_str() == unit)
+    }
+}
