@@ -356,6 +356,16 @@ mod tests {
     }
 
     #[test]
+    fn unknown_characters_end_before_a_comment_and_a_number() {
+        let kinds = |text| lex(text).tokens.iter().map(|token| token.kind).collect::<Vec<_>>();
+        use SyntaxKind::{BlockComment, Float, LineComment, Unknown};
+        assert_eq!(kinds("@// a"), [Unknown, LineComment]);
+        assert_eq!(kinds("@/* a */"), [Unknown, BlockComment]);
+        assert_eq!(kinds("@.5"), [Unknown, Float]);
+        assert_eq!(kinds("@/."), [Unknown]);
+    }
+
+    #[test]
     fn mistakes_within_tokens() {
         check_error("a /* b", "UnterminatedComment", "/*");
         check_error("\"abc\nd", "UnterminatedString", "\"abc");

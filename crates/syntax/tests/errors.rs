@@ -77,6 +77,13 @@ fn misplaced_items() {
 fn misspelled_keywords() {
     check(&[
         (
+            "motor X\n{ id = 1; }\nboard A { foo\n{ id 1; } }",
+            &[
+                r#"1:1 `motor` UnknownItem { found: "motor", suggestion: None, block: File }"#,
+                r#"3:11 `foo` UnknownItem { found: "foo", suggestion: None, block: Board }"#,
+            ],
+        ),
+        (
             "sensr X returns uint8 { id = 1; }",
             &[
                 r#"1:1 `sensr` UnknownItem { found: "sensr", suggestion: Some("sensor"), block: File }"#,
@@ -170,6 +177,13 @@ fn device_heads() {
 #[test]
 fn board_heads() {
     check(&[
+        (
+            "board A-B;",
+            &[
+                r#"1:7 `A-B` HyphenInName { name: "A-B", suggestion: "A_B" }"#,
+                r#"1:10 `;` Expected { expected: OpenBrace, found: Token(";") }"#,
+            ],
+        ),
         (
             "board STM32F407G-DISC1 { }",
             &[

@@ -51,6 +51,14 @@ fn comments_keep_their_place() {
         "//a\n\n\n//b\nboard A { // c\n// d\n\n// e\nid=1;// f  \n/* g */ id=2; /* h */ id=3;\n\n\n// i\n} // j\n// k",
         "//a\n\n//b\nboard A { // c\n    // d\n\n    // e\n    id = 1; // f\n    /* g */ id = 2; /* h */\n    id = 3;\n\n    // i\n} // j\n// k\n",
     );
+    check(
+        "/* a */\nboard A { /* b */ /* c */ id = 1; }",
+        "/* a */\nboard A { /* b */ /* c */\n    id = 1;\n}\n",
+    );
+    check(
+        "board A {\n/* b */\n\nid =\n\n\n// c\n\n17;\n}",
+        "board A {\n    /* b */\n\n    id =\n        // c\n        17;\n}\n",
+    );
     // Within a statement.
     check(
         "board A {\nid = // why\n17;\na = /* b */ 17 /* c */ ;\nl = [ /* d */ 1, // e\n2\n// f\n];\n}",

@@ -2,7 +2,7 @@
 //! layout keeps the tokens and is stable.
 
 use proptest::prelude::*;
-use sensedsl_syntax::{SyntaxElement, SyntaxKind, format, parse};
+use sensedsl_syntax::{SyntaxElement, SyntaxErrorKind, SyntaxKind, parse};
 
 /// The tokens of a text without white space and comments.
 fn tokens(text: &str) -> Vec<(SyntaxKind, String)> {
@@ -33,12 +33,16 @@ fn check(text: &str) -> Result<(), TestCaseError> {
     }
     let has_error_node = parsed.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);
     prop_assert!(!has_error_node || !parsed.errors().is_empty(), "an error node without an error");
-    match format(text) {
+    match sensedsl_syntax::format(text) {
         Err(errors) => prop_assert_eq!(&errors[..], parsed.errors()),
         Ok(formatted) => {
             prop_assert_eq!(tokens(&formatted), tokens(text));
             prop_assert_eq!(comments(&formatted), comments(text));
-            prop_assert_eq!(format(&formatted), Ok(formatted.clone()), "laid out twice");
+            prop_assert_eq!(
+                sensedsl_syntax::format(&formatted),
+                Ok(formatted.clone()),
+                "laid out twice"
+            );
             prop_assert!(formatted.lines().all(|line| line.trim_end() == line), "{formatted:?}");
             prop_assert!(!formatted.contains("\n\n\n") || text.contains("/*"), "{formatted:?}");
         }
@@ -217,7 +221,7 @@ proptest! {
         let parsed = parse(&text);
         prop_assert_eq!(parsed.errors(), &[], "{}", text);
         check(&text)?;
-        prop_assert!(format(&text).is_ok());
+        prop_assert!(sensedsl_syntax::format(&text).is_ok());
     }
 
     #[test]
@@ -268,11 +272,29 @@ fn hostile_texts_take_linear_time_and_little_stack() {
         "a=1 b ",
     ];
     for piece in pieces {
-        let text = piece.repeat(200_000 / piece.len());
+        let text = piece.repeat(1_000_000 / piece.len());
         let start = std::time::Instant::now();
         let parsed = parse(&text);
         assert_eq!(parsed.syntax().text(), text.as_str());
-        // Linear time is some 20 ms here; quadratic time would be minutes.
+        // Linear time is some 100 ms here; quadratic time would be minutes.
         assert!(start.elapsed().as_secs() < 5, "{piece:?} takes {:?}", start.elapsed());
     }
+}
+
+#[test]
+fn deep_nesting_is_reported_and_takes_little_stack() {
+    for (open, close) in [("board a {", "}"), ("sensor a returns b {", "}"), ("a = [", "];")] {
+        let text = format!("{}{}", open.repeat(20_000), close.repeat(20_000));
+        let parsed = parse(&text);
+        assert_eq!(parsed.syntax().text(), text.as_str());
+        let too_deep = SyntaxErrorKind::NestingTooDeep { limit: 32 };
+        // `a = [a = [` is not nested: there the `]` is missing.
+        let expected = usize::from(close == "}");
+        let reported = parsed.errors().iter().filter(|error| error.kind == too_deep).count();
+        assert_eq!(reported, expected, "{open}");
+    }
+    let lists = format!("board a {{ b = {}{}; }}", "[".repeat(100_000), "]".repeat(100_000));
+    let parsed = parse(&lists);
+    let [error] = parsed.errors() else { panic!("one error") };
+    assert_eq!(error.kind, SyntaxErrorKind::NestingTooDeep { limit: 32 });
 }

@@ -156,7 +156,6 @@ impl Parser<'_> {
 
     /// Parses one item. Returns false, without consuming anything, where the block must end.
     fn item(&mut self) -> bool {
-        self.complained = None;
         if !self.at(SyntaxKind::Ident) {
             self.stray();
         } else if self.at_property() {
