@@ -21,6 +21,15 @@ pub(crate) const BOARDS: &[Entry] = &[
             include_str!("../../../boards/STM32F4DiscoveryBoard/pins.csv"),
         ),
     ),
+    Entry::new(
+        ("STM32F407G-DISC1", &["STM32F4-DISCOVERY", "STM32F407-DISCOVERY", "STM32F407VG-DISCOVERY", "F4-DISCOVERY"]),
+        "STM32F407VGT6",
+        "STM32F4 Discovery, all pins and on-board parts",
+        (
+            include_str!("../../../boards/STM32F407G-DISC1/board.toml"),
+            include_str!("../../../boards/STM32F407G-DISC1/pins.csv"),
+        ),
+    ),
 ];
 
 #[rustfmt::skip]

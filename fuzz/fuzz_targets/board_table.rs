@@ -1,0 +1,35 @@
+//! Any text is read as a board table: places are inside the text, each signal of a pin stands once,
+//! and the canonical form reads back to the same pins.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use sensedsl_board::table::{Table, load};
+
+/// Pins with their signals and alternate functions.
+fn pins(table: &Table) -> Vec<(String, Vec<(String, Option<u8>)>)> {
+    let row = |pin: &sensedsl_board::table::Pin| {
+        let usages = pin.usages.iter();
+        let usages = usages.map(|usage| (usage.signal.to_string(), usage.alternate)).collect();
+        (pin.name.to_string(), usages)
+    };
+    table.pins.iter().map(row).collect()
+}
+
+fuzz_target!(|text: &str| {
+    let loaded = load(text);
+    for finding in &loaded.findings {
+        let _ = &text[finding.range.clone()];
+        assert!(finding.row >= 1);
+    }
+    for pin in &loaded.board.pins {
+        let _ = &text[pin.range.clone()];
+        for usage in &pin.usages {
+            let _ = &text[usage.range.clone()];
+            assert_eq!(pin.usage(&usage.signal), Some(usage));
+        }
+    }
+    if !loaded.board.pins.is_empty() {
+        let again = load(&loaded.board.to_csv()).board;
+        assert_eq!(pins(&again), pins(&loaded.board));
+    }
+});
