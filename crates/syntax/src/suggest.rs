@@ -34,14 +34,17 @@ pub fn distance(left: &str, right: &str) -> usize {
 /// most one edit for every three letters, and at least one.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (word.chars().count() / 3).max(1);
-    // A slip keeps something of the word: `a` is no slip for `b`.
-    let near = |candidate: &&str| {
-        let shorter = word.chars().count().min(candidate.chars().count());
-        let edits = distance(word, candidate);
-        edits <= limit && edits < shorter.max(1)
+    let length = word.chars().count();
+    let limit = (length / 3).max(1);
+    let edits = |candidate: &'a str| {
+        let other = candidate.chars().count();
+        // The difference in length is a lower bound that costs nothing.
+        let edits = (length.abs_diff(other) <= limit).then(|| distance(word, candidate))?;
+        // A slip keeps something of the word: `a` is no slip for `b`.
+        (edits <= limit && edits < length.min(other)).then_some((edits, candidate))
     };
-    candidates.into_iter().filter(near).min_by_key(|candidate| distance(word, candidate))
+    let near = candidates.into_iter().filter_map(edits);
+    near.min_by_key(|(edits, _)| *edits).map(|(_, candidate)| candidate)
 }
 
 #[cfg(test)]
