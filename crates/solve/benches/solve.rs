@@ -1,1 +1,3 @@
+//! Measures the solver on seeded families of problems.
+
 fn main() {}

@@ -51,11 +51,14 @@ impl Counter {
     }
 }
 
+/// Resources (`true`) and pins.
+type Things = BTreeSet<(bool, usize)>;
+
 /// Splits the classes where they share neither pin nor resource.
 fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
-    let mut parts: Vec<(BTreeSet<(bool, usize)>, Vec<Class>)> = Vec::new();
+    let mut parts: Vec<(Things, Vec<Class>)> = Vec::new();
     for class in classes {
-        let mut keys: BTreeSet<(bool, usize)> = class
+        let mut keys: Things = class
             .places
             .iter()
             .flat_map(|p| p.claims.iter().map(|c| (true, c.0)).chain([(false, p.pin)]))

@@ -109,13 +109,6 @@ impl Weights {
             spares: (weight % self.cost) as u32,
         }
     }
-
-    pub(crate) fn pack(self, o: &Objective) -> u64 {
-        u64::from(o.moved) * self.moved
-            + u64::from(o.violated) * self.rule
-            + u64::from(o.cost) * self.cost
-            + u64::from(o.spares)
-    }
 }
 
 /// One candidate, flat.

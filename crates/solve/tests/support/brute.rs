@@ -119,7 +119,7 @@ fn streams_suffice(problem: &Problem, chosen: &[(usize, Vec<usize>)]) -> bool {
 
 fn serve(requests: &[&Vec<StreamId>], taken: &mut BTreeSet<StreamId>) -> bool {
     let Some((first, rest)) = requests.split_first() else { return true };
-    for stream in first.iter() {
+    for stream in *first {
         if taken.insert(*stream) {
             if serve(rest, taken) {
                 return true;
