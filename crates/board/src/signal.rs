@@ -329,7 +329,7 @@ fn misspelt_family(stem: &str, line: &str) -> bool {
         return false;
     }
     let families = FAMILIES.iter().map(|(family, _)| *family);
-    nearest(stem, families).is_some_and(|family| function(family, "1", line).is_some())
+    nearest(stem, families.filter(|family| function(family, "1", line).is_some())).is_some()
 }
 
 /// The function of a family's line, when that is what it is.
