@@ -1,3 +1,6 @@
 //! From a wired design to files: plans decide, templates print.
 
 pub mod fileset;
+pub mod firmware;
+pub mod host;
+pub mod report;

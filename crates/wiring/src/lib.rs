@@ -8,6 +8,7 @@ mod converters;
 mod formulate;
 mod names;
 mod offer;
+mod prolog;
 mod read_back;
 mod streams;
 mod wishes;
@@ -94,6 +95,12 @@ impl<'a> Wiring<'a> {
     /// The diagnostic of a fault in the solver.
     pub fn count(&self) -> Result<Count, Box<Diagnostic>> {
         solver::count(&self.formulation.problem).map_err(|fault| Box::new(self.fault(&fault)))
+    }
+
+    /// The pin problem as a program for SWI-Prolog that prints the best cost.
+    #[must_use]
+    pub fn prolog(&self) -> String {
+        prolog::program(self.design, &self.formulation)
     }
 
     fn read(&self, answer: &solver::Answer) -> Solved {

@@ -1,0 +1,36 @@
+//! A wiring as CSV, for spreadsheets.
+
+use sensedsl_model::design::Design;
+use sensedsl_wiring::assignment::Assignment;
+
+use super::rows::{Row, rows};
+
+const HEAD: [&str; 10] =
+    ["Board", "Device", "Id", "Kind", "Role", "Pin", "Signal", "Unit", "Place", "Usages"];
+
+/// A head and a row for each wire.
+#[must_use]
+pub fn csv(design: &Design, assignment: &Assignment) -> String {
+    let mut out = line(&HEAD.map(String::from));
+    for row in rows(design, assignment) {
+        let Row { board, device, id, kind, role, pin, signal, unit, place, usages } = row;
+        let id = id.map_or(String::new(), |id| id.to_string());
+        let usages = usages.to_string();
+        out.push_str(&line(&[board, device, id, kind, role, pin, signal, unit, place, usages]));
+    }
+    out
+}
+
+fn line(cells: &[String]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| quoted(cell)).collect();
+    format!("{}\n", cells.join(","))
+}
+
+/// A cell as RFC 4180 wants it.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}

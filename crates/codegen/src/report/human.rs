@@ -1,0 +1,143 @@
+//! A wiring as people read it in a terminal.
+
+use std::fmt::Write as _;
+
+use sensedsl_model::design::Design;
+use sensedsl_wiring::assignment::{Assignment, Status};
+
+use super::rows::{Row, rows};
+
+/// How parts of the table are set off; empty strings where there is no colour.
+#[derive(Clone, Copy, Debug, Default)]
+struct Style {
+    head: &'static str,
+    pin: &'static str,
+    dim: &'static str,
+    good: &'static str,
+    reset: &'static str,
+}
+
+const COLOURED: Style = Style {
+    head: "\u{1b}[1m",
+    pin: "\u{1b}[1;36m",
+    dim: "\u{1b}[2m",
+    good: "\u{1b}[32m",
+    reset: "\u{1b}[0m",
+};
+
+const HEAD: [&str; 7] = ["Device", "Role", "Pin", "Signal", "Unit", "Where", "Usages"];
+/// The column that is set off, and the one that is aligned right.
+const PIN: usize = 2;
+const USAGES: usize = 6;
+
+/// The table, the totals and what is known of them.
+#[must_use]
+pub fn human(design: &Design, assignment: &Assignment, colour: bool) -> String {
+    let style = if colour { COLOURED } else { Style::default() };
+    let rows = rows(design, assignment);
+    let mut out = String::new();
+    for (on, board) in assignment.used(design) {
+        let mcu = board.mcu.as_deref().unwrap_or("MCU unknown");
+        let target = board.profile().map_or("pins only", |profile| profile.name.as_str());
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            out,
+            "{}{}{} {}({mcu}, {target}){}",
+            style.head, board.name.value, style.reset, style.dim, style.reset
+        );
+        let mine: Vec<&Row> = rows.iter().filter(|row| row.board == board.name.value).collect();
+        table(&mut out, &mine, style);
+        if assignment.used(design).count() > 1 {
+            let _ = writeln!(out, "  opportunity cost of this board: {}", on.cost);
+        }
+        out.push('\n');
+    }
+    totals(&mut out, design, assignment, style);
+    out
+}
+
+fn table(out: &mut String, rows: &[&Row], style: Style) {
+    let where_known = rows.iter().any(|row| !row.place.is_empty());
+    let cells: Vec<[String; 7]> = rows
+        .iter()
+        .enumerate()
+        .map(|(at, row)| {
+            let first = at == 0 || rows.get(at - 1).is_none_or(|last| last.device != row.device);
+            let device = if first { row.device.clone() } else { String::new() };
+            [
+                device,
+                row.role.clone(),
+                row.pin.clone(),
+                row.signal.clone(),
+                if row.unit.is_empty() { "-".into() } else { row.unit.clone() },
+                row.place.clone(),
+                row.usages.to_string(),
+            ]
+        })
+        .collect();
+    let width = |column: usize| {
+        let all = cells.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
+        all.chain(HEAD.get(column).map(|head| head.len())).max().unwrap_or_default()
+    };
+    let widths: Vec<usize> = (0..HEAD.len()).map(width).collect();
+    line(out, &HEAD.map(String::from), &widths, where_known, (style.dim, style.dim), style.reset);
+    for row in &cells {
+        line(out, row, &widths, where_known, ("", style.pin), style.reset);
+    }
+}
+
+fn line(
+    out: &mut String,
+    cells: &[String; 7],
+    widths: &[usize],
+    where_known: bool,
+    (plain, pin): (&str, &str),
+    reset: &str,
+) {
+    let mut text = String::from(" ");
+    for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
+        if column == 5 && !where_known {
+            continue;
+        }
+        let style = if column == PIN { pin } else { plain };
+        let reset = if style.is_empty() { "" } else { reset };
+        let padding = " ".repeat(width.saturating_sub(cell.chars().count()));
+        let (before, after) =
+            if column == USAGES { (padding.as_str(), "") } else { ("", padding.as_str()) };
+        let _ = write!(text, " {before}{style}{cell}{reset}{after} ");
+    }
+    out.push_str(text.trim_end());
+    out.push('\n');
+}
+
+fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Style) {
+    let wires = rows(design, assignment);
+    let mut pins: Vec<(&str, &str)> =
+        wires.iter().map(|row| (row.board.as_str(), row.pin.as_str())).collect();
+    pins.sort_unstable();
+    pins.dedup();
+    let devices = design.devices.len();
+    let _ = write!(
+        out,
+        "{devices} {} on {} {}, opportunity cost {}{}{}",
+        if devices == 1 { "device" } else { "devices" },
+        pins.len(),
+        if pins.len() == 1 { "pin" } else { "pins" },
+        style.head,
+        assignment.cost,
+        style.reset,
+    );
+    match assignment.status {
+        Status::Optimal => {
+            let _ = write!(out, ", {}proved optimal{}", style.good, style.reset);
+        }
+        Status::Feasible => out.push_str(", valid (not compared with other wirings)"),
+    }
+    if assignment.violated > 0 {
+        let _ = write!(out, ", {} unmet wishes", assignment.violated);
+    }
+    if assignment.moved > 0 {
+        let _ = write!(out, ", {} moved wires", assignment.moved);
+    }
+    out.push('\n');
+}

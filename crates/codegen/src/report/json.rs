@@ -1,0 +1,112 @@
+//! `solve --format json`: the machine-readable form that scripts rely on.
+
+use sensedsl_model::design::{Board, Design};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
+use sensedsl_wiring::{NoWiring, Repair};
+use serde_json::{Value, json};
+
+/// Version of the format.
+const VERSION: u32 = 1;
+
+/// A wiring.
+#[must_use]
+pub fn wired(design: &Design, assignment: &Assignment) -> Value {
+    let boards: Vec<Value> = assignment
+        .boards
+        .iter()
+        .filter_map(|on| Some(board_value(design, on, design.board(on.board)?)))
+        .collect();
+    json!({
+        "version": VERSION,
+        "status": assignment.status.name(),
+        "moved": assignment.moved,
+        "violated": assignment.violated,
+        "cost": assignment.cost,
+        "count": null,
+        "boards": boards,
+    })
+}
+
+fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
+    let devices: Vec<Value> = on
+        .devices
+        .iter()
+        .filter_map(|wiring| {
+            let device = design.device(wiring.device)?;
+            Some(json!({
+                "name": device.name.value,
+                "id": device.id.value,
+                "kind": device.kind.name().name(),
+                "unit": wiring.unit,
+                "wires": wires(board, &wiring.wires),
+            }))
+        })
+        .collect();
+    let mut value = json!({
+        "name": board.name.value,
+        "mcu": board.mcu,
+        "cost": on.cost,
+        "devices": devices,
+    });
+    if let (Some(link), Some(object)) = (&on.link, value.as_object_mut()) {
+        let link = json!({
+            "transport": "uart", "unit": link.unit, "wires": wires(board, &link.wires),
+        });
+        object.insert("link".into(), link);
+    }
+    value
+}
+
+fn wires(board: &Board, wires: &[Wire]) -> Vec<Value> {
+    wires
+        .iter()
+        .filter_map(|wire| {
+            let pin = wire.pin(board)?;
+            Some(json!({
+                "role": wire.role.name(),
+                "pin": pin.name.as_str(),
+                "signal": wire.signal(board),
+                "usages": pin.cost(),
+            }))
+        })
+        .collect()
+}
+
+/// The exact number of wirings, beside the best one where there is one.
+#[must_use]
+pub fn with_count(mut value: Value, count: &str) -> Value {
+    if let Some(object) = value.as_object_mut() {
+        object.insert("count".into(), count.into());
+    }
+    value
+}
+
+/// That there is none.
+#[must_use]
+pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
+    let name = |index: &_| design.device(*index).map(|device| device.name.value.clone());
+    let devices: Vec<String> = conflict.devices.iter().filter_map(name).collect();
+    let repairs: Vec<Value> = conflict
+        .repairs
+        .iter()
+        .map(|repair| match repair {
+            Repair::Drop(device) => json!({
+                "action": "drop",
+                "device": name(device),
+                "message": repair.describe(design),
+            }),
+        })
+        .collect();
+    json!({
+        "version": VERSION,
+        "status": "infeasible",
+        "moved": 0,
+        "violated": 0,
+        "cost": null,
+        "count": null,
+        "boards": [],
+        "conflict": {
+            "devices": devices, "resources": conflict.resources, "repairs": repairs,
+        },
+    })
+}

@@ -1,0 +1,58 @@
+//! The wiring sheet: what goes where, as Markdown.
+
+use std::fmt::Write as _;
+
+use sensedsl_model::design::Design;
+use sensedsl_wiring::assignment::{Assignment, Status};
+
+use super::rows::rows;
+
+/// A table for each board, and the totals.
+#[must_use]
+pub fn markdown(design: &Design, assignment: &Assignment) -> String {
+    let mut out = String::from("# Wiring\n");
+    let rows = rows(design, assignment);
+    for (on, board) in assignment.used(design) {
+        let mcu = board.mcu.as_deref().map_or(String::new(), |mcu| format!(" ({mcu})"));
+        // Writing to a String cannot fail.
+        let _ = write!(out, "\n## {}{}\n\n", cell(&board.name.value), cell(&mcu));
+        out.push_str("| Device | Id | Role | Pin | Signal | Unit | Where | Usages |\n");
+        out.push_str("| --- | ---: | --- | --- | --- | --- | --- | ---: |\n");
+        for row in rows.iter().filter(|row| row.board == board.name.value) {
+            let id = row.id.map_or(String::new(), |id| id.to_string());
+            let _ = writeln!(
+                out,
+                "| {} | {id} | {} | **{}** | {} | {} | {} | {} |",
+                cell(&row.device),
+                row.role,
+                cell(&row.pin),
+                cell(&row.signal),
+                cell(&row.unit),
+                cell(&row.place),
+                row.usages,
+            );
+        }
+        let _ = write!(out, "\nOpportunity cost of this board: {}.\n", on.cost);
+    }
+    let proof = match assignment.status {
+        Status::Optimal => "proved optimal: no wiring costs less",
+        Status::Feasible => "valid, not proved to be the best",
+    };
+    let _ = write!(out, "\nOpportunity cost: {}, {proof}.\n", assignment.cost);
+    if assignment.violated > 0 {
+        let _ = writeln!(out, "Wishes that could not be met: {}.", assignment.violated);
+    }
+    out
+}
+
+/// Text that cannot end its cell or begin markup.
+fn cell(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        if matches!(c, '|' | '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '#') {
+            out.push('\\');
+        }
+        out.push(if c.is_control() { ' ' } else { c });
+    }
+    out
+}

@@ -1,0 +1,10 @@
+//! What people and scripts read of a wiring: tables, JSON, CSV, Markdown, a picture.
+
+pub mod csv;
+pub mod human;
+pub mod json;
+pub mod markdown;
+mod rows;
+pub mod svg;
+
+pub use rows::{Row, rows};

@@ -1,0 +1,88 @@
+//! A wiring as rows: one wire each, ready to be printed.
+
+use sensedsl_model::design::{Board, Design};
+use sensedsl_wiring::assignment::{Assignment, Wire};
+
+/// One wire.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// The board's name in the file.
+    pub board: String,
+    /// The device's name; `link` for the wires of a serial link.
+    pub device: String,
+    /// Its identifier; none for a link.
+    pub id: Option<u8>,
+    /// Its kind.
+    pub kind: String,
+    /// The role of the wire.
+    pub role: String,
+    /// The pin.
+    pub pin: String,
+    /// The signal as the table spells it.
+    pub signal: String,
+    /// The peripheral instance; empty for a bare GPIO.
+    pub unit: String,
+    /// Where on the board: side, header, position, label, as far as the table says.
+    pub place: String,
+    /// Usages of the pin.
+    pub usages: u32,
+}
+
+/// All wires: boards in file order, devices in file order, roles in their order.
+#[must_use]
+pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (on, board) in assignment.used(design) {
+        for wiring in &on.devices {
+            let Some(device) = design.device(wiring.device) else { continue };
+            for wire in &wiring.wires {
+                rows.extend(row(
+                    board,
+                    wire,
+                    (&device.name.value, Some(device.id.value), device.kind.name().name()),
+                    wiring.unit.as_deref().unwrap_or_default(),
+                ));
+            }
+        }
+        if let Some(link) = &on.link {
+            for wire in &link.wires {
+                rows.extend(row(board, wire, ("link", None, "uart"), &link.unit));
+            }
+        }
+    }
+    rows
+}
+
+fn row(
+    board: &Board,
+    wire: &Wire,
+    (device, id, kind): (&str, Option<u8>, &str),
+    unit: &str,
+) -> Option<Row> {
+    let pin = wire.pin(board)?;
+    let mut place = Vec::new();
+    if let Some(side) = &pin.side {
+        place.push(side.clone());
+    }
+    match (&pin.header, &pin.position) {
+        (Some(header), Some(position)) => place.push(format!("{header}.{position}")),
+        (Some(header), None) => place.push(header.clone()),
+        (None, Some(position)) => place.push(format!("pin {position}")),
+        (None, None) => {}
+    }
+    if let Some(label) = &pin.label {
+        place.push(format!("\"{label}\""));
+    }
+    Some(Row {
+        board: board.name.value.clone(),
+        device: device.to_owned(),
+        id,
+        kind: kind.to_owned(),
+        role: wire.role.name().to_owned(),
+        pin: pin.name.to_string(),
+        signal: wire.signal(board).to_owned(),
+        unit: unit.to_owned(),
+        place: place.join(" "),
+        usages: pin.cost(),
+    })
+}

@@ -1,0 +1,212 @@
+//! A picture of each board: its pins along two edges, the used ones with what they are used for.
+//!
+//! Pins stand on the side the table gives them (`left` or `right` by name, otherwise the first half
+//! of the natural order on the left), in natural order.
+
+use std::fmt::Write as _;
+
+use sensedsl_board::table::Pin;
+use sensedsl_model::design::{Board, Design};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
+
+use super::rows::{Row, rows};
+
+const ROW_HEIGHT: usize = 22;
+const HEAD_HEIGHT: usize = 64;
+const CHIP_WIDTH: usize = 220;
+const LABEL_WIDTH: usize = 330;
+const MARGIN: usize = 20;
+const LEGEND_HEIGHT: usize = 30;
+const WIDTH: usize = 2 * LABEL_WIDTH + CHIP_WIDTH + 2 * MARGIN;
+
+/// Fill by kind: a palette that people with colour blindness can tell apart (Okabe and Ito).
+const KIND_COLOURS: [(&str, &str); 10] = [
+    ("analog", "#E69F00"),
+    ("i2c", "#56B4E9"),
+    ("icu", "#009E73"),
+    ("encoder", "#2E7D5B"),
+    ("digital", "#999999"),
+    ("uart", "#CC79A7"),
+    ("spi", "#0072B2"),
+    ("pwm", "#D55E00"),
+    ("dac", "#B8860B"),
+    ("can", "#8E6BBF"),
+];
+
+/// The picture of all boards that carry a device, one below the other.
+#[must_use]
+pub fn svg(design: &Design, assignment: &Assignment) -> String {
+    let rows = rows(design, assignment);
+    let mut body = String::new();
+    let mut top = MARGIN;
+    for (on, board) in assignment.used(design) {
+        top = board_picture(&mut body, top, (on, board), &rows);
+    }
+    let kinds: Vec<&str> = KIND_COLOURS
+        .iter()
+        .map(|(kind, _)| *kind)
+        .filter(|kind| rows.iter().any(|row| row.kind == *kind))
+        .collect();
+    legend(&mut body, top, &kinds);
+    let height = top + LEGEND_HEIGHT + MARGIN;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" \
+         height=\"{height}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\">\n\
+         <title>Wiring</title>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n{body}</svg>\n"
+    )
+}
+
+/// Draws one board and returns where the next one begins.
+fn board_picture(
+    out: &mut String,
+    top: usize,
+    (on, board): (&BoardAssignment, &Board),
+    rows: &[Row],
+) -> usize {
+    let (left, right) = edges(board);
+    let lines = left.len().max(right.len()).max(2);
+    let height = HEAD_HEIGHT + lines * ROW_HEIGHT + ROW_HEIGHT / 2;
+    let x = MARGIN + LABEL_WIDTH;
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        out,
+        "<rect x=\"{x}\" y=\"{top}\" width=\"{CHIP_WIDTH}\" height=\"{height}\" rx=\"8\" \
+         fill=\"#F4F6F8\" stroke=\"#33475B\" stroke-width=\"1.5\"/>"
+    );
+    let centre = x + CHIP_WIDTH / 2;
+    let mcu = board.mcu.as_deref().unwrap_or("MCU unknown");
+    let subtitle = format!("{mcu}, cost {}", on.cost);
+    let name = &board.name.value;
+    for (text, y, size, weight) in
+        [(name.as_str(), top + 26, 14, "bold"), (subtitle.as_str(), top + 46, 11, "normal")]
+    {
+        let text = escaped(text);
+        let _ = writeln!(
+            out,
+            "<text x=\"{centre}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"{size}\" \
+             font-weight=\"{weight}\" fill=\"#1B2733\">{text}</text>"
+        );
+    }
+    for (pins, on_left) in [(left, true), (right, false)] {
+        for (at, pin) in pins.iter().enumerate() {
+            let y = top + HEAD_HEIGHT + at * ROW_HEIGHT;
+            let uses: Vec<&Row> = rows
+                .iter()
+                .filter(|row| row.board == *name && row.pin == pin.name.as_str())
+                .collect();
+            pin_picture(out, y, on_left, pin, &uses);
+        }
+    }
+    top + height + MARGIN
+}
+
+/// The pins of the two edges.
+fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
+    let pins: Vec<&Pin> = board.table.pins.iter().collect();
+    let side = |pin: &Pin| pin.side.as_deref().map(str::to_lowercase);
+    if pins.iter().any(|pin| side(pin).is_some()) {
+        let first = pins.iter().find_map(|pin| side(pin));
+        return pins.into_iter().partition(|pin| match side(pin).as_deref() {
+            Some("right" | "bottom") | None => false,
+            Some("left" | "top") => true,
+            Some(_) => side(pin) == first,
+        });
+    }
+    let half = pins.len().div_ceil(2);
+    let (left, right) = pins.split_at(half.min(pins.len()));
+    (left.to_vec(), right.to_vec())
+}
+
+fn pin_picture(out: &mut String, y: usize, on_left: bool, pin: &Pin, uses: &[&Row]) {
+    let edge = if on_left { MARGIN + LABEL_WIDTH } else { MARGIN + LABEL_WIDTH + CHIP_WIDTH };
+    let middle = y + ROW_HEIGHT / 2;
+    let baseline = middle + 4;
+    let kind = uses.first().map(|row| row.kind.as_str());
+    let fill = kind.map_or("#FFFFFF", colour);
+    let stroke = if uses.is_empty() { "#AAB4BE" } else { "#33475B" };
+    let pad_x = edge - 9;
+    let _ = writeln!(
+        out,
+        "<rect x=\"{pad_x}\" y=\"{}\" width=\"18\" height=\"12\" rx=\"2\" fill=\"{fill}\" \
+         stroke=\"{stroke}\"/>",
+        middle - 6
+    );
+    let (name_x, name_anchor) = if on_left { (edge + 15, "start") } else { (edge - 15, "end") };
+    let weight = if uses.is_empty() { "normal" } else { "bold" };
+    let ink = if uses.is_empty() { "#8492A0" } else { "#1B2733" };
+    let name = escaped(pin.name.as_str());
+    let _ = writeln!(
+        out,
+        "<text x=\"{name_x}\" y=\"{baseline}\" text-anchor=\"{name_anchor}\" \
+         font-weight=\"{weight}\" fill=\"{ink}\">{name}</text>"
+    );
+    let (label_x, anchor) = if on_left { (edge - 16, "end") } else { (edge + 16, "start") };
+    let text = label(pin, uses);
+    let size = if uses.is_empty() { 10 } else { 12 };
+    let _ = writeln!(
+        out,
+        "<text x=\"{label_x}\" y=\"{baseline}\" text-anchor=\"{anchor}\" font-size=\"{size}\" \
+         fill=\"{ink}\">{}</text>",
+        escaped(&text)
+    );
+}
+
+/// What a pin is used for, or what it could be.
+fn label(pin: &Pin, uses: &[&Row]) -> String {
+    const LETTERS_MAX: usize = 46;
+    let text = match uses {
+        [] => {
+            let usages: Vec<&str> = pin.usages.iter().map(|usage| usage.spelled.as_str()).collect();
+            match &pin.onboard {
+                Some(part) => format!("[{}] {}", part.part, usages.join(" ")),
+                None => usages.join(" "),
+            }
+        }
+        [first, ..] => {
+            let devices: Vec<&str> = uses.iter().map(|row| row.device.as_str()).collect();
+            format!("{} {} ({})", devices.join(", "), first.role, first.signal)
+        }
+    };
+    if text.chars().count() <= LETTERS_MAX {
+        return text;
+    }
+    let cut: String = text.chars().take(LETTERS_MAX - 1).collect();
+    format!("{cut}…")
+}
+
+fn legend(out: &mut String, top: usize, kinds: &[&str]) {
+    let mut x = MARGIN;
+    for kind in kinds {
+        let _ = writeln!(
+            out,
+            "<rect x=\"{x}\" y=\"{}\" width=\"18\" height=\"12\" rx=\"2\" fill=\"{}\" \
+             stroke=\"#33475B\"/>\n<text x=\"{}\" y=\"{}\" fill=\"#1B2733\">{kind}</text>",
+            top + 4,
+            colour(kind),
+            x + 24,
+            top + 14
+        );
+        x += 92;
+    }
+}
+
+fn colour(kind: &str) -> &'static str {
+    KIND_COLOURS.iter().find(|(name, _)| *name == kind).map_or("#DDDDDD", |(_, colour)| colour)
+}
+
+/// Text for an XML document.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,131 @@
+//! The pin problem as a Prolog program, in the manner of the paper: facts for the board and the
+//! devices, a handful of clauses that search. An independent way to the same best cost.
+
+use std::fmt::Write as _;
+
+use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder};
+
+use crate::formulate::{Asker, Formulation};
+use sensedsl_model::design::Design;
+
+/// The search: generate and test with the best cost so far as a bound.
+const SEARCH: &str = include_str!("prolog_search.pl");
+
+/// The program.
+pub(crate) fn program(design: &Design, formulation: &Formulation<'_>) -> String {
+    let mut out = String::from(
+        "% The best wiring as a constraint problem, for SWI-Prolog:\n\
+         %   swipl -q -g main -t halt wiring.pl\n\
+         % prints the least opportunity cost and one wiring that has it.\n\n",
+    );
+    out.push_str("% pin(Pin, Usages).\n");
+    for (number, pin) in formulation.problem.pins.iter().enumerate() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "pin({}, {}).", pin_name(formulation, number), pin.cost);
+    }
+    out.push_str("\n% device(Name), in file order.\n");
+    for asker in &formulation.askers {
+        let _ = writeln!(out, "device({}).", device_name(design, *asker));
+    }
+    out.push_str(
+        "\n% alternative(Device, Number, Spares, Rules, Claims, DmaUsers, Roles).\n\
+         % A role is a list of wire(Pin, Signal, Holder, Claims, Rules).\n",
+    );
+    for (asker, device) in formulation.askers.iter().zip(&formulation.problem.devices) {
+        let name = device_name(design, *asker);
+        for (number, alternative) in device.alternatives.iter().enumerate() {
+            let _ = writeln!(out, "alternative({name}, {number},");
+            let _ = writeln!(out, "    {}).", alternative_terms(formulation, alternative));
+        }
+    }
+    out.push_str(
+        "\n% dma(User, Requests): each request is a list of streams.\n:- discontiguous dma/2.\n",
+    );
+    for (user, dma) in formulation.problem.dma.iter().enumerate() {
+        let requests: Vec<String> = dma
+            .requests
+            .iter()
+            .map(|request| list(request.streams.iter().map(|stream| stream.0.to_string())))
+            .collect();
+        let _ = writeln!(out, "dma({user}, {}).", list(requests.into_iter()));
+    }
+    if formulation.problem.dma.is_empty() {
+        out.push_str("dma(none, []).\n");
+    }
+    out.push('\n');
+    out.push_str(SEARCH);
+    out
+}
+
+fn alternative_terms(formulation: &Formulation<'_>, alternative: &Alternative) -> String {
+    let board = alternative.board.0 as usize;
+    let spare = formulation.problem.boards.get(board).is_some_and(|board| board.spare);
+    let spares = if spare { format!("[{board}]") } else { "[]".into() };
+    let roles = alternative.roles.iter().map(|role| {
+        let wires = role.candidates.iter().map(|candidate| wire(formulation, candidate));
+        format!("\n     {}", list(wires))
+    });
+    format!(
+        "{spares}, {}, {}, {}, {}",
+        list(alternative.violates.iter().map(|rule| rule.0.to_string())),
+        claims(&alternative.claims),
+        list(alternative.dma.iter().map(|user| user.0.to_string())),
+        list(roles),
+    )
+}
+
+fn wire(formulation: &Formulation<'_>, candidate: &Candidate) -> String {
+    format!(
+        "wire({}, {}, {}, {}, {})",
+        pin_name(formulation, candidate.pin.0 as usize),
+        candidate.signal.0,
+        holder(candidate.holder),
+        claims(&candidate.claims),
+        list(candidate.violates.iter().map(|rule| rule.0.to_string())),
+    )
+}
+
+fn claims(claims: &[Claim]) -> String {
+    list(claims.iter().map(|claim| format!("{}-{}", claim.resource.0, holder(claim.holder))))
+}
+
+fn holder(holder: Holder) -> String {
+    match holder {
+        Holder::Own => "own".into(),
+        Holder::Group(group) => format!("g{group}"),
+    }
+}
+
+fn list(terms: impl Iterator<Item = String>) -> String {
+    format!("[{}]", terms.collect::<Vec<_>>().join(", "))
+}
+
+fn pin_name(formulation: &Formulation<'_>, number: usize) -> String {
+    let found = formulation.pins.get(number).and_then(|(board, pin)| {
+        let offer = formulation.offers.get(board.0)?;
+        Some((offer, offer.board.table.pins.get(*pin)?))
+    });
+    match found {
+        Some((offer, pin)) if formulation.offers.len() > 1 => {
+            atom(&format!("{}.{}", offer.board.name.value, pin.name))
+        }
+        Some((_, pin)) => atom(pin.name.as_str()),
+        None => atom(&number.to_string()),
+    }
+}
+
+fn device_name(design: &Design, asker: Asker) -> String {
+    match asker {
+        Asker::Device(device) => {
+            atom(design.device(device).map_or("", |device| &device.name.value))
+        }
+        Asker::Link(board) => {
+            let name = design.board(board).map_or("", |board| &board.name.value);
+            atom(&format!("link of {name}"))
+        }
+    }
+}
+
+fn atom(text: &str) -> String {
+    format!("'{}'", text.replace('\\', "\\\\").replace('\'', "\\'"))
+}
