@@ -3,8 +3,6 @@
 
 #if HAL_USE_I2C == TRUE
 
-#include <string.h>
-
 /* A device that was cut off in the middle of a byte lets go after at most so many clocks. */
 #define RECOVERY_CLOCKS 9U
 #define RECOVERY_HALF_CLOCK_US 100U
@@ -54,16 +52,10 @@ static msg_t transfer(const up_i2c_port_t *port, uint8_t address, const uint8_t 
 
 static bool exchange(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count,
                      uint8_t *rx, size_t rx_count) {
-  /* In RAM, because a DMA need not reach the flash a table is in. */
-  uint8_t out[1U + UP_I2C_BYTES_MAX];
   msg_t result;
 
-  if (tx_count > sizeof out) {
-    return false;
-  }
-  memcpy(out, tx, tx_count);
   i2cAcquireBus(port->driver);
-  result = transfer(port, address, out, tx_count, rx, rx_count);
+  result = transfer(port, address, tx, tx_count, rx, rx_count);
   if (result == MSG_TIMEOUT) {
     recover(port);
   }
@@ -99,7 +91,7 @@ static up_i2c_result_t step_sensor(const up_i2c_t *work, const up_i2c_bus_t *bus
   const up_i2c_device_t *device = &work->devices[i];
   const up_field_t *field = &up_config.schema->fields[device->field];
   const up_i2c_result_t result =
-      up_i2c_step(&device->script, &work->states[i], bus, field, up_now_ms(), work->scratch);
+      up_i2c_step(&device->script, &work->states[i], bus, field, up_now_ms(), work->work, work->scratch);
 
   if (result == UP_I2C_FRESH) {
     up_put(device->field, work->scratch);
@@ -117,7 +109,7 @@ static up_i2c_result_t step_actuator(const up_i2c_t *work, const up_i2c_bus_t *b
   if (sequence == work->states[i].readings || !up_get(device->field, work->scratch)) {
     return UP_I2C_NOTHING;
   }
-  result = up_i2c_write_value(&device->script, &work->states[i], bus, field, work->scratch);
+  result = up_i2c_write_value(&device->script, &work->states[i], bus, field, work->work, work->scratch);
   if (result == UP_I2C_FRESH) {
     work->states[i].readings = sequence;
   }

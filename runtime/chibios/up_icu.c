@@ -9,6 +9,10 @@ void up_icu_start(const up_icu_t *icu) {
   icuEnableNotifications(icu->driver);
 }
 
+void up_icu_on_overflow(ICUDriver *driver) {
+  (void)driver;
+}
+
 void up_icu_poll(const up_icu_t *icu) {
   const up_field_t *field = &up_config.schema->fields[icu->field];
   up_capture_raw_t raw;

@@ -38,8 +38,8 @@ typedef struct {
 /* One sensor of a conversion group. */
 typedef struct {
   uint16_t field;
-  uint8_t column;  /* place in the group's sequence */
-  uint8_t samples; /* the mean of so many, at most the group's depth */
+  uint16_t samples; /* the mean of so many, at most the group's depth */
+  uint8_t column;   /* place in the group's sequence */
 } up_analog_t;
 
 /* One conversion group: what up_adc_cycle() works on. */
@@ -76,6 +76,7 @@ typedef struct {
   const up_i2c_port_t *port;
   const up_i2c_device_t *devices;
   up_i2c_state_t *states; /* one a device */
+  uint8_t *work;          /* as large as the largest up_i2c_work_bytes() */
   uint64_t *scratch;      /* as large as the largest value */
   uint8_t devices_count;
 } up_i2c_t;
@@ -106,12 +107,19 @@ void up_icu_poll(const up_icu_t *icu);
   static void name(ICUDriver *driver) {                                                                      \
     up_capture_on_period(&(raw), (uint32_t)icuGetPeriodX(driver));                                           \
   }
-#define UP_ICU_OVERFLOW_CALLBACK(name, raw)                                                                  \
-  static void name(ICUDriver *driver) {                                                                      \
-    (void)driver;                                                                                            \
-    up_capture_on_overflow(&(raw));                                                                          \
-  }
+
+/* Makes the driver notice that its timer wrapped, so that it leaves out the capture; needs no action here. */
+void up_icu_on_overflow(ICUDriver *driver);
 #endif
+
+/* A line that gets a pulse each cycle: what up_pulse_cycle() works on. */
+typedef struct {
+  const ioline_t *lines;
+  uint32_t pulse_us;
+  uint8_t lines_count;
+} up_pulse_t;
+
+void up_pulse_cycle(const void *work);
 
 /* A whole application. */
 typedef struct {

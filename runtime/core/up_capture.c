@@ -6,6 +6,7 @@
 
 void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_edges) {
   raw->width_ticks = width_ticks;
+  raw->widths++;
   if (both_edges) {
     raw->edges++;
   }
@@ -13,16 +14,8 @@ void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_
 
 void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks) {
   raw->edges++;
-  if (raw->overflowed) {
-    raw->overflowed = false;
-    return;
-  }
   raw->period_ticks = period_ticks;
   raw->periods++;
-}
-
-void up_capture_on_overflow(up_capture_raw_t *raw) {
-  raw->overflowed = true;
 }
 
 static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, bool first_edge_seen,
@@ -30,11 +23,11 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   const uint32_t edges = raw->edges + (first_edge_seen ? 1U : 0U);
 
   /* Standing still is a fact as well: it is told once at the start and then now and again. */
-  if (state->has_told && edges == state->edges && (uint32_t)(now_ms - state->told_ms) < COUNT_REPEAT_MS) {
+  if (state->has_told && edges == state->captures && (uint32_t)(now_ms - state->told_ms) < COUNT_REPEAT_MS) {
     return false;
   }
   state->has_told = true;
-  state->edges = edges;
+  state->captures = edges;
   state->told_ms = now_ms;
   up_store_unsigned(type, edges, element);
   return true;
@@ -50,7 +43,7 @@ static void store_capture(const up_capture_config_t *config, const up_capture_ra
     up_store_ratio(type, config->tick_hz, raw->period_ticks, element);
     break;
   case UP_CAPTURE_DUTY:
-    up_store_ratio(type, (uint64_t)raw->width_ticks * 100U, raw->period_ticks, element);
+    up_store_ratio(type, (uint64_t)raw->width_ticks * 10000U, raw->period_ticks, element);
     break;
   case UP_CAPTURE_COUNT:
   case UP_CAPTURE_PERIOD:
@@ -75,13 +68,15 @@ static bool read_silence(const up_capture_config_t *config, up_capture_state_t *
 
 bool up_capture_read(const up_capture_config_t *config, up_capture_state_t *state, const up_capture_raw_t *raw,
                      bool first_edge_seen, uint32_t now_ms, uint8_t type, void *element) {
+  const uint32_t captures = (config->mode == UP_CAPTURE_WIDTH) ? raw->widths : raw->periods;
+
   if (config->mode == UP_CAPTURE_COUNT) {
     return read_count(state, raw, first_edge_seen, now_ms, type, element);
   }
-  if (raw->periods == state->periods) {
+  if (captures == state->captures) {
     return read_silence(config, state, now_ms, type, element);
   }
-  state->periods = raw->periods;
+  state->captures = captures;
   state->told_ms = now_ms;
   state->is_silent = false;
   store_capture(config, raw, type, element);

@@ -11,10 +11,10 @@
 
 typedef enum {
   UP_CAPTURE_COUNT,     /* edges since the start, wraps at 2^32 */
-  UP_CAPTURE_WIDTH,     /* active part of the last period, in ticks */
+  UP_CAPTURE_WIDTH,     /* last pulse, in ticks */
   UP_CAPTURE_PERIOD,    /* last period, in ticks */
   UP_CAPTURE_FREQUENCY, /* of the last period, in Hz */
-  UP_CAPTURE_DUTY       /* active part of the last period, in per cent */
+  UP_CAPTURE_DUTY       /* active part of the last period, in ten-thousandths */
 } up_capture_mode_t;
 
 typedef struct {
@@ -27,25 +27,24 @@ typedef struct {
 /* Written by the interrupt, copied by the reader with interrupts masked. */
 typedef struct {
   uint32_t edges;
+  uint32_t widths; /* captures of a pulse */
   uint32_t periods; /* captures of a whole period */
   uint32_t width_ticks;
   uint32_t period_ticks;
-  bool overflowed; /* the timer wrapped since the last period: the next one is unknown */
 } up_capture_raw_t;
 
 /* What the reader remembers between two looks. */
 typedef struct {
-  uint32_t edges;
-  uint32_t periods;
+  uint32_t captures; /* edges, pulses or periods at the last look */
   uint32_t told_ms; /* when something new was last stored */
   bool has_told;
   bool is_silent;
 } up_capture_state_t;
 
-/* Interrupt side: the end of the active part, the end of a period, a wrap of the timer. */
+/* Interrupt side: the end of a pulse and the end of a period. A driver does not notify either when its timer
+ * wrapped meanwhile. */
 void up_capture_on_width(up_capture_raw_t *raw, uint32_t width_ticks, bool both_edges);
 void up_capture_on_period(up_capture_raw_t *raw, uint32_t period_ticks);
-void up_capture_on_overflow(up_capture_raw_t *raw);
 
 /* Reader side: true when there is something new, and then one element was stored. `first_edge_seen` repairs
  * what a driver keeps to itself: the edge that starts the first period is not notified. */

@@ -19,10 +19,15 @@ static bool start(const up_i2c_script_t *script, up_i2c_state_t *state, const up
   return true;
 }
 
-static bool fetch(const up_i2c_script_t *script, const up_i2c_bus_t *bus, uint8_t *bytes) {
+static bool fetch(const up_i2c_script_t *script, const up_i2c_bus_t *bus, uint8_t *work) {
   const size_t tx_count = script->has_register ? 1U : 0U;
+  const uint8_t reg = script->reg;
 
-  return bus->write_read(bus->context, script->address, &script->reg, tx_count, bytes, script->length);
+  return bus->write_read(bus->context, script->address, &reg, tx_count, work, script->length);
+}
+
+size_t up_i2c_work_bytes(const up_i2c_script_t *script) {
+  return 1U + (size_t)script->length;
 }
 
 /* Half the range of the clock lies ahead, half behind: right across its wrap. */
@@ -31,12 +36,7 @@ static bool is_reached(uint32_t now_ms, uint32_t when_ms) {
 }
 
 up_i2c_result_t up_i2c_step(const up_i2c_script_t *script, up_i2c_state_t *state, const up_i2c_bus_t *bus,
-                            const up_field_t *field, uint32_t now_ms, void *value) {
-  uint8_t bytes[UP_I2C_BYTES_MAX];
-
-  if (script->length == 0U || script->length > UP_I2C_BYTES_MAX) {
-    return failed(state);
-  }
+                            const up_field_t *field, uint32_t now_ms, uint8_t *work, void *value) {
   /* Without a trigger the very first reading need not wait for anything. */
   if (!state->is_waiting && script->trigger_count > 0U) {
     if (!start(script, state, bus, now_ms)) {
@@ -46,8 +46,8 @@ up_i2c_result_t up_i2c_step(const up_i2c_script_t *script, up_i2c_state_t *state
   if (state->is_waiting && !is_reached(now_ms, state->ready_ms)) {
     return UP_I2C_NOTHING;
   }
-  if (!fetch(script, bus, bytes) ||
-      !up_store_bytes(field, bytes, script->length, script->little_endian, value)) {
+  if (!fetch(script, bus, work) ||
+      !up_store_bytes(field, work, script->length, script->little_endian, value)) {
     return failed(state);
   }
   state->readings++;
@@ -59,14 +59,13 @@ up_i2c_result_t up_i2c_step(const up_i2c_script_t *script, up_i2c_state_t *state
 }
 
 up_i2c_result_t up_i2c_write_value(const up_i2c_script_t *script, up_i2c_state_t *state,
-                                   const up_i2c_bus_t *bus, const up_field_t *field, const void *value) {
-  uint8_t bytes[1U + UP_I2C_BYTES_MAX];
+                                   const up_i2c_bus_t *bus, const up_field_t *field, uint8_t *work,
+                                   const void *value) {
   const size_t register_count = script->has_register ? 1U : 0U;
 
-  bytes[0] = script->reg;
-  if (script->length > UP_I2C_BYTES_MAX ||
-      !up_load_bytes(field, value, &bytes[register_count], script->length, script->little_endian) ||
-      !bus->write(bus->context, script->address, bytes, register_count + script->length)) {
+  work[0] = script->reg;
+  if (!up_load_bytes(field, value, &work[register_count], script->length, script->little_endian) ||
+      !bus->write(bus->context, script->address, work, register_count + script->length)) {
     return failed(state);
   }
   return UP_I2C_FRESH;

@@ -10,10 +10,8 @@
 
 #include "up_schema.h"
 
-/* Longest reading of a script and longest trigger. */
-#define UP_I2C_BYTES_MAX 32U
-
-/* The bus as a script sees it; both return true when the device acknowledged every byte. */
+/* The bus as a script sees it; both return true when the device acknowledged every byte. What is written comes
+ * from the table's trigger, the work buffer or the stack, never from elsewhere: a DMA must reach it. */
 typedef struct {
   bool (*write)(void *context, uint8_t address, const uint8_t *bytes, size_t count);
   bool (*write_read)(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
@@ -28,8 +26,8 @@ typedef struct {
   uint8_t address;        /* 7 bits */
   uint8_t reg;            /* first register to read */
   bool has_register;      /* false: the device is read without selecting one */
-  uint8_t length;         /* bytes to read, 1..UP_I2C_BYTES_MAX */
   bool little_endian;
+  uint16_t length;        /* bytes to read or to write, at least 1 */
 } up_i2c_script_t;
 
 typedef struct {
@@ -45,12 +43,17 @@ typedef enum {
   UP_I2C_ERROR    /* the device did not answer; the next step starts again */
 } up_i2c_result_t;
 
-/* One cycle of one sensor: `value` receives up_field_bytes(field) bytes when the result is fresh. */
+/* Bytes of work buffer that a script needs. */
+size_t up_i2c_work_bytes(const up_i2c_script_t *script);
+
+/* One cycle of one sensor: `value` receives up_field_bytes(field) bytes when the result is fresh. `work` has at
+ * least up_i2c_work_bytes(script) bytes. */
 up_i2c_result_t up_i2c_step(const up_i2c_script_t *script, up_i2c_state_t *state, const up_i2c_bus_t *bus,
-                            const up_field_t *field, uint32_t now_ms, void *value);
+                            const up_field_t *field, uint32_t now_ms, uint8_t *work, void *value);
 
 /* Writes an actuator's value: the register, if there is one, then `length` bytes. */
 up_i2c_result_t up_i2c_write_value(const up_i2c_script_t *script, up_i2c_state_t *state,
-                                   const up_i2c_bus_t *bus, const up_field_t *field, const void *value);
+                                   const up_i2c_bus_t *bus, const up_field_t *field, uint8_t *work,
+                                   const void *value);
 
 #endif

@@ -233,49 +233,51 @@ static bool ranger_write_read(void *context, uint8_t address, const uint8_t *tx,
 static void test_i2c(void) {
   static const uint8_t ranging[] = {0x00U, 0x51U};
   const up_field_t field = {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, 1U, 0U};
-  const up_i2c_script_t script = {ranging, 65U, 2U, 0x73U, 0x02U, true, 2U, false};
+  const up_i2c_script_t script = {ranging, 65U, 2U, 0x73U, 0x02U, true, false, 2U};
   ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x00U, 0x2AU}};
   const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
   up_i2c_state_t state = {false, 0U, 0U, 0U};
   const uint32_t t0 = 0xFFFFFFE0U; /* the clock wraps between trigger and echo */
-  uint8_t value = 0U;
+  uint8_t value = 0U, work[3];
 
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_work_bytes(&script) == sizeof work);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0, work, &value) == UP_I2C_NOTHING);
   CHECK(ranger.triggers == 1U && memcmp(ranger.last_trigger, ranging, 2U) == 0);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 40U, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 40U, work, &value) == UP_I2C_NOTHING);
   CHECK(ranger.readings == 0U);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 80U, &value) == UP_I2C_FRESH && value == 42U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 80U, work, &value) == UP_I2C_FRESH && value == 42U);
   CHECK(ranger.triggers == 2U); /* the next measurement is under way */
   ranger.echo[0] = 1U;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 145U, &value) == UP_I2C_FRESH && value == 255U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 145U, work, &value) == UP_I2C_FRESH && value == 255U);
   ranger.answers = false;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 210U, &value) == UP_I2C_ERROR);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 250U, &value) == UP_I2C_ERROR);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 210U, work, &value) == UP_I2C_ERROR);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 250U, work, &value) == UP_I2C_ERROR);
   CHECK(state.errors == 2U && state.readings == 2U && value == 255U);
   ranger.answers = true;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 290U, &value) == UP_I2C_NOTHING);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 355U, &value) == UP_I2C_FRESH);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 290U, work, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 355U, work, &value) == UP_I2C_FRESH);
 }
 
 static void test_i2c_without_trigger(void) {
   const up_field_t field = {"Rear", 19U, UP_TYPE_UINT16, UP_TO_HOST, 1U, 0U};
   const up_field_t out = {"Out", 20U, UP_TYPE_UINT8, UP_TO_BOARD, 1U, 0U};
-  const up_i2c_script_t script = {NULL, 0U, 0U, 0x73U, 0x02U, true, 2U, true};
-  const up_i2c_script_t slow = {NULL, 50U, 0U, 0x73U, 0x02U, true, 2U, true};
-  const up_i2c_script_t output = {NULL, 0U, 0U, 0x73U, 0x10U, true, 1U, false};
+  const up_i2c_script_t script = {NULL, 0U, 0U, 0x73U, 0x02U, true, true, 2U};
+  const up_i2c_script_t slow = {NULL, 50U, 0U, 0x73U, 0x02U, true, true, 2U};
+  const up_i2c_script_t output = {NULL, 0U, 0U, 0x73U, 0x10U, true, false, 1U};
   ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x34U, 0x12U}};
   const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
   up_i2c_state_t state = {false, 0U, 0U, 0U};
   uint16_t value = 0U;
   const uint8_t level = 0x5AU;
+  uint8_t work[3];
 
-  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, &value) == UP_I2C_FRESH && value == 0x1234U);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, &value) == UP_I2C_FRESH && ranger.triggers == 0U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, work, &value) == UP_I2C_FRESH && value == 0x1234U);
+  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, work, &value) == UP_I2C_FRESH && ranger.triggers == 0U);
   state.is_waiting = false;
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 100U, &value) == UP_I2C_FRESH);
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 149U, &value) == UP_I2C_NOTHING);
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 150U, &value) == UP_I2C_FRESH);
-  CHECK(up_i2c_write_value(&output, &state, &bus, &out, &level) == UP_I2C_FRESH);
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 100U, work, &value) == UP_I2C_FRESH);
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 149U, work, &value) == UP_I2C_NOTHING);
+  CHECK(up_i2c_step(&slow, &state, &bus, &field, 150U, work, &value) == UP_I2C_FRESH);
+  CHECK(up_i2c_write_value(&output, &state, &bus, &out, work, &level) == UP_I2C_FRESH);
   CHECK(ranger.last_trigger[0] == 0x10U && ranger.last_trigger[1] == 0x5AU);
 }
 
@@ -283,8 +285,8 @@ static void test_i2c_without_trigger(void) {
 
 static void test_count(void) {
   const up_capture_config_t config = {UP_CAPTURE_COUNT, false, 10000U, 1000U};
-  up_capture_state_t state = {0U, 0U, 0U, false, false};
-  up_capture_raw_t raw = {0U, 0U, 0U, 0U, false};
+  up_capture_state_t state = {0U, 0U, false, false};
+  up_capture_raw_t raw = {0U, 0U, 0U, 0U, 0U};
   uint32_t count = 99U;
 
   /* A wheel that stands still counts 0: that is read, not assumed. */
@@ -304,7 +306,7 @@ static void test_count(void) {
 
 static uint32_t captured(up_capture_mode_t mode, const up_capture_raw_t *raw) {
   const up_capture_config_t config = {(uint8_t)mode, false, 1000000U, 1000U};
-  up_capture_state_t state = {0U, 0U, 0U, false, false};
+  up_capture_state_t state = {0U, 0U, false, false};
   uint32_t value = 0U;
 
   CHECK(up_capture_read(&config, &state, raw, true, 1U, UP_TYPE_UINT32, &value));
@@ -314,8 +316,8 @@ static uint32_t captured(up_capture_mode_t mode, const up_capture_raw_t *raw) {
 
 static void test_captures(void) {
   const up_capture_config_t config = {UP_CAPTURE_FREQUENCY, false, 1000000U, 1000U};
-  up_capture_state_t state = {0U, 0U, 0U, false, false};
-  up_capture_raw_t raw = {0U, 0U, 0U, 0U, false};
+  up_capture_state_t state = {0U, 0U, false, false};
+  up_capture_raw_t raw = {0U, 0U, 0U, 0U, 0U};
   uint16_t value = 7U;
 
   CHECK(!up_capture_read(&config, &state, &raw, false, 999U, UP_TYPE_UINT16, &value) && value == 7U);
@@ -326,14 +328,25 @@ static void test_captures(void) {
   CHECK(captured(UP_CAPTURE_WIDTH, &raw) == 1500U);
   CHECK(captured(UP_CAPTURE_PERIOD, &raw) == 20000U);
   CHECK(captured(UP_CAPTURE_FREQUENCY, &raw) == 50U);
-  CHECK(captured(UP_CAPTURE_DUTY, &raw) == 8U); /* 7.5 rounds up */
+  CHECK(captured(UP_CAPTURE_DUTY, &raw) == 750U);
   CHECK(up_capture_read(&config, &state, &raw, true, 3010U, UP_TYPE_UINT16, &value) && value == 50U);
-  /* A period in which the timer wrapped is unknown. */
-  up_capture_on_overflow(&raw);
-  up_capture_on_period(&raw, 3U);
-  CHECK(raw.periods == 1U && raw.edges == 2U && raw.period_ticks == 20000U);
-  up_capture_on_period(&raw, 40000U);
-  CHECK(up_capture_read(&config, &state, &raw, true, 3020U, UP_TYPE_UINT16, &value) && value == 25U);
+  up_capture_on_period(&raw, 30000U); /* 33.3 Hz */
+  CHECK(up_capture_read(&config, &state, &raw, true, 3020U, UP_TYPE_UINT16, &value) && value == 33U);
+}
+
+/* A pulse is told at its end: a ranger that answers once a cycle has no period the timer could hold. */
+static void test_single_pulses(void) {
+  const up_capture_config_t config = {UP_CAPTURE_WIDTH, false, 1000000U, 1000U};
+  up_capture_state_t state = {0U, 0U, false, false};
+  up_capture_raw_t raw = {0U, 0U, 0U, 0U, 0U};
+  uint16_t value = 0U;
+
+  CHECK(!up_capture_read(&config, &state, &raw, false, 5000U, UP_TYPE_UINT16, &value));
+  up_capture_on_width(&raw, 580U, false);
+  CHECK(up_capture_read(&config, &state, &raw, true, 5010U, UP_TYPE_UINT16, &value) && value == 580U);
+  up_capture_on_width(&raw, 580U, false);
+  CHECK(up_capture_read(&config, &state, &raw, true, 5020U, UP_TYPE_UINT16, &value));
+  CHECK(!up_capture_read(&config, &state, &raw, true, 9999U, UP_TYPE_UINT16, &value));
 }
 
 void test_units(void) {
@@ -348,4 +361,5 @@ void test_units(void) {
   test_i2c_without_trigger();
   test_count();
   test_captures();
+  test_single_pulses();
 }

@@ -1,0 +1,25 @@
+/* Pulses on lines of their own that make a device measure (the trigger of an ultrasonic ranger). */
+#include "up_rt.h"
+
+/* From here on a pulse is slept through instead of waited for. */
+#define SLEEP_US 1000U
+
+static void wait_us(uint32_t pulse_us) {
+  if (pulse_us >= SLEEP_US) {
+    chThdSleepMicroseconds(pulse_us);
+  } else {
+    /* The core's cycle counter; being preempted makes the pulse longer, never shorter. */
+    chSysPolledDelayX(US2RTC(UP_CORE_HZ, pulse_us));
+  }
+}
+
+void up_pulse_cycle(const void *work) {
+  const up_pulse_t *pulse = work;
+  uint8_t i;
+
+  for (i = 0U; i < pulse->lines_count; i++) {
+    palSetLine(pulse->lines[i]);
+    wait_us(pulse->pulse_us);
+    palClearLine(pulse->lines[i]);
+  }
+}
