@@ -3,4 +3,7 @@
 pub mod fileset;
 pub mod firmware;
 pub mod host;
+mod project;
 pub mod report;
+
+pub use project::project;

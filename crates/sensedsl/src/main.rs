@@ -1,1 +1,54 @@
-fn main() {}
+//! The command line: the only part of SenseDSL that touches files, the terminal and the
+//! environment.
+//!
+//! Exit status: 0 done, 1 the input is wrong, infeasible or out of date, 2 the call or the machine
+//! is wrong.
+
+mod cli;
+mod commands;
+mod files;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use cli::{Cli, Command};
+use terminal::Terminal;
+
+/// How a command ended, when nothing went wrong with the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    /// 0
+    Done,
+    /// 1
+    Wrong,
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let mut terminal = Terminal::new(cli.quiet, cli.verbose);
+    match run(cli.command, &mut terminal) {
+        Ok(Status::Done) => ExitCode::SUCCESS,
+        Ok(Status::Wrong) => ExitCode::from(1),
+        Err(error) if terminal::is_closed_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            terminal.failure(&error);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
+    match command {
+        Command::New(args) => commands::new::run(&args, terminal),
+        Command::Check(args) => commands::check::run(&args, terminal),
+        Command::Solve(args) => commands::solve::run(&args, terminal),
+        Command::Generate(args) => commands::generate::run(&args, terminal),
+        Command::Explain(args) => commands::explain::run(&args, terminal),
+        Command::Boards(args) => commands::boards::run(&args, terminal),
+        Command::Fmt(args) => commands::fmt::run(&args, terminal),
+        Command::Completions(args) => commands::help::completions(&args, terminal),
+        Command::Man(args) => commands::help::man(&args, terminal),
+    }
+}

@@ -12,6 +12,7 @@ use sensedsl_solve::problem::{
 };
 
 use crate::alternatives::{Wanted, alternatives};
+use crate::keep::Keep;
 use crate::names::{Names, Resource};
 use crate::offer::Offer;
 
@@ -145,7 +146,7 @@ impl<'a> Builder<'a> {
 }
 
 /// Makes the solver's problem of a design.
-pub(crate) fn formulate(design: &Design) -> Formulation<'_> {
+pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
         .boards
         .iter()
@@ -167,7 +168,10 @@ pub(crate) fn formulate(design: &Design) -> Formulation<'_> {
         (Asker::Link(*board), Wanted::link(*board, kind, unit.as_deref()))
     });
     for (asker, wanted) in of_devices.chain(of_links) {
-        let (list, meaning) = alternatives(&mut builder, &offers, &wanted);
+        let (mut list, meaning) = alternatives(&mut builder, &offers, &wanted);
+        if let (Some(keep), Asker::Device(device)) = (keep, asker) {
+            mark_moved(design, keep, device, &mut list, &meaning);
+        }
         askers.push(asker);
         devices.push(solver::Device { alternatives: list });
         meanings.push(meaning);
@@ -189,6 +193,29 @@ pub(crate) fn formulate(design: &Design) -> Formulation<'_> {
         streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
     };
     Formulation { problem, offers, askers, meanings, resources, streams, pins }
+}
+
+/// Marks the candidates that are not where the device's wire was.
+fn mark_moved(
+    design: &Design,
+    keep: &Keep,
+    device: DeviceIndex,
+    alternatives: &mut [solver::Alternative],
+    meanings: &[Meaning],
+) {
+    let Some(device) = design.device(device) else { return };
+    let roles = device.kind.roles(device.direction);
+    for (alternative, meaning) in alternatives.iter_mut().zip(meanings) {
+        let Some(board) = design.board(meaning.board) else { continue };
+        let wires = alternative.roles.iter_mut().zip(&meaning.roles).zip(&roles);
+        for ((role, chosen), name) in wires {
+            for (candidate, at) in role.candidates.iter_mut().zip(chosen) {
+                let Some(pin) = board.table.pins.get(at.pin) else { continue };
+                let device = &device.name.value;
+                candidate.moved = keep.moves(device, *name, &board.name.value, pin.name.as_str());
+            }
+        }
+    }
 }
 
 pub(crate) fn board_id(board: BoardIndex) -> BoardId {

@@ -6,6 +6,7 @@ mod checks;
 mod conflict;
 mod converters;
 mod formulate;
+mod keep;
 mod names;
 mod offer;
 mod prolog;
@@ -22,6 +23,7 @@ use assignment::Assignment;
 use formulate::{Formulation, formulate};
 
 pub use conflict::{NoWiring, Repair};
+pub use keep::Keep;
 pub use sensedsl_solve as solver;
 
 /// The pin problem of a design, ready to be asked.
@@ -42,10 +44,11 @@ pub enum Solved {
 }
 
 impl<'a> Wiring<'a> {
-    /// Puts the problem of a design.
+    /// Puts the problem of a design, to be solved with as few moved wires as possible where an
+    /// earlier wiring is given.
     #[must_use]
-    pub fn new(design: &'a Design) -> Self {
-        Self { design, formulation: formulate(design) }
+    pub fn new(design: &'a Design, keep: Option<&Keep>) -> Self {
+        Self { design, formulation: formulate(design, keep) }
     }
 
     /// What is wrong with the placement of single devices, and rules that do nothing. When there is

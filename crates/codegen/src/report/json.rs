@@ -2,7 +2,7 @@
 
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
-use sensedsl_wiring::{NoWiring, Repair};
+use sensedsl_wiring::{Keep, NoWiring, Repair};
 use serde_json::{Value, json};
 
 /// Version of the format.
@@ -109,4 +109,21 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
             "devices": devices, "resources": conflict.resources, "repairs": repairs,
         },
     })
+}
+
+/// An earlier answer, read back to be kept; none where the value is none.
+#[must_use]
+pub fn keep(value: &Value) -> Option<Keep> {
+    let mut keep = Keep::default();
+    for board in value.get("boards")?.as_array()? {
+        let name = board.get("name")?.as_str()?;
+        for device in board.get("devices")?.as_array()? {
+            let device_name = device.get("name")?.as_str()?;
+            for wire in device.get("wires")?.as_array()? {
+                let (role, pin) = (wire.get("role")?.as_str()?, wire.get("pin")?.as_str()?);
+                keep.add(device_name, role, name, pin);
+            }
+        }
+    }
+    Some(keep)
 }

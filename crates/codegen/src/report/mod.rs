@@ -5,6 +5,7 @@ pub mod human;
 pub mod json;
 pub mod markdown;
 mod rows;
+pub mod schema;
 pub mod svg;
 
 pub use rows::{Row, rows};

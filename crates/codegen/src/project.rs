@@ -1,0 +1,70 @@
+//! Everything `generate` writes for a wired design, as one set of files.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_wiring::assignment::Assignment;
+
+use crate::fileset::FileSet;
+use crate::firmware::chibios;
+use crate::host::{Host, HostBoard, HostPlan, Presentation};
+use crate::report::{json, markdown, schema, svg};
+
+/// All files: the answer, the schema, the wiring sheet, the picture, firmware for each board and
+/// the host applications `hosts`.
+///
+/// # Errors
+/// Diagnostics for what no firmware can be generated for; then there are no files at all.
+pub fn project(
+    design: &Design,
+    assignment: &Assignment,
+    hosts: &[&dyn Host],
+) -> Result<FileSet, Vec<Diagnostic>> {
+    let firmware = chibios::plan(design, assignment)?;
+    let mut files = FileSet::default();
+    files.merge_under("firmware", chibios::render(&firmware));
+    files.add("assignment.json", format!("{:#}\n", json::wired(design, assignment)));
+    files.add("schema.json", format!("{:#}\n", schema::schema(design, assignment)));
+    files.add("wiring.md", markdown::markdown(design, assignment));
+    files.add("pinout.svg", svg::svg(design, assignment));
+    let plan = host_plan(design, assignment);
+    for host in hosts {
+        files.merge_under(&format!("host/{}", host.name()), host.render(&plan));
+    }
+    Ok(files)
+}
+
+fn host_plan(design: &Design, assignment: &Assignment) -> HostPlan {
+    let boards: Vec<HostBoard> = assignment
+        .used(design)
+        .map(|(on, board)| {
+            let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
+            HostBoard {
+                name: board.name.value.clone(),
+                schema: design.schema(on.board, &devices),
+                baud: board.link.baud,
+                presentations: presentations(design, &devices),
+            }
+        })
+        .collect();
+    HostPlan::new(&boards)
+}
+
+fn presentations(design: &Design, devices: &[DeviceIndex]) -> BTreeMap<u8, Presentation> {
+    let devices = devices.iter().filter_map(|index| design.device(*index));
+    devices
+        .map(|device| {
+            let shown = device.shown.clone();
+            let presentation = Presentation {
+                label: shown.label,
+                quantity: shown.quantity,
+                scale: shown.scale,
+                offset: shown.offset,
+                min: shown.min,
+                max: shown.max,
+            };
+            (device.id.value, presentation)
+        })
+        .collect()
+}

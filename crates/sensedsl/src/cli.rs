@@ -1,0 +1,186 @@
+//! The arguments of all commands.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// From a list of sensors and actuators to the best wiring, its firmware and its host application
+///
+/// A short text says what is connected; this tool finds how: the pins with the provably lowest
+/// opportunity cost, the `ChibiOS` firmware for them, and the host application that decodes the data.
+#[derive(Debug, Parser)]
+#[command(name = "sensedsl", version, max_term_width = 100)]
+pub(crate) struct Cli {
+    /// Say nothing but errors and the result
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+    /// Say more
+    #[arg(short, long, global = true, conflicts_with = "quiet")]
+    pub(crate) verbose: bool,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Make a small project that checks, solves and generates
+    New(NewArgs),
+    /// Say what is wrong with a file and whether there is a wiring
+    Check(CheckArgs),
+    /// Find the best wiring
+    Solve(SolveArgs),
+    /// Write firmware, host applications, wiring sheet and picture
+    Generate(GenerateArgs),
+    /// Explain a diagnostic, or list them all
+    Explain(ExplainArgs),
+    /// List the built-in boards, or print one's table
+    Boards(BoardsArgs),
+    /// Lay files out canonically, comments kept
+    Fmt(FmtArgs),
+    /// Print a completion script for a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write one for each command into a folder
+    Man(ManArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NewArgs {
+    /// The folder to make
+    pub(crate) dir: PathBuf,
+    /// A built-in board
+    #[arg(long, default_value = "STM32F4DiscoveryBoard")]
+    pub(crate) board: String,
+}
+
+/// Which board and target to solve for.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct On {
+    /// A board table or built-in board that wins over what the file says
+    #[arg(long, value_name = "TABLE")]
+    pub(crate) board: Option<String>,
+    /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
+    #[arg(long, value_name = "NAME")]
+    pub(crate) target: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// The files; - is the standard input
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// How to say it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: CheckFormat,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckFormat {
+    /// For people
+    #[default]
+    Human,
+    /// For scripts
+    Json,
+    /// SARIF 2.1.0, for code scanning
+    Sarif,
+    /// Annotations of GitHub Actions
+    Github,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SolveArgs {
+    /// The file; - is the standard input
+    pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: SolveFormat,
+    /// Any wiring will do
+    #[arg(long, conflicts_with_all = ["all", "limit", "count"])]
+    pub(crate) any: bool,
+    /// All wirings, best first
+    #[arg(long, conflicts_with = "count")]
+    pub(crate) all: bool,
+    /// At most that many wirings, best first
+    #[arg(long, value_name = "N", conflicts_with = "count")]
+    pub(crate) limit: Option<u64>,
+    /// The exact number of wirings
+    #[arg(long)]
+    pub(crate) count: bool,
+    /// Move as few wires as possible from this earlier answer (JSON)
+    #[arg(long, value_name = "WIRING")]
+    pub(crate) keep: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolveFormat {
+    /// A table for people
+    #[default]
+    Human,
+    /// For scripts; one object a line with --all and --limit
+    Json,
+    /// For spreadsheets
+    Csv,
+    /// The wiring sheet
+    Markdown,
+    /// A picture of the board
+    Svg,
+    /// The problem itself, as a program for SWI-Prolog
+    Prolog,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GenerateArgs {
+    /// The file; - is the standard input
+    pub(crate) file: PathBuf,
+    /// The folder to write to
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// Only these host applications
+    #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
+    pub(crate) host: Vec<String>,
+    /// Write nothing; exit 1 if the folder is not what would be written
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Move as few wires as possible from this earlier answer (JSON)
+    #[arg(long, value_name = "WIRING")]
+    pub(crate) keep: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExplainArgs {
+    /// The code, such as E0203; none lists all
+    pub(crate) code: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BoardsArgs {
+    /// A board: prints its table as CSV
+    pub(crate) name: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FmtArgs {
+    /// The files, changed in place; - reads the standard input and prints
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Change nothing; exit 1 if a file is not laid out canonically
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// The folder for one page a command
+    pub(crate) dir: Option<PathBuf>,
+}

@@ -1,0 +1,26 @@
+//! `sensedsl boards`: what is built in.
+
+use anyhow::{Result, bail};
+use sensedsl_board::catalog;
+
+use crate::Status;
+use crate::cli::BoardsArgs;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> {
+    let Some(name) = &args.name else {
+        let width = catalog::all().iter().map(|board| board.name.len()).max().unwrap_or_default();
+        let lines = catalog::all().iter().map(|board| {
+            format!("{:width$}  {:14}  {}\n", board.name, board.mcu, board.description)
+        });
+        terminal.result(&lines.collect::<String>())?;
+        return Ok(Status::Done);
+    };
+    let Some(board) = catalog::find(name) else {
+        let meant = catalog::nearest_name(name);
+        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+        bail!("there is no built-in board {name}{meant} (`sensedsl boards` lists them)");
+    };
+    terminal.result(board.csv())?;
+    Ok(Status::Done)
+}

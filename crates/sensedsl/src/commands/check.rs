@@ -1,0 +1,91 @@
+//! `sensedsl check`: what is wrong, and whether there is a wiring.
+
+use std::fmt::Write as _;
+
+use anyhow::Result;
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_wiring::Solved;
+
+use super::input;
+use crate::Status;
+use crate::cli::{CheckArgs, CheckFormat};
+use crate::files::shown;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
+    let mut status = Status::Done;
+    let mut values = Vec::new();
+    let mut plain = String::new();
+    let mut logs = Vec::new();
+    for path in &args.files {
+        let resolved = input::load(path, &args.on)?;
+        let sources = resolved.sources;
+        let (diagnostics, feasible) = match &resolved.design {
+            None => (resolved.diagnostics, false),
+            Some(design) => {
+                let answer = input::solve(design, resolved.diagnostics, None, true);
+                let feasible = matches!(answer.solved, Some(Solved::Wired(_)));
+                (answer.diagnostics, feasible)
+            }
+        };
+        if input::has_errors(&diagnostics) {
+            status = Status::Wrong;
+        }
+        match args.format {
+            CheckFormat::Human => {
+                terminal.diagnostics(&diagnostics, &sources)?;
+                terminal.note(&summary(&shown(path), &diagnostics, feasible))?;
+            }
+            CheckFormat::Json => {
+                values.extend(diagnostics.iter().map(|one| render::json_value(one, &sources)));
+            }
+            CheckFormat::Sarif => logs.push((diagnostics, sources)),
+            CheckFormat::Github => plain.push_str(&render::github(&diagnostics, &sources)),
+        }
+    }
+    match args.format {
+        CheckFormat::Human => {}
+        CheckFormat::Json => {
+            let all = serde_json::json!({ "diagnostics": values });
+            terminal.result(&format!("{all:#}\n"))?;
+        }
+        CheckFormat::Sarif => terminal.result(&merged_sarif(logs))?,
+        CheckFormat::Github => terminal.result(&plain)?,
+    }
+    Ok(status)
+}
+
+fn summary(file: &str, diagnostics: &[Diagnostic], feasible: bool) -> String {
+    let count = |severity| diagnostics.iter().filter(|one| one.severity == severity).count();
+    let mut text = format!("{file}: ");
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let plural = |n: usize| if n == 1 { "" } else { "s" };
+    text.push_str(if feasible { "a wiring exists" } else { "no wiring" });
+    // Writing to a String cannot fail.
+    if errors > 0 {
+        let _ = write!(text, ", {errors} error{}", plural(errors));
+    }
+    if warnings > 0 {
+        let _ = write!(text, ", {warnings} warning{}", plural(warnings));
+    }
+    text.push('\n');
+    text
+}
+
+/// One log for all files: each file's diagnostics are a run of their own.
+fn merged_sarif(logs: Vec<(Vec<Diagnostic>, SourceMap)>) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut merged: Option<serde_json::Value> = None;
+    for (diagnostics, sources) in logs {
+        let text = render::sarif(&diagnostics, &sources, version);
+        let Ok(mut log) = serde_json::from_str::<serde_json::Value>(&text) else { continue };
+        match merged.as_mut().and_then(|all| all.get_mut("runs")?.as_array_mut()) {
+            Some(runs) => {
+                let more = log.get_mut("runs").and_then(serde_json::Value::as_array_mut);
+                runs.extend(more.into_iter().flat_map(std::mem::take));
+            }
+            None => merged = Some(log),
+        }
+    }
+    merged.map_or(String::new(), |log| format!("{log:#}\n"))
+}

@@ -1,0 +1,40 @@
+//! Shell completions and manual pages, made from the arguments themselves.
+
+use anyhow::Result;
+use clap::CommandFactory as _;
+
+use crate::Status;
+use crate::cli::{Cli, CompletionsArgs, ManArgs};
+use crate::files::write_whole;
+use crate::terminal::Terminal;
+
+pub(crate) fn completions(args: &CompletionsArgs, terminal: &mut Terminal) -> Result<Status> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "sensedsl", &mut script);
+    terminal.result(&String::from_utf8_lossy(&script))?;
+    Ok(Status::Done)
+}
+
+pub(crate) fn man(args: &ManArgs, terminal: &mut Terminal) -> Result<Status> {
+    let mut command = Cli::command();
+    command.build();
+    let Some(dir) = &args.dir else {
+        terminal.result(&page(command)?)?;
+        return Ok(Status::Done);
+    };
+    let of_commands = command.get_subcommands().cloned().collect::<Vec<_>>();
+    write_whole(&dir.join("sensedsl.1"), page(command)?.as_bytes())?;
+    for one in of_commands.into_iter().filter(|one| one.get_name() != "help") {
+        let name = format!("sensedsl-{}", one.get_name());
+        let path = dir.join(format!("{name}.1"));
+        write_whole(&path, page(one.display_name(name))?.as_bytes())?;
+        terminal.note(&format!("{}\n", path.display()))?;
+    }
+    Ok(Status::Done)
+}
+
+fn page(command: clap::Command) -> Result<String> {
+    let mut text = Vec::new();
+    clap_mangen::Man::new(command).render(&mut text)?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}

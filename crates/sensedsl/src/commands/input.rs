@@ -1,0 +1,68 @@
+//! From a file on disk to a design: what check, solve and generate have in common.
+
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
+use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_model::design::Design;
+use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
+use sensedsl_wiring::{Keep, Solved, Wiring};
+
+use crate::cli::On;
+use crate::files::{Disk, read_text, shown};
+
+/// Reads and resolves a file.
+pub(crate) fn load(path: &Path, on: &On) -> Result<Resolved> {
+    let text = read_text(path)?;
+    let shown = shown(path);
+    let request = Request {
+        path: &shown,
+        text: &text,
+        board: on.board.as_deref(),
+        target: on.target.as_deref(),
+    };
+    Ok(resolve(&request, &Disk))
+}
+
+/// The earlier answer of `--keep`.
+pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
+    let Some(path) = path else { return Ok(None) };
+    let text = read_text(path)?;
+    let value: serde_json::Value = serde_json::from_str(&text)
+        .with_context(|| format!("{} is no JSON answer of `solve`", shown(path)))?;
+    let keep = sensedsl_codegen::report::json::keep(&value);
+    let keep = keep.with_context(|| format!("{} is no JSON answer of `solve`", shown(path)))?;
+    Ok(Some(keep))
+}
+
+/// What one search gave, with everything there is to say.
+pub(crate) struct Answer {
+    pub(crate) solved: Option<Solved>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// Solves a design unless single devices are hopeless already, and collects all diagnostics.
+pub(crate) fn solve(
+    design: &Design,
+    mut diagnostics: Vec<Diagnostic>,
+    keep: Option<&Keep>,
+    any: bool,
+) -> Answer {
+    let wiring = Wiring::new(design, keep);
+    diagnostics.extend(wiring.check());
+    let solved = if has_errors(&diagnostics) { None } else { Some(wiring.solve(any)) };
+    match &solved {
+        Some(Solved::Wired(assignment)) => diagnostics.extend(wiring.warnings(assignment)),
+        Some(Solved::Infeasible(conflict)) => diagnostics.push(conflict.diagnostic(design)),
+        Some(Solved::Failed(failure)) => diagnostics.push((**failure).clone()),
+        None => {}
+    }
+    apply_allows(design, &mut diagnostics);
+    sort(&mut diagnostics);
+    Answer { solved, diagnostics }
+}
+
+/// Whether anything makes the input unusable.
+pub(crate) fn has_errors(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics.iter().any(|one| one.severity == Severity::Error)
+}

@@ -1,0 +1,12 @@
+//! One file for each command.
+
+pub(crate) mod boards;
+pub(crate) mod check;
+pub(crate) mod explain;
+pub(crate) mod fmt;
+pub(crate) mod generate;
+pub(crate) mod help;
+mod input;
+pub(crate) mod new;
+mod output;
+pub(crate) mod solve;

@@ -1,0 +1,34 @@
+//! `sensedsl new`: a small project to begin with.
+
+use anyhow::{Result, bail};
+use sensedsl_board::catalog;
+
+use crate::Status;
+use crate::cli::NewArgs;
+use crate::files::{files_below, shown, write_whole};
+use crate::terminal::Terminal;
+
+const ROBOT: &str = include_str!("../../templates/robot.sense");
+const README: &str = include_str!("../../templates/project-readme.md");
+const IGNORED: &str = "/build/\n";
+
+pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
+    let Some(board) = catalog::find(&args.board) else {
+        bail!("there is no built-in board {} (`sensedsl boards` lists them)", args.board);
+    };
+    if !files_below(&args.dir, &|_| false)?.is_empty() {
+        bail!("{} is not empty: name a folder that does not exist yet", shown(&args.dir));
+    }
+    let on = board.name.replace('-', "_");
+    let robot = ROBOT.replace("BOARD", &on);
+    write_whole(&args.dir.join("robot.sense"), robot.as_bytes())?;
+    write_whole(&args.dir.join("README.md"), README.as_bytes())?;
+    write_whole(&args.dir.join(".gitignore"), IGNORED.as_bytes())?;
+    let file = args.dir.join("robot.sense");
+    terminal.note(&format!(
+        "made {}\nnext: sensedsl solve {}\n",
+        shown(&args.dir),
+        shown(&file)
+    ))?;
+    Ok(Status::Done)
+}

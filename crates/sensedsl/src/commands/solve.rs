@@ -1,0 +1,130 @@
+//! `sensedsl solve`: the best wiring, all wirings, or their number.
+
+use anyhow::Result;
+use sensedsl_codegen::report::{csv, human, json, markdown, svg};
+use sensedsl_diagnostics::SourceMap;
+use sensedsl_model::design::Design;
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Keep, Solved, Wiring};
+
+use super::input;
+use crate::Status;
+use crate::cli::{SolveArgs, SolveFormat};
+use crate::terminal::Terminal;
+
+pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
+    let keep = input::keep(args.keep.as_deref())?;
+    let resolved = input::load(&args.file, &args.on)?;
+    let sources = resolved.sources;
+    let Some(design) = &resolved.design else {
+        terminal.diagnostics(&resolved.diagnostics, &sources)?;
+        return Ok(Status::Wrong);
+    };
+    if args.format == SolveFormat::Prolog {
+        terminal.diagnostics(&resolved.diagnostics, &sources)?;
+        terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
+        return Ok(Status::Done);
+    }
+    let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), args.any);
+    terminal.diagnostics(&answer.diagnostics, &sources)?;
+    match &answer.solved {
+        _ if input::has_errors(&answer.diagnostics) => {
+            if let Some(Solved::Infeasible(conflict)) = &answer.solved
+                && args.format == SolveFormat::Json
+            {
+                let mut value = json::infeasible(design, conflict);
+                if args.count {
+                    value = json::with_count(value, "0");
+                }
+                terminal.result(&format!("{}\n", print(&value, args)))?;
+            }
+            Ok(Status::Wrong)
+        }
+        Some(Solved::Wired(best)) if args.count => {
+            count(args, terminal, design, best, keep.as_ref(), &sources)
+        }
+        Some(Solved::Wired(_)) if args.all || args.limit.is_some() => {
+            several(args, terminal, design, keep.as_ref(), &sources)
+        }
+        Some(Solved::Wired(best)) => {
+            terminal.result(&printed(args, terminal, design, best))?;
+            Ok(Status::Done)
+        }
+        Some(Solved::Infeasible(_) | Solved::Failed(_)) | None => Ok(Status::Wrong),
+    }
+}
+
+fn print(value: &serde_json::Value, args: &SolveArgs) -> String {
+    if args.all || args.limit.is_some() { value.to_string() } else { format!("{value:#}") }
+}
+
+fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assignment) -> String {
+    match args.format {
+        SolveFormat::Human => human::human(design, wiring, terminal.colour()),
+        SolveFormat::Json => format!("{}\n", print(&json::wired(design, wiring), args)),
+        SolveFormat::Csv => csv::csv(design, wiring),
+        SolveFormat::Markdown => markdown::markdown(design, wiring),
+        SolveFormat::Svg => svg::svg(design, wiring),
+        // Answered before solving: it needs no answer.
+        SolveFormat::Prolog => String::new(),
+    }
+}
+
+fn count(
+    args: &SolveArgs,
+    terminal: &Terminal,
+    design: &Design,
+    best: &Assignment,
+    keep: Option<&Keep>,
+    sources: &SourceMap,
+) -> Result<Status> {
+    match Wiring::new(design, keep).count() {
+        Ok(count) if args.format == SolveFormat::Json => {
+            let value = json::with_count(json::wired(design, best), &count.to_string());
+            terminal.result(&format!("{value:#}\n"))?;
+            Ok(Status::Done)
+        }
+        Ok(count) => {
+            terminal.result(&format!("{count}\n"))?;
+            Ok(Status::Done)
+        }
+        Err(failure) => {
+            terminal.diagnostics(&[*failure], sources)?;
+            Ok(Status::Wrong)
+        }
+    }
+}
+
+fn several(
+    args: &SolveArgs,
+    terminal: &Terminal,
+    design: &Design,
+    keep: Option<&Keep>,
+    sources: &SourceMap,
+) -> Result<Status> {
+    let wiring = Wiring::new(design, keep);
+    let most = usize::try_from(args.limit.unwrap_or(u64::MAX)).unwrap_or(usize::MAX);
+    for (number, solved) in wiring.enumerate().take(most).enumerate() {
+        match solved {
+            Solved::Wired(assignment) => {
+                if args.format == SolveFormat::Human {
+                    terminal.result(&format!("wiring {}\n", number + 1))?;
+                }
+                let mut text = printed(args, terminal, design, &assignment);
+                if args.format == SolveFormat::Csv && number > 0 {
+                    text = text.split_once('\n').map_or(String::new(), |(_, rows)| rows.into());
+                }
+                terminal.result(&text)?;
+            }
+            Solved::Infeasible(conflict) => {
+                terminal.diagnostics(&[conflict.diagnostic(design)], sources)?;
+                return Ok(Status::Wrong);
+            }
+            Solved::Failed(failure) => {
+                terminal.diagnostics(&[*failure], sources)?;
+                return Ok(Status::Wrong);
+            }
+        }
+    }
+    Ok(Status::Done)
+}

@@ -1,0 +1,67 @@
+//! What is printed where: the result to the standard output, messages to the standard error.
+
+use std::io::{self, IsTerminal as _, Write as _};
+
+use anstream::{AutoStream, ColorChoice};
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+
+/// The two streams and how much is said.
+pub(crate) struct Terminal {
+    quiet: bool,
+    verbose: bool,
+}
+
+impl Terminal {
+    pub(crate) fn new(quiet: bool, verbose: bool) -> Self {
+        Self { quiet, verbose }
+    }
+
+    /// Whether tables may be coloured.
+    pub(crate) fn colour(&self) -> bool {
+        AutoStream::choice(&io::stdout()) != ColorChoice::Never && io::stdout().is_terminal()
+    }
+
+    /// Whether more is wanted than usual.
+    pub(crate) fn verbose(&self) -> bool {
+        self.verbose
+    }
+
+    /// The result.
+    pub(crate) fn result(&self, text: &str) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        out.write_all(text.as_bytes())?;
+        out.flush()
+    }
+
+    /// A result that only people read: dropped when quiet.
+    pub(crate) fn note(&self, text: &str) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { self.result(text) }
+    }
+
+    /// Diagnostics for people; hints and warnings are dropped when quiet.
+    pub(crate) fn diagnostics(
+        &self,
+        diagnostics: &[Diagnostic],
+        sources: &SourceMap,
+    ) -> io::Result<()> {
+        let wanted: Vec<Diagnostic> = diagnostics
+            .iter()
+            .filter(|one| !self.quiet || one.severity == Severity::Error)
+            .cloned()
+            .collect();
+        let coloured = AutoStream::choice(&io::stderr()) != ColorChoice::Never;
+        let text = render::human(&wanted, sources, coloured);
+        io::stderr().lock().write_all(text.as_bytes())
+    }
+
+    /// That the call or the machine is wrong.
+    pub(crate) fn failure(&self, error: &anyhow::Error) {
+        // There is nowhere to report that reporting failed.
+        let _ = writeln!(io::stderr().lock(), "error: {error:#}");
+    }
+}
+
+/// Whether the reader of our output went away (`sensedsl … | head`), which is no failure.
+pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

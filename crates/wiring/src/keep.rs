@@ -1,0 +1,25 @@
+//! An earlier wiring, of which as much as possible is to stay.
+
+use std::collections::BTreeMap;
+
+use sensedsl_model::kind::Role;
+
+/// Where each wire of an earlier answer was: by device and role the board and the pin.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Keep {
+    wires: BTreeMap<(String, String), (String, String)>,
+}
+
+impl Keep {
+    /// Adds a wire, all by their names.
+    pub fn add(&mut self, device: &str, role: &str, board: &str, pin: &str) {
+        self.wires.insert((device.into(), role.into()), (board.into(), pin.into()));
+    }
+
+    /// Whether a wire of the device would be somewhere else than before. A wire that is new is not
+    /// moved.
+    pub(crate) fn moves(&self, device: &str, role: Role, board: &str, pin: &str) -> bool {
+        let before = self.wires.get(&(device.to_owned(), role.name().to_owned()));
+        before.is_some_and(|(on, at)| on != board || at != pin)
+    }
+}
