@@ -1,0 +1,270 @@
+//! The plan in C++ words: types, literals, names. Shared by all C++ hosts.
+//!
+//! In: a [`HostPlan`]. Out: views whose fields are what templates print, nothing left to compute.
+
+use askama::Template;
+use sensedsl_wire::ScalarType;
+
+use super::cpp_names::CppNames;
+use super::plan::{BoardPlan, DirectionPlan, HostPlan, MESSAGE_NUMBER_BASE, MessagePlan};
+
+/// Distance between a wire identifier and its data type in the OpenDaVINCI of 2014, whose data types
+/// are an enumeration: 701 to 954 are free there and within its range of values.
+pub(super) const DATA_TYPE_BASE_2014: u32 = 700;
+
+/// The tables of one board's link, in C++98: the same file in each C++ host.
+#[derive(Template)]
+#[template(path = "host/shared/schema.hpp.txt", escape = "none")]
+pub(super) struct SchemaHeader<'a> {
+    pub(super) board: &'a BoardView,
+}
+
+/// The messages of all boards for OpenDaVINCI's and libcluon's tools.
+#[derive(Template)]
+#[template(path = "host/shared/sense.odvd.txt", escape = "none")]
+pub(super) struct OdvdFile<'a> {
+    number_base: u32,
+    messages: Vec<&'a MessageView>,
+}
+
+impl<'a> OdvdFile<'a> {
+    pub(super) fn new(design: &'a DesignView) -> Self {
+        Self { number_base: MESSAGE_NUMBER_BASE, messages: design.messages().collect() }
+    }
+}
+
+/// The whole design.
+pub(super) struct DesignView {
+    pub(super) boards: Vec<BoardView>,
+}
+
+/// One board.
+pub(super) struct BoardView {
+    pub(super) name: String,
+    /// Its namespace and the stem of its files.
+    pub(super) ident: String,
+    pub(super) hash: String,
+    pub(super) has_checksum: bool,
+    pub(super) baud: u32,
+    pub(super) sensors: Vec<MessageView>,
+    pub(super) actuators: Vec<MessageView>,
+    pub(super) sensor_payload_bytes_max: usize,
+    pub(super) actuator_payload_bytes_max: usize,
+}
+
+/// One message.
+pub(super) struct MessageView {
+    /// The device's name as a C++ string literal.
+    pub(super) name: String,
+    /// Its class.
+    pub(super) ident: String,
+    pub(super) id: u8,
+    pub(super) number: u32,
+    pub(super) data_type_2014: u32,
+    pub(super) is_actuator: bool,
+    /// One line for a comment.
+    pub(super) summary: String,
+    /// `uint16_t`
+    pub(super) cpp_type: &'static str,
+    pub(super) scalar_bytes: usize,
+    pub(super) is_bool: bool,
+    pub(super) count: usize,
+    pub(super) is_array: bool,
+    /// C++ literals.
+    pub(super) scale: String,
+    pub(super) offset: String,
+    pub(super) has_value: bool,
+    /// The unit as a C++ string literal; `""` when there is none.
+    pub(super) quantity: String,
+    /// ` cm` as a C++ string literal, for printing behind a number.
+    pub(super) quantity_suffix: String,
+    /// One for each element, raw ones first.
+    pub(super) fields: Vec<FieldView>,
+}
+
+/// One scalar of a message on a bus.
+pub(super) struct FieldView {
+    pub(super) number: usize,
+    /// `raw`, `raw2`, `value`, `value2`.
+    pub(super) name: String,
+    /// `uint16` in an .odvd file.
+    pub(super) odvd_type: &'static str,
+    pub(super) element: usize,
+    pub(super) is_raw: bool,
+}
+
+impl DesignView {
+    /// Names are unique over the whole design, so that messages of all boards fit one namespace.
+    pub(super) fn new(plan: &HostPlan) -> Self {
+        let mut names = CppNames::new();
+        Self { boards: plan.boards.iter().map(|board| BoardView::new(board, &mut names)).collect() }
+    }
+
+    /// All messages of all boards.
+    pub(super) fn messages(&self) -> impl Iterator<Item = &MessageView> {
+        self.boards.iter().flat_map(BoardView::messages)
+    }
+}
+
+impl BoardView {
+    fn new(board: &BoardPlan, names: &mut CppNames) -> Self {
+        let sensors = messages(&board.sensors, names);
+        let actuators = messages(&board.actuators, names);
+        Self {
+            name: one_line(&board.name),
+            ident: names.take(&board.name),
+            hash: format!("0x{:08x}U", board.hash),
+            has_checksum: board.has_checksum,
+            baud: board.baud,
+            sensors,
+            actuators,
+            sensor_payload_bytes_max: board.sensors.payload_bytes_max,
+            actuator_payload_bytes_max: board.actuators.payload_bytes_max,
+        }
+    }
+
+    /// Sensors, then actuators.
+    pub(super) fn messages(&self) -> impl Iterator<Item = &MessageView> {
+        self.sensors.iter().chain(&self.actuators)
+    }
+}
+
+fn messages(direction: &DirectionPlan, names: &mut CppNames) -> Vec<MessageView> {
+    direction.messages.iter().map(|message| MessageView::new(message, names)).collect()
+}
+
+impl MessageView {
+    fn new(message: &MessagePlan, names: &mut CppNames) -> Self {
+        let quantity = message.quantity.as_deref().unwrap_or_default();
+        let scalar = message.value.scalar;
+        let count = message.value.count();
+        let types = CppTypes::of(scalar);
+        let (scale, offset) = message.scaling.map_or((1.0, 0.0), |it| (it.scale, it.offset));
+        let label = message.label.as_deref().map(|label| format!(": {label}")).unwrap_or_default();
+        Self {
+            name: string_literal(&message.name),
+            ident: names.take(&message.name),
+            id: message.id,
+            number: message.number,
+            data_type_2014: DATA_TYPE_BASE_2014 + u32::from(message.id),
+            is_actuator: message.direction == sensedsl_wire::Direction::Actuator,
+            summary: one_line(&format!(
+                "{} {} {}{label}",
+                message.direction.name(),
+                message.name,
+                message.value
+            )),
+            cpp_type: types.cpp,
+            scalar_bytes: scalar.size_bytes(),
+            is_bool: scalar == ScalarType::Bool,
+            count,
+            is_array: message.value.length.is_some(),
+            scale: real_literal(scale),
+            offset: real_literal(offset),
+            has_value: message.scaling.is_some(),
+            quantity: string_literal(quantity),
+            quantity_suffix: string_literal(&suffix(quantity)),
+            fields: fields(
+                &types,
+                count,
+                message.value.length.is_some(),
+                message.scaling.is_some(),
+            ),
+        }
+    }
+}
+
+fn suffix(quantity: &str) -> String {
+    if quantity.is_empty() { String::new() } else { format!(" {quantity}") }
+}
+
+fn fields(types: &CppTypes, count: usize, is_array: bool, has_value: bool) -> Vec<FieldView> {
+    let kinds = [(true, "raw", types), (false, "value", &CppTypes::of(ScalarType::Float64))];
+    let mut fields = Vec::new();
+    for (is_raw, stem, types) in kinds.iter().filter(|(is_raw, ..)| *is_raw || has_value) {
+        for element in 0..count {
+            fields.push(FieldView {
+                number: fields.len() + 1,
+                name: if is_array { format!("{stem}{element}") } else { (*stem).to_owned() },
+                odvd_type: types.odvd,
+                element,
+                is_raw: *is_raw,
+            });
+        }
+    }
+    fields
+}
+
+/// The one place where a scalar type of the wire becomes types of the C++ hosts.
+struct CppTypes {
+    cpp: &'static str,
+    odvd: &'static str,
+}
+
+impl CppTypes {
+    fn of(scalar: ScalarType) -> Self {
+        let (cpp, odvd) = match scalar {
+            ScalarType::Bool => ("bool", "bool"),
+            ScalarType::Uint8 => ("uint8_t", "uint8"),
+            ScalarType::Int8 => ("int8_t", "int8"),
+            ScalarType::Uint16 => ("uint16_t", "uint16"),
+            ScalarType::Int16 => ("int16_t", "int16"),
+            ScalarType::Uint32 => ("uint32_t", "uint32"),
+            ScalarType::Int32 => ("int32_t", "int32"),
+            ScalarType::Uint64 => ("uint64_t", "uint64"),
+            ScalarType::Int64 => ("int64_t", "int64"),
+            ScalarType::Float32 => ("float", "float"),
+            ScalarType::Float64 => ("double", "double"),
+        };
+        Self { cpp, odvd }
+    }
+}
+
+/// A finite number as a C++ literal of type double.
+fn real_literal(number: f64) -> String {
+    format!("{number:?}")
+}
+
+/// Text as a C++ string literal. Bytes outside printable ASCII become octal escapes, which end after
+/// three digits; `?` too, so that no trigraph can arise.
+fn string_literal(text: &str) -> String {
+    let mut literal = String::from("\"");
+    for byte in text.bytes() {
+        match byte {
+            b' '..=b'~' if !matches!(byte, b'"' | b'\\' | b'?') => literal.push(char::from(byte)),
+            _ => literal.push_str(&format!("\\{byte:03o}")),
+        }
+    }
+    literal.push('"');
+    literal
+}
+
+/// Text that cannot end a `//` comment or go on in the next line: no line breaks, no backslash, not even
+/// one spelt as a trigraph.
+fn one_line(text: &str) -> String {
+    let keep = |character: char| {
+        if character.is_control() || matches!(character, '\\' | '\u{2028}' | '\u{2029}') {
+            ' '
+        } else {
+            character
+        }
+    };
+    text.chars().map(keep).collect::<String>().replace("??/", "?? /")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_stays_inside_its_literal_and_its_comment() {
+        assert_eq!(string_literal("a\"b\\c\n??/°"), "\"a\\042b\\134c\\012\\077\\077/\\302\\260\"");
+        assert_eq!(one_line("ends with \\\nint x; ??/"), "ends with   int x; ?? /");
+    }
+
+    #[test]
+    fn numbers_are_double_literals() {
+        let printed = [0.5, 1.0, -3.0, 1e-7, 1e300].map(real_literal);
+        assert_eq!(printed, ["0.5", "1.0", "-3.0", "1e-7", "1e300"]);
+    }
+}

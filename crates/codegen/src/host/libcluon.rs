@@ -1,0 +1,56 @@
+//! Host `libcluon`: one OD4 microservice a board, and the messages of all boards in one file.
+
+use askama::Template;
+
+use super::cpp_view::{BoardView, DesignView, OdvdFile, SchemaHeader};
+use super::plan::HostPlan;
+use super::{Host, print, runtime};
+use crate::fileset::FileSet;
+
+/// See the module.
+pub(super) struct Libcluon;
+
+#[derive(Template)]
+#[template(path = "host/libcluon/service.cpp.txt", escape = "none")]
+struct Service<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/libcluon/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    boards: &'a [BoardView],
+}
+
+#[derive(Template)]
+#[template(path = "host/libcluon/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    boards: &'a [BoardView],
+}
+
+impl Host for Libcluon {
+    fn name(&self) -> &'static str {
+        "libcluon"
+    }
+
+    fn summary(&self) -> &'static str {
+        "OD4 microservice for libcluon (C++14) and its .odvd messages"
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = DesignView::new(plan);
+        let mut files = FileSet::default();
+        for (path, text) in [runtime::LINK, runtime::SERIAL, runtime::TEXT] {
+            files.add(path, text);
+        }
+        for board in &design.boards {
+            let ident = &board.ident;
+            files.add(format!("include/sense/{ident}_schema.hpp"), print(&SchemaHeader { board }));
+            files.add(format!("src/{ident}.cpp"), print(&Service { board }));
+        }
+        files.add("sense.odvd", print(&OdvdFile::new(&design)));
+        files.add("CMakeLists.txt", print(&CMakeLists { boards: &design.boards }));
+        files.add("README.md", print(&Readme { boards: &design.boards }));
+        files
+    }
+}

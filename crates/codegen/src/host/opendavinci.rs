@@ -1,0 +1,71 @@
+//! Host `opendavinci`: one application a board for OpenDaVINCI 4, and one that prints its Containers.
+
+use askama::Template;
+
+use super::cpp_view::{BoardView, DesignView, MessageView, OdvdFile, SchemaHeader};
+use super::plan::HostPlan;
+use super::{Host, print, runtime};
+use crate::fileset::FileSet;
+
+/// See the module.
+pub(super) struct OpenDavinci;
+
+#[derive(Template)]
+#[template(path = "host/opendavinci/messages.h.txt", escape = "none")]
+struct Messages<'a> {
+    messages: &'a [&'a MessageView],
+}
+
+#[derive(Template)]
+#[template(path = "host/opendavinci/board.cpp.txt", escape = "none")]
+struct Application<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/opendavinci/print.cpp.txt", escape = "none")]
+struct Printer<'a> {
+    messages: &'a [&'a MessageView],
+}
+
+#[derive(Template)]
+#[template(path = "host/opendavinci/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    boards: &'a [BoardView],
+}
+
+#[derive(Template)]
+#[template(path = "host/opendavinci/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    boards: &'a [BoardView],
+}
+
+impl Host for OpenDavinci {
+    fn name(&self) -> &'static str {
+        "opendavinci"
+    }
+
+    fn summary(&self) -> &'static str {
+        "OpenDaVINCI 4 application (C++11)"
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = DesignView::new(plan);
+        let messages: Vec<_> = design.messages().collect();
+        let mut files = FileSet::default();
+        for (path, text) in [runtime::LINK, runtime::TEXT] {
+            files.add(path, text);
+        }
+        for board in &design.boards {
+            let ident = &board.ident;
+            files.add(format!("include/sense/{ident}_schema.hpp"), print(&SchemaHeader { board }));
+            files.add(format!("src/{ident}.cpp"), print(&Application { board }));
+        }
+        files.add("include/messages.h", print(&Messages { messages: &messages }));
+        files.add("src/print.cpp", print(&Printer { messages: &messages }));
+        files.add("sense.odvd", print(&OdvdFile::new(&design)));
+        files.add("CMakeLists.txt", print(&CMakeLists { boards: &design.boards }));
+        files.add("README.md", print(&Readme { boards: &design.boards }));
+        files
+    }
+}

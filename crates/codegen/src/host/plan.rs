@@ -1,0 +1,165 @@
+//! What every host application needs to know, whatever its language.
+//!
+//! In: one [`HostBoard`] a board, that is its wire schema and how its values are to be shown.
+//! Out: a [`HostPlan`]: messages sorted by direction with their numbers, sizes and texts decided.
+//! Hosts turn it into views of their language; templates only print those.
+
+use std::collections::BTreeMap;
+
+use sensedsl_wire::{Checksum, Direction, Schema, ValueType};
+
+/// Distance between a wire identifier and the number of its message on an OpenDaVINCI or libcluon
+/// bus. Those busses are shared with other programs, whose messages have small numbers and four-digit ones.
+pub(super) const MESSAGE_NUMBER_BASE: u32 = 21_000;
+
+/// How a value is shown; never sent on the wire.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Presentation {
+    /// A text for people.
+    pub label: Option<String>,
+    /// The unit of `scale * raw + offset`.
+    pub quantity: Option<String>,
+    /// Factor; 1 when absent.
+    pub scale: Option<f64>,
+    /// Summand; 0 when absent.
+    pub offset: Option<f64>,
+    /// Least shown value that makes sense.
+    pub min: Option<f64>,
+    /// Greatest shown value that makes sense.
+    pub max: Option<f64>,
+}
+
+/// One board as the hosts see it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HostBoard {
+    /// The board's name in the file.
+    pub name: String,
+    /// Its link.
+    pub schema: Schema,
+    /// Baud rate of the link; of no effect over USB.
+    pub baud: u32,
+    /// By wire identifier; absent for what is shown as it comes.
+    pub presentations: BTreeMap<u8, Presentation>,
+}
+
+/// All boards of a design, ready to be printed in any language.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HostPlan {
+    /// In file order.
+    pub boards: Vec<BoardPlan>,
+}
+
+/// One board's link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoardPlan {
+    /// The board's name in the file.
+    pub name: String,
+    /// The schema hash.
+    pub hash: u32,
+    /// Whether frames end with a checksum.
+    pub has_checksum: bool,
+    /// Baud rate of the link.
+    pub baud: u32,
+    /// Board to host.
+    pub sensors: DirectionPlan,
+    /// Host to board.
+    pub actuators: DirectionPlan,
+}
+
+/// What travels one way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectionPlan {
+    /// In file order.
+    pub messages: Vec<MessagePlan>,
+    /// Longest valid payload.
+    pub payload_bytes_max: usize,
+}
+
+/// One sensor's or actuator's value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MessagePlan {
+    /// The device's name in the file.
+    pub name: String,
+    /// Wire identifier.
+    pub id: u8,
+    /// Number on a bus of messages, unique beside other programs' messages.
+    pub number: u32,
+    /// Which way it travels.
+    pub direction: Direction,
+    /// What it carries.
+    pub value: ValueType,
+    /// A text for people.
+    pub label: Option<String>,
+    /// The unit of the scaled value.
+    pub quantity: Option<String>,
+    /// Set when a scaled value is to be shown beside the raw one.
+    pub scaling: Option<Scaling>,
+}
+
+/// `scale * raw + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaling {
+    /// Factor, finite.
+    pub scale: f64,
+    /// Summand, finite.
+    pub offset: f64,
+}
+
+impl HostPlan {
+    /// Decides everything that is the same in each language.
+    #[must_use]
+    pub fn new(boards: &[HostBoard]) -> Self {
+        Self { boards: boards.iter().map(BoardPlan::new).collect() }
+    }
+}
+
+impl BoardPlan {
+    fn new(board: &HostBoard) -> Self {
+        Self {
+            name: board.name.clone(),
+            hash: board.schema.hash(),
+            has_checksum: board.schema.checksum == Checksum::Crc16,
+            baud: board.baud,
+            sensors: DirectionPlan::new(board, Direction::Sensor),
+            actuators: DirectionPlan::new(board, Direction::Actuator),
+        }
+    }
+
+    /// Sensors, then actuators.
+    pub fn messages(&self) -> impl Iterator<Item = &MessagePlan> {
+        self.sensors.messages.iter().chain(&self.actuators.messages)
+    }
+}
+
+impl DirectionPlan {
+    fn new(board: &HostBoard, direction: Direction) -> Self {
+        let items = board.schema.items.iter().filter(|item| item.direction == direction);
+        let messages = items.map(|item| {
+            let shown = board.presentations.get(&item.id).cloned().unwrap_or_default();
+            MessagePlan {
+                name: item.name.clone(),
+                id: item.id,
+                number: MESSAGE_NUMBER_BASE + u32::from(item.id),
+                direction,
+                value: item.value,
+                scaling: Scaling::of(&shown),
+                label: shown.label,
+                quantity: shown.quantity,
+            }
+        });
+        Self {
+            messages: messages.collect(),
+            payload_bytes_max: board.schema.payload_bytes_max(direction),
+        }
+    }
+}
+
+impl Scaling {
+    /// A quantity alone says that the raw value is in it already.
+    fn of(shown: &Presentation) -> Option<Self> {
+        let asked = shown.scale.is_some() || shown.offset.is_some() || shown.quantity.is_some();
+        let scaling =
+            Self { scale: shown.scale.unwrap_or(1.0), offset: shown.offset.unwrap_or(0.0) };
+        (asked && scaling.scale.is_finite() && scaling.offset.is_finite()).then_some(scaling)
+    }
+}

@@ -1,0 +1,24 @@
+// What a C++17 program writes to take messages from a decoder.
+#ifndef SENSEDSL_HANDLERS_HPP
+#define SENSEDSL_HANDLERS_HPP
+
+#include <cstdint>
+
+namespace sensedsl {
+
+/// The board told its schema hash.
+struct Hello {
+    std::uint32_t hash;
+    /// True when it is the hash of the design this program was generated from.
+    bool is_same_schema;
+};
+
+/// Many function objects as one with an overload of each.
+template <typename... Functions> struct Handlers : Functions... {
+    using Functions::operator()...;
+};
+template <typename... Functions> Handlers(Functions...) -> Handlers<Functions...>;
+
+} // namespace sensedsl
+
+#endif

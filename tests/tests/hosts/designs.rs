@@ -1,0 +1,114 @@
+//! The designs that each host is generated for.
+
+use std::collections::BTreeMap;
+
+use sensedsl_codegen::host::{HostBoard, Presentation};
+use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
+
+/// `17 sensor IRFront uint16`, a line each.
+pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
+    let items = items.lines().map(str::trim).filter(|line| !line.is_empty()).map(item).collect();
+    HostBoard {
+        name: name.into(),
+        schema: Schema { checksum, items },
+        baud: 115_200,
+        presentations: BTreeMap::new(),
+    }
+}
+
+pub(crate) fn item(line: &str) -> Item {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let [id, direction, name, value] = words[..] else { panic!("no item: {line}") };
+    let (scalar, length) = match value.split_once('[') {
+        None => (value, None),
+        Some((scalar, length)) => {
+            (scalar, Some(length.trim_end_matches(']').parse::<u16>().unwrap()))
+        }
+    };
+    Item {
+        id: id.parse().unwrap(),
+        name: name.into(),
+        direction: if direction == "sensor" { Direction::Sensor } else { Direction::Actuator },
+        value: ValueType { scalar: ScalarType::from_name(scalar).unwrap(), length },
+    }
+}
+
+/// The paper's Fig. 2.
+pub(crate) fn fig2() -> Vec<HostBoard> {
+    let items = "17 sensor IRFront uint16
+        18 sensor IRFrontRight uint16
+        19 sensor USRear uint8
+        20 sensor WheelEncoder uint32";
+    vec![board("STM32F4DiscoveryBoard", Checksum::None, items)]
+}
+
+/// Each type alone and as an array, both ways, every value shown scaled.
+pub(crate) fn all_types() -> Vec<HostBoard> {
+    let mut lines = String::new();
+    for (index, scalar) in ScalarType::ALL.into_iter().enumerate() {
+        lines.push_str(&format!("{} sensor S{index} {scalar}\n", index + 1));
+        lines.push_str(&format!("{} sensor A{index} {scalar}[3]\n", index + 31));
+        lines.push_str(&format!("{} actuator T{index} {scalar}\n", index + 61));
+        lines.push_str(&format!("{} actuator B{index} {scalar}[2]\n", index + 91));
+    }
+    let mut board = board("Everything", Checksum::Crc16, &lines);
+    for (index, item) in board.schema.items.iter().enumerate().skip(3) {
+        let shown = Presentation {
+            quantity: (index % 3 == 0).then(|| "cm".into()),
+            scale: (index % 2 == 0).then_some(0.5),
+            offset: (index % 4 == 1).then_some(-3.0),
+            ..Presentation::default()
+        };
+        board.presentations.insert(item.id, shown);
+    }
+    vec![board]
+}
+
+/// Names that mean something in C++, in the system's headers or in the generated files, and texts
+/// that try to leave their literal or comment.
+pub(crate) fn hostile() -> Vec<HostBoard> {
+    let names = "default int class namespace and ECHO EOF linux NULL assert errno stdin B0 CR1 \
+                 sense sensedsl std core odcore cluon main id name raw value schema Decoder \
+                 Commands Hello ID ShortName LongName getRaw setRaw accept toString m_raw \
+                 _leading __double default_ size_t uint8_t string Handler Message Board Publisher \
+                 Item Serial Report decoder handler call publish command send print text entry \
+                 message bytes out begin WIRE_ID COUNT scaled latest board Größe µ";
+    let mut lines = String::new();
+    for (index, name) in names.split_whitespace().enumerate() {
+        let direction = if index % 2 == 0 { "sensor" } else { "actuator" };
+        lines.push_str(&format!("{} {direction} {name} uint16\n", index + 1));
+    }
+    let mut board = board("class", Checksum::None, &lines);
+    let texts =
+        ["*/ int x; /*", "ends with \\", "a\nint y;", "\"; }", "%s%n", "??/", "°C", "{{ x }}"];
+    for (index, item) in board.schema.items.iter().enumerate() {
+        let text = texts[index % texts.len()].to_owned();
+        let shown = Presentation {
+            label: Some(text.clone()),
+            quantity: Some(text),
+            scale: Some([0.1, 1e-300, -1e300, 3.0][index % 4]),
+            ..Presentation::default()
+        };
+        board.presentations.insert(item.id, shown);
+    }
+    vec![board]
+}
+
+/// Three boards: one with a checksum, one that only listens, one with neither sensor nor actuator.
+pub(crate) fn several_boards() -> Vec<HostBoard> {
+    vec![
+        board("Front", Checksum::Crc16, "1 sensor Left uint16\n2 actuator Steering int16"),
+        board("Rear", Checksum::None, "3 actuator Lamps bool[4]"),
+        board("Spare", Checksum::None, ""),
+    ]
+}
+
+/// Every design with a name for its folders.
+pub(crate) fn all() -> Vec<(&'static str, Vec<HostBoard>)> {
+    vec![
+        ("fig2", fig2()),
+        ("all-types", all_types()),
+        ("hostile", hostile()),
+        ("several-boards", several_boards()),
+    ]
+}

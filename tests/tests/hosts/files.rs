@@ -1,0 +1,36 @@
+//! Generated files on disk.
+
+use std::path::{Path, PathBuf};
+
+use sensedsl_codegen::host::{self, HostBoard, HostPlan};
+
+/// A folder of this test run, empty.
+pub(crate) fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// Writes one host of a design into an own folder.
+pub(crate) fn generate(host: &str, test: &str, boards: &[HostBoard]) -> PathBuf {
+    let path = folder(&format!("{test}-{host}"));
+    let files = host::find(host).unwrap().render(&HostPlan::new(boards));
+    assert!(!files.is_empty());
+    for (name, entry) in files.iter() {
+        let file = path.join(name);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, &entry.bytes).unwrap();
+    }
+    path
+}
+
+/// All `.cpp` files of a generated host.
+pub(crate) fn sources(path: &Path) -> Vec<PathBuf> {
+    let mut sources: Vec<PathBuf> =
+        std::fs::read_dir(path.join("src")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    sources.retain(|source| source.extension().is_some_and(|extension| extension == "cpp"));
+    sources.sort();
+    assert!(!sources.is_empty());
+    sources
+}

@@ -1,0 +1,1 @@
+//! Hosts with their middleware: placeholder filled in next.

@@ -1,0 +1,183 @@
+//! The example of host `cpp` on a pseudo-terminal, this test playing the board.
+
+use std::fs::File;
+use std::io::{Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use sensedsl_codegen::host::HostBoard;
+use sensedsl_wire::{
+    Decoder, Direction, Event, Scalar, encode_hello, encode_hello_request, encode_report,
+};
+
+use crate::{designs, files, tools};
+
+/// The board's end of a serial line. The host's end starts as a login terminal would: it echoes and
+/// waits for whole lines, unless the host makes it raw.
+pub(crate) struct Line {
+    board: File,
+    /// The device that the host opens.
+    pub(crate) device: PathBuf,
+}
+
+impl Line {
+    pub(crate) fn new() -> Self {
+        use rustix::fs::{OFlags, fcntl_setfl};
+        use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).unwrap();
+        grantpt(&board).unwrap();
+        unlockpt(&board).unwrap();
+        let device = ptsname(&board, Vec::new()).unwrap().into_string().unwrap();
+        fcntl_setfl(&board, OFlags::NONBLOCK).unwrap();
+        Self { board: File::from(board), device: device.into() }
+    }
+
+    pub(crate) fn say(&mut self, bytes: &[u8]) {
+        self.board.write_all(bytes).unwrap();
+    }
+
+    /// What the host sends within the time, or the first `enough` bytes of it.
+    pub(crate) fn hear(&mut self, enough: usize, time: Duration) -> Vec<u8> {
+        let start = Instant::now();
+        let mut heard = Vec::new();
+        let mut bytes = [0_u8; 256];
+        while heard.len() < enough && start.elapsed() < time {
+            match self.board.read(&mut bytes) {
+                Ok(count) if count > 0 => heard.extend_from_slice(&bytes[..count]),
+                _ => std::thread::sleep(Duration::from_millis(5)),
+            }
+        }
+        heard
+    }
+}
+
+/// Compiles the example as its README says and hands back the program.
+fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(PathBuf, PathBuf)> {
+    if !tools::have("g++") {
+        return None;
+    }
+    let folder = files::generate("cpp", test, boards);
+    let program = folder.join(format!("monitor_{board}"));
+    tools::run(
+        Command::new("g++")
+            .current_dir(&folder)
+            .args(["-std=c++17", "-O1", "-Iinclude"])
+            .arg(format!("src/monitor_{board}.cpp"))
+            .arg("-o")
+            .arg(&program),
+    );
+    Some((folder, program))
+}
+
+fn fig2_frame(front: u64, right: u64, rear: u64, encoder: u64) -> Vec<u8> {
+    let values = [(17, front), (18, right), (19, rear), (20, encoder)]
+        .map(|(id, value)| (id, vec![Scalar::Unsigned(value)]));
+    encode_report(&designs::fig2()[0].schema, Direction::Sensor, &values).unwrap()
+}
+
+#[test]
+fn the_paper_s_frames_become_lines() {
+    let boards = designs::fig2();
+    let Some((folder, program)) = build("fig2", &boards, "STM32F4DiscoveryBoard") else { return };
+    let mut line = Line::new();
+    let monitor = tools::Background::start(Command::new(program).arg(&line.device), &folder);
+    let second = Duration::from_secs(10);
+    assert_eq!(line.hear(4, second), encode_hello_request(&boards[0].schema), "request first");
+    line.say(&encode_hello(&boards[0].schema));
+    assert_eq!(fig2_frame(300, 0, 255, 100_000).len(), 17);
+    line.say(&fig2_frame(300, 0, 255, 100_000));
+    // Every byte that a terminal likes to act on: interrupt, end of file, return, flow control, stop, erase.
+    line.say(&fig2_frame(0x0304, 0x0d11, 0x13, 0x1a1c_7f0a));
+    line.say(b"ch> \r\n9:");
+    line.say(&fig2_frame(1, 2, 3, 4)[..10]);
+    line.say(&fig2_frame(1, 2, 3, 4));
+    monitor.wait_for("WheelEncoder = 4\n");
+    assert_eq!(
+        monitor.output(),
+        "IRFront = 300\nIRFrontRight = 0\nUSRear = 255\nWheelEncoder = 100000\n\
+         IRFront = 772\nIRFrontRight = 3345\nUSRear = 19\nWheelEncoder = 438075146\n\
+         IRFront = 1\nIRFrontRight = 2\nUSRear = 3\nWheelEncoder = 4\n"
+    );
+    assert!(line.hear(1, Duration::from_millis(200)).is_empty(), "the host echoes nothing");
+    drop(line);
+    monitor.wait_for("4 frames, 18 bytes dropped\n");
+}
+
+#[test]
+fn a_board_of_another_design_is_told() {
+    let boards = designs::fig2();
+    let Some((_, program)) = build("other", &boards, "STM32F4DiscoveryBoard") else { return };
+    let mut line = Line::new();
+    let child = Command::new(program).arg(&line.device).stderr(Stdio::piped()).spawn().unwrap();
+    line.hear(4, Duration::from_secs(10));
+    line.say(&encode_hello(&designs::several_boards()[1].schema));
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("another version of the design"));
+}
+
+#[test]
+fn typed_lines_become_commands() {
+    let boards = designs::all_types();
+    let Some((_, program)) = build("commands", &boards, "Everything") else { return };
+    let mut line = Line::new();
+    let mut child = Command::new(program)
+        .arg(&line.device)
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let second = Duration::from_secs(10);
+    assert_eq!(line.hear(7, second), encode_hello_request(&boards[0].schema));
+    let typed = "T0 true\nT2 -128\nT7 18446744073709551615\nT8 -9223372036854775808\nT9 0.1\n\
+                 B3 1 65535\nT2 128\nT1 -1\nB3 1\nnothing 1\nT10 -2.5\n";
+    child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
+    let mut events = Vec::new();
+    let mut decoder = Decoder::new(&boards[0].schema, Direction::Actuator);
+    let start = Instant::now();
+    while events.len() < 7 && start.elapsed() < second {
+        let bytes = line.hear(1, Duration::from_millis(100));
+        decoder.feed(&bytes, |event| events.push(event));
+    }
+    let expected = [
+        (61, vec![Scalar::Bool(true)]),
+        (63, vec![Scalar::Signed(-128)]),
+        (68, vec![Scalar::Unsigned(u64::MAX)]),
+        (69, vec![Scalar::Signed(i64::MIN)]),
+        (70, vec![Scalar::Float32(0.1)]),
+        (94, vec![Scalar::Unsigned(1), Scalar::Unsigned(65_535)]),
+        (71, vec![Scalar::Float64(-2.5)]),
+    ];
+    assert_eq!(events, expected.map(|value| Event::Report(vec![value])));
+    assert_eq!(decoder.dropped_bytes(), 0);
+    drop(line);
+    let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
+    assert!(
+        errors.contains("not sent: T2 128\nnot sent: T1 -1\nnot sent: B3 1\nnot sent: nothing 1\n")
+    );
+}
+
+#[test]
+fn a_recorded_stream_is_played_with_scaled_values() {
+    let mut boards = designs::fig2();
+    let shown = sensedsl_codegen::host::Presentation {
+        quantity: Some("cm".into()),
+        scale: Some(0.5),
+        offset: Some(3.0),
+        ..Default::default()
+    };
+    boards[0].presentations.insert(17, shown);
+    let Some((folder, program)) = build("record", &boards, "STM32F4DiscoveryBoard") else { return };
+    let stream: Vec<u8> = (0..1000).flat_map(|n| fig2_frame(n, n, n % 256, n)).collect();
+    let record = folder.join("record.bin");
+    std::fs::write(&record, &stream).unwrap();
+    let printed = tools::run(Command::new(&program).arg(&record));
+    assert_eq!(printed.lines().count(), 4000);
+    assert_eq!(printed.lines().nth(4), Some("IRFront = 1 (3.5 cm)"));
+    assert_eq!(play_from_standard_input(&program, &record), printed);
+}
+
+fn play_from_standard_input(program: &Path, record: &Path) -> String {
+    tools::run(Command::new(program).arg("-").stdin(File::open(record).unwrap()))
+}

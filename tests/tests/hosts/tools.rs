@@ -1,0 +1,88 @@
+//! Finding and running the programs of this machine.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+/// Whether the program answers `--version`. Loudly says so when not; a failure when tools are required.
+pub(crate) fn have(program: &str) -> bool {
+    let status =
+        Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let found = status.is_ok_and(|status| status.success());
+    if !found {
+        missing(program);
+    }
+    found
+}
+
+/// Says what a test had to leave out.
+pub(crate) fn missing(what: &str) {
+    assert!(
+        std::env::var("SENSEDSL_REQUIRE_TOOLS").as_deref() != Ok("1"),
+        "{what} is not here, and SENSEDSL_REQUIRE_TOOLS is set"
+    );
+    eprintln!("SKIPPED: {what} is not here");
+}
+
+/// The tree that the variable names; without it the test is skipped, loudly.
+pub(crate) fn tree(variable: &str) -> Option<PathBuf> {
+    let path = std::env::var(variable).ok().map(PathBuf::from);
+    if path.is_none() {
+        eprintln!("SKIPPED: {variable} names no tree");
+    }
+    path
+}
+
+/// Runs to the end; panics with the output when it fails.
+pub(crate) fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}\n{text}\n{errors}");
+    text
+}
+
+/// A program in the background that ends with the test.
+pub(crate) struct Background {
+    pub(crate) child: Child,
+    /// What it printed.
+    log: PathBuf,
+}
+
+impl Background {
+    /// Starts it, its output in a file of `folder`.
+    pub(crate) fn start(command: &mut Command, folder: &Path) -> Self {
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        let log = folder.join(format!("log{}.txt", NUMBER.fetch_add(1, Ordering::Relaxed)));
+        let file = std::fs::File::create(&log).unwrap();
+        let errors = file.try_clone().unwrap();
+        let child = command.stdin(Stdio::null()).stdout(file).stderr(errors).spawn();
+        Self { child: child.unwrap_or_else(|error| panic!("{command:?}: {error}")), log }
+    }
+
+    /// What it printed so far.
+    pub(crate) fn output(&self) -> String {
+        String::from_utf8_lossy(&std::fs::read(&self.log).unwrap()).into_owned()
+    }
+
+    /// Waits until it has printed `text`.
+    pub(crate) fn wait_for(&self, text: &str) {
+        let start = Instant::now();
+        while !self.output().contains(text) {
+            assert!(
+                start.elapsed() < Duration::from_secs(30),
+                "no {text:?} in:\n{}",
+                self.output()
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+impl Drop for Background {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

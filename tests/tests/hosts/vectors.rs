@@ -1,0 +1,222 @@
+//! The shared wire vectors, and random streams against the reference decoder, through the decoder
+//! and encoder of the C++ hosts.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use sensedsl_wire::{
+    Checksum, Decoder, Direction, Event, Schema, encode_hello, encode_hello_request,
+};
+
+use crate::designs::{board, item};
+use crate::files;
+use crate::tools;
+
+/// What is asked of the C++ program, and its answer.
+#[derive(Default)]
+struct Exchange {
+    asked: String,
+    expected: String,
+    cases: usize,
+}
+
+impl Exchange {
+    fn ask(&mut self, command: &str, answer: &str) {
+        self.asked.push_str(&format!("{command}\n"));
+        self.expected.push_str(&format!("{answer}end\n"));
+        self.cases += 1;
+    }
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Turns a vector file into one exchange and the schema it needs. All numbers stay text.
+fn read(path: &Path) -> (Schema, Exchange) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut schema = Schema::default();
+    let mut exchange = Exchange::default();
+    let (mut command, mut answer) = (String::new(), String::new());
+    for line in text.lines() {
+        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+        match word {
+            "" | "#" | "schema" => {}
+            "checksum" => {
+                schema.checksum = if rest == "crc16" { Checksum::Crc16 } else { Checksum::None };
+            }
+            "item" => schema.items.push(item(rest)),
+            "hash" => {
+                assert_eq!(format!("0x{:08x}", schema.hash()), rest);
+                let (hello, request) = (encode_hello(&schema), encode_hello_request(&schema));
+                let answer = format!("hello {}\nhello-request {}\n", hex(&hello), hex(&request));
+                exchange.ask("hash", &answer);
+            }
+            "encode" | "decode" => (command, answer) = (format!("{word} sensors"), String::new()),
+            "encode-actuators" => (command, answer) = ("encode actuators".into(), String::new()),
+            "decode-actuators" => (command, answer) = ("decode actuators".into(), String::new()),
+            "value" => {
+                let (id, scalars) = rest.split_once(' ').unwrap();
+                command.push_str(&format!(" {id}={}", scalars.replace(' ', ",")));
+            }
+            "in" => command.push_str(&format!(" {rest}")),
+            "got" => answer.push_str(&format!("{line}\n")),
+            "frame" | "dropped" => exchange.ask(&command, &format!("{answer}{line}\n")),
+            other => panic!("{}: what is {other}?", path.display()),
+        }
+    }
+    (schema, exchange)
+}
+
+/// Compiles the driver for a schema and holds it to the exchange.
+fn run(compiler: &[&str], name: &str, schema: &Schema, exchange: &Exchange) {
+    let mut vectors = board("Vectors", schema.checksum, "");
+    vectors.schema = schema.clone();
+    let folder = files::generate("cpp", &format!("vectors-{name}-{}", compiler[0]), &[vectors]);
+    let mut items = String::from("#define ITEMS(X)");
+    for item in &schema.items {
+        let cpp_type = match item.value.scalar.name() {
+            "bool" => "bool".to_owned(),
+            "float32" => "float".to_owned(),
+            "float64" => "double".to_owned(),
+            integer => format!("{integer}_t"),
+        };
+        items.push_str(&format!(" X({}, {cpp_type}, {})", item.id, item.value.count()));
+    }
+    std::fs::write(folder.join("include/items.h"), items + "\n").unwrap();
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/vectors.cpp");
+    let program = folder.join("vectors");
+    tools::run(
+        Command::new(compiler[0])
+            .args(&compiler[1..])
+            .args(["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-g"])
+            .arg(format!("-I{}", folder.join("include").display()))
+            .arg(source)
+            .arg("-o")
+            .arg(&program),
+    );
+    assert_eq!(talk(&program, &exchange.asked), exchange.expected, "{name} {compiler:?}");
+}
+
+fn talk(program: &Path, asked: &str) -> String {
+    let mut child =
+        Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let asked = asked.to_owned();
+    let writer = std::thread::spawn(move || stdin.write_all(asked.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap().unwrap();
+    assert!(output.status.success(), "{program:?} {}", output.status);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn vector_files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors");
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "txt"));
+    files.sort();
+    assert!(files.len() >= 3, "{files:?}");
+    files
+}
+
+/// The oldest and the newest C++ that hosts are written in, and the sanitizers.
+const COMPILERS: [&[&str]; 3] = [
+    &["g++", "-std=c++98", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"],
+    &["g++", "-std=c++17", "-O2"],
+    &["clang++", "-std=c++14", "-O1"],
+];
+
+#[test]
+fn shared_vectors_cut_at_every_place() {
+    for compiler in COMPILERS {
+        if !tools::have(compiler[0]) {
+            continue;
+        }
+        for path in vector_files() {
+            let (schema, exchange) = read(&path);
+            assert!(exchange.cases > 5, "{}: {} cases", path.display(), exchange.cases);
+            run(compiler, path.file_stem().unwrap().to_str().unwrap(), &schema, &exchange);
+        }
+    }
+}
+
+/// What the reference says of a stream, in the words of a vector file.
+fn reference(schema: &Schema, stream: &[u8]) -> String {
+    let mut answer = String::new();
+    let mut decoder = Decoder::new(schema, Direction::Sensor);
+    decoder.feed(stream, |event| match event {
+        Event::Hello(hash) => answer.push_str(&format!("got hello 0x{hash:08x}\n")),
+        Event::HelloRequest => answer.push_str("got hello-request\n"),
+        Event::Report(values) => {
+            answer.push_str("got");
+            for (id, scalars) in values {
+                let texts: Vec<String> = scalars.iter().map(ToString::to_string).collect();
+                answer.push_str(&format!(" {id}={}", texts.join(",")));
+            }
+            answer.push('\n');
+        }
+    });
+    answer.push_str(&format!("dropped {}\n", decoder.dropped_bytes()));
+    answer
+}
+
+/// Numbers that are the same in each run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(self.0 >> 33).unwrap() % bound
+    }
+}
+
+/// Whole frames among bytes that look like them: from the vectors' frames by dropping, doubling and
+/// changing bytes, so that most of it is nearly right.
+fn damaged(numbers: &mut Numbers, frames: &[Vec<u8>]) -> Vec<u8> {
+    const LIKELY: &[u8] = b"0123456789:,\x00\x11\x12\x13\x14\xff";
+    let mut stream = Vec::new();
+    for _ in 0..1 + numbers.below(5) {
+        let mut frame = frames[numbers.below(frames.len())].clone();
+        for _ in 0..numbers.below(3) {
+            let at = numbers.below(frame.len());
+            match numbers.below(4) {
+                0 => frame[at] = LIKELY[numbers.below(LIKELY.len())],
+                1 => frame.insert(at, LIKELY[numbers.below(LIKELY.len())]),
+                2 if frame.len() > 1 => drop(frame.remove(at)),
+                _ => frame.truncate(at.max(1)),
+            }
+        }
+        stream.extend(frame);
+    }
+    stream
+}
+
+#[test]
+fn damaged_streams_are_read_as_by_the_reference() {
+    if !tools::have("g++") {
+        return;
+    }
+    for name in ["fig2", "checksum"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
+        let (schema, vectors) = read(&path);
+        let frames: Vec<Vec<u8>> = vectors
+            .expected
+            .lines()
+            .filter_map(|line| line.strip_prefix("frame ").or_else(|| line.strip_prefix("hello ")))
+            .map(|digits| {
+                let at = (0..digits.len()).step_by(2);
+                at.map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap()).collect()
+            })
+            .collect();
+        let mut numbers = Numbers(2014);
+        let mut exchange = Exchange::default();
+        for _ in 0..2000 {
+            let stream = damaged(&mut numbers, &frames);
+            exchange.ask(&format!("decode sensors {}", hex(&stream)), &reference(&schema, &stream));
+        }
+        run(&["g++", "-std=c++17", "-O1"], &format!("damaged-{name}"), &schema, &exchange);
+    }
+}
