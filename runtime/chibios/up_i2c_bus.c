@@ -13,8 +13,8 @@ static void half_clock(ioline_t line, uint8_t level) {
 }
 
 static void set_pads(const up_i2c_port_t *port) {
-  palSetLineMode(port->scl, port->mode);
-  palSetLineMode(port->sda, port->mode);
+  palSetLineMode(port->scl, port->scl_mode);
+  palSetLineMode(port->sda, port->sda_mode);
 }
 
 /* Clocks a stuck device out by hand, ends with a stop condition and starts the driver anew. The driver is

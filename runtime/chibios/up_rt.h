@@ -61,7 +61,7 @@ typedef struct {
   I2CDriver *driver;
   const I2CConfig *config;
   ioline_t scl, sda;
-  iomode_t mode; /* of both pads; set again after a recovery */
+  iomode_t scl_mode, sda_mode; /* set again after a recovery */
   uint32_t timeout_ms;
   uint32_t *recoveries;
 } up_i2c_port_t;

@@ -1,0 +1,126 @@
+//! The link to the host, its button, and how often a report goes out.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target;
+use sensedsl_model::design::Transport;
+
+use super::context::{Context, Drive, PadPlan, alternate_mode, line, pad};
+use super::tasks::TaskPlan;
+
+/// The reporter's cycle where nothing asks for another.
+const REPORT_MS: u32 = 10;
+
+/// What carries the frames.
+#[derive(Clone, Debug)]
+pub(super) enum LinkPlan {
+    /// A USB device: its driver and the options that it needs.
+    Usb { driver: String, switches: Vec<String> },
+    /// A serial port.
+    Uart { unit: String, driver: String, switch: String, baud: u32 },
+}
+
+/// A button that asks for frames at the start.
+#[derive(Clone, Debug)]
+pub(super) struct ButtonPlan {
+    pub(super) pin: String,
+    pub(super) line: String,
+    pub(super) level: &'static str,
+}
+
+impl LinkPlan {
+    pub(super) fn is_usb(&self) -> bool {
+        matches!(self, Self::Usb { .. })
+    }
+
+    /// The driver object.
+    pub(super) fn driver(&self) -> &str {
+        match self {
+            Self::Usb { driver, .. } | Self::Uart { driver, .. } => driver,
+        }
+    }
+
+    /// Bits per second; of no effect over USB.
+    pub(super) fn baud(&self) -> u32 {
+        match self {
+            Self::Usb { .. } => 0,
+            Self::Uart { baud, .. } => *baud,
+        }
+    }
+
+    /// For people.
+    pub(super) fn title(&self) -> String {
+        match self {
+            Self::Usb { .. } => "USB (a serial port of the host, such as /dev/ttyACM0)".to_owned(),
+            Self::Uart { unit, baud, .. } => format!("{unit} at {baud} baud"),
+        }
+    }
+}
+
+pub(super) fn plan(
+    context: &Context<'_>,
+    pads: &mut Vec<PadPlan>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<LinkPlan> {
+    let plan = match context.board.link.transport {
+        Transport::Usb => usb(context, pads),
+        Transport::Uart => uart(context, pads, diagnostics),
+    };
+    if plan.is_none() {
+        let name = &context.board.name;
+        let why = "its target has no driver for the link";
+        diagnostics.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why));
+    }
+    plan
+}
+
+fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
+    let usb = context.profile.usb(None)?;
+    if let Some(number) = usb.alternate {
+        let mode = alternate_mode(number, Drive::Fast);
+        pads.extend(usb.pins.iter().map(|pin| pad(pin, &mode)));
+    }
+    let switches = std::iter::once(&usb.switch).chain(&usb.needs).cloned();
+    Some(LinkPlan::Usb { driver: usb.driver.clone(), switches: switches.collect() })
+}
+
+fn uart(
+    context: &Context<'_>,
+    pads: &mut Vec<PadPlan>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<LinkPlan> {
+    let link = context.wiring.link.as_ref()?;
+    let unit = context.profile.serials.iter().find(|serial| serial.name == link.unit)?;
+    for wire in &link.wires {
+        pads.extend(context.alternate_pad(wire, Drive::Plain, diagnostics));
+    }
+    Some(LinkPlan::Uart {
+        unit: unit.name.clone(),
+        driver: unit.driver.clone(),
+        switch: unit.switch.clone(),
+        baud: context.board.link.baud,
+    })
+}
+
+/// The board's own button, unless a device has its pin. Another board with the same MCU may have
+/// anything there.
+pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
+    let button = context.board.facts.as_ref()?.button.as_ref();
+    let button = button.filter(|_| context.board.built_in)?;
+    let wires = context.devices.iter().flat_map(|wired| &wired.wiring.wires);
+    let mut wires = wires.chain(context.wiring.link.iter().flat_map(|link| &link.wires));
+    let is_taken =
+        wires.any(|wire| wire.pin(context.board).is_some_and(|pin| pin.name == button.pin));
+    (!is_taken).then(|| ButtonPlan {
+        pin: button.pin.to_string(),
+        line: line(&button.pin),
+        level: if button.active_high { "PAL_HIGH" } else { "PAL_LOW" },
+    })
+}
+
+/// As often as something can become due, at most as often as the link allows.
+pub(super) fn report_ms(context: &Context<'_>, tasks: &[TaskPlan]) -> u32 {
+    if let Some(rate_hz) = context.board.link.rate_hz {
+        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    }
+    tasks.iter().map(|task| task.delay_ms).fold(REPORT_MS, u32::min).max(1)
+}

@@ -1,0 +1,74 @@
+//! Printing: each file of a board is one template over its plan.
+
+use askama::Template;
+
+use super::plan::{BoardPlan, FirmwarePlan};
+use super::runtime;
+use crate::fileset::FileSet;
+
+/// The user's file as it is made once.
+const USER: &str = include_str!("../../../templates/firmware/chibios/user.c.txt");
+
+/// Declares a template that prints a [`BoardPlan`] under the name `b`.
+macro_rules! templates {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                b: &'a BoardPlan,
+            }
+        )*
+    };
+}
+
+templates! {
+    Makefile = "firmware/chibios/Makefile.txt";
+    Readme = "firmware/chibios/README.md.txt";
+    Chconf = "firmware/chibios/chconf.h.txt";
+    Halconf = "firmware/chibios/halconf.h.txt";
+    Mcuconf = "firmware/chibios/mcuconf.h.txt";
+    UpConf = "firmware/chibios/up_conf.h.txt";
+    ModelHeader = "firmware/chibios/sense_model.h.txt";
+    Model = "firmware/chibios/sense_model.c.txt";
+    Hardware = "firmware/chibios/sense_hw.c.txt";
+}
+
+/// Prints everything: paths start with the board's name.
+#[must_use]
+pub fn render(plan: &FirmwarePlan) -> FileSet {
+    let mut all = FileSet::default();
+    for board in &plan.boards {
+        all.merge_under(&board.name, render_board(board));
+    }
+    all
+}
+
+fn render_board(b: &BoardPlan) -> FileSet {
+    let mut files = FileSet::default();
+    files.add("Makefile", print(&Makefile { b }));
+    files.add("README.md", print(&Readme { b }));
+    files.add("cfg/chconf.h", print(&Chconf { b }));
+    files.add("cfg/halconf.h", print(&Halconf { b }));
+    files.add("cfg/mcuconf.h", print(&Mcuconf { b }));
+    files.add("cfg/up_conf.h", print(&UpConf { b }));
+    files.add("generated/sense_model.h", print(&ModelHeader { b }));
+    files.add("generated/sense_model.c", print(&Model { b }));
+    files.add("generated/sense_hw.c", print(&Hardware { b }));
+    files.add_once("user/user.c", USER);
+    for (path, text) in runtime::FILES {
+        files.add(format!("uproxy/{path}"), *text);
+    }
+    files
+}
+
+/// Prints a template and the line end that the template engine takes away. Templates are checked
+/// when this crate is compiled and they write to memory, so that only a formatter that fails by
+/// itself could make this empty.
+fn print(template: &impl Template) -> String {
+    let mut text = template.render().unwrap_or_default();
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,3 @@
+//! Firmware: the program on the board, for each operating system one module.
+
+pub mod chibios;

@@ -1,0 +1,207 @@
+//! The designs that firmware is generated for, from text to files.
+
+use std::collections::BTreeMap;
+
+use sensedsl_codegen::fileset::FileSet;
+use sensedsl_codegen::firmware::chibios;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::{Files, Request, resolve};
+use sensedsl_wiring::{Solved, Wiring};
+
+/// The paper's Fig. 2.
+pub(crate) const FIG2: &str = include_str!("../../../examples/fig2.sense");
+
+/// The car whose firmware was written by hand in 2014, as far as ChibiOS can capture.
+pub(crate) const CAR: &str = "
+board STM32F4DiscoveryBoard {
+    sensor IR0 returns uint16 { id = 1; type = analog; delay = 60; prio = +12; }
+    sensor IR1 returns uint16 { id = 2; type = analog; delay = 60; prio = +12; }
+    sensor IR2 returns uint16 { id = 3; type = analog; delay = 60; prio = +12; }
+    sensor USFront returns uint16 { id = 4; type = i2c; driver = srf08; address = 0xE2; delay = 70; prio = +10; }
+    sensor USLeft returns uint16 { id = 5; type = i2c; driver = srf08; address = 0xE4; delay = 70; prio = +10; }
+    sensor USRear returns uint16 { id = 6; type = i2c; driver = srf08; address = 0xE6; delay = 70; prio = +10; }
+    sensor EncoderLeftA returns uint32 { id = 7; type = icu; }
+    sensor EncoderLeftB returns uint32 { id = 8; type = icu; }
+    sensor EncoderRightA returns uint32 { id = 9; type = icu; }
+    sensor EncoderRightB returns uint32 { id = 10; type = icu; }
+    sensor Remote0 returns uint16 { id = 11; type = icu; mode = width; resolution = 1 us; }
+    sensor Remote1 returns uint16 { id = 12; type = icu; mode = width; resolution = 1 us; }
+    sensor Remote2 returns uint16 { id = 13; type = icu; mode = width; resolution = 1 us; }
+}
+";
+
+/// Words of C as names, every property that changes the code, a serial link with a checksum.
+pub(crate) const ODD: &str = "
+board Odd on \"odd.csv\" {
+    link { transport = uart; unit = USART3; baud = 460800; checksum = crc16; rate = 50 Hz; }
+    sensor default returns float32 { id = 1; type = analog; samples = 7; sampling = 100; delay = 5; }
+    sensor int returns int64 { id = 2; type = analog; samples = 1; delay = 1 s; prio = -3; }
+    sensor volatile returns uint8 { id = 3; type = analog; delay = 1 s; prio = -3; }
+    sensor register returns int16[3] { id = 4; type = i2c; address = 0x68; register = 0x3B; length = 6; speed = 400 kHz; }
+    sensor NULL returns bool { id = 5; type = i2c; address = 0x20; length = 1; order = little; }
+    sensor value returns float64 { id = 6; type = i2c; address = 0x21; register = 0; length = 8; delay = 20; }
+    actuator struct accepts int16[2] { id = 7; type = i2c; address = 0x22; register = 0x10; length = 4; delay = 20; }
+    sensor TRUE returns uint32 { id = 8; type = icu; mode = frequency; }
+    sensor pads returns uint16 { id = 9; type = icu; mode = duty; edge = falling; }
+    sensor errno returns uint64 { id = 10; type = icu; edge = both; }
+    sensor main returns float32 { id = 11; type = icu; mode = period; resolution = 10 us; }
+    sensor NDEBUG returns int8 { id = 13; type = icu; unit = TIM5; }
+    sensor range returns uint16 { id = 12; type = icu; driver = hcsr04; delay = 100; }
+}
+";
+
+/// A board of the user with what Table 1 lacks.
+const ODD_TABLE: &str = "\
+# mcu = STM32F407VGT6
+Pin,ADC,I2C,ICU,UART
+PA0,-,-,-,-
+PB0,ADC12_IN8,-,-,-
+PC1,ADC123_IN11,-,-,-
+PC4,ADC12_IN14,-,-,-
+PB6,-,I2C1_SCL@4,-,-
+PB7,-,I2C1_SDA,-,-
+PA8,-,-,TIM1_CH1,-
+PA1,-,-,TIM2_CH2 TIM5_CH2,-
+PA15,-,-,TIM2_CH1,-
+PB4,-,-,TIM3_CH1,-
+PD12,-,-,TIM4_CH1@2,-
+PE5,-,-,TIM9_CH1,-
+PD8,-,-,-,USART3_TX
+PD9,-,-,-,USART3_RX
+";
+
+/// Two boards of one file, each with its own devices.
+pub(crate) const TWO: &str = "
+board Front on STM32F4DiscoveryBoard {
+    sensor Left returns uint16 { id = 1; type = analog; delay = 20; }
+    sensor Right returns uint16 { id = 2; type = analog; delay = 20; }
+}
+board Rear on STM32F4DiscoveryBoard {
+    sensor Wheel returns uint32 { id = 3; type = icu; }
+}
+";
+
+/// The files a design may name.
+struct Tables;
+
+impl Files for Tables {
+    fn read(&self, path: &str) -> Result<String, String> {
+        if path == "odd.csv" { Ok(ODD_TABLE.to_owned()) } else { Err("no such file".to_owned()) }
+    }
+}
+
+/// What becomes of a text: files, or what is wrong.
+pub(crate) fn generate(text: &str) -> Result<FileSet, Vec<Diagnostic>> {
+    let request = Request { path: "test.sense", text, ..Request::default() };
+    let resolved = resolve(&request, &Tables);
+    let Some(design) = resolved.design else { panic!("{:#?}", resolved.diagnostics) };
+    match Wiring::new(&design, None).solve(false) {
+        Solved::Wired(assignment) => {
+            chibios::plan(&design, &assignment).map(|plan| chibios::render(&plan))
+        }
+        other => panic!("{other:#?}"),
+    }
+}
+
+/// The files of a design that must generate, by path.
+pub(crate) fn files(text: &str) -> BTreeMap<String, String> {
+    let files = generate(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:#?}"));
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    files.iter().map(|(path, entry)| (path.to_owned(), text(&entry.bytes))).collect()
+}
+
+fn codes(text: &str) -> Vec<&'static str> {
+    generate(text).unwrap_err().iter().map(|one| one.code.info().code).collect()
+}
+
+#[test]
+fn generating_twice_gives_the_same_bytes() {
+    for text in [FIG2, CAR, ODD, TWO] {
+        assert_eq!(generate(text).unwrap(), generate(text).unwrap());
+    }
+}
+
+#[test]
+fn fig2_has_a_group_a_bus_and_a_counter() {
+    let files = files(FIG2);
+    let board = "STM32F4DiscoveryBoard";
+    let hardware = &files[&format!("{board}/generated/sense_hw.c")];
+    for expected in [
+        "PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG",
+        "PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2)",
+        "PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN",
+        "/* ADC1 60 ms: IRFrontRight */",
+        "/* ADC1 1000 ms: IRFront */",
+        "/* I2C3 40 ms +2: USRear */",
+        ".address = 0x73U",
+        ".wait_ms = 65U",
+        ".driver = &ICUD3",
+        ".channel = ICU_CHANNEL_1",
+    ] {
+        assert!(hardware.contains(expected), "{expected} is missing in\n{hardware}");
+    }
+    assert!(files[&format!("{board}/cfg/up_conf.h")].contains("MAX_TO_HOST 17U"));
+    assert!(files[&format!("{board}/cfg/mcuconf.h")].contains("STM32_ST_USE_TIMER 2"));
+    assert!(generate(FIG2).unwrap().get(&format!("{board}/user/user.c")).unwrap().once);
+}
+
+#[test]
+fn one_thread_serves_what_is_alike() {
+    let files = files(CAR);
+    let hardware = &files["STM32F4DiscoveryBoard/generated/sense_hw.c"];
+    assert!(hardware.contains("/* ADC1 60 ms +12: "), "{hardware}");
+    assert_eq!(hardware.matches("THD_WORKING_AREA(").count(), 2);
+    assert_eq!(hardware.matches("up_adc_t adc_").count(), 1);
+    assert_eq!(hardware.matches("static const I2CConfig").count(), 1);
+    // Seven captures have every timer but one of the two that share PA1.
+    let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
+    assert!(settings.contains("#define STM32_ST_USE_TIMER 5\n"), "{settings}");
+    assert_eq!(settings.matches("STM32_ICU_USE_TIM").count(), 14);
+}
+
+#[test]
+fn the_kernel_takes_the_tick_when_devices_have_its_timers() {
+    let text = "board STM32F4DiscoveryBoard {
+        sensor A returns uint32 { id = 1; type = icu; unit = TIM2; }
+    }";
+    let two = &files(text)["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
+    assert!(two.contains("STM32_ST_USE_TIMER 5"), "{two}");
+    let odd = files(ODD);
+    assert!(!odd["Odd/cfg/mcuconf.h"].contains("STM32_ST_USE_TIMER"));
+    assert!(odd["Odd/cfg/chconf.h"].contains("#define CH_CFG_ST_TIMEDELTA 0\n"));
+}
+
+#[test]
+fn files_end_with_a_line_end_and_have_no_empty_runs() {
+    for text in [FIG2, CAR, ODD, TWO] {
+        for (path, text) in files(text) {
+            assert!(text.ends_with('\n') && !text.ends_with("\n\n"), "{path}");
+            assert!(!text.contains("\n\n\n"), "{path}");
+            assert!(text.lines().all(|line| line == line.trim_end()), "{path}");
+        }
+    }
+}
+
+#[test]
+fn boards_stand_beside_each_other() {
+    let files = files(TWO);
+    assert!(files["Front/generated/sense_hw.c"].contains("IN8"));
+    assert!(!files["Front/generated/sense_hw.c"].contains("Wheel"));
+    assert!(files["Rear/generated/sense_hw.c"].contains("Wheel"));
+    assert!(files["Rear/cfg/halconf.h"].contains("HAL_USE_ADC FALSE"));
+}
+
+#[test]
+fn what_cannot_be_generated_is_said() {
+    let analog = |properties: &str| {
+        format!(
+            "board STM32F4DiscoveryBoard {{
+                sensor A returns uint16 {{ id = 1; type = {properties} }}
+            }}"
+        )
+    };
+    assert_eq!(codes(&analog("digital;")), ["E0501"]);
+    assert_eq!(codes(&analog("analog; sampling = 481;")), ["E0506"]);
+    assert_eq!(codes(&analog("icu; resolution = 11 us;")), ["E0506"]);
+    assert_eq!(codes(&analog("i2c; address = 0x20; length = 9;")), ["E0506"]);
+}
