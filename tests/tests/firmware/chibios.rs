@@ -7,7 +7,7 @@ use crate::applications::{self, CAR, FIG2, ODD, TWO};
 use crate::tools::{has, run, scratch};
 
 /// The tree, where the machine has one. No registry has ChibiOS, so that its absence is no failure.
-fn tree() -> Option<PathBuf> {
+pub(crate) fn tree() -> Option<PathBuf> {
     let Ok(tree) = std::env::var("CHIBIOS") else {
         eprintln!("SKIPPED: CHIBIOS names no ChibiOS tree, generated firmware is not built");
         return None;
@@ -15,7 +15,7 @@ fn tree() -> Option<PathBuf> {
     (has("make") && has("arm-none-eabi-gcc")).then(|| PathBuf::from(tree))
 }
 
-fn write(name: &str, text: &str) -> PathBuf {
+pub(crate) fn write(name: &str, text: &str) -> PathBuf {
     let folder = scratch(name);
     for (path, text) in applications::files(text) {
         let path = folder.join(path);
@@ -26,7 +26,7 @@ fn write(name: &str, text: &str) -> PathBuf {
 }
 
 /// Builds one board and returns what `size` says.
-fn build(tree: &Path, board: &Path, mode: &str) -> String {
+pub(crate) fn build(tree: &Path, board: &Path, mode: &str) -> String {
     let mut make = Command::new("make");
     make.current_dir(board).arg("-j2").arg(format!("UP_MODE={mode}"));
     let output = run(make.arg(format!("CHIBIOS={}", tree.display())));

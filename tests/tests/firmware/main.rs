@@ -9,4 +9,5 @@
 mod applications;
 mod chibios;
 mod core;
+mod emulated;
 mod tools;

@@ -1,0 +1,226 @@
+//! A generated application on an emulated STM32F4: kernel, shell, link and bus recovery, with all of
+//! the kernel's own checks on.
+//!
+//! The emulator has neither DMA nor I2C: analog conversions never end there and every I2C transfer
+//! times out, which is what the test wants of them. Clocks are not started, for the emulator's
+//! hang, and the kernel has the core's tick.
+
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use sensedsl_wire::{
+    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
+};
+
+use crate::chibios::{build, tree, write};
+use crate::tools::{has, root};
+
+const EMULATED: &str = "
+board Emulated on \"emulated.csv\" {
+    link { transport = uart; unit = USART1; checksum = crc16; }
+    sensor IR returns uint16 { id = 1; type = analog; delay = 100; }
+    sensor Ranger returns uint8 { id = 2; type = i2c; driver = srf08; address = 0xE6; delay = 100; }
+    sensor Wheel returns uint32 { id = 3; type = icu; }
+    actuator Lamp accepts uint8 { id = 4; type = i2c; address = 0x20; register = 1; delay = 50; }
+    sensor Echo returns uint8 { id = 5; type = i2c; address = 0x21; delay = 100; }
+}
+";
+
+/// The pins of [`EMULATED`].
+pub(crate) const TABLE: &str = "\
+# mcu = STM32F407VGT6
+Pin,ADC,I2C,ICU,UART
+PB0,ADC12_IN8,-,-,-
+PB6,-,I2C1_SCL,-,-
+PB7,-,I2C1_SDA,-,-
+PB4,-,-,TIM3_CH1,-
+PA9,-,-,-,USART1_TX
+PA10,-,-,-,USART1_RX
+";
+
+fn schema() -> Schema {
+    let item = |id, direction, name: &str, scalar| Item {
+        id,
+        name: name.to_owned(),
+        direction,
+        value: ValueType::scalar(scalar),
+    };
+    let items = vec![
+        item(1, Direction::Sensor, "IR", ScalarType::Uint16),
+        item(2, Direction::Sensor, "Ranger", ScalarType::Uint8),
+        item(3, Direction::Sensor, "Wheel", ScalarType::Uint32),
+        item(4, Direction::Actuator, "Lamp", ScalarType::Uint8),
+        item(5, Direction::Sensor, "Echo", ScalarType::Uint8),
+    ];
+    Schema { checksum: Checksum::Crc16, items }
+}
+
+/// Gives the application what the emulator needs.
+fn adapt(board: &Path) {
+    let change = |path: &str, original: &str, changed: &str| {
+        let path = board.join(path);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(original), "{text}");
+        std::fs::write(&path, text.replacen(original, changed, 1)).unwrap();
+    };
+    let base = "#include UP_BASE_CHCONF";
+    let kernel = [
+        "CH_CFG_ST_TIMEDELTA 0",
+        "CH_CFG_ST_FREQUENCY 1000",
+        "CH_DBG_SYSTEM_STATE_CHECK TRUE",
+        "CH_DBG_ENABLE_CHECKS TRUE",
+        "CH_DBG_ENABLE_ASSERTS TRUE",
+        "CH_DBG_ENABLE_STACK_CHECK TRUE",
+        "CH_DBG_FILL_THREADS TRUE",
+    ];
+    let kernel = kernel.map(|setting| format!("#define {setting}\n")).concat();
+    change("cfg/chconf.h", base, &format!("{kernel}{base}"));
+    let base = "#include UP_BASE_MCUCONF";
+    let clocks = "\n#undef STM32_NO_INIT\n#define STM32_NO_INIT TRUE";
+    change("cfg/mcuconf.h", base, &format!("{base}{clocks}"));
+    let user = root().join("tests/firmware/emulated_user.c");
+    std::fs::copy(user, board.join("user/user.c")).unwrap();
+}
+
+/// The running board: what it says can be waited for.
+struct Board {
+    emulator: Child,
+    output: Receiver<Vec<u8>>,
+    said: Vec<u8>,
+}
+
+impl Board {
+    fn start(program: &Path) -> Self {
+        let mut command = Command::new("qemu-system-arm");
+        command.args(["-M", "netduinoplus2", "-display", "none", "-monitor", "none"]);
+        command.args(["-serial", "stdio", "-kernel"]).arg(program);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut emulator = command.spawn().unwrap();
+        let mut stdout = emulator.stdout.take().unwrap();
+        let (sender, output) = channel();
+        std::thread::spawn(move || {
+            let mut bytes = [0; 1024];
+            while let Ok(count) = stdout.read(&mut bytes) {
+                if count == 0 || sender.send(bytes[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        Self { emulator, output, said: Vec::new() }
+    }
+
+    fn say(&mut self, bytes: &[u8]) {
+        let stdin = self.emulator.stdin.as_mut().unwrap();
+        stdin.write_all(bytes).unwrap();
+        stdin.flush().unwrap();
+    }
+
+    /// Waits until `found` likes what was said since the last time; takes it.
+    fn wait<T>(&mut self, what: &str, found: impl Fn(&[u8]) -> Option<T>) -> T {
+        let end = Instant::now() + Duration::from_secs(60);
+        loop {
+            if let Some(result) = found(&self.said) {
+                self.said.clear();
+                return result;
+            }
+            let text = String::from_utf8_lossy(&self.said).into_owned();
+            let left = end.checked_duration_since(Instant::now());
+            let left = left.unwrap_or_else(|| panic!("no {what} in {text:?}"));
+            if let Ok(bytes) = self.output.recv_timeout(left) {
+                self.said.extend(bytes);
+            }
+        }
+    }
+
+    /// Types a command and returns its answer.
+    fn ask(&mut self, command: &str) -> String {
+        self.say(format!("{command}\r\n").as_bytes());
+        self.wait(command, |said| {
+            let text = String::from_utf8_lossy(said);
+            let answer = text.split_once(&format!("{command}\r\n"))?.1;
+            Some(answer.strip_suffix("ch> ")?.to_owned())
+        })
+    }
+
+    /// Waits until the frames in what was said contain all of `wanted`; returns all of them.
+    fn events(&mut self, wanted: &[Event]) -> Vec<Event> {
+        let schema = schema();
+        self.wait(&format!("{wanted:?}"), |said| {
+            let mut decoder = Decoder::new(&schema, Direction::Sensor);
+            let mut events = Vec::new();
+            decoder.feed(said, |event| events.push(event));
+            wanted.iter().all(|event| events.contains(event)).then_some(events)
+        })
+    }
+}
+
+impl Drop for Board {
+    fn drop(&mut self) {
+        let _ = self.emulator.kill();
+        let _ = self.emulator.wait();
+    }
+}
+
+/// `1 frame` of the host, with its checksum.
+fn frame(values: &[u8]) -> Vec<u8> {
+    let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
+        (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
+            (crc << 1) ^ if crc & 0x8000 == 0 { 0 } else { 0x1021 }
+        })
+    });
+    let payload = [values, &[255], &crc.to_be_bytes()].concat();
+    [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
+}
+
+/// The number before a word.
+fn number_before(text: &str, word: &str) -> u32 {
+    let before = text.split_once(word).unwrap_or_else(|| panic!("no {word} in {text}")).0;
+    before.split_whitespace().last().unwrap().parse().unwrap()
+}
+
+#[test]
+fn an_application_runs_on_an_emulated_board() {
+    let Some(tree) = tree() else { return };
+    if !has("qemu-system-arm") {
+        return;
+    }
+    let folder = write("emulated", EMULATED).join("Emulated");
+    adapt(&folder);
+    build(&tree, &folder, "development");
+    let mut board = Board::start(&folder.join("build/development/sense.elf"));
+    board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
+
+    assert!(board.ask("info").contains("STM32F407"));
+    let threads = board.ask("threads");
+    for name in ["ADC1 100 ms", "I2C1 50 ms", "I2C1 100 ms"] {
+        assert!(threads.contains(name), "{threads}");
+    }
+    assert!(board.ask("mem").contains("core free memory"));
+    assert!(board.ask("print Wheel").contains("  3 Wheel                    7 ("));
+    assert!(board.ask("print Nobody").contains("no such sensor: Nobody"));
+    // Nothing was measured, so nothing is shown: no zero out of thin air.
+    let sensors = board.ask("sensors");
+    assert!(sensors.contains("  1 IR                       -\r\n"), "{sensors}");
+    assert!(number_before(&sensors, "errors") > 0, "{sensors}");
+    assert!(number_before(&board.ask("link"), "times") > 0);
+
+    board.say(b"stream\r\n");
+    let hello = Event::Hello(schema().hash());
+    let wheel = Event::Report(vec![(3, vec![Scalar::Unsigned(7)])]);
+    let events = board.events(&[hello.clone(), wheel.clone()]);
+    assert_eq!(events.first(), Some(&hello));
+    board.say(&frame(&[4, 55]));
+    board.events(&[Event::Report(vec![(5, vec![Scalar::Unsigned(56)])])]);
+    board.say(&frame(&[0]));
+    board.events(&[hello.clone()]);
+
+    board.say(b"q");
+    board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
+    assert!(board.ask("print Lamp").contains("  4 Lamp                     55 ("));
+    // A host that knows nothing of shells asks for a hello, and gets frames.
+    board.say(&frame(&[0]));
+    board.events(&[hello, wheel]);
+}
