@@ -129,11 +129,17 @@ impl Flow {
     /// [`Dead`] when a wire finds no pin; [`Self::stuck`] then tells whose.
     pub(crate) fn refresh(&mut self, model: &Model, state: &State) -> Result<(), Dead> {
         self.find_wanted(model, state);
-        for demand in 0..self.demands {
-            if self.now.active[demand]
-                && (!self.wanted[demand] || !self.holds(model, state, demand))
-            {
-                self.withdraw(model, state, demand);
+        // Taking one demand out can move another into a gate whose pin is no longer possible.
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for demand in 0..self.demands {
+                if self.now.active[demand]
+                    && (!self.wanted[demand] || !self.holds(model, state, demand))
+                {
+                    self.withdraw(model, state, demand);
+                    changed = model.gates > 0;
+                }
             }
         }
         for demand in 0..self.demands {

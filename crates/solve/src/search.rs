@@ -464,6 +464,7 @@ impl<'a> Engine<'a> {
         for (position, role) in model.roles.range(alt).enumerate() {
             let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
             let wanted = match model.role_kind[role] {
+                _ if self.state.role_left(role) == 1 => None,
                 Kind::Own => flow,
                 Kind::Wire(wire) => self
                     .flow
