@@ -1,1 +1,324 @@
-//! Hosts with their middleware: placeholder filled in next.
+//! The libcluon and OpenDaVINCI hosts with those projects' trees, where they are given: compiled, run on
+//! a pseudo-terminal, and heard and commanded by other programs.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use sensedsl_codegen::host::HostBoard;
+use sensedsl_wire::{
+    Decoder, Direction, Event, Scalar, ScalarType, encode_hello, encode_hello_request,
+    encode_report,
+};
+
+use crate::compile::compile;
+use crate::terminal::Line;
+use crate::tools::{self, Background};
+use crate::{designs, files};
+
+/// A session of its own for each test and run.
+fn session(test: u32) -> String {
+    (10 + 3 * (std::process::id() % 80) + test).to_string()
+}
+
+fn have_pycluon() -> bool {
+    let imported = Command::new("python3").args(["-c", "import pycluon.importer"]).status();
+    let found = imported.is_ok_and(|status| status.success());
+    if !found {
+        tools::missing("pycluon");
+    }
+    found
+}
+
+/// One report of every sensor of design `all-types`, with telling values.
+fn full_report(board: &HostBoard) -> Vec<u8> {
+    let sensors = board.schema.items.iter().filter(|item| item.direction == Direction::Sensor);
+    let values: Vec<(u8, Vec<Scalar>)> = sensors
+        .map(|item| {
+            let scalars = (0..item.value.count()).map(|element| match item.value.scalar {
+                ScalarType::Bool => Scalar::Bool(element % 2 == 0),
+                ScalarType::Uint8 => Scalar::Unsigned(255 - element as u64),
+                ScalarType::Uint16 => Scalar::Unsigned(65_535 - element as u64),
+                ScalarType::Uint32 => Scalar::Unsigned(4_294_967_295 - element as u64),
+                ScalarType::Uint64 => Scalar::Unsigned(u64::MAX - element as u64),
+                ScalarType::Int8 => Scalar::Signed(-128 + element as i64),
+                ScalarType::Int16 => Scalar::Signed(-32_768 + element as i64),
+                ScalarType::Int32 => Scalar::Signed(-2_147_483_648 + element as i64),
+                ScalarType::Int64 => Scalar::Signed(i64::MIN + element as i64),
+                ScalarType::Float32 => Scalar::Float32(-0.5 * element as f32),
+                ScalarType::Float64 => Scalar::Float64(0.1 + element as f64),
+            });
+            (item.id, scalars.collect())
+        })
+        .collect();
+    encode_report(&board.schema, Direction::Sensor, &values).unwrap()
+}
+
+/// Waits until the board has heard these commands, each at least once, and nothing else.
+fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar>)]) {
+    let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
+    let mut heard = Vec::new();
+    let start = Instant::now();
+    while !expected.iter().all(|value| heard.contains(value)) {
+        assert!(start.elapsed() < Duration::from_secs(30), "heard {heard:?}");
+        let bytes = line.hear(1, Duration::from_millis(100));
+        decoder.feed(&bytes, |event| match event {
+            Event::Report(values) => heard.extend(values),
+            Event::Hello(_) | Event::HelloRequest => panic!("{event:?}"),
+        });
+    }
+    assert_eq!(decoder.dropped_bytes(), 0);
+    assert!(heard.iter().all(|value| expected.contains(value)), "{heard:?}");
+}
+
+/// Lets the host find its board: request, hello, report.
+fn greet(line: &mut Line, board: &HostBoard) {
+    let request = encode_hello_request(&board.schema);
+    assert_eq!(line.hear(request.len(), Duration::from_secs(30)), request);
+    line.say(&encode_hello(&board.schema));
+}
+
+#[test]
+fn message_files_are_taken_by_cluon_msc() {
+    if !have_pycluon() {
+        return;
+    }
+    for (name, boards) in designs::all() {
+        for host in ["libcluon", "opendavinci"] {
+            let folder = files::generate(host, &format!("{name}-odvd"), &boards);
+            let out = folder.join("sense.hpp");
+            tools::run(
+                Command::new("cluon-msc")
+                    .arg("--cpp")
+                    .arg(format!("--out={}", out.display()))
+                    .arg(folder.join("sense.odvd")),
+            );
+            let text = std::fs::read_to_string(out).unwrap();
+            let messages = std::fs::read_to_string(folder.join("sense.odvd")).unwrap();
+            let count = messages.lines().filter(|line| line.starts_with("message ")).count();
+            assert_eq!(text.matches("inline static int32_t ID()").count(), count, "{name}");
+        }
+    }
+}
+
+#[test]
+fn libcluon_compiles() {
+    let Some(tree) = tools::tree("LIBCLUON") else { return };
+    if !have_pycluon() {
+        return;
+    }
+    for (name, boards) in designs::all() {
+        let folder = files::generate("libcluon", &format!("{name}-compile"), &boards);
+        tools::run(
+            Command::new("cluon-msc")
+                .arg("--cpp")
+                .arg(format!("--out={}", folder.join("sense.hpp").display()))
+                .arg(folder.join("sense.odvd")),
+        );
+        compile("g++", "c++14", &folder, &[&tree, &folder]);
+    }
+}
+
+#[test]
+fn libcluon_speaks_with_an_independent_peer() {
+    let Some(tree) = tools::tree("LIBCLUON") else { return };
+    if !have_pycluon() || !tools::have("cmake") {
+        return;
+    }
+    let boards = designs::all_types();
+    let folder = files::generate("libcluon", "peer", &boards);
+    let build = folder.join("build");
+    tools::run(
+        Command::new("cmake")
+            .arg("-S")
+            .arg(&folder)
+            .arg("-B")
+            .arg(&build)
+            .arg(format!("-DCLUON_INCLUDE_DIR={}", tree.display())),
+    );
+    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    let cid = session(0);
+    let mut line = Line::new();
+    let peer = Background::start(
+        Command::new("python3")
+            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
+            .arg(&cid)
+            .arg(folder.join("sense.odvd"))
+            .arg("21068:sense_T7:raw=18446744073709551615")
+            .arg("21095:sense_B4:raw0=-300,raw1=32767")
+            .arg("21061:sense_T0:raw=True"),
+        &folder,
+    );
+    peer.wait_for("ready");
+    let _service = Background::start(
+        Command::new(build.join("sense_Everything"))
+            .arg(format!("--cid={cid}"))
+            .arg(format!("--device={}", line.device.display())),
+        &folder,
+    );
+    greet(&mut line, &boards[0]);
+    line.say(&full_report(&boards[0]));
+    // Number and sender stamp, raw, and where the design asks for it the scaled value.
+    for expected in [
+        "21001 1 raw=True\n",
+        "21003 3 raw=-128 value=-64.0\n",
+        "21008 8 raw=18446744073709551615 value=",
+        "21009 9 raw=-9223372036854775808 value=",
+        "21039 39 raw0=-9223372036854775808 raw1=-9223372036854775807 raw2=-9223372036854775806 ",
+        "21011 11 raw=0.1",
+    ] {
+        peer.wait_for(expected);
+    }
+    let expected = [
+        (68, vec![Scalar::Unsigned(u64::MAX)]),
+        (95, vec![Scalar::Signed(-300), Scalar::Signed(32_767)]),
+        (61, vec![Scalar::Bool(true)]),
+    ];
+    hear_commands(&mut line, &boards[0], &expected);
+}
+
+/// One of the two OpenDaVINCI hosts and where its tree has what.
+struct OpenDavinci {
+    host: &'static str,
+    standard: &'static str,
+    include: PathBuf,
+    library: PathBuf,
+    supercomponent: PathBuf,
+    link: &'static [&'static str],
+    defines: &'static [&'static str],
+}
+
+fn opendavinci2014() -> Option<OpenDavinci> {
+    let tree = tools::tree("OPENDAVINCI2014")?;
+    Some(OpenDavinci {
+        host: "opendavinci2014",
+        standard: "c++98",
+        include: tree.join("libopendavinci/include"),
+        library: tree.join("lib/libopendavinci.a"),
+        supercomponent: tree.join("bin/supercomponent"),
+        link: &["-lzip", "-ldb", "-lpthread", "-lrt"],
+        defines: &["-DOPENDAVINCI2014"],
+    })
+}
+
+fn opendavinci() -> Option<OpenDavinci> {
+    let tree = tools::tree("OPENDAVINCI")?;
+    Some(OpenDavinci {
+        host: "opendavinci",
+        standard: "c++11",
+        include: tree.join("include"),
+        library: tree.join("lib/libopendavinci.a"),
+        supercomponent: tree.join("bin/odsupercomponent"),
+        link: &["-lpthread", "-lrt"],
+        defines: &[],
+    })
+}
+
+impl OpenDavinci {
+    fn compile_all(&self) {
+        for (name, boards) in designs::all() {
+            let folder = files::generate(self.host, &format!("{name}-compile"), &boards);
+            compile("g++", self.standard, &folder, &[&self.include]);
+        }
+    }
+
+    fn build(&self, folder: &Path, source: &Path, name: &str) -> PathBuf {
+        let program = folder.join(name);
+        tools::run(
+            Command::new("g++")
+                .arg(format!("-std={}", self.standard))
+                .args(self.defines)
+                .arg("-I")
+                .arg(folder.join("include"))
+                .arg("-isystem")
+                .arg(&self.include)
+                .arg(source)
+                .arg(&self.library)
+                .args(self.link)
+                .arg("-o")
+                .arg(&program),
+        );
+        program
+    }
+
+    /// The board's values reach another application as Containers, another application's Containers
+    /// reach the board.
+    fn run(&self, cid: &str) {
+        if !self.library.exists() || !self.supercomponent.exists() {
+            eprintln!(
+                "SKIPPED: no {} or {}",
+                self.library.display(),
+                self.supercomponent.display()
+            );
+            return;
+        }
+        let boards = designs::all_types();
+        let folder = files::generate(self.host, "run", &boards);
+        let application =
+            self.build(&folder, &folder.join("src/Everything.cpp"), "sense_Everything");
+        let printer = self.build(&folder, &folder.join("src/print.cpp"), "sense_print");
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/commander.cpp");
+        let commander = self.build(&folder, &source, "commander");
+        let mut line = Line::new();
+        let device = format!("sense_Everything.device = {}\n", line.device.display());
+        let configuration = folder.join("configuration");
+        std::fs::write(&configuration, device).unwrap();
+        let start = |program: &Path| {
+            let mut command = Command::new(program);
+            command.current_dir(&folder).arg(format!("--cid={cid}")).arg("--freq=20");
+            command.arg(format!("--configuration={}", configuration.display()));
+            Background::start(&mut command, &folder)
+        };
+        let _supercomponent = start(&self.supercomponent);
+        std::thread::sleep(Duration::from_secs(1));
+        let printer = start(&printer);
+        let _application = start(&application);
+        greet(&mut line, &boards[0]);
+        std::thread::sleep(Duration::from_secs(1));
+        line.say(&full_report(&boards[0]));
+        for expected in [
+            "S0 = true\n",
+            "S2 = -128 (-64)\n",
+            "S7 = 18446744073709551615",
+            "A8 = [-9223372036854775808, -9223372036854775807, -9223372036854775806]",
+            "A9 = [-0, -0.5, -1]",
+            "S10 = 0.1",
+        ] {
+            printer.wait_for(expected);
+        }
+        let _commander = start(&commander);
+        let expected = [
+            (68, vec![Scalar::Unsigned(0x0123_4567_89AB_CDEF)]),
+            (95, vec![Scalar::Signed(-300), Scalar::Signed(32_767)]),
+        ];
+        hear_commands(&mut line, &boards[0], &expected);
+    }
+}
+
+#[test]
+fn opendavinci2014_compiles() {
+    if let Some(tree) = opendavinci2014() {
+        tree.compile_all();
+    }
+}
+
+#[test]
+fn opendavinci2014_runs() {
+    if let Some(tree) = opendavinci2014() {
+        tree.run(&session(1));
+    }
+}
+
+#[test]
+fn opendavinci_compiles() {
+    if let Some(tree) = opendavinci() {
+        tree.compile_all();
+    }
+}
+
+#[test]
+fn opendavinci_runs() {
+    if let Some(tree) = opendavinci() {
+        tree.run(&session(2));
+    }
+}

@@ -2,7 +2,8 @@
 //!
 //! A name stays as it is. A character that C++ does not allow becomes `_u` and its code, a leading
 //! `_` or digit gets an `n` before it, a word of `reserved_cpp.txt` (keywords, macros of the system's
-//! headers, names of our own) a `_` behind it, and so does a name that would then be taken already.
+//! headers, names of our own) a `_` behind it, and so does a name that would then be taken already,
+//! upper and lower case being one: libcluon's guards and some file systems do not tell them apart.
 
 use std::collections::BTreeSet;
 
@@ -10,14 +11,16 @@ const RESERVED: &str = include_str!("reserved_cpp.txt");
 
 /// Hands out names, each at most once.
 pub(super) struct CppNames {
+    reserved: BTreeSet<&'static str>,
+    /// In lower case.
     taken: BTreeSet<String>,
 }
 
 impl CppNames {
-    /// Nothing is taken but the reserved words.
+    /// Nothing is taken yet.
     pub(super) fn new() -> Self {
         let lines = RESERVED.lines().filter(|line| !line.starts_with('#'));
-        Self { taken: lines.flat_map(str::split_whitespace).map(str::to_owned).collect() }
+        Self { reserved: lines.flat_map(str::split_whitespace).collect(), taken: BTreeSet::new() }
     }
 
     /// The C++ name for `name`, taken from now on.
@@ -33,7 +36,9 @@ impl CppNames {
         if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
             identifier.insert(0, 'n');
         }
-        while !self.taken.insert(identifier.clone()) {
+        while self.reserved.contains(identifier.as_str())
+            || !self.taken.insert(identifier.to_ascii_lowercase())
+        {
             identifier.push('_');
         }
         identifier
@@ -53,6 +58,7 @@ mod tests {
             ("default_", "default__"),
             ("ECHO", "ECHO_"),
             ("linux", "linux_"),
+            ("irfront", "irfront_"),
             ("Decoder", "Decoder_"),
             ("_hidden", "n_hidden"),
             ("n_hidden", "n_hidden_"),
