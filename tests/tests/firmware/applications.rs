@@ -103,7 +103,7 @@ pub(crate) fn generate(text: &str) -> Result<FileSet, Vec<Diagnostic>> {
         Solved::Wired(assignment) => {
             chibios::plan(&design, &assignment).map(|plan| chibios::render(&plan))
         }
-        other => panic!("{other:#?}"),
+        other @ (Solved::Infeasible(_) | Solved::Failed(_)) => panic!("{other:#?}"),
     }
 }
 

@@ -215,7 +215,7 @@ fn an_application_runs_on_an_emulated_board() {
     board.say(&frame(&[4, 55]));
     board.events(&[Event::Report(vec![(5, vec![Scalar::Unsigned(56)])])]);
     board.say(&frame(&[0]));
-    board.events(&[hello.clone()]);
+    board.events(std::slice::from_ref(&hello));
 
     board.say(b"q");
     board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
