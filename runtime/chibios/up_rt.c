@@ -19,8 +19,9 @@ __attribute__((weak)) void up_user_received(size_t field) {
   (void)field;
 }
 
+/* From the 64-bit time stamp: the system time wraps after days, and at no power of two of milliseconds. */
 uint32_t up_now_ms(void) {
-  return (uint32_t)TIME_I2MS(chVTGetSystemTimeX());
+  return (uint32_t)((uint64_t)chVTGetTimeStamp() * 1000U / CH_CFG_ST_FREQUENCY);
 }
 
 void up_put(size_t field, void *value) {

@@ -158,7 +158,7 @@ extern const up_config_t up_config;
 
 /* ---- values ---- */
 
-/* Milliseconds since the start; wraps. */
+/* Milliseconds since the start, from a thread; wraps at 2^32. */
 uint32_t up_now_ms(void);
 
 /* A sensor was read: `value` (which the user's transform may change) becomes due. From a thread. */
