@@ -31,8 +31,12 @@ pub(crate) enum Command {
     Solve(SolveArgs),
     /// Write firmware, host applications, wiring sheet and picture
     Generate(GenerateArgs),
-    /// Explain a diagnostic, or list them all
+    /// Explain a diagnostic, or why a device is on its pin and not on another
     Explain(ExplainArgs),
+    /// Say what can still be added to a wiring, and what blocks the next device
+    Capacity(CapacityArgs),
+    /// Say what changes on the bench from one wiring to another
+    Diff(DiffArgs),
     /// List the built-in boards, or print one's table
     Boards(BoardsArgs),
     /// Lay files out canonically, comments kept
@@ -153,8 +157,54 @@ pub(crate) struct GenerateArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
-    /// The code, such as E0203; none lists all
-    pub(crate) code: Option<String>,
+    /// A code such as E0203, or the word `wiring`; none lists all codes
+    pub(crate) subject: Option<String>,
+    /// With `wiring`: the file
+    pub(crate) file: Option<PathBuf>,
+    /// With `wiring`: the device's name
+    pub(crate) device: Option<String>,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// With `wiring`: how to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+}
+
+/// For people or for scripts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    /// A table for people
+    #[default]
+    Human,
+    /// For scripts
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CapacityArgs {
+    /// The file; - is the standard input
+    pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+    /// Let the wires that are there move
+    #[arg(long)]
+    pub(crate) rearrange: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DiffArgs {
+    /// The wiring that is there: an answer in JSON, or a file to solve
+    pub(crate) old: PathBuf,
+    /// The wiring that shall be: an answer in JSON, or a file to solve
+    pub(crate) new: PathBuf,
+    #[command(flatten)]
+    pub(crate) on: On,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
 }
 
 #[derive(Debug, Args)]

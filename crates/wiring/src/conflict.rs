@@ -3,10 +3,13 @@
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
 use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
-use sensedsl_solve::problem::{DeviceId, Problem};
-use sensedsl_solve::{Conflict, Options, Outcome, solve};
+use sensedsl_solve::Conflict;
 
 use crate::formulate::{Asker, Formulation};
+use crate::repairs::{self, Repaired};
+
+/// Repairs in one message; all are in the JSON output.
+const REPAIRS_NAMED_MAX: usize = 4;
 
 /// A minimal set of devices that cannot be connected together.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,32 +22,26 @@ pub struct NoWiring {
     /// Pins and other resources that they fight for, by name.
     pub resources: Vec<String>,
     /// What would help; each was checked by solving.
-    pub repairs: Vec<Repair>,
-}
-
-/// A change after which there is a wiring.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Repair {
-    /// Leave the device out.
-    Drop(DeviceIndex),
-}
-
-impl Repair {
-    /// The repair in words.
-    #[must_use]
-    pub fn describe(&self, design: &Design) -> String {
-        match self {
-            Self::Drop(device) => format!("leave out {}", name(design, *device)),
-        }
-    }
+    pub repairs: Vec<Repaired>,
 }
 
 fn name(design: &Design, device: DeviceIndex) -> &str {
     design.device(device).map_or("", |device| device.name.value.as_str())
 }
 
-/// The solver's conflict in names.
-pub(crate) fn read(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWiring {
+/// The solver's conflict in names, with repairs.
+pub(crate) fn read(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    conflict: &Conflict,
+) -> NoWiring {
+    let mut named = named(formulation, conflict);
+    named.repairs = repairs::find(design, &named.devices);
+    named
+}
+
+/// The solver's conflict in names, without repairs.
+pub(crate) fn named(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWiring {
     let askers = conflict.devices.iter().filter_map(|id| formulation.askers.get(id.0 as usize));
     let (mut devices, mut links) = (Vec::new(), Vec::new());
     for asker in askers {
@@ -54,8 +51,7 @@ pub(crate) fn read(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWiri
         }
     }
     let resources = resources(formulation, conflict);
-    let repairs = repairs(formulation, conflict);
-    NoWiring { devices, links, resources, repairs }
+    NoWiring { devices, links, resources, repairs: Vec::new() }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<String> {
@@ -84,31 +80,6 @@ fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<String> 
         }
     }
     all
-}
-
-/// The devices of the conflict without any one of which everything has a wiring.
-fn repairs(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Repair> {
-    let mut repairs = Vec::new();
-    for id in &conflict.devices {
-        let Some(Asker::Device(device)) = formulation.askers.get(id.0 as usize) else { continue };
-        if has_answer(&without(&formulation.problem, *id)) {
-            repairs.push(Repair::Drop(*device));
-        }
-    }
-    repairs
-}
-
-fn without(problem: &Problem, device: DeviceId) -> Problem {
-    let mut problem = problem.clone();
-    if (device.0 as usize) < problem.devices.len() {
-        problem.devices.remove(device.0 as usize);
-    }
-    problem
-}
-
-fn has_answer(problem: &Problem) -> bool {
-    let any = Options { any: true, ..Options::default() };
-    matches!(solve(problem, &any), Ok(Outcome::Solved(_)))
 }
 
 impl NoWiring {
@@ -146,7 +117,12 @@ impl NoWiring {
     }
 
     fn help(&self, design: &Design) -> String {
-        let repairs: Vec<String> = self.repairs.iter().map(|one| one.describe(design)).collect();
+        let repairs: Vec<String> = self
+            .repairs
+            .iter()
+            .take(REPAIRS_NAMED_MAX)
+            .map(|one| one.repair.describe(design))
+            .collect();
         let mut help = match repairs.as_slice() {
             [] if self.devices.len() == 1 => "nothing on the board can serve it".to_owned(),
             [] => "without any one of them the others can be connected, but more stands in the way"

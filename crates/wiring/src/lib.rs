@@ -2,6 +2,7 @@
 
 mod alternatives;
 pub mod assignment;
+mod capacity;
 mod checks;
 mod conflict;
 mod converters;
@@ -11,20 +12,31 @@ mod names;
 mod offer;
 mod prolog;
 mod read_back;
+mod repairs;
 mod streams;
+mod why;
 mod wishes;
 
 use sensedsl_diagnostics::codes::{e0402_solver_disagrees, e0506_hardware_limit};
 use sensedsl_diagnostics::{Diagnostic, Span};
-use sensedsl_model::design::Design;
-use sensedsl_solve::{Answers, Count, Fault, Options, Outcome};
+use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_solve::{Answers, Conflict, Count, Fault, Options, Outcome};
 
 use assignment::Assignment;
 use formulate::{Formulation, formulate};
 
-pub use conflict::{NoWiring, Repair};
+pub use capacity::{Capacity, capacity};
+pub use conflict::NoWiring;
 pub use keep::Keep;
+pub use repairs::{Repair, Repaired};
 pub use sensedsl_solve as solver;
+pub use why::Alternative;
+
+/// Why there is no answer.
+enum Unsolved {
+    Conflict(Conflict),
+    Failed(Box<Diagnostic>),
+}
 
 /// The pin problem of a design, ready to be asked.
 pub struct Wiring<'a> {
@@ -66,21 +78,47 @@ impl<'a> Wiring<'a> {
         checks::of_wiring(self.design, assignment)
     }
 
-    /// The best wiring, or any.
+    /// The best wiring, or any; otherwise the reason with its repairs.
     #[must_use]
     pub fn solve(&self, any: bool) -> Solved {
+        match self.ask(any) {
+            Ok(answer) => self.read(&answer),
+            Err(Unsolved::Conflict(conflict)) => {
+                Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
+            }
+            Err(Unsolved::Failed(failure)) => Solved::Failed(failure),
+        }
+    }
+
+    /// As [`Self::solve`], without looking for repairs.
+    pub(crate) fn solve_only(&self, any: bool) -> Solved {
+        match self.ask(any) {
+            Ok(answer) => self.read(&answer),
+            Err(Unsolved::Conflict(conflict)) => {
+                Solved::Infeasible(conflict::named(&self.formulation, &conflict))
+            }
+            Err(Unsolved::Failed(failure)) => Solved::Failed(failure),
+        }
+    }
+
+    fn ask(&self, any: bool) -> Result<solver::Answer, Unsolved> {
         let options = Options { any, ..Options::default() };
         match solver::solve(&self.formulation.problem, &options) {
-            Ok(Outcome::Solved(answer)) => self.read(&answer),
-            Ok(Outcome::Stopped { answer: Some(answer), .. }) => self.read(&answer),
-            Ok(Outcome::Infeasible(conflict)) => {
-                Solved::Infeasible(conflict::read(&self.formulation, &conflict))
+            Ok(Outcome::Solved(answer) | Outcome::Stopped { answer: Some(answer), .. }) => {
+                Ok(answer)
             }
+            Ok(Outcome::Infeasible(conflict)) => Err(Unsolved::Conflict(conflict)),
             Ok(Outcome::Stopped { answer: None, .. }) => {
-                Solved::Failed(Box::new(self.disagrees("it stopped without being told to")))
+                Err(Unsolved::Failed(Box::new(self.disagrees("it stopped without being told to"))))
             }
-            Err(fault) => Solved::Failed(Box::new(self.fault(&fault))),
+            Err(fault) => Err(Unsolved::Failed(Box::new(self.fault(&fault)))),
         }
+    }
+
+    /// For each pin that could serve a device what the best wiring with it would cost.
+    #[must_use]
+    pub fn why(&self, wiring: &Assignment, device: DeviceIndex) -> Vec<Alternative> {
+        why::why(self.design, &self.formulation, wiring, device)
     }
 
     /// All wirings, best first.

@@ -2,7 +2,7 @@
 
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
-use sensedsl_wiring::{Keep, NoWiring, Repair};
+use sensedsl_wiring::{Keep, NoWiring, Repaired};
 use serde_json::{Value, json};
 
 /// Version of the format.
@@ -89,12 +89,13 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
     let repairs: Vec<Value> = conflict
         .repairs
         .iter()
-        .map(|repair| match repair {
-            Repair::Drop(device) => json!({
-                "action": "drop",
-                "device": name(device),
+        .map(|Repaired { repair, cost }| {
+            json!({
+                "action": repair.action(),
+                "device": repair.device().and_then(|device| name(&device)),
                 "message": repair.describe(design),
-            }),
+                "cost": cost,
+            })
         })
         .collect();
     json!({

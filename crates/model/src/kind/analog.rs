@@ -22,3 +22,9 @@ pub(crate) fn read(fields: &mut Fields<'_>) -> Analog {
     let cycles = fields.integer("sampling", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
     Analog { samples: samples.unwrap_or(SAMPLES_DEFAULT), sampling_cycles: cycles }
 }
+
+impl Default for Analog {
+    fn default() -> Self {
+        Self { samples: SAMPLES_DEFAULT, sampling_cycles: None }
+    }
+}

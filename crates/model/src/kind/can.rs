@@ -29,3 +29,9 @@ pub(crate) fn read(fields: &mut Fields<'_>) -> Can {
         byte: byte.unwrap_or(0),
     }
 }
+
+impl Default for Can {
+    fn default() -> Self {
+        Self { bitrate_hz: BITRATE_DEFAULT_HZ, frame_id: 0, byte: 0 }
+    }
+}

@@ -31,7 +31,7 @@ pub enum Edge {
 }
 
 /// A GPIO.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Digital {
     /// The resistor inside the MCU.
     pub pull: Pull,

@@ -115,3 +115,22 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
 fn allowed_by_devices(eight_bit: u8) -> bool {
     (0xF0..=0xFE).contains(&eight_bit)
 }
+
+impl I2c {
+    /// A device of one byte without a protocol.
+    #[must_use]
+    pub fn at(address: u8) -> Self {
+        Self {
+            address,
+            address_span: None,
+            speed_hz: SPEED_DEFAULT_HZ,
+            exclusive: false,
+            trigger: Vec::new(),
+            wait_us: 0,
+            wait_span: None,
+            register: None,
+            length_bytes: 1,
+            order: ByteOrder::Big,
+        }
+    }
+}

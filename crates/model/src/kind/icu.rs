@@ -95,3 +95,11 @@ pub(crate) fn read(fields: &mut Fields<'_>) -> Icu {
         pulse_us: pulse.map(|pulse| pulse.value),
     }
 }
+
+impl Default for Icu {
+    fn default() -> Self {
+        let mode = Mode::default();
+        let tick_hz = tick_default_hz(mode);
+        Self { mode, edge: Edge::default(), tick_hz, tick_span: None, pulse_us: None }
+    }
+}

@@ -306,4 +306,21 @@ impl Kind {
             Self::Spi(_) => vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs],
         }
     }
+
+    /// A device of that kind without any property given; an i2c device at `address` (7-bit).
+    #[must_use]
+    pub fn plain(kind: KindName, address: u8) -> Self {
+        match kind {
+            KindName::Analog => Self::Analog(analog::Analog::default()),
+            KindName::I2c => Self::I2c(i2c::I2c::at(address)),
+            KindName::Icu => Self::Icu(icu::Icu::default()),
+            KindName::Encoder => Self::Encoder(encoder::Encoder { counts: None }),
+            KindName::Digital => Self::Digital(digital::Digital::default()),
+            KindName::Uart => Self::Uart(uart::Uart::link(uart::BAUD_DEFAULT)),
+            KindName::Spi => Self::Spi(spi::Spi::default()),
+            KindName::Pwm => Self::Pwm(pwm::Pwm::default()),
+            KindName::Dac => Self::Dac(dac::Dac { failsafe: None }),
+            KindName::Can => Self::Can(can::Can::default()),
+        }
+    }
 }

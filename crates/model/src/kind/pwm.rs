@@ -39,3 +39,9 @@ pub(crate) fn read(fields: &mut Fields<'_>) -> Pwm {
         failsafe: fields.number("failsafe").map(|number| number.value),
     }
 }
+
+impl Default for Pwm {
+    fn default() -> Self {
+        Self { frequency_hz: FREQUENCY_DEFAULT_HZ, min_us: None, max_us: None, failsafe: None }
+    }
+}

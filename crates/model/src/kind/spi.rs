@@ -36,3 +36,9 @@ pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> Spi {
         length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
     }
 }
+
+impl Default for Spi {
+    fn default() -> Self {
+        Self { clock_hz: CLOCK_DEFAULT_HZ, mode: 0, read: Vec::new(), length_bytes: 1 }
+    }
+}

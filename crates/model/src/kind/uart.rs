@@ -9,7 +9,7 @@ use crate::fields::Fields;
 pub const PROPERTIES: &[&str] = &["baud", "frame", "start", "end", "length", "tx", "rx"];
 
 /// Bits per second where the file says nothing.
-const BAUD_DEFAULT: u32 = 9_600;
+pub const BAUD_DEFAULT: u32 = 9_600;
 
 /// Parity of a character.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,19 +1,33 @@
-//! `sensedsl explain`: the long text of a diagnostic.
+//! `sensedsl explain`: the long text of a diagnostic, or why a device is on its pin.
 
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
 use sensedsl_diagnostics::{Code, nearest};
+use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Alternative, Solved, Wiring};
+use serde_json::{Value, json};
 
+use super::input;
+use super::table::table;
 use crate::Status;
-use crate::cli::ExplainArgs;
+use crate::cli::{ExplainArgs, TableFormat};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ExplainArgs, terminal: &mut Terminal) -> Result<Status> {
-    let Some(name) = &args.code else {
-        let lines = ALL.iter().map(|code| format!("{code}  {}\n", code.info().title));
-        terminal.result(&lines.collect::<String>())?;
-        return Ok(Status::Done);
-    };
+    match args.subject.as_deref() {
+        Some("wiring") => wiring(args, terminal),
+        Some(name) if args.file.is_none() => code(name, terminal),
+        Some(name) => bail!("`explain {name}` takes no file; did you mean `explain wiring`?"),
+        None => {
+            let lines = ALL.iter().map(|code| format!("{code}  {}\n", code.info().title));
+            terminal.result(&lines.collect::<String>())?;
+            Ok(Status::Done)
+        }
+    }
+}
+
+fn code(name: &str, terminal: &Terminal) -> Result<Status> {
     let Some(code) = Code::find(name) else {
         let meant = nearest(name, ALL.iter().map(|code| code.name()));
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
@@ -22,4 +36,79 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &mut Terminal) -> Result<Status>
     let info = code.info();
     terminal.result(&format!("{}: {}\n\n{}", info.code, info.title, info.explanation))?;
     Ok(Status::Done)
+}
+
+fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
+    let file = args.file.as_deref().context("`explain wiring` needs a file and a device")?;
+    let name = args.device.as_deref().context("`explain wiring` needs a device's name")?;
+    let resolved = input::load(file, &args.on)?;
+    let sources = resolved.sources;
+    let Some(design) = &resolved.design else {
+        terminal.diagnostics(&resolved.diagnostics, &sources)?;
+        return Ok(Status::Wrong);
+    };
+    let names = || design.devices.iter().map(|device| device.name.value.as_str());
+    let Some(device) = names().position(|one| one == name) else {
+        let meant = nearest(name, names());
+        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+        bail!("the file has no device {name}{meant}");
+    };
+    let answer = input::solve(design, resolved.diagnostics, None, false);
+    let Some(Solved::Wired(wiring)) = answer.solved else {
+        terminal.diagnostics(&answer.diagnostics, &sources)?;
+        return Ok(Status::Wrong);
+    };
+    let alternatives = Wiring::new(design, None).why(&wiring, DeviceIndex(device));
+    match args.format {
+        TableFormat::Human => terminal.result(&human(design, &wiring, &alternatives))?,
+        TableFormat::Json => {
+            let list: Vec<Value> = alternatives.iter().map(value).collect();
+            let all = json!({ "version": 1, "device": name, "alternatives": list });
+            terminal.result(&format!("{all:#}\n"))?;
+        }
+    }
+    Ok(Status::Done)
+}
+
+fn value(one: &Alternative) -> Value {
+    json!({
+        "role": one.role.name(),
+        "board": one.board,
+        "pin": one.pin,
+        "signal": one.signal,
+        "usages": one.usages,
+        "chosen": one.chosen,
+        "violated": one.best.map(|best| best.violated),
+        "cost": one.best.map(|best| best.cost),
+    })
+}
+
+fn human(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
+    let verdict = |one: &Alternative| match one.best {
+        _ if one.chosen => "chosen".to_owned(),
+        None => "no wiring: the others need it".to_owned(),
+        Some(best) if best.violated > wiring.violated => {
+            format!("{} more unmet wishes", best.violated - wiring.violated)
+        }
+        Some(best) if best.violated < wiring.violated => "better".to_owned(),
+        Some(best) if best.cost > wiring.cost => {
+            format!("costs {} more in all", best.cost - wiring.cost)
+        }
+        Some(best) if best.spares > 0 && design.boards.iter().any(|board| board.spare) => {
+            "as good in cost; needs as many spare boards or comes later in order".to_owned()
+        }
+        Some(_) => "as good; comes later in order".to_owned(),
+    };
+    let several = design.boards.len() > 1;
+    let rows: Vec<[String; 5]> = alternatives
+        .iter()
+        .map(|one| {
+            let pin = if several { format!("{} {}", one.board, one.pin) } else { one.pin.clone() };
+            let role = one.role.name().to_owned();
+            [role, pin, one.signal.clone(), one.usages.to_string(), verdict(one)]
+        })
+        .collect();
+    let heads =
+        [("Role", false), ("Pin", false), ("Signal", false), ("Usages", true), ("Why", false)];
+    table(heads, &rows)
 }

@@ -1,7 +1,9 @@
 //! One file for each command.
 
 pub(crate) mod boards;
+pub(crate) mod capacity;
 pub(crate) mod check;
+pub(crate) mod diff;
 pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod generate;
@@ -10,3 +12,4 @@ mod input;
 pub(crate) mod new;
 mod output;
 pub(crate) mod solve;
+mod table;

@@ -1,0 +1,72 @@
+//! `sensedsl capacity`: what can still be added, and what blocks the next device.
+
+use anyhow::Result;
+use sensedsl_model::design::Design;
+use sensedsl_wiring::{Capacity, Solved, capacity};
+use serde_json::{Value, json};
+
+use super::input;
+use super::table::table;
+use crate::Status;
+use crate::cli::{CapacityArgs, TableFormat};
+use crate::terminal::Terminal;
+
+/// Names of blockers in one line.
+const NAMED_MAX: usize = 8;
+
+pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status> {
+    let resolved = input::load(&args.file, &args.on)?;
+    let sources = resolved.sources;
+    let Some(design) = &resolved.design else {
+        terminal.diagnostics(&resolved.diagnostics, &sources)?;
+        return Ok(Status::Wrong);
+    };
+    let answer = input::solve(design, resolved.diagnostics, None, false);
+    let Some(Solved::Wired(wiring)) = answer.solved else {
+        terminal.diagnostics(&answer.diagnostics, &sources)?;
+        return Ok(Status::Wrong);
+    };
+    let capacities = capacity(design, &wiring, args.rearrange);
+    match args.format {
+        TableFormat::Human => terminal.result(&human(design, &capacities))?,
+        TableFormat::Json => {
+            let list: Vec<Value> = capacities.iter().map(|one| value(design, one)).collect();
+            let all = json!({ "version": 1, "capacity": list });
+            terminal.result(&format!("{all:#}\n"))?;
+        }
+    }
+    Ok(Status::Done)
+}
+
+fn board_name<'a>(design: &'a Design, one: &Capacity) -> &'a str {
+    design.board(one.board).map_or("", |board| board.name.value.as_str())
+}
+
+fn value(design: &Design, one: &Capacity) -> Value {
+    json!({
+        "board": board_name(design, one),
+        "kind": one.kind.name(),
+        "more": one.more,
+        "blocked_by": one.blocked_by,
+    })
+}
+
+fn human(design: &Design, capacities: &[Capacity]) -> String {
+    let rows: Vec<[String; 4]> = capacities
+        .iter()
+        .map(|one| {
+            let mut blockers: Vec<&str> =
+                one.blocked_by.iter().take(NAMED_MAX).map(String::as_str).collect();
+            if one.blocked_by.len() > NAMED_MAX {
+                blockers.push("…");
+            }
+            [
+                board_name(design, one).to_owned(),
+                one.kind.name().to_owned(),
+                one.more.to_string(),
+                blockers.join(" "),
+            ]
+        })
+        .collect();
+    table([("Board", false), ("Kind", false), ("More", true), ("Next one lacks", false)], &rows)
+}

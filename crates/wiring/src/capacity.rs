@@ -1,0 +1,173 @@
+//! What can still be added to a wiring, and what blocks the next device.
+//!
+//! The devices that are there keep their wires (or may be rearranged, when asked); further devices
+//! of one kind alone are added until there is no wiring.
+
+use sensedsl_diagnostics::Span;
+use sensedsl_model::design::{BoardIndex, Design, Device, Placement, Presentation, Spanned};
+use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
+
+use crate::assignment::Assignment;
+use crate::{Solved, Wiring};
+
+/// Identifiers there are for devices.
+const DEVICES_MAX: usize = 254;
+/// 7-bit addresses that the I2C specification leaves to devices.
+const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x77;
+
+/// How many devices of one kind still fit on one board.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Capacity {
+    /// The board.
+    pub board: BoardIndex,
+    /// The kind.
+    pub kind: KindName,
+    /// Further devices of that kind alone.
+    pub more: usize,
+    /// Pins and resources that the next one lacks.
+    pub blocked_by: Vec<String>,
+}
+
+/// The capacities of every board for every kind, in order.
+#[must_use]
+pub fn capacity(design: &Design, wiring: &Assignment, rearrange: bool) -> Vec<Capacity> {
+    let mut base = design.clone();
+    if !rearrange {
+        fix(&mut base, wiring);
+    }
+    let mut all = Vec::new();
+    for board in (0..design.boards.len()).map(BoardIndex) {
+        for kind in KindName::ALL {
+            all.push(of_kind(&base, board, kind));
+        }
+    }
+    all
+}
+
+/// Fixes every device where the wiring has it.
+fn fix(design: &mut Design, wiring: &Assignment) {
+    let boards = design.boards.clone();
+    for on in &wiring.boards {
+        let Some(board) = boards.get(on.board.0) else { continue };
+        for one in &on.devices {
+            let Some(device) = design.devices.get_mut(one.device.0) else { continue };
+            let span = device.name.span;
+            device.board = Some(on.board);
+            device.placement.pins = one
+                .wires
+                .iter()
+                .filter_map(|wire| {
+                    let value = wire.pin(board)?.name.clone();
+                    Some((wire.role, Spanned { value, span }))
+                })
+                .collect();
+            // The converter is chosen after the wiring and may change with company.
+            if !matches!(device.kind, Kind::Analog(_)) {
+                device.placement.unit = one.unit.clone().map(|value| Spanned { value, span });
+            }
+        }
+    }
+}
+
+fn of_kind(base: &Design, board: BoardIndex, kind: KindName) -> Capacity {
+    let room = DEVICES_MAX.saturating_sub(base.devices.len());
+    let limit = match kind {
+        KindName::I2c => room.min(free_addresses(base).len()),
+        KindName::Analog
+        | KindName::Icu
+        | KindName::Encoder
+        | KindName::Digital
+        | KindName::Uart
+        | KindName::Spi
+        | KindName::Pwm
+        | KindName::Dac
+        | KindName::Can => room,
+    };
+    // A shared bus carries any number of devices as soon as it carries one.
+    let unbounded = matches!(kind, KindName::I2c | KindName::Can);
+    let most = if unbounded { limit.min(1) } else { limit };
+    let (mut fits, mut too_many) = (0, most + 1);
+    let mut step = 1;
+    while fits < most && fits + step < too_many {
+        if has_wiring(base, board, kind, fits + step) {
+            fits += step;
+            step *= 2;
+        } else {
+            too_many = fits + step;
+            step = 1;
+        }
+        step = step.min(most.saturating_sub(fits).max(1));
+    }
+    if unbounded && fits == 1 {
+        return Capacity { board, kind, more: limit, blocked_by: beyond(kind, limit == room) };
+    }
+    let blocked_by =
+        if fits == limit { beyond(kind, true) } else { blockers(base, board, kind, fits + 1) };
+    Capacity { board, kind, more: fits, blocked_by }
+}
+
+fn beyond(kind: KindName, by_identifiers: bool) -> Vec<String> {
+    let what = if by_identifiers || kind != KindName::I2c { "id" } else { "address" };
+    vec![what.to_owned()]
+}
+
+fn has_wiring(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> bool {
+    let design = with(base, board, kind, count);
+    matches!(Wiring::new(&design, None).solve_only(true), Solved::Wired(_))
+}
+
+fn blockers(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Vec<String> {
+    let design = with(base, board, kind, count);
+    match Wiring::new(&design, None).solve_only(true) {
+        Solved::Infeasible(conflict) if conflict.resources.is_empty() => {
+            vec![format!("no free {} pin", kind.name())]
+        }
+        Solved::Infeasible(conflict) => conflict.resources,
+        Solved::Wired(_) | Solved::Failed(_) => Vec::new(),
+    }
+}
+
+/// The design with `count` further devices of a kind on a board.
+fn with(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Design {
+    let mut design = base.clone();
+    let addresses = free_addresses(base);
+    let span = design.boards.first().map(|board| board.name.span);
+    let span = span.unwrap_or_else(|| Span::new(design.file, 0..0));
+    for number in 0..count {
+        let address = addresses.get(number).copied().unwrap_or_default();
+        design.devices.push(further(board, kind, number, address, span));
+    }
+    design
+}
+
+fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: Span) -> Device {
+    let direction = kind.directions().first().copied().unwrap_or(Direction::Sensor);
+    Device {
+        name: Spanned { value: format!("further {}", number + 1), span },
+        id: Spanned { value: 0, span },
+        direction,
+        value: Spanned { value: ValueType::scalar(ScalarType::Uint16), span },
+        kind: Kind::plain(kind, address),
+        kind_span: span,
+        delay_ms: 1_000,
+        delay_span: None,
+        prio: 0,
+        board: Some(board),
+        placement: Placement::default(),
+        wishes: Vec::new(),
+        shown: Presentation::default(),
+        driver: None,
+        allows: Vec::new(),
+    }
+}
+
+fn free_addresses(design: &Design) -> Vec<u8> {
+    let used = |address: &u8| {
+        design
+            .devices
+            .iter()
+            .any(|device| matches!(&device.kind, Kind::I2c(i2c) if i2c.address == *address))
+    };
+    ADDRESSES.filter(|address| !used(address)).collect()
+}

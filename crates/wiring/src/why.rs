@@ -1,0 +1,123 @@
+//! Why this pin and not that one: the cost of each alternative for one device.
+
+use sensedsl_model::design::{Board, Design, DeviceIndex};
+use sensedsl_model::kind::Role;
+use sensedsl_solve::problem::{Problem, Role as SolverRole};
+use sensedsl_solve::{Objective, Options, Outcome, solve};
+
+use crate::assignment::Assignment;
+use crate::formulate::{Asker, Formulation};
+use crate::read_back::roles;
+
+/// What one pin would cost for one wire of a device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Alternative {
+    /// The wire.
+    pub role: Role,
+    /// The board's name.
+    pub board: String,
+    /// The pin.
+    pub pin: String,
+    /// The signal as the table spells it.
+    pub signal: String,
+    /// Usages of the pin.
+    pub usages: u32,
+    /// The best that is possible with this wire; none when nothing is.
+    pub best: Option<Objective>,
+    /// True for the pin of the wiring.
+    pub chosen: bool,
+}
+
+/// All pins that could serve the device, by role, with what the best wiring with each would cost.
+pub(crate) fn why(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    wiring: &Assignment,
+    device: DeviceIndex,
+) -> Vec<Alternative> {
+    let Some(number) = formulation.askers.iter().position(|one| *one == Asker::Device(device))
+    else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    for (at, role) in roles(design, Asker::Device(device)).into_iter().enumerate() {
+        for (board, pin, usage) in places(formulation, number, at) {
+            let Some(offer) = formulation.offers.get(board) else { continue };
+            let Some(row) = offer.board.table.pins.get(pin) else { continue };
+            let signal = usage.and_then(|usage| row.usages.get(usage));
+            all.push(Alternative {
+                role,
+                board: offer.board.name.value.clone(),
+                pin: row.name.to_string(),
+                signal: signal.map_or_else(|| "GPIO".into(), |usage| usage.spelled.clone()),
+                usages: row.cost(),
+                best: best(&restricted(formulation, number, at, (board, pin, usage))),
+                chosen: is_chosen(wiring, device, role, (offer.board, board), (pin, usage)),
+            });
+        }
+    }
+    all
+}
+
+/// A wire: board, pin and usage by their indices.
+type Place = (usize, usize, Option<usize>);
+
+/// The places that some alternative of the device has for a role, in tie-break order.
+fn places(formulation: &Formulation<'_>, device: usize, role: usize) -> Vec<Place> {
+    let meanings = formulation.meanings.get(device).into_iter().flatten();
+    let mut places: Vec<Place> = meanings
+        .flat_map(|meaning| {
+            let chosen = meaning.roles.get(role).into_iter().flatten();
+            chosen.map(|chosen| (meaning.board.0, chosen.pin, chosen.usage))
+        })
+        .collect();
+    places.sort_unstable();
+    places.dedup();
+    places
+}
+
+/// The problem in which one role of one device has one place alone.
+fn restricted(formulation: &Formulation<'_>, device: usize, role: usize, place: Place) -> Problem {
+    let mut problem = formulation.problem.clone();
+    let meanings = formulation.meanings.get(device).into_iter().flatten();
+    let Some(target) = problem.devices.get_mut(device) else { return problem };
+    let alternatives = std::mem::take(&mut target.alternatives);
+    for (mut alternative, meaning) in alternatives.into_iter().zip(meanings) {
+        let chosen = meaning.roles.get(role).into_iter().flatten();
+        let here: Vec<bool> =
+            chosen.map(|chosen| (meaning.board.0, chosen.pin, chosen.usage) == place).collect();
+        if let Some(SolverRole { candidates }) = alternative.roles.get_mut(role) {
+            let mut keep = here.iter();
+            candidates.retain(|_| keep.next().copied().unwrap_or(false));
+            if !candidates.is_empty() {
+                target.alternatives.push(alternative);
+            }
+        }
+    }
+    problem
+}
+
+fn best(problem: &Problem) -> Option<Objective> {
+    match solve(problem, &Options::default()) {
+        Ok(Outcome::Solved(answer)) => Some(answer.objective),
+        Ok(Outcome::Infeasible(_) | Outcome::Stopped { .. }) | Err(_) => None,
+    }
+}
+
+fn is_chosen(
+    wiring: &Assignment,
+    device: DeviceIndex,
+    role: Role,
+    (_, board): (&Board, usize),
+    (pin, usage): (usize, Option<usize>),
+) -> bool {
+    wiring.device(device).is_some_and(|(on, one)| {
+        let here = |wire: &&crate::assignment::Wire| wire.role == role;
+        on.0 == board
+            && one
+                .wires
+                .iter()
+                .find(here)
+                .is_some_and(|wire| wire.pin == pin && wire.usage == usage)
+    })
+}
