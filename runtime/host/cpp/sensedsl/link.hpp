@@ -121,19 +121,27 @@ public:
     virtual void on_frame_end() {}
 };
 
-/// Decoder of one direction of one link.
+/// Decoder of one direction of one link. Its sink must not feed it.
 class Decoder {
 public:
     Decoder(const Schema &schema, const Direction &direction, Sink &sink)
         : direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0),
-          buffer_(), frames_(0), dropped_bytes_(0) {}
+          buffer_(), scan_(), frames_(0), dropped_bytes_(0) {}
 
     /// Takes the next bytes of the stream, however it is cut.
     void feed(const uint8_t *bytes, size_t count) {
-        // Byte by byte, so that the buffer never holds more than one frame.
         for (size_t i = 0; i < count; ++i) {
             buffer_.push_back(bytes[i]);
-            drain();
+            Prefix prefix = look_at(bytes[i]);
+            while (prefix != incomplete) {
+                if (prefix == complete) {
+                    deliver();
+                } else {
+                    buffer_.erase(buffer_.begin());
+                    ++dropped_bytes_;
+                }
+                prefix = look_again();
+            }
         }
     }
 
@@ -143,48 +151,110 @@ public:
     uint64_t dropped_bytes() const { return dropped_bytes_; }
 
 private:
+    /// What the bytes looked at can be.
     enum Prefix { invalid, incomplete, complete };
 
-    void drain() {
-        while (!buffer_.empty()) {
-            size_t payload_start = 0;
-            size_t payload_bytes = 0;
-            switch (classify(payload_start, payload_bytes)) {
-            case incomplete:
-                return;
-            case invalid:
-                buffer_.erase(buffer_.begin());
-                ++dropped_bytes_;
-                break;
-            case complete:
-                deliver(payload_start, payload_bytes);
-                break;
+    /// How far the frame at the front of the buffer has been looked at.
+    struct Scan {
+        Scan() : bytes(0), payload_start(0), payload_bytes(0), value_end(0), is_bool(false) {
+            memset(seen, 0, sizeof seen);
+        }
+        size_t bytes;
+        /// 0 as long as the length is being read.
+        size_t payload_start;
+        size_t payload_bytes;
+        /// Offset in the payload at which the next identifier stands.
+        size_t value_end;
+        bool is_bool;
+        bool seen[256];
+    };
+
+    /// From the front of the buffer; stops at the end of a whole frame.
+    Prefix look_again() {
+        scan_ = Scan();
+        Prefix prefix = incomplete;
+        for (size_t i = 0; i < buffer_.size() && prefix == incomplete; ++i) {
+            prefix = look_at(buffer_[i]);
+        }
+        return prefix;
+    }
+
+    Prefix look_at(uint8_t byte) {
+        const size_t at = scan_.bytes++;
+        if (scan_.payload_start == 0) {
+            return look_at_length(at, byte);
+        }
+        const size_t offset = at - scan_.payload_start;
+        const size_t values_bytes = scan_.payload_bytes - checksum_bytes_;
+        if (offset == scan_.payload_bytes) {
+            return byte == ',' ? complete : invalid;
+        }
+        if (offset < values_bytes) {
+            return look_at_value(offset, values_bytes, byte);
+        }
+        if (offset == values_bytes) {
+            return byte == id_checksum ? incomplete : invalid;
+        }
+        if (offset + 1 == scan_.payload_bytes) {
+            const uint8_t *payload = &buffer_[scan_.payload_start];
+            const uint16_t crc = crc16_ccitt_false(payload, values_bytes);
+            return load<uint16_t>(payload + values_bytes + 1) == crc ? incomplete : invalid;
+        }
+        return incomplete;
+    }
+
+    Prefix look_at_length(size_t at, uint8_t byte) {
+        if (byte == ':') {
+            scan_.payload_start = at + 1;
+            return scan_.payload_bytes > checksum_bytes_ ? incomplete : invalid;
+        }
+        if (byte < '0' || byte > '9' || (at == 0 && byte == '0')) {
+            return invalid;
+        }
+        scan_.payload_bytes = scan_.payload_bytes * 10 + static_cast<size_t>(byte - '0');
+        return scan_.payload_bytes <= direction_->payload_bytes_max ? incomplete : invalid;
+    }
+
+    Prefix look_at_value(size_t offset, size_t values_bytes, uint8_t byte) {
+        if (offset != scan_.value_end) {
+            return scan_.is_bool && byte > 1 ? invalid : incomplete;
+        }
+        if (offset == 0 && byte == id_hello) {
+            scan_.value_end = values_bytes;
+            return values_bytes == direction_->hello_bytes ? incomplete : invalid;
+        }
+        const Item *item = find(byte);
+        if (item == NULL || scan_.seen[byte] || offset + 1 + item->size_bytes() > values_bytes) {
+            return invalid;
+        }
+        scan_.seen[byte] = true;
+        scan_.is_bool = item->is_bool;
+        scan_.value_end = offset + 1 + item->size_bytes();
+        return incomplete;
+    }
+
+    void deliver() {
+        const Bytes frame(buffer_.begin(), position(scan_.bytes));
+        buffer_.erase(buffer_.begin(), position(scan_.bytes));
+        ++frames_;
+        const uint8_t *payload = &frame[scan_.payload_start];
+        const size_t values_bytes = scan_.payload_bytes - checksum_bytes_;
+        if (payload[0] != id_hello) {
+            for (size_t at = 0; at < values_bytes;) {
+                const Item *item = find(payload[at]);
+                sink_->on_value(item->id, payload + at + 1);
+                at += 1 + item->size_bytes();
             }
+            sink_->on_frame_end();
+        } else if (values_bytes == 1) {
+            sink_->on_hello_request();
+        } else {
+            sink_->on_hello(load<uint32_t>(payload + 1));
         }
     }
 
-    /// The frame leaves the buffer before its values are handed over: a sink may feed again.
-    void deliver(size_t payload_start, size_t payload_bytes) {
-        const Bytes frame(buffer_.begin() + static_cast<Bytes::difference_type>(payload_start),
-                          buffer_.begin() + static_cast<Bytes::difference_type>(
-                                                payload_start + payload_bytes - checksum_bytes_));
-        buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<Bytes::difference_type>(
-                                                             payload_start + payload_bytes + 1));
-        ++frames_;
-        if (frame[0] == id_hello) {
-            if (frame.size() == 1) {
-                sink_->on_hello_request();
-            } else {
-                sink_->on_hello(load<uint32_t>(&frame[1]));
-            }
-            return;
-        }
-        for (size_t at = 0; at < frame.size();) {
-            const Item *item = find(frame[at]);
-            sink_->on_value(item->id, &frame[at + 1]);
-            at += 1 + item->size_bytes();
-        }
-        sink_->on_frame_end();
+    Bytes::iterator position(size_t at) {
+        return buffer_.begin() + static_cast<Bytes::difference_type>(at);
     }
 
     const Item *find(uint8_t id) const {
@@ -196,78 +266,12 @@ private:
         return NULL;
     }
 
-    /// What the buffer can be: its length field, its payload, its end.
-    Prefix classify(size_t &payload_start, size_t &payload_bytes) const {
-        size_t at = 0;
-        for (; at < buffer_.size() && buffer_[at] != ':'; ++at) {
-            if (buffer_[at] < '0' || buffer_[at] > '9' || (at == 0 && buffer_[at] == '0')) {
-                return invalid;
-            }
-            payload_bytes = payload_bytes * 10 + static_cast<size_t>(buffer_[at] - '0');
-            if (payload_bytes > direction_->payload_bytes_max) {
-                return invalid;
-            }
-        }
-        if (at == buffer_.size()) {
-            return incomplete;
-        }
-        if (at == 0 || payload_bytes <= checksum_bytes_) {
-            return invalid;
-        }
-        payload_start = at + 1;
-        const size_t rest = buffer_.size() - payload_start;
-        const Bytes payload(buffer_.begin() + static_cast<Bytes::difference_type>(payload_start),
-                            buffer_.begin() +
-                                static_cast<Bytes::difference_type>(
-                                    payload_start + (rest < payload_bytes ? rest : payload_bytes)));
-        if (!may_be_payload(payload, payload_bytes - checksum_bytes_)) {
-            return invalid;
-        }
-        if (rest <= payload_bytes) {
-            return incomplete;
-        }
-        return buffer_[payload_start + payload_bytes] == ',' ? complete : invalid;
-    }
-
-    /// False when the part of a payload that is there can never become valid.
-    bool may_be_payload(const Bytes &payload, size_t values_bytes) const {
-        if (!payload.empty() && payload[0] == id_hello) {
-            if (values_bytes != direction_->hello_bytes) {
-                return false;
-            }
-        } else if (!may_be_values(payload, values_bytes)) {
-            return false;
-        }
-        if (payload.size() > values_bytes && payload[values_bytes] != id_checksum) {
-            return false;
-        }
-        return payload.size() < values_bytes + 3 || checksum_bytes_ == 0 ||
-               load<uint16_t>(&payload[values_bytes + 1]) ==
-                   crc16_ccitt_false(&payload[0], values_bytes);
-    }
-
-    bool may_be_values(const Bytes &payload, size_t values_bytes) const {
-        bool seen[256] = {false};
-        for (size_t at = 0; at < values_bytes && at < payload.size();) {
-            const Item *item = find(payload[at]);
-            if (item == NULL || seen[item->id] || at + 1 + item->size_bytes() > values_bytes) {
-                return false;
-            }
-            seen[item->id] = true;
-            const size_t end = at + 1 + item->size_bytes();
-            for (++at; at < end; ++at) {
-                if (item->is_bool && at < payload.size() && payload[at] > 1) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
     const Direction *direction_;
     Sink *sink_;
     size_t checksum_bytes_;
+    /// From the first possible frame start on; never more than one frame.
     Bytes buffer_;
+    Scan scan_;
     uint64_t frames_;
     uint64_t dropped_bytes_;
 };
