@@ -116,6 +116,12 @@ pub(crate) struct SolveArgs {
     /// Move as few wires as possible from this earlier answer (JSON)
     #[arg(long, value_name = "WIRING")]
     pub(crate) keep: Option<PathBuf>,
+    /// With --keep: refuse a wiring that moves more wires
+    #[arg(long, value_name = "N", requires = "keep")]
+    pub(crate) max_moves: Option<u32>,
+    /// Stop after that time with the best wiring so far and a bound for what may be missed
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["all", "limit", "count"])]
+    pub(crate) timeout: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -233,4 +239,13 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The folder for one page a command
     pub(crate) dir: Option<PathBuf>,
+}
+
+/// A time that a clock can be set to.
+fn seconds(text: &str) -> Result<f64, String> {
+    const SECONDS_MAX: f64 = 1e6;
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=SECONDS_MAX).contains(&seconds) => Ok(seconds),
+        Ok(_) | Err(_) => Err("a time in seconds from 0 to 1000000, such as 2.5".into()),
+    }
 }

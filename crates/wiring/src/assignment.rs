@@ -35,8 +35,22 @@ pub struct Assignment {
     pub violated: u32,
     /// Opportunity cost: usages of all pins used, each pin once.
     pub cost: u32,
+    /// Proved: no wiring is better than this. Where the search was cut off it lies below what was
+    /// found; none where it was not asked for.
+    pub bound: Option<Bound>,
     /// One for each board of the design, in its order.
     pub boards: Vec<BoardAssignment>,
+}
+
+/// What no wiring can be better than, compared in field order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Bound {
+    /// Moved wires.
+    pub moved: u32,
+    /// Violated rules.
+    pub violated: u32,
+    /// Opportunity cost.
+    pub cost: u32,
 }
 
 /// What one board carries.

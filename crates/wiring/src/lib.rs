@@ -17,12 +17,14 @@ mod streams;
 mod why;
 mod wishes;
 
-use sensedsl_diagnostics::codes::{e0402_solver_disagrees, e0506_hardware_limit};
+use sensedsl_diagnostics::codes::{
+    e0402_solver_disagrees, e0404_out_of_time, e0506_hardware_limit,
+};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{Design, DeviceIndex};
-use sensedsl_solve::{Answers, Conflict, Count, Fault, Options, Outcome};
+use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
-use assignment::Assignment;
+use assignment::{Assignment, Bound};
 use formulate::{Formulation, formulate};
 
 pub use capacity::{Capacity, capacity};
@@ -32,10 +34,13 @@ pub use repairs::{Repair, Repaired};
 pub use sensedsl_solve as solver;
 pub use why::Alternative;
 
-/// Why there is no answer.
-enum Unsolved {
-    Conflict(Conflict),
-    Failed(Box<Diagnostic>),
+/// What kind of search is wanted.
+#[derive(Clone, Copy, Default)]
+pub struct Search<'a> {
+    /// Any wiring will do.
+    pub any: bool,
+    /// Asked between the steps of the search; true ends it with what is known by then.
+    pub stop: Option<&'a dyn Fn() -> bool>,
 }
 
 /// The pin problem of a design, ready to be asked.
@@ -80,38 +85,40 @@ impl<'a> Wiring<'a> {
 
     /// The best wiring, or any; otherwise the reason with its repairs.
     #[must_use]
-    pub fn solve(&self, any: bool) -> Solved {
-        match self.ask(any) {
-            Ok(answer) => self.read(&answer),
-            Err(Unsolved::Conflict(conflict)) => {
+    pub fn solve(&self, search: &Search<'_>) -> Solved {
+        match self.ask(search) {
+            Ok(solved) => solved,
+            Err(conflict) => {
                 Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
             }
-            Err(Unsolved::Failed(failure)) => Solved::Failed(failure),
         }
     }
 
     /// As [`Self::solve`], without looking for repairs.
     pub(crate) fn solve_only(&self, any: bool) -> Solved {
-        match self.ask(any) {
-            Ok(answer) => self.read(&answer),
-            Err(Unsolved::Conflict(conflict)) => {
-                Solved::Infeasible(conflict::named(&self.formulation, &conflict))
-            }
-            Err(Unsolved::Failed(failure)) => Solved::Failed(failure),
+        match self.ask(&Search { any, stop: None }) {
+            Ok(solved) => solved,
+            Err(conflict) => Solved::Infeasible(conflict::named(&self.formulation, &conflict)),
         }
     }
 
-    fn ask(&self, any: bool) -> Result<solver::Answer, Unsolved> {
-        let options = Options { any, ..Options::default() };
+    fn ask(&self, search: &Search<'_>) -> Result<Solved, Conflict> {
+        let options = Options { any: search.any, stop: search.stop };
         match solver::solve(&self.formulation.problem, &options) {
-            Ok(Outcome::Solved(answer) | Outcome::Stopped { answer: Some(answer), .. }) => {
-                Ok(answer)
+            Ok(Outcome::Solved(answer)) => Ok(self.read(&answer)),
+            Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
+                let mut solved = self.read(&answer);
+                if let Solved::Wired(wiring) = &mut solved {
+                    let Objective { moved, violated, cost, .. } = bound;
+                    wiring.bound = Some(Bound { moved, violated, cost });
+                }
+                Ok(solved)
             }
-            Ok(Outcome::Infeasible(conflict)) => Err(Unsolved::Conflict(conflict)),
+            Ok(Outcome::Infeasible(conflict)) => Err(conflict),
             Ok(Outcome::Stopped { answer: None, .. }) => {
-                Err(Unsolved::Failed(Box::new(self.disagrees("it stopped without being told to"))))
+                Ok(Solved::Failed(Box::new(e0404_out_of_time::out_of_time(self.place()))))
             }
-            Err(fault) => Err(Unsolved::Failed(Box::new(self.fault(&fault)))),
+            Err(fault) => Ok(Solved::Failed(Box::new(self.fault(&fault)))),
         }
     }
 

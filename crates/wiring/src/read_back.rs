@@ -61,6 +61,7 @@ pub(crate) fn read_back(
         moved: answer.objective.moved,
         violated: answer.objective.violated,
         cost: answer.objective.cost,
+        bound: None,
         boards,
     })
 }

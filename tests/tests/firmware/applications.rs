@@ -6,7 +6,7 @@ use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::firmware::chibios;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::{Files, Request, resolve};
-use sensedsl_wiring::{Solved, Wiring};
+use sensedsl_wiring::{Search, Solved, Wiring};
 
 /// The paper's Fig. 2.
 pub(crate) const FIG2: &str = include_str!("../../../examples/fig2.sense");
@@ -99,7 +99,7 @@ pub(crate) fn generate(text: &str) -> Result<FileSet, Vec<Diagnostic>> {
     let request = Request { path: "test.sense", text, ..Request::default() };
     let resolved = resolve(&request, &Tables);
     let Some(design) = resolved.design else { panic!("{:#?}", resolved.diagnostics) };
-    match Wiring::new(&design, None).solve(false) {
+    match Wiring::new(&design, None).solve(&Search::default()) {
         Solved::Wired(assignment) => {
             chibios::plan(&design, &assignment).map(|plan| chibios::render(&plan))
         }

@@ -131,7 +131,12 @@ fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Sty
         Status::Optimal => {
             let _ = write!(out, ", {}proved optimal{}", style.good, style.reset);
         }
-        Status::Feasible => out.push_str(", valid (not compared with other wirings)"),
+        Status::Feasible => match assignment.bound {
+            Some(bound) => {
+                let _ = write!(out, ", best so far (no wiring costs less than {})", bound.cost);
+            }
+            None => out.push_str(", valid (not compared with other wirings)"),
+        },
     }
     if assignment.violated > 0 {
         let _ = write!(out, ", {} unmet wishes", assignment.violated);

@@ -1,7 +1,7 @@
 //! `solve --format json`: the machine-readable form that scripts rely on.
 
 use sensedsl_model::design::{Board, Design};
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Bound, Wire};
 use sensedsl_wiring::{Keep, NoWiring, Repaired};
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ pub fn wired(design: &Design, assignment: &Assignment) -> Value {
         .iter()
         .filter_map(|on| Some(board_value(design, on, design.board(on.board)?)))
         .collect();
-    json!({
+    let mut value = json!({
         "version": VERSION,
         "status": assignment.status.name(),
         "moved": assignment.moved,
@@ -24,7 +24,13 @@ pub fn wired(design: &Design, assignment: &Assignment) -> Value {
         "cost": assignment.cost,
         "count": null,
         "boards": boards,
-    })
+    });
+    if let (Some(bound), Some(object)) = (assignment.bound, value.as_object_mut()) {
+        let Bound { moved, violated, cost } = bound;
+        let bound = json!({ "moved": moved, "violated": violated, "cost": cost });
+        object.insert("bound".into(), bound);
+    }
+    value
 }
 
 fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {

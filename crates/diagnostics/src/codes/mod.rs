@@ -64,6 +64,8 @@ codes! {
     e0316_pin_not_available,
     e0401_no_wiring,
     e0402_solver_disagrees,
+    e0404_out_of_time,
+    e0405_too_many_moves,
     e0501_no_generator,
     e0502_foreign_files,
     e0503_out_of_date,

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use sensedsl_model::design::Design;
-use sensedsl_wiring::{Capacity, Solved, capacity};
+use sensedsl_wiring::{Capacity, Search, Solved, capacity};
 use serde_json::{Value, json};
 
 use super::input;
@@ -21,7 +21,7 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let answer = input::solve(design, resolved.diagnostics, None, false);
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
-use sensedsl_wiring::Solved;
+use sensedsl_wiring::{Search, Solved};
 
 use super::input;
 use crate::Status;
@@ -23,7 +23,12 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         let (diagnostics, feasible) = match &resolved.design {
             None => (resolved.diagnostics, false),
             Some(design) => {
-                let answer = input::solve(design, resolved.diagnostics, None, true);
+                let answer = input::solve(
+                    design,
+                    resolved.diagnostics,
+                    None,
+                    &Search { any: true, stop: None },
+                );
                 let feasible = matches!(answer.solved, Some(Solved::Wired(_)));
                 (answer.diagnostics, feasible)
             }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result};
 use sensedsl_codegen::report::json::wired;
-use sensedsl_wiring::Solved;
+use sensedsl_wiring::{Search, Solved};
 use serde_json::{Value, json};
 
 use super::input;
@@ -75,8 +75,12 @@ fn value(((device, role), before, after): (&Wire, Option<&Place>, Option<&Place>
 }
 
 fn human(changes: &[(&Wire, Option<&Place>, Option<&Place>)], wires: usize) -> String {
-    let place = |place: Option<&Place>| {
-        place.map_or("-".to_owned(), |(board, pin, signal)| format!("{board} {pin} ({signal})"))
+    let places = changes.iter().flat_map(|(_, before, after)| [*before, *after]).flatten();
+    let boards: BTreeSet<&str> = places.map(|(board, ..)| board.as_str()).collect();
+    let place = |place: Option<&Place>| match place {
+        None => "-".to_owned(),
+        Some((_, pin, signal)) if boards.len() == 1 => format!("{pin} ({signal})"),
+        Some((board, pin, signal)) => format!("{board} {pin} ({signal})"),
     };
     let rows: Vec<[String; 5]> = changes
         .iter()
@@ -113,7 +117,7 @@ fn wires(path: &Path, on: &On, terminal: &Terminal) -> Result<Option<BTreeMap<Wi
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(None);
     };
-    let answer = input::solve(design, resolved.diagnostics, None, false);
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(None);

@@ -5,7 +5,7 @@ use sensedsl_diagnostics::codes::ALL;
 use sensedsl_diagnostics::{Code, nearest};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Alternative, Solved, Wiring};
+use sensedsl_wiring::{Alternative, Search, Solved, Wiring};
 use serde_json::{Value, json};
 
 use super::input;
@@ -53,7 +53,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("the file has no device {name}{meant}");
     };
-    let answer = input::solve(design, resolved.diagnostics, None, false);
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);

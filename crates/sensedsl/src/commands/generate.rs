@@ -3,12 +3,12 @@
 use anyhow::Result;
 use sensedsl_codegen::host::{HOSTS, Host, find};
 use sensedsl_codegen::report::human;
+use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0502_foreign_files, e0503_out_of_date, e0505_unknown_host};
-use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
-use sensedsl_wiring::Solved;
 use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Search, Solved};
 
 use super::input;
 use super::output::{self, Changes};
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), false);
+    let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), &Search::default());
     let mut diagnostics = answer.diagnostics;
     let Some(Solved::Wired(assignment)) = answer.solved else {
         terminal.diagnostics(&diagnostics, &sources)?;
@@ -74,7 +74,7 @@ fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>,
             Some(host) if hosts.iter().any(|one| one.name() == host.name()) => {}
             Some(host) => hosts.push(host),
             None => {
-                let at = place(design);
+                let at = input::place(design);
                 unknown.push(e0505_unknown_host::unknown_host(at, name, &known.join(", ")));
             }
         }
@@ -82,14 +82,9 @@ fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>,
     if unknown.is_empty() { Ok(hosts) } else { Err(unknown) }
 }
 
-fn place(design: &Design) -> Span {
-    let board = design.boards.first();
-    board.map_or_else(|| Span::new(design.file, 0..0), |board| board.name.span)
-}
-
 /// Why the folder is not written, or not as it should be.
 fn refusal(args: &GenerateArgs, design: &Design, changes: &Changes) -> Option<Diagnostic> {
-    let (at, folder) = (place(design), shown(&args.output));
+    let (at, folder) = (input::place(design), shown(&args.output));
     if !changes.foreign.is_empty() {
         let files = some(&changes.foreign);
         return Some(e0502_foreign_files::foreign_files(at, &folder, &files));

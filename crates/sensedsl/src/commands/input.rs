@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
-use sensedsl_wiring::{Keep, Solved, Wiring};
+use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
 use crate::cli::On;
 use crate::files::{Disk, read_text, shown};
@@ -46,11 +46,11 @@ pub(crate) fn solve(
     design: &Design,
     mut diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
-    any: bool,
+    search: &Search<'_>,
 ) -> Answer {
     let wiring = Wiring::new(design, keep);
     diagnostics.extend(wiring.check());
-    let solved = if has_errors(&diagnostics) { None } else { Some(wiring.solve(any)) };
+    let solved = if has_errors(&diagnostics) { None } else { Some(wiring.solve(search)) };
     match &solved {
         Some(Solved::Wired(assignment)) => diagnostics.extend(wiring.warnings(assignment)),
         Some(Solved::Infeasible(conflict)) => diagnostics.push(conflict.diagnostic(design)),
@@ -65,4 +65,10 @@ pub(crate) fn solve(
 /// Whether anything makes the input unusable.
 pub(crate) fn has_errors(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|one| one.severity == Severity::Error)
+}
+
+/// The first board's name: the place of what concerns the whole design.
+pub(crate) fn place(design: &Design) -> Span {
+    let board = design.boards.first();
+    board.map_or_else(|| Span::new(design.file, 0..0), |board| board.name.span)
 }

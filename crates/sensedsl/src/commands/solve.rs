@@ -1,11 +1,14 @@
 //! `sensedsl solve`: the best wiring, all wirings, or their number.
 
+use std::time::{Duration, Instant};
+
 use anyhow::Result;
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::SourceMap;
+use sensedsl_diagnostics::codes::e0405_too_many_moves;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Keep, Solved, Wiring};
+use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
 use super::input;
 use crate::Status;
@@ -25,7 +28,17 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
         return Ok(Status::Done);
     }
-    let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), args.any);
+    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let search = Search { any: args.any, stop: deadline.is_some().then_some(&late) };
+    let mut answer = input::solve(design, resolved.diagnostics, keep.as_ref(), &search);
+    if let (Some(Solved::Wired(wiring)), Some(most)) = (&answer.solved, args.max_moves)
+        && wiring.moved > most
+    {
+        let at = input::place(design);
+        let report = e0405_too_many_moves::too_many_moves(at, wiring.moved, most);
+        answer.diagnostics.push(report);
+    }
     terminal.diagnostics(&answer.diagnostics, &sources)?;
     match &answer.solved {
         _ if input::has_errors(&answer.diagnostics) => {

@@ -1,0 +1,26 @@
+//! E0405: more wires would have to move than allowed.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0405",
+    severity: Severity::Error,
+    title: "more wires would have to move than allowed",
+    explanation: r#"With `--keep` the wiring that moves the fewest wires is found, and with `--max-moves` one that moves more
+than that is refused: the message says how many the fewest is.
+
+Way out: allow that many moves, or drop what makes them necessary.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The fewest moves that are possible, and how many are allowed.
+#[must_use]
+pub fn too_many_moves(span: Span, moved: u32, most: u32) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("at least {moved} wires have to move, {most} are allowed"))
+        .help(format!("allow them with `--max-moves {moved}`, or drop what makes them necessary"))
+}
