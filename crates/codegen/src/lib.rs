@@ -3,6 +3,7 @@
 pub mod fileset;
 pub mod firmware;
 pub mod host;
+mod print;
 mod project;
 pub mod report;
 

@@ -36,12 +36,6 @@ pub fn find(name: &str) -> Option<&'static dyn Host> {
     HOSTS.into_iter().find(|host| host.name() == name)
 }
 
-/// Prints a template. Templates are checked when this crate is compiled and they write to memory,
-/// so that only a formatter that fails by itself could make this empty.
-fn print(template: &impl askama::Template) -> String {
-    template.render().unwrap_or_default()
-}
-
 /// The hand-written files that C++ hosts share.
 mod runtime {
     /// Decoder, encoder.

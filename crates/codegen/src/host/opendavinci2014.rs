@@ -4,8 +4,9 @@ use askama::Template;
 
 use super::cpp_view::{BoardView, DATA_TYPE_BASE_2014, DesignView, MessageView, SchemaHeader};
 use super::plan::HostPlan;
-use super::{Host, print, runtime};
+use super::{Host, runtime};
 use crate::fileset::FileSet;
+use crate::print::print;
 
 /// See the module.
 pub(super) struct OpenDavinci2014;

@@ -5,6 +5,7 @@ use askama::Template;
 use super::plan::{BoardPlan, FirmwarePlan};
 use super::runtime;
 use crate::fileset::FileSet;
+use crate::print::print;
 
 /// The user's file as it is made once.
 const USER: &str = include_str!("../../../templates/firmware/chibios/user.c.txt");
@@ -60,15 +61,4 @@ fn render_board(b: &BoardPlan) -> FileSet {
         files.add(format!("uproxy/{path}"), *text);
     }
     files
-}
-
-/// Prints a template and the line end that the template engine takes away. Templates are checked
-/// when this crate is compiled and they write to memory, so that only a formatter that fails by
-/// itself could make this empty.
-fn print(template: &impl Template) -> String {
-    let mut text = template.render().unwrap_or_default();
-    if !text.ends_with('\n') {
-        text.push('\n');
-    }
-    text
 }

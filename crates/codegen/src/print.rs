@@ -1,0 +1,12 @@
+//! Printing of templates, for all targets alike.
+
+/// Prints a template and the line end that the template engine takes away. Templates are checked
+/// when this crate is compiled and they write to memory, so that only a formatter that fails by
+/// itself could make this empty.
+pub(crate) fn print(template: &impl askama::Template) -> String {
+    let mut text = template.render().unwrap_or_default();
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    text
+}
