@@ -1,0 +1,72 @@
+//! `docs/diagnostics.md` says what the registry says, and every code is in a group of the page.
+//! `SENSEDSL_BLESS=1 cargo test -p sensedsl-diagnostics --test reference` writes the page anew.
+#![expect(clippy::disallowed_methods, reason = "a test of a page reads the page")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use sensedsl_diagnostics::Severity;
+use sensedsl_diagnostics::codes::ALL;
+
+/// What the first two digits of a code stand for.
+const GROUPS: &[(&str, &str)] = &[
+    ("01", "The text"),
+    ("02", "Names, properties and values"),
+    ("03", "Boards, tables, pins and targets"),
+    ("04", "The wiring"),
+    ("05", "Generation"),
+    ("06", "Warnings: the hardware will do something else"),
+    ("07", "Hints"),
+];
+
+const HEAD: &str = "# Diagnostics
+
+Every message carries a code that stays the same for good: tests and scripts may rely on it, its words may
+change. The letter is the severity: **E** error (exit status 1, nothing is written), **W** warning, **H** hint.
+`sensedsl explain CODE` prints the text below; `sensedsl explain` lists all codes.
+
+`allow W0602 \"the reason\";` in a device or board accepts a warning or hint there; an error cannot be allowed.
+`sensedsl check --format json|sarif|github` says the same for machines.
+
+This page is made from the registry in `crates/diagnostics/src/codes/`.
+";
+
+/// The page, from the registry.
+fn page() -> String {
+    let mut text = String::from(HEAD);
+    for (digits, title) in GROUPS {
+        write!(text, "\n## {title}\n").unwrap();
+        let of_group = ALL.iter().filter(|code| code.name().get(1..3) == Some(*digits));
+        for info in of_group.map(|code| code.info()) {
+            let explanation = info.explanation.trim_end();
+            write!(text, "\n### {}: {}\n\n{explanation}\n", info.code, info.title).unwrap();
+        }
+    }
+    text
+}
+
+#[test]
+fn the_page_is_fresh() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/diagnostics.md");
+    let wanted = page();
+    if std::env::var("SENSEDSL_BLESS").is_ok() {
+        std::fs::write(&path, &wanted).unwrap();
+    }
+    let found = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(found == wanted, "docs/diagnostics.md is not what the registry says: SENSEDSL_BLESS=1");
+}
+
+#[test]
+fn every_code_is_in_a_group_of_its_severity() {
+    for code in ALL {
+        let digits = code.name().get(1..3).unwrap();
+        assert!(GROUPS.iter().any(|(group, _)| *group == digits), "{code} is in no group");
+        let expected = match digits {
+            "06" => Severity::Warning,
+            "07" => Severity::Hint,
+            _ => Severity::Error,
+        };
+        assert_eq!(code.info().severity, expected, "{code}");
+    }
+}
