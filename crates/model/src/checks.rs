@@ -15,24 +15,25 @@ const ADC_BITS: u32 = 12;
 /// Adds the warnings for all devices.
 pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
-        diagnostics.extend(unused_delay(device));
+        diagnostics.extend(unused_pace(device));
         diagnostics.extend(too_slow(device));
         diagnostics.extend(narrow(device));
     }
 }
 
-fn unused_delay(device: &Device) -> Option<Diagnostic> {
-    if !device.kind.name().triggers_itself() {
-        return None;
+/// Cycle time and priority of what the hardware measures by itself.
+fn unused_pace(device: &Device) -> Vec<Diagnostic> {
+    let pulsed = matches!(&device.kind, Kind::Icu(icu) if icu.pulse_us.is_some());
+    if !device.kind.name().triggers_itself() || pulsed {
+        return Vec::new();
     }
-    if let Kind::Icu(icu) = &device.kind
-        && icu.pulse_us.is_some()
-    {
-        return None;
-    }
-    let at = device.delay_span?;
+    let written = [("delay", device.delay_span), ("prio", device.prio_span)];
     let why = "the timer sees every edge by itself";
-    Some(w0601_unused_property::unused_property(at, "delay", device.kind.name().name(), why))
+    let kind = device.kind.name().name();
+    let unused = |(name, at): (&str, Option<_>)| {
+        Some(w0601_unused_property::unused_property(at?, name, kind, why))
+    };
+    written.into_iter().filter_map(unused).collect()
 }
 
 fn too_slow(device: &Device) -> Option<Diagnostic> {

@@ -132,6 +132,8 @@ pub struct Device {
     pub delay_span: Option<Span>,
     /// Thread priority relative to `NORMALPRIO`.
     pub prio: i8,
+    /// Where the device itself gives the priority.
+    pub prio_span: Option<Span>,
     /// The board it is bound to; none where it may go to any.
     pub board: Option<BoardIndex>,
     /// What the user fixed of its wiring.

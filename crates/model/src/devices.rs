@@ -60,6 +60,7 @@ pub(crate) fn read(
     }
     let kind = read_kind(&mut fields, kind_name.value, direction, value.value);
     let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
+    let prio_span = fields.own_span("prio");
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
     let placement = placement(&mut fields, &kind, direction);
     let shown = presentation(&mut fields);
@@ -75,6 +76,7 @@ pub(crate) fn read(
         delay_ms: delay.map_or(DELAY_DEFAULT_MS, |delay| delay.value),
         delay_span,
         prio: prio.unwrap_or(0),
+        prio_span,
         board,
         placement,
         wishes,

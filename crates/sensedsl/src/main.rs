@@ -17,12 +17,14 @@ use cli::{Cli, Command};
 use terminal::Terminal;
 
 /// How a command ended, when nothing went wrong with the machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
     /// 0
     Done,
     /// 1
     Wrong,
+    /// 2
+    Misused,
 }
 
 fn main() -> ExitCode {
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     match run(cli.command, &mut terminal) {
         Ok(Status::Done) => ExitCode::SUCCESS,
         Ok(Status::Wrong) => ExitCode::from(1),
+        Ok(Status::Misused) => ExitCode::from(2),
         Err(error) if terminal::is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             terminal.failure(&error);

@@ -153,6 +153,7 @@ fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: 
         delay_ms: 1_000,
         delay_span: None,
         prio: 0,
+        prio_span: None,
         board: Some(board),
         placement: Placement::default(),
         wishes: Vec::new(),

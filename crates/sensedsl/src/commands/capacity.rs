@@ -19,7 +19,7 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
+        return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
     let Some(Solved::Wired(wiring)) = answer.solved else {

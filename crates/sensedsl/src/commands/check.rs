@@ -33,9 +33,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
                 (answer.diagnostics, feasible)
             }
         };
-        if input::has_errors(&diagnostics) {
-            status = Status::Wrong;
-        }
+        status = status.max(input::status(&diagnostics, &args.on));
         match args.format {
             CheckFormat::Human => {
                 terminal.diagnostics(&diagnostics, &sources)?;

@@ -45,7 +45,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
+        return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     let names = || design.devices.iter().map(|device| device.name.value.as_str());
     let Some(device) = names().position(|one| one == name) else {

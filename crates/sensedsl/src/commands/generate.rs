@@ -26,7 +26,7 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
+        return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), &Search::default());
     let mut diagnostics = answer.diagnostics;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
             apply_allows(design, &mut diagnostics);
             sort(&mut diagnostics);
             terminal.diagnostics(&diagnostics, &sources)?;
-            return Ok(Status::Wrong);
+            return Ok(input::status(&diagnostics, &args.on));
         }
     };
     terminal.diagnostics(&diagnostics, &sources)?;

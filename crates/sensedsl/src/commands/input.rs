@@ -3,11 +3,15 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
+use sensedsl_diagnostics::codes::{
+    e0301_unknown_board, e0302_table_unreadable, e0313_unknown_target, e0505_unknown_host,
+};
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
+use crate::Status;
 use crate::cli::On;
 use crate::files::{Disk, read_text, shown};
 
@@ -60,6 +64,24 @@ pub(crate) fn solve(
     apply_allows(design, &mut diagnostics);
     sort(&mut diagnostics);
     Answer { solved, diagnostics }
+}
+
+/// How a command ends whose diagnostics are these: a wrong input is told from a wrong call, such as
+/// a target that does not exist or a `--board` that cannot be read.
+pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
+    let by_flag = [&e0313_unknown_target::INFO, &e0505_unknown_host::INFO];
+    let by_board = [&e0301_unknown_board::INFO, &e0302_table_unreadable::INFO];
+    let misused = |one: &Diagnostic| {
+        let info = one.code.info();
+        by_flag.contains(&info) || (on.board.is_some() && by_board.contains(&info))
+    };
+    if diagnostics.iter().any(misused) {
+        Status::Misused
+    } else if has_errors(diagnostics) {
+        Status::Wrong
+    } else {
+        Status::Done
+    }
 }
 
 /// Whether anything makes the input unusable.

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
+        return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     if args.format == SolveFormat::Prolog {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
