@@ -80,9 +80,14 @@ void up_restore_report(const uint8_t *taken) {
   chMtxUnlock(&store_lock);
 }
 
-/* Fixed rate: a late cycle does not shift the following ones, and a lost one is not made up for. */
+/* Fixed rate: a late cycle does not shift the following ones, and lost ones are not made up for in a burst. */
 static void sleep_cycle(systime_t *previous, sysinterval_t cycle) {
-  *previous = chThdSleepUntilWindowed(*previous, chTimeAddX(*previous, cycle));
+  const systime_t next = chTimeAddX(*previous, cycle);
+  systime_t now;
+
+  (void)chThdSleepUntilWindowed(*previous, next);
+  now = chVTGetSystemTime();
+  *previous = chTimeIsInRangeX(now, next, chTimeAddX(next, cycle)) ? next : now;
 }
 
 static THD_FUNCTION(run_task, argument) {

@@ -12,23 +12,7 @@ use sensedsl_wiring::{Search, Solved, Wiring};
 pub(crate) const FIG2: &str = include_str!("../../../examples/fig2.sense");
 
 /// The car whose firmware was written by hand in 2014, as far as ChibiOS can capture.
-pub(crate) const CAR: &str = "
-board STM32F4DiscoveryBoard {
-    sensor IR0 returns uint16 { id = 1; type = analog; delay = 60; prio = +12; }
-    sensor IR1 returns uint16 { id = 2; type = analog; delay = 60; prio = +12; }
-    sensor IR2 returns uint16 { id = 3; type = analog; delay = 60; prio = +12; }
-    sensor USFront returns uint16 { id = 4; type = i2c; driver = srf08; address = 0xE2; delay = 70; prio = +10; }
-    sensor USLeft returns uint16 { id = 5; type = i2c; driver = srf08; address = 0xE4; delay = 70; prio = +10; }
-    sensor USRear returns uint16 { id = 6; type = i2c; driver = srf08; address = 0xE6; delay = 70; prio = +10; }
-    sensor EncoderLeftA returns uint32 { id = 7; type = icu; }
-    sensor EncoderLeftB returns uint32 { id = 8; type = icu; }
-    sensor EncoderRightA returns uint32 { id = 9; type = icu; }
-    sensor EncoderRightB returns uint32 { id = 10; type = icu; }
-    sensor Remote0 returns uint16 { id = 11; type = icu; mode = width; resolution = 1 us; }
-    sensor Remote1 returns uint16 { id = 12; type = icu; mode = width; resolution = 1 us; }
-    sensor Remote2 returns uint16 { id = 13; type = icu; mode = width; resolution = 1 us; }
-}
-";
+pub(crate) const CAR: &str = include_str!("../../../examples/miniature_car.sense");
 
 /// Words of C as names, every property that changes the code, a serial link with a checksum.
 pub(crate) const ODD: &str = "
