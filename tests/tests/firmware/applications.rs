@@ -80,7 +80,11 @@ impl Files for Tables {
 
 /// What becomes of a text: files, or what is wrong.
 pub(crate) fn generate(text: &str) -> Result<FileSet, Vec<Diagnostic>> {
-    let request = Request { path: "test.sense", text, ..Request::default() };
+    generate_for(None, text)
+}
+
+fn generate_for(target: Option<&str>, text: &str) -> Result<FileSet, Vec<Diagnostic>> {
+    let request = Request { path: "test.sense", text, target, ..Request::default() };
     let resolved = resolve(&request, &Tables);
     let Some(design) = resolved.design else { panic!("{:#?}", resolved.diagnostics) };
     match Wiring::new(&design, None).solve(&Search::default()) {
@@ -98,8 +102,9 @@ pub(crate) fn files(text: &str) -> BTreeMap<String, String> {
     files.iter().map(|(path, entry)| (path.to_owned(), text(&entry.bytes))).collect()
 }
 
-fn codes(text: &str) -> Vec<&'static str> {
-    generate(text).unwrap_err().iter().map(|one| one.code.info().code).collect()
+fn codes(target: Option<&str>, text: &str) -> Vec<&'static str> {
+    let diagnostics = generate_for(target, text).unwrap_err();
+    diagnostics.iter().map(|one| one.code.info().code).collect()
 }
 
 #[test]
@@ -188,8 +193,9 @@ fn what_cannot_be_generated_is_said() {
             }}"
         )
     };
-    assert_eq!(codes(&analog("digital;")), ["E0501"]);
-    assert_eq!(codes(&analog("analog; sampling = 481;")), ["E0506"]);
-    assert_eq!(codes(&analog("icu; resolution = 11 us;")), ["E0506"]);
-    assert_eq!(codes(&analog("i2c; address = 0x20; length = 9;")), ["E0506"]);
+    assert_eq!(codes(None, &analog("digital;")), ["E0501"]);
+    assert_eq!(codes(None, &analog("analog; sampling = 481;")), ["E0506"]);
+    assert_eq!(codes(None, &analog("icu; resolution = 11 us;")), ["E0506"]);
+    assert_eq!(codes(None, &analog("i2c; address = 0x20; length = 9;")), ["E0506"]);
+    assert_eq!(codes(Some("none"), FIG2), ["E0504"]);
 }
