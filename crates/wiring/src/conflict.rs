@@ -109,7 +109,10 @@ impl NoWiring {
             );
         };
         let resources = self.resources.join(", ");
-        let mut diagnostic = e0401_no_wiring::no_wiring(first, &list(&names), &resources);
+        let mut diagnostic = match names.as_slice() {
+            [alone] => e0401_no_wiring::nothing_serves(first, alone, &resources),
+            _ => e0401_no_wiring::no_wiring(first, &list(&names), &resources),
+        };
         for place in places {
             diagnostic = diagnostic.label(place, "and this");
         }
@@ -124,7 +127,7 @@ impl NoWiring {
             .map(|one| one.repair.describe(design))
             .collect();
         let mut help = match repairs.as_slice() {
-            [] if self.devices.len() == 1 => "nothing on the board can serve it".to_owned(),
+            [] if names_one(self) => "take another board, or another kind of device".to_owned(),
             [] => "without any one of them the others can be connected, but more stands in the way"
                 .to_owned(),
             [one] => format!("it works if you {one}"),
@@ -135,6 +138,10 @@ impl NoWiring {
         }
         help
     }
+}
+
+fn names_one(conflict: &NoWiring) -> bool {
+    conflict.devices.len() + conflict.links.len() == 1
 }
 
 /// `a`, `a and b`, `a, b and c`.

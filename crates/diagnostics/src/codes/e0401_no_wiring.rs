@@ -30,3 +30,15 @@ pub fn no_wiring(span: Span, devices: &str, resources: &str) -> Diagnostic {
         diagnostic.here(format!("fights for {resources}"))
     }
 }
+
+/// One device alone: no pins of the board are what it needs.
+#[must_use]
+pub fn nothing_serves(span: Span, device: &str, resources: &str) -> Diagnostic {
+    let message = format!("no wiring: no free pins of the board can serve {device}");
+    let diagnostic = Diagnostic::new(CODE, span, message);
+    if resources.is_empty() {
+        diagnostic
+    } else {
+        diagnostic.here(format!("needs {resources}"))
+    }
+}
