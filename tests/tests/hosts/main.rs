@@ -8,10 +8,17 @@
 //! `bin/supercomponent`).
 #![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
+#[cfg(test)]
 mod compile;
+#[cfg(test)]
 mod designs;
+#[cfg(test)]
 mod files;
+#[cfg(test)]
 mod middleware;
+#[cfg(test)]
 mod terminal;
+#[cfg(test)]
 mod tools;
+#[cfg(test)]
 mod vectors;

@@ -109,11 +109,17 @@ fn a_board_of_another_design_is_told() {
     let boards = designs::fig2();
     let Some((_, program)) = build("other", &boards, "STM32F4DiscoveryBoard") else { return };
     let mut line = Line::new();
-    let child = Command::new(program).arg(&line.device).stderr(Stdio::piped()).spawn().unwrap();
+    let mut command = Command::new(program);
+    command.arg(&line.device).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
     line.hear(4, Duration::from_secs(10));
-    line.say(&encode_hello(&designs::several_boards()[1].schema));
+    // In one piece: what comes behind the hello must not be shown either.
+    let mut stream = encode_hello(&designs::several_boards()[1].schema);
+    stream.extend(fig2_frame(1, 2, 3, 4));
+    line.say(&stream);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(1));
+    assert!(output.stdout.is_empty(), "values of another design");
     assert!(String::from_utf8_lossy(&output.stderr).contains("another version of the design"));
 }
 
