@@ -16,6 +16,12 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Prices count in weights times 2^SHIFT.
 const SHIFT: u32 = 8;
 
+/// More than any sum of costs ([`crate::answer::Fault::TooLarge`] sees to that).
+const FAR: i64 = 1 << 54;
+
+/// A bound from here on means that there is no answer.
+pub(crate) const NEVER: u64 = 1 << 45;
+
 /// What never changes: who is tied to which price.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Terms {
@@ -40,7 +46,8 @@ struct Facility {
     /// Price of what it occupies.
     resource: Option<usize>,
     wires: Vec<usize>,
-    links: Vec<usize>,
+    /// Price and how many links have it.
+    links: Vec<(usize, i64)>,
     requests: Vec<Vec<usize>>,
     alts: Vec<usize>,
 }
@@ -56,48 +63,47 @@ impl Terms {
         let first_stream = model.pins + model.resource_users.len();
         let first_link = first_stream + problem.streams as usize;
         let mut terms = Self { first_link, first_stream, ..Self::default() };
-        let of_alt = terms.find_facilities(model);
+        let odd = odd_resources(problem, model);
+        let of_alt = terms.find_facilities(model, &odd);
         let mut links: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for alt in 0..model.alt_device.len() {
-            let mut linked = BTreeSet::new();
-            for &(resource, holder) in model.alt_claims.at(alt) {
-                if holder == 0 {
-                    let price = terms.price_of(model, resource, &of_alt, alt, &mut links);
-                    if price >= first_link {
-                        linked.insert(links_facility(&links, price));
-                    }
-                    terms.alt_prices.add(price);
+            let mut price_all = |claims: &[(usize, usize)]| -> BTreeSet<usize> {
+                let own = claims.iter().filter(|c| c.1 == 0 && !odd[c.0]).map(|c| c.0);
+                own.map(|r| terms.price_of(model, r, &of_alt, alt, &mut links)).collect()
+            };
+            let mut own = price_all(model.alt_claims.at(alt));
+            let mut linked = own.iter().any(|p| *p >= first_link);
+            let mut of_cands = Vec::new();
+            for role in model.roles.range(alt) {
+                let mut inner = !model.cands.range(role).is_empty();
+                for id in model.cands.range(role) {
+                    let prices = price_all(model.cand_claims.at(id));
+                    inner &= prices.iter().any(|p| *p >= first_link);
+                    of_cands.push(prices);
                 }
+                linked |= inner;
             }
             for &facility in &of_alt[alt] {
                 terms.alt_facilities.add(facility);
-                let inner = model.roles.range(alt).any(|role| {
-                    !model.cands.range(role).is_empty()
-                        && model.cands.range(role).all(|id| {
-                            let mut own = model.cand_claims.at(id).iter().filter(|c| c.1 == 0);
-                            own.any(|c| terms.home(model, c.0, &of_alt) == Some(facility))
-                        })
-                });
-                if !inner && !linked.contains(&facility) {
-                    let key = (usize::MAX - model.alt_device[alt], facility);
+                if !(linked && of_alt[alt].len() == 1) {
+                    let class = model.class[model.alt_device[alt]];
+                    let key = (usize::MAX - class, facility);
                     let next = first_link + links.len();
-                    terms.alt_prices.add(*links.entry(key).or_insert(next));
+                    own.insert(*links.entry(key).or_insert(next));
                 }
             }
+            own.into_iter().for_each(|p| terms.alt_prices.add(p));
             terms.alt_prices.close();
             terms.alt_facilities.close();
-            for id in model.roles.range(alt).flat_map(|role| model.cands.range(role)) {
-                for &(resource, holder) in model.cand_claims.at(id) {
-                    if holder == 0 {
-                        let price = terms.price_of(model, resource, &of_alt, alt, &mut links);
-                        terms.cand_prices.add(price);
-                    }
-                }
+            for prices in of_cands {
+                prices.into_iter().for_each(|p| terms.cand_prices.add(p));
                 terms.cand_prices.close();
             }
         }
-        for (&(_, facility), &link) in &links {
-            terms.facilities[facility].links.push(link);
+        for (&(of, facility), &link) in &links {
+            // Alike devices have one price together, but each its own link.
+            let alike = model.class.iter().filter(|c| usize::MAX - **c == of).count();
+            terms.facilities[facility].links.push((link, alike.max(1) as i64));
         }
         terms.prices = first_link + links.len();
         terms.find_requests(problem, model);
@@ -106,7 +112,7 @@ impl Terms {
     }
 
     /// Makes the facilities and tells those of each alternative.
-    fn find_facilities(&mut self, model: &Model) -> Vec<Vec<usize>> {
+    fn find_facilities(&mut self, model: &Model, odd: &[bool]) -> Vec<Vec<usize>> {
         let mut numbers: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         let mut of_alt = vec![Vec::new(); model.alt_device.len()];
         let mut wire_keys: Vec<Option<BTreeSet<(usize, usize)>>> = vec![None; model.wires];
@@ -116,10 +122,17 @@ impl Terms {
                 Kind::Own | Kind::Odd => None,
             })
         };
+        // A wire belongs to a group when it is there whenever the group is.
+        let mut group_size: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        let mut wire_size = vec![0; model.wires];
         for alt in 0..model.alt_device.len() {
             let keys: BTreeSet<(usize, usize)> =
                 model.alt_groups.at(alt).iter().copied().collect();
+            for key in &keys {
+                *group_size.entry(*key).or_default() += 1;
+            }
             for wire in wires(alt) {
+                wire_size[wire] += 1;
                 wire_keys[wire] = Some(match wire_keys[wire].take() {
                     None => keys.clone(),
                     Some(old) => old.intersection(&keys).copied().collect(),
@@ -130,7 +143,8 @@ impl Terms {
             let contested = model.alt_claims.at(alt).iter().filter(|c| c.1 != 0).copied();
             let mut keys: BTreeSet<(usize, usize)> = contested.collect();
             let key = |wire: usize| {
-                let common = wire_keys[wire].as_ref().and_then(|keys| keys.first().copied());
+                let always = |k: &&(usize, usize)| group_size[*k] == wire_size[wire];
+                let common = wire_keys[wire].iter().flatten().find(always).copied();
                 common.unwrap_or((NONE, wire))
             };
             keys.extend(wires(alt).map(key));
@@ -138,7 +152,8 @@ impl Terms {
                 let next = numbers.len();
                 let facility = *numbers.entry(k).or_insert(next);
                 if facility == next {
-                    let contested = k.0 != NONE && !model.resource_users.at(k.0).is_empty();
+                    let contested =
+                        k.0 != NONE && !odd[k.0] && !model.resource_users.at(k.0).is_empty();
                     let resource = contested.then_some(model.pins + k.0);
                     self.facilities.push(Facility { resource, ..Facility::default() });
                 }
@@ -153,18 +168,6 @@ impl Terms {
             }
         }
         of_alt
-    }
-
-    /// The one facility within which a resource is claimed, always by single holders.
-    fn home(&self, model: &Model, resource: usize, of_alt: &[Vec<usize>]) -> Option<usize> {
-        let users = model.resource_users.at(resource);
-        let first = users.first()?;
-        let shared = |facility: &usize| {
-            users.iter().all(|user| {
-                user.holder == 0 && of_alt[model.user_alt(user)].contains(facility)
-            })
-        };
-        of_alt[model.user_alt(first)].iter().copied().find(shared)
     }
 
     fn price_of(
@@ -229,7 +232,7 @@ impl Terms {
             }
             // A bus pays for its streams when all who use them use the bus.
             let home = (0..self.facilities.len())
-                .find(|&f| alts.iter().all(|alt| self.facilities[f].alts.contains(alt)));
+                .find(|&f| self.facilities[f].alts.iter().eq(alts.iter()));
             if let Some(facility) = home {
                 self.facilities[facility].requests.extend(requests);
             }
@@ -266,49 +269,56 @@ impl Terms {
         }
     }
 
-    /// Most devices that a facility can serve.
+    /// Most devices that a facility can serve: as many as its links, and as many as there are pins
+    /// for the first wire that each of them needs of its own.
     fn capacity(&self, model: &Model, facility: usize) -> usize {
-        let alts = &self.facilities[facility].alts;
-        let mut best = usize::MAX;
-        let mut inner: Option<BTreeSet<usize>> = Some(BTreeSet::new());
-        let mut pins: Option<BTreeSet<usize>> = Some(BTreeSet::new());
-        for &alt in alts {
-            let roles = model.roles.range(alt);
-            let own: Vec<usize> =
-                roles.filter(|r| model.role_kind[*r] == Kind::Own).take(1).collect();
-            let Some(&role) = own.first() else {
-                pins = None;
-                let links: Vec<usize> = self.alt_prices.at(alt).to_vec();
-                match links.iter().find(|l| self.facilities[facility].links.contains(l)) {
-                    Some(link) => inner.iter_mut().for_each(|set| {
-                        set.insert(*link);
-                    }),
-                    None => inner = None,
-                }
-                continue;
+        let facility = &self.facilities[facility];
+        let link = |prices: &[usize]| facility.links.iter().find(|l| prices.contains(&l.0));
+        let mut links: Option<BTreeSet<&(usize, i64)>> = Some(BTreeSet::new());
+        let mut pins = Some(BTreeSet::new());
+        for &alt in &facility.alts {
+            let role = model.roles.range(alt).find(|r| model.role_kind[*r] == Kind::Own);
+            let cands = role.map_or(0..0, |role| model.cands.range(role));
+            match (&mut pins, role) {
+                (Some(pins), Some(_)) => pins.extend(cands.clone().map(|id| model.cand(id).pin)),
+                _ => pins = None,
+            }
+            let of_cands: Option<Vec<_>> = cands.map(|c| link(self.cand_prices.at(c))).collect();
+            let found = match link(self.alt_prices.at(alt)) {
+                Some(own) => Some(vec![own]),
+                None => of_cands.filter(|links| !links.is_empty()),
             };
-            for id in model.cands.range(role) {
-                pins.iter_mut().for_each(|set| {
-                    set.insert(model.cand(id).pin);
-                });
-                let mut prices = self.cand_prices.at(id).iter();
-                match prices.find(|l| self.facilities[facility].links.contains(l)) {
-                    Some(link) => inner.iter_mut().for_each(|set| {
-                        set.insert(*link);
-                    }),
-                    None => inner = None,
-                }
+            match (&mut links, found) {
+                (Some(links), Some(found)) => links.extend(found),
+                _ => links = None,
             }
         }
-        for set in [inner, pins].into_iter().flatten() {
-            best = best.min(set.len());
-        }
-        best
+        let links = links.map(|set| set.iter().map(|l| l.1 as usize).sum());
+        let pins = pins.map(|set| set.len());
+        [links, pins].into_iter().flatten().min().unwrap_or(usize::MAX)
     }
 }
 
-fn links_facility(links: &BTreeMap<(usize, usize), usize>, link: usize) -> usize {
-    links.iter().find(|(_, l)| **l == link).map_or(NONE, |((_, facility), _)| *facility)
+/// Resources that one device can claim in several places or for several holders at once: it does
+/// not quarrel with itself, so no price counts them right.
+fn odd_resources(problem: &Problem, model: &Model) -> Vec<bool> {
+    let mut odd = vec![false; problem.resources as usize];
+    for alt in 0..model.alt_device.len() {
+        let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+        let mut book = |place: usize, claims: &[(usize, usize)]| {
+            for &(resource, holder) in claims {
+                let first = seen.entry(resource).or_insert((place, holder));
+                // The tie of a shared wire has a holder for each pin and carries no price.
+                let tie = first.1 != 0 && holder != 0 && place != NONE;
+                odd[resource] |= *first != (place, holder) && !(tie && first.0 == place);
+            }
+        };
+        book(NONE, model.alt_claims.at(alt));
+        for role in model.roles.range(alt) {
+            model.cands.range(role).for_each(|id| book(role, model.cand_claims.at(id)));
+        }
+    }
+    odd
 }
 
 /// Several ways to fill a role, or a DMA request: a price each, and a fixed cost.
@@ -346,6 +356,8 @@ struct Opening {
     forced: bool,
     cost: i64,
     open: bool,
+    /// What its opening would save elsewhere: another one opened only for the number's sake.
+    spares: i64,
 }
 
 /// The domains of one node in a form that is quick to price.
@@ -374,6 +386,8 @@ pub(crate) struct Dual {
     drift: Vec<i64>,
     view: View,
     opening_of: Vec<usize>,
+    /// Least bound of what was struck.
+    pub(crate) struck: u64,
 }
 
 impl Dual {
@@ -385,6 +399,7 @@ impl Dual {
             drift: vec![0; terms.prices],
             view: View::default(),
             opening_of: Vec::new(),
+            struck: u64::MAX,
         }
     }
 
@@ -459,7 +474,8 @@ impl Dual {
         }
     }
 
-    /// Strikes what no answer below the limit can use. Returns whether anything was struck.
+    /// Strikes what no answer below the limit can use. Returns whether anything was struck;
+    /// `struck` then bounds what is gone.
     pub(crate) fn strike(
         &mut self,
         terms: &Terms,
@@ -468,14 +484,31 @@ impl Dual {
         bound: u64,
         limit: u64,
     ) -> Result<bool, Dead> {
+        self.struck = u64::MAX;
         if limit == u64::MAX || bound >= limit {
             return Ok(false);
         }
-        let paid = (state.paid as i64) << SHIFT;
-        let value = self.evaluate(terms, model) + paid;
+        let value = self.evaluate(terms, model) + ((state.paid as i64) << SHIFT);
         // An answer of weight limit - 1 must survive.
         let room = ((limit as i64 - 1) << SHIFT) - value;
         let mark = state.mark();
+        let mut least = i64::MAX;
+        let result = self
+            .strike_groups(model, state, room, &mut least)
+            .and_then(|()| self.strike_openings(terms, model, state, room, &mut least));
+        if least < FAR {
+            self.struck = (value + least).unsigned_abs().div_ceil(1 << SHIFT);
+        }
+        result.map(|()| state.mark() > mark)
+    }
+
+    fn strike_groups(
+        &self,
+        model: &Model,
+        state: &mut State,
+        room: i64,
+        least: &mut i64,
+    ) -> Result<(), Dead> {
         for (index, group) in self.view.groups.iter().enumerate() {
             let margin = self.view.margin[index];
             for choice in &self.view.choices[group.choices.0..group.choices.1] {
@@ -487,6 +520,7 @@ impl Dual {
                 };
                 let first = model.alts.range(group.devices[0]).start;
                 if !(group.spread && !choice.once) && over > room {
+                    *least = over.min(*least);
                     for &device in &group.devices {
                         let start = model.alts.range(device).start;
                         state.kill_alt(model, start + choice.alt - first)?;
@@ -506,6 +540,7 @@ impl Dual {
                             over + cost - cheapest
                         };
                         if extra > room {
+                            *least = extra.min(*least);
                             for &device in &group.devices {
                                 let twin = twin_cand(model, group.devices[0], device, way.id);
                                 state.kill_cand(model, twin)?;
@@ -515,8 +550,7 @@ impl Dual {
                 }
             }
         }
-        self.strike_openings(terms, model, state, room)?;
-        Ok(state.mark() > mark)
+        Ok(())
     }
 
     fn strike_openings(
@@ -525,10 +559,12 @@ impl Dual {
         model: &Model,
         state: &mut State,
         room: i64,
+        least: &mut i64,
     ) -> Result<(), Dead> {
         for opening in &self.view.openings {
-            let over = if opening.open { 0 } else { opening.cost.max(0) };
+            let over = if opening.open { 0 } else { (opening.cost - opening.spares).max(0) };
             if over > room {
+                *least = over.min(*least);
                 for &alt in &terms.facilities[opening.facility].alts {
                     state.kill_alt(model, alt)?;
                 }
@@ -537,9 +573,11 @@ impl Dual {
             for role in opening.roles.0..opening.roles.1 {
                 let cheapest = self.view.cheapest[role].0;
                 for way in self.ways(role) {
-                    if way.id == NONE || over + self.way_cost(way) - cheapest <= room {
+                    let extra = over + self.way_cost(way) - cheapest;
+                    if way.id == NONE || extra <= room {
                         continue;
                     }
+                    *least = extra.min(*least);
                     let c = model.cand(way.id);
                     let Kind::Wire(wire) = model.role_kind[c.role] else { continue };
                     for &other in model.wire_cands.at(wire) {
@@ -568,7 +606,7 @@ impl Dual {
     fn evaluate(&mut self, terms: &Terms, model: &Model) -> i64 {
         for role in 0..self.view.roles.len() {
             let (start, end) = self.view.roles[role];
-            let mut best = (i64::MAX / 4, NONE);
+            let mut best = (FAR, NONE);
             for index in start..end {
                 let cost = self.way_cost(&self.view.ways[index]);
                 if cost < best.0 {
@@ -614,7 +652,7 @@ impl Dual {
             }
         }
         let mut value = 0;
-        let mut margin = i64::MAX / 4;
+        let mut margin = FAR;
         if number == 1 {
             if let Some(&(cost, c, way)) = order.iter().min() {
                 (value, margin) = (cost, cost);
@@ -636,7 +674,7 @@ impl Dual {
             }
             if left > 0 {
                 // Fewer ways than devices: nothing fits.
-                value = i64::MAX / 16;
+                value = FAR;
             }
         }
         self.view.margin[index] = margin;
@@ -674,11 +712,12 @@ impl Dual {
                 (self.view.openings[index].facility, self.view.openings[index].roles);
             let facility = &terms.facilities[facility];
             let mut cost = facility.resource.map_or(0, |r| self.prices[r]);
-            cost -= facility.links.iter().map(|&l| self.prices[l]).sum::<i64>();
+            cost -= facility.links.iter().map(|&(l, times)| self.prices[l] * times).sum::<i64>();
             cost += self.view.cheapest[roles.0..roles.1].iter().map(|r| r.0).sum::<i64>();
             let opening = &mut self.view.openings[index];
             opening.cost = cost;
             opening.open = opening.forced || cost < 0;
+            opening.spares = 0;
         }
         for family in &terms.families {
             let open = |f: &&usize| {
@@ -686,12 +725,19 @@ impl Dual {
                 index != NONE && self.view.openings[index].open
             };
             let mut missing = family.need.saturating_sub(family.members.iter().filter(open).count());
+            let mut dearest = 0;
             while missing > 0 {
                 let shut = family.members.iter().map(|&f| self.opening_of[f]);
                 let shut = shut.filter(|&i| i != NONE && !self.view.openings[i].open);
                 let Some(next) = shut.min_by_key(|&i| self.view.openings[i].cost) else { break };
                 self.view.openings[next].open = true;
+                dearest = self.view.openings[next].cost.max(dearest);
                 missing -= 1;
+            }
+            for &member in family.members.iter().filter(|_| dearest > 0) {
+                if let Some(opening) = self.view.openings.get_mut(self.opening_of[member]) {
+                    opening.spares = dearest;
+                }
             }
         }
         let mut value = 0;
@@ -705,8 +751,8 @@ impl Dual {
             if let Some(resource) = facility.resource {
                 self.slope[resource] += 1;
             }
-            for &link in &facility.links {
-                self.slope[link] -= 1;
+            for &(link, times) in &facility.links {
+                self.slope[link] -= times;
             }
             for role in roles.0..roles.1 {
                 self.use_way(self.view.cheapest[role].1, 1);
@@ -819,7 +865,7 @@ impl View {
             for &id in model.wire_cands.at(wire) {
                 let c = model.cand(id);
                 let here = decided.is_none_or(|&alt| model.role_alt[c.role] == alt);
-                if here && state.cand_on(model, id) && seen.insert(c.pin) {
+                if here && state.cand_on(model, id) && seen.insert((c.pin, c.signal, c.holder)) {
                     self.add_way(model, &[], id);
                 }
             }
@@ -832,6 +878,7 @@ impl View {
             forced: decided.is_some(),
             cost: 0,
             open: false,
+            spares: 0,
         });
     }
 }

@@ -9,6 +9,7 @@ mod check;
 mod conflict;
 mod count;
 mod dma;
+mod dual;
 mod enumerate;
 mod flow;
 mod frontier;

@@ -143,6 +143,8 @@ pub(crate) struct Model {
     pub(crate) alt_device: Vec<usize>,
     pub(crate) alt_board: Vec<usize>,
     pub(crate) alt_claims: Rows<(usize, usize)>,
+    /// Claims as a group, contested or not.
+    pub(crate) alt_groups: Rows<(usize, usize)>,
     pub(crate) alt_rules: Rows<usize>,
     pub(crate) alt_dma: Rows<usize>,
     /// Alternative to its roles (ids are consecutive).
@@ -237,6 +239,9 @@ impl Model {
                 self.alt_board.push(a.board.0 as usize);
                 a.claims.iter().filter(keep).for_each(|c| self.alt_claims.add(pair(c)));
                 self.alt_claims.close();
+                let groups = a.claims.iter().filter(|c| c.holder != Holder::Own);
+                groups.for_each(|c| self.alt_groups.add(pair(c)));
+                self.alt_groups.close();
                 a.violates.iter().for_each(|r| self.alt_rules.add(r.0 as usize));
                 self.alt_rules.close();
                 if self.dma_matters {
@@ -638,8 +643,8 @@ fn weights(problem: &Problem) -> Result<Weights, Fault> {
     let rule = (total + 1).checked_mul(cost).ok_or(Fault::TooLarge)?;
     let moved = rule.checked_mul(u64::from(problem.rules) + 1).ok_or(Fault::TooLarge)?;
     let most = moved.checked_mul(problem.pins.len() as u64 + 1).ok_or(Fault::TooLarge)?;
-    // The search adds and subtracts such numbers along a path as signed ones.
-    if most > i64::MAX as u64 / 4 {
+    // The bounds add such numbers up, some of them in fractions.
+    if most > 1 << 44 {
         return Err(Fault::TooLarge);
     }
     Ok(Weights { moved, rule, cost })

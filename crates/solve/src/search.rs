@@ -6,6 +6,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::dma::Matching;
+use crate::dual::{Dual, NEVER, Terms};
 use crate::flow::{Flow, Saved};
 use crate::model::{Kind, Model, NONE, agree};
 use crate::problem::Problem;
@@ -39,6 +40,10 @@ pub(crate) struct Engine<'a> {
     stop: Option<&'a dyn Fn() -> bool>,
     pub(crate) stopped: bool,
     scratch: Scratch,
+    /// The second bound, made when the flow is not enough.
+    dual: Option<Box<(Terms, Dual)>>,
+    /// Nodes until which any answer will do, so that there is a limit to bound against.
+    dive: u64,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
@@ -48,6 +53,7 @@ pub(crate) struct Parked {
     cut: u64,
     nodes: u64,
     scratch: Scratch,
+    dual: Option<Box<(Terms, Dual)>>,
 }
 
 /// Who holds what while a wiring is read off the flow.
@@ -60,6 +66,13 @@ struct Scratch {
 }
 
 const NOBODY: usize = NONE;
+
+/// How long the search looks for a first answer by the flow alone.
+const DIVE: u64 = 300;
+
+/// Steps of the price ascent at the root and at other nodes.
+const ROOT_STEPS: usize = 250;
+const NODE_STEPS: usize = 30;
 
 impl<'a> Engine<'a> {
     /// # Errors
@@ -87,16 +100,18 @@ impl<'a> Engine<'a> {
                 touched_resources: Vec::new(),
                 touched_pins: Vec::new(),
             },
+            dual: None,
+            dive: 0,
         })
     }
 
     pub(crate) fn park(self) -> Parked {
-        let Self { state, flow, cut, nodes, scratch, .. } = self;
-        Parked { state, flow, cut, nodes, scratch }
+        let Self { state, flow, cut, nodes, scratch, dual, .. } = self;
+        Parked { state, flow, cut, nodes, scratch, dual }
     }
 
     pub(crate) fn unpark(problem: &'a Problem, model: &'a Model, parked: Parked) -> Self {
-        let Parked { state, flow, cut, nodes, scratch } = parked;
+        let Parked { state, flow, cut, nodes, scratch, dual } = parked;
         Self {
             problem,
             model,
@@ -110,6 +125,8 @@ impl<'a> Engine<'a> {
             stop: None,
             stopped: false,
             scratch,
+            dual,
+            dive: 0,
         }
     }
 
@@ -120,9 +137,14 @@ impl<'a> Engine<'a> {
         self.best = None;
         let mark = self.state.mark();
         let saved = self.flow.save();
-        self.node();
-        self.state.undo(self.model, mark);
-        self.flow.restore(&saved);
+        if limit == u64::MAX && !first {
+            self.dive = self.nodes + DIVE;
+            self.node(0);
+            self.dive = 0;
+            self.back(mark, &saved);
+        }
+        self.node(0);
+        self.back(mark, &saved);
         self.best.take()
     }
 
@@ -142,9 +164,13 @@ impl<'a> Engine<'a> {
     }
 
     /// Searches below the current domains; leaves them smaller.
-    fn node(&mut self) {
+    fn node(&mut self, depth: usize) {
+        let mut fresh = true;
         loop {
             self.nodes += 1;
+            if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
+                return;
+            }
             if self.stop.is_some_and(|stop| stop()) {
                 self.stopped = true;
             }
@@ -177,19 +203,54 @@ impl<'a> Engine<'a> {
                 Err(branch) => branch,
             };
             let Some(branch) = branch else { return };
+            if self.dive == 0 {
+                let steps = if depth == 0 && fresh { ROOT_STEPS } else { NODE_STEPS };
+                fresh = false;
+                match self.price(steps) {
+                    Err(Dead) => return,
+                    Ok(true) => continue,
+                    Ok(false) => {}
+                }
+            }
             let mark = self.state.mark();
             let saved = self.flow.save();
+            let prices = self.dual.as_ref().map(|dual| dual.1.save());
             if self.take(branch).is_ok() {
-                self.node();
+                self.node(depth + 1);
             }
             if self.first && self.best.is_some() {
                 return;
             }
             self.back(mark, &saved);
+            if let (Some(dual), Some(prices)) = (&mut self.dual, prices) {
+                dual.1.restore(&prices);
+            }
             if self.refuse(branch).is_err() {
                 return;
             }
         }
+    }
+
+    /// Bounds by prices; whether they narrowed the domains.
+    fn price(&mut self, steps: usize) -> Result<bool, Dead> {
+        let (problem, model) = (self.problem, self.model);
+        let pair = self.dual.get_or_insert_with(|| {
+            let terms = Terms::new(problem, model);
+            let dual = Dual::new(&terms);
+            Box::new((terms, dual))
+        });
+        let (terms, dual) = &mut **pair;
+        let bound = dual.ascend(terms, model, &self.state, self.limit, steps);
+        if bound >= NEVER {
+            return Err(Dead);
+        }
+        if bound >= self.limit {
+            self.cut = self.cut.min(bound);
+            return Err(Dead);
+        }
+        let struck = dual.strike(terms, model, &mut self.state, bound, self.limit);
+        self.cut = self.cut.min(dual.struck);
+        struck
     }
 
     fn take(&mut self, branch: Branch) -> Result<(), Dead> {
@@ -234,27 +295,9 @@ impl<'a> Engine<'a> {
     fn twins(&self, device: usize) -> Vec<usize> {
         let class = self.model.class[device];
         let same = |&d: &usize| {
-            self.model.class[d] == class && (d == device || self.same_domain(d, device))
+            self.model.class[d] == class && (d == device || self.state.same_domain(self.model, d, device))
         };
         (class..self.model.devices).filter(same).collect()
-    }
-
-    fn same_domain(&self, one: usize, other: usize) -> bool {
-        let model = self.model;
-        let (a, b) = (model.alts.range(one), model.alts.range(other));
-        a.zip(b).all(|(a, b)| {
-            if self.state.alt_on(a) != self.state.alt_on(b) {
-                return false;
-            }
-            let (r, s) = (model.roles.range(a), model.roles.range(b));
-            !self.state.alt_on(a)
-                || r.zip(s).all(|(r, s)| {
-                    let (c, d) = (model.cands.range(r), model.cands.range(s));
-                    let on = |c: usize| self.state.cand_on(model, c);
-                    self.state.role_left(r) == self.state.role_left(s)
-                        && c.zip(d).all(|(c, d)| on(c) == on(d))
-                })
-        })
     }
 
     /// Whether the streams suffice for all that is certain.

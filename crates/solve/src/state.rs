@@ -126,6 +126,24 @@ impl State {
         model.cands.range(role).filter(|&c| self.cand_on[c])
     }
 
+    /// Whether two interchangeable devices have the same choices left.
+    pub(crate) fn same_domain(&self, model: &Model, one: usize, other: usize) -> bool {
+        let (a, b) = (model.alts.range(one), model.alts.range(other));
+        self.device_left[one] == self.device_left[other]
+            && a.zip(b).all(|(a, b)| {
+                if self.alt_on[a] != self.alt_on[b] {
+                    return false;
+                }
+                let (r, s) = (model.roles.range(a), model.roles.range(b));
+                !self.alt_on[a]
+                    || r.zip(s).all(|(r, s)| {
+                        let (c, d) = (model.cands.range(r), model.cands.range(s));
+                        self.role_left[r] == self.role_left[s]
+                            && c.zip(d).all(|(c, d)| self.cand_on[c] == self.cand_on[d])
+                    })
+            })
+    }
+
     pub(crate) fn mark(&self) -> usize {
         self.trail.len()
     }
