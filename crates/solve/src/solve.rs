@@ -10,7 +10,6 @@ use crate::search::{Choices, Engine};
 use crate::state::Dead;
 use std::collections::BTreeSet;
 
-const TRACE: bool = true;
 /// What is asked for.
 #[derive(Clone, Copy, Default)]
 pub struct Options<'a> {
@@ -35,7 +34,6 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
-    if TRACE && found.is_none() { eprintln!("root {bound} none nodes {}", engine.nodes); }
     let stopped = |answer| Outcome::Stopped { answer, bound: model.weights.unpack(bound) };
     let Some((weight, choices)) = found else {
         if engine.stopped {
@@ -47,9 +45,7 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
         let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
         return Ok(if engine.stopped { stopped(Some(answer)) } else { Outcome::Solved(answer) });
     }
-    if TRACE { eprintln!("root {bound} opt {weight} nodes {}", engine.nodes); }
     let least = engine.least(weight, choices);
-    if TRACE { eprintln!("   all nodes {}", engine.nodes); }
     if engine.stopped {
         let answer = finish(problem, &model, &least, Optimality::Feasible)?;
         let bound = answer.objective;
