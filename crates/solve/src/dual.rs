@@ -452,6 +452,15 @@ impl Dual {
         value.max(0).unsigned_abs().div_ceil(1 << SHIFT)
     }
 
+    /// The alternative that is cheapest for a device at the last prices.
+    pub(crate) fn cheapest(&self, model: &Model, device: usize) -> Option<usize> {
+        let group = self.view.groups.iter().find(|g| g.devices.contains(&device))?;
+        let choices = &self.view.choices[group.choices.0..group.choices.1];
+        let best = choices.iter().min_by_key(|c| c.cost)?;
+        let first = model.alts.range(group.devices[0]).start;
+        Some(best.alt - first + model.alts.range(device).start)
+    }
+
     /// Moves the prices along the slope, with some of the last move in it.
     fn step(&mut self, terms: &Terms, gap: i64, pace: i64) {
         let mut norm = 0;

@@ -123,6 +123,9 @@ impl Engine<'_> {
     /// The least answer within the limit, given one within it. Leaves the domains restricted to it.
     pub(crate) fn least(&mut self, limit: u64, mut known: Choices) -> Choices {
         let model = self.model;
+        if self.narrow(limit + 1).is_err() {
+            return known;
+        }
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;

@@ -203,18 +203,25 @@ impl<'a> Engine<'a> {
                 Err(branch) => branch,
             };
             let Some(branch) = branch else { return };
+            let mut branch = branch;
             if self.dive == 0 {
-                let steps = if depth == 0 && fresh { ROOT_STEPS } else { NODE_STEPS };
+                let root = depth == 0 && !self.first;
+                let steps = match (root, fresh) {
+                    (true, true) => ROOT_STEPS,
+                    (true, false) => ROOT_STEPS / 4,
+                    (false, _) => NODE_STEPS,
+                };
                 fresh = false;
                 match self.price(steps) {
                     Err(Dead) => return,
                     Ok(true) => continue,
-                    Ok(false) => {}
+                    Ok(false) => branch = self.guided(branch),
                 }
             }
             let mark = self.state.mark();
             let saved = self.flow.save();
             let prices = self.dual.as_ref().map(|dual| dual.1.save());
+            let limit = self.limit;
             if self.take(branch).is_ok() {
                 self.node(depth + 1);
             }
@@ -225,10 +232,34 @@ impl<'a> Engine<'a> {
             if let (Some(dual), Some(prices)) = (&mut self.dual, prices) {
                 dual.1.restore(&prices);
             }
+            // A better limit strikes more at the root than anywhere below it.
+            if self.limit < limit && !self.first {
+                if depth > 0 {
+                    return;
+                }
+                continue;
+            }
             if self.refuse(branch).is_err() {
                 return;
             }
         }
+    }
+
+    /// The same branching with the alternative that the prices favour.
+    fn guided(&self, branch: Branch) -> Branch {
+        let (Branch::Alt(alt), Some(dual)) = (branch, &self.dual) else { return branch };
+        let cheapest = dual.1.cheapest(self.model, self.model.alt_device[alt]);
+        Branch::Alt(cheapest.filter(|a| self.state.alt_on(*a)).unwrap_or(alt))
+    }
+
+    /// Strikes all that cannot be in an answer below the limit, for good.
+    pub(crate) fn narrow(&mut self, limit: u64) -> Result<(), Dead> {
+        self.limit = limit;
+        self.settle()?;
+        while self.dual.is_some() && !self.stopped && self.price(ROOT_STEPS / 4)? {
+            self.settle()?;
+        }
+        Ok(())
     }
 
     /// Bounds by prices; whether they narrowed the domains.
