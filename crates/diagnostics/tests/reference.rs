@@ -18,6 +18,7 @@ const GROUPS: &[(&str, &str)] = &[
     ("05", "Generation"),
     ("06", "Warnings: the hardware will do something else"),
     ("07", "Hints"),
+    ("08", "Import"),
 ];
 
 const HEAD: &str = "# Diagnostics
@@ -65,6 +66,8 @@ fn every_code_is_in_a_group_of_its_severity() {
         let expected = match digits {
             "06" => Severity::Warning,
             "07" => Severity::Hint,
+            // Whatever their severity, an import's messages stand together.
+            "08" => continue,
             _ => Severity::Error,
         };
         assert_eq!(code.info().severity, expected, "{code}");

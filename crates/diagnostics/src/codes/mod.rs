@@ -78,9 +78,16 @@ codes! {
     w0604_unused_rule,
     w0605_onboard_part,
     w0606_table_oddity,
+    w0607_part_not_certain,
     h0701_eight_bit_address,
     h0702_target_none,
     h0703_default_protocol,
+    e0801_import_unreadable,
+    e0802_import_no_table,
+    e0803_import_no_sheet,
+    w0804_import_dropped,
+    w0805_import_doubtful,
+    h0806_import_open,
 }
 
 /// What is known of a code.

@@ -1,0 +1,31 @@
+//! E0803: the workbook has no such sheet.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0803",
+    severity: Severity::Error,
+    title: "the workbook has no such sheet",
+    explanation: r#"`--sheet` names a sheet that is not in the workbook, or the source is no workbook.
+
+Way out: give one of the names in the message, or leave `--sheet` out.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The name that was asked for, and those there are.
+#[must_use]
+pub fn import_no_sheet(span: Span, name: &str, sheets: &[String]) -> Diagnostic {
+    let sheets: Vec<String> = sheets.iter().map(|sheet| format!("`{sheet}`")).collect();
+    let there = if sheets.is_empty() {
+        "it has no sheets".into()
+    } else {
+        format!("there is {}", sheets.join(", "))
+    };
+    Diagnostic::new(CODE, span, format!("there is no sheet `{name}`"))
+        .help(format!("{there}; or leave `--sheet` out"))
+}
