@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_wiring::assignment::Assignment;
 
@@ -21,6 +22,17 @@ pub fn project(
     assignment: &Assignment,
     hosts: &[&dyn Host],
 ) -> Result<FileSet, Vec<Diagnostic>> {
+    if let Some(board) = design.boards.first()
+        && assignment.used(design).next().is_none()
+    {
+        let name = &board.name.value;
+        let report = e0504_no_firmware_target::no_firmware_target(
+            board.name.span,
+            name,
+            "nothing is connected to it",
+        );
+        return Err(vec![report.help("declare a sensor or an actuator, then generate")]);
+    }
     let firmware = chibios::plan(design, assignment)?;
     let mut files = FileSet::default();
     files.merge_under("firmware", chibios::render(&firmware));

@@ -122,7 +122,7 @@ fn read(file: FileId, node: &ast::Driver, diagnostics: &mut Vec<Diagnostic>) -> 
             diagnostics.push(e0201_unknown_property::unknown_property(
                 span(file, property.range()),
                 property.text(),
-                &format!("{} driver", kind_name.name()),
+                &kind_name.with_article().replace("device", "driver"),
                 nearest(property.text(), known()),
             ));
         }

@@ -131,6 +131,12 @@ impl<'a> Fields<'a> {
     }
 
     fn wrong(&mut self, field: &Field, takes: &str) {
+        // What is no number at all has been reported by the parser.
+        if let Value::Number(number) = &field.value
+            && number.magnitude().is_none()
+        {
+            return;
+        }
         let found = describe(&field.value);
         let wrong = e0209_wrong_value::wrong_value(field.value_span, &field.name, takes, found);
         self.diagnostics.push(wrong);
@@ -294,8 +300,9 @@ impl<'a> Fields<'a> {
         let least = f64::from(*range.start());
         let most = f64::from(*range.end());
         let rounded = value.round();
-        if !(rounded >= least && rounded <= most && (value - rounded).abs() <= 1e-6 * most.max(1.0))
-        {
+        // Relative to the value: 0.1 s is 100,000.00000000001 us in binary, and 0.7 ms is not 1 ms.
+        let whole = (value - rounded).abs() <= 1e-6 * rounded.abs();
+        if !(rounded >= least && rounded <= most && whole) {
             let text = format!("a whole number of {unit} from {least} to {most}");
             self.out_of_range(field, &format!("{value} {unit}"), &text);
             return None;

@@ -1,9 +1,11 @@
 //! Which names may stand beside each other once they are spelled as code.
 
-use sensedsl_diagnostics::Diagnostic;
+use std::collections::BTreeMap;
+
 use sensedsl_diagnostics::codes::{
     e0204_duplicate_name, e0205_clashing_names, e0221_identifier_reserved,
 };
+use sensedsl_diagnostics::{Diagnostic, Span};
 
 use crate::design::Spanned;
 
@@ -16,7 +18,9 @@ const RESERVED_FOLDERS: &[&str] = &["aux", "con", "nul", "prn"];
 /// Reports names that are too long, equal, or equal but for case and underscores. `what` is
 /// "board", "device" or "driver".
 pub(crate) fn check(what: &str, names: &[&Spanned<String>], diagnostics: &mut Vec<Diagnostic>) {
-    for (at, name) in names.iter().enumerate() {
+    let mut equal: BTreeMap<&str, Span> = BTreeMap::new();
+    let mut alike: BTreeMap<String, &Spanned<String>> = BTreeMap::new();
+    for name in names {
         if let Some(why) = unusable(what, &name.value) {
             diagnostics.push(e0221_identifier_reserved::identifier_reserved(
                 name.span,
@@ -24,20 +28,24 @@ pub(crate) fn check(what: &str, names: &[&Spanned<String>], diagnostics: &mut Ve
                 why,
             ));
         }
-        let earlier = || names.iter().take(at);
-        if let Some(first) = earlier().find(|first| first.value == name.value) {
+        let form = folded(&name.value);
+        if let Some(first) = equal.get(name.value.as_str()) {
             let (name, span) = (&name.value, name.span);
-            diagnostics.push(e0204_duplicate_name::duplicate_name(span, what, name, first.span));
-        } else if let Some(first) =
-            earlier().find(|first| folded(&first.value) == folded(&name.value))
-        {
-            diagnostics.push(e0205_clashing_names::clashing_names(
+            diagnostics.push(e0204_duplicate_name::duplicate_name(span, what, name, *first));
+            continue;
+        }
+        equal.insert(&name.value, name.span);
+        match alike.get(&form) {
+            Some(first) => diagnostics.push(e0205_clashing_names::clashing_names(
                 name.span,
                 &name.value,
                 &first.value,
-                &folded(&name.value).to_uppercase(),
+                &form.to_uppercase(),
                 first.span,
-            ));
+            )),
+            None => {
+                alike.insert(form, name);
+            }
         }
     }
 }

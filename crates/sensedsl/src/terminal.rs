@@ -5,6 +5,10 @@ use std::io::{self, IsTerminal as _, Write as _};
 use anstream::{AutoStream, ColorChoice};
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
 
+/// Diagnostics that people are shown at once: who has more begins with the first ones, and a file
+/// that is no text of ours at all has thousands.
+const SHOWN_MAX: usize = 100;
+
 /// The two streams and how much is said.
 pub(crate) struct Terminal {
     quiet: bool,
@@ -44,13 +48,16 @@ impl Terminal {
         diagnostics: &[Diagnostic],
         sources: &SourceMap,
     ) -> io::Result<()> {
-        let wanted: Vec<Diagnostic> = diagnostics
-            .iter()
-            .filter(|one| !self.quiet || one.severity == Severity::Error)
-            .cloned()
-            .collect();
+        let wanted =
+            diagnostics.iter().filter(|one| !self.quiet || one.severity == Severity::Error);
+        let all = wanted.clone().count();
+        let shown: Vec<Diagnostic> = wanted.take(SHOWN_MAX).cloned().collect();
         let coloured = AutoStream::choice(&io::stderr()) != ColorChoice::Never;
-        let text = render::human(&wanted, sources, coloured);
+        let mut text = render::human(&shown, sources, coloured);
+        if all > shown.len() {
+            let more = all - shown.len();
+            text.push_str(&format!("and {more} more (`check --format json` has them all)\n"));
+        }
         io::stderr().lock().write_all(text.as_bytes())
     }
 

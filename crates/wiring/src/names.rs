@@ -26,8 +26,8 @@ impl Resource {
     #[must_use]
     pub(crate) fn name(&self) -> String {
         match self {
-            Self::Signal(_, name) | Self::Unit(_, name) => name.clone(),
-            Self::BusWire(_, unit, role) => format!("{unit}_{}", role.name().to_uppercase()),
+            // What devices of a shared bus fight for is the bus, whichever of its wires shows it.
+            Self::Signal(_, name) | Self::Unit(_, name) | Self::BusWire(_, name, _) => name.clone(),
             Self::Address(_, unit, address) => format!("{unit} address 0x{address:02X}"),
             Self::Exti(_, line) => format!("EXTI{line}"),
         }
