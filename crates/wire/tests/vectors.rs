@@ -2,6 +2,7 @@
 //!
 //! The vectors were made by another implementation (Python's `struct` and `zlib`).
 #![expect(clippy::disallowed_methods, reason = "a test reads its data")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::path::Path;
 
