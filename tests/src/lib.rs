@@ -1,1 +1,288 @@
-//! placeholder
+//! What all tests share: the program as users run it, folders of a test's own, tools that may be
+//! missing, seeded numbers.
+//!
+//! [`sensedsl`] runs the real binary. It is built on first use with the profile of the tests, so a
+//! test never sees an old one; `SENSEDSL_BIN` names another binary to test instead (an installed
+//! one, say). A tool that is not here makes its test pass with `SKIPPED: …` on stderr, and fail
+//! where `SENSEDSL_REQUIRE_TOOLS=1`.
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests: a panic is a failed test, and tests touch the machine"
+)]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+mod random;
+
+pub use random::Random;
+
+/// The root of the repository.
+#[must_use]
+pub fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().map_or_else(|| own.to_path_buf(), Path::to_path_buf)
+}
+
+/// A file of the repository as text.
+#[must_use]
+pub fn text(path: &str) -> String {
+    read(&root().join(path))
+}
+
+/// Any file as text.
+#[must_use]
+pub fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The binary under test.
+#[must_use]
+pub fn binary() -> &'static Path {
+    static BINARY: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let given = || std::env::var_os("SENSEDSL_BIN").map(PathBuf::from);
+    let found = BINARY.get_or_init(|| given().or_else(built));
+    found.as_deref().unwrap_or_else(|| panic!("there is no binary to test"))
+}
+
+/// Builds the binary with the profile and into the folder of this test.
+fn built() -> Option<PathBuf> {
+    let test = std::env::current_exe().unwrap();
+    let target = test.ancestors().find(|folder| folder.join("CACHEDIR.TAG").is_file());
+    let target = target.unwrap_or_else(|| panic!("{} is in no target folder", test.display()));
+    let release = test.components().any(|part| part.as_os_str() == "release");
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root()).args(["build", "--quiet", "--package", "sensedsl"]);
+    command.args(["--profile", if release { "release" } else { "test" }]);
+    command.args(["--message-format", "json-render-diagnostics", "--target-dir"]).arg(target);
+    let output = command.stderr(Stdio::inherit()).output().unwrap();
+    let messages = String::from_utf8_lossy(&output.stdout).into_owned();
+    messages.lines().rev().find_map(|line| {
+        let message: serde_json::Value = serde_json::from_str(line).ok()?;
+        Some(PathBuf::from(message.get("executable")?.as_str()?))
+    })
+}
+
+/// A call of the program.
+#[derive(Debug)]
+pub struct Call {
+    command: Command,
+    stdin: Option<Vec<u8>>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ran {
+    /// The exit status; -1 where a signal ended it.
+    pub status: i32,
+    /// The result.
+    pub stdout: String,
+    /// The messages.
+    pub stderr: String,
+}
+
+/// A call of the program, without colours whatever the terminal.
+pub fn sensedsl<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Call {
+    let mut command = Command::new(binary());
+    command.args(arguments).current_dir(root()).env_remove("NO_COLOR");
+    Call { command, stdin: None }
+}
+
+impl Call {
+    /// Adds an argument.
+    #[must_use]
+    pub fn arg(mut self, argument: impl AsRef<OsStr>) -> Self {
+        self.command.arg(argument);
+        self
+    }
+
+    /// Runs in that folder instead of the root of the repository.
+    #[must_use]
+    pub fn within(mut self, folder: &Path) -> Self {
+        self.command.current_dir(folder);
+        self
+    }
+
+    /// Sets a variable of the environment.
+    #[must_use]
+    pub fn env(mut self, name: &str, value: &str) -> Self {
+        self.command.env(name, value);
+        self
+    }
+
+    /// Gives it that to read.
+    #[must_use]
+    pub fn stdin(mut self, bytes: impl Into<Vec<u8>>) -> Self {
+        self.stdin = Some(bytes.into());
+        self
+    }
+
+    /// Runs it to its end.
+    #[must_use]
+    pub fn run(mut self) -> Ran {
+        let stdin = if self.stdin.is_some() { Stdio::piped() } else { Stdio::null() };
+        self.command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = self.command.spawn().unwrap();
+        let pipe = child.stdin.take();
+        let bytes = self.stdin.take().unwrap_or_default();
+        let writer = std::thread::spawn(move || {
+            // The program may stop reading when it has seen enough.
+            let _ = pipe.map(|mut pipe| pipe.write_all(&bytes));
+        });
+        let output = child.wait_with_output().unwrap();
+        writer.join().unwrap();
+        Ran {
+            status: output.status.code().unwrap_or(-1),
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+}
+
+impl Ran {
+    /// Fails unless the status is that one.
+    #[must_use]
+    #[track_caller]
+    pub fn exits(self, status: i32) -> Self {
+        assert_eq!(self.status, status, "\nstdout: {}\nstderr: {}", self.stdout, self.stderr);
+        self
+    }
+
+    /// The result as JSON.
+    #[must_use]
+    #[track_caller]
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.stdout)
+            .unwrap_or_else(|error| panic!("{error}\n{}\n{}", self.stdout, self.stderr))
+    }
+}
+
+/// A folder of a test's own, empty at first and removed at the end.
+#[derive(Debug)]
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    /// A new one; `name` is for people.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let own = format!("sensedsl-{name}-{}-{number}", std::process::id());
+        let path = std::env::temp_dir().join(own);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// A path in it.
+    #[must_use]
+    pub fn join(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// Writes a file in it, with the folders it needs.
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::create_dir_all(path.parent().unwrap_or(&self.0)).unwrap();
+        fs::write(&path, bytes).unwrap();
+        path
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // What cannot be removed is left to the machine's own cleaning.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// All files below a folder with their bytes, by path relative to it.
+#[must_use]
+pub fn tree(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let mut files = std::collections::BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(current) = folders.pop() {
+        for entry in fs::read_dir(&current).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let relative = path.strip_prefix(folder).unwrap();
+                let parts: Vec<_> = relative.iter().map(OsStr::to_string_lossy).collect();
+                files.insert(parts.join("/"), fs::read(&path).unwrap());
+            }
+        }
+    }
+    files
+}
+
+/// The files of a folder with that ending, in order.
+#[must_use]
+pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut paths: Vec<PathBuf> = entries
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|found| found == ending))
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// Whether the program answers `--version`; says so loudly when not.
+#[must_use]
+pub fn has(tool: &str) -> bool {
+    let mut command = Command::new(tool);
+    command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let found = command.status().is_ok_and(|status| status.success());
+    if !found {
+        missing(tool);
+    }
+    found
+}
+
+/// Says what a test had to leave out; a failure where tools are required.
+pub fn missing(what: &str) {
+    assert!(
+        std::env::var("SENSEDSL_REQUIRE_TOOLS").as_deref() != Ok("1"),
+        "{what} is not here, and SENSEDSL_REQUIRE_TOOLS is set"
+    );
+    eprintln!("SKIPPED: {what} is not here");
+}
+
+/// A file with one board of that head and those devices, identifiers from 1 on.
+///
+/// A device is `kind` or `kind: properties`, as in `i2c: address = 0x10; exclusive = true;`.
+#[must_use]
+pub fn design(board: &str, devices: &[&str]) -> String {
+    let blocks: String =
+        devices.iter().enumerate().map(|(at, device)| device_block(at + 1, device)).collect();
+    format!("board {board} {{\n{blocks}}}\n")
+}
+
+/// One device of [`design`], called `D<id>`.
+#[must_use]
+pub fn device_block(id: usize, device: &str) -> String {
+    let (kind, properties) = device.split_once(':').unwrap_or((device, ""));
+    let head = match kind {
+        "pwm" | "dac" => "actuator D{} accepts uint16",
+        "digital" => "sensor D{} returns bool",
+        "icu" | "encoder" => "sensor D{} returns uint32",
+        _ => "sensor D{} returns uint16",
+    };
+    let head = head.replace("{}", &id.to_string());
+    format!("    {head} {{ id = {id}; type = {kind}; {} }}\n", properties.trim())
+}

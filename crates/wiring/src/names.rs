@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::signal::{Function, Signal};
 use sensedsl_model::design::BoardIndex;
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Claim, Holder, ResourceId};
@@ -19,6 +20,8 @@ pub(crate) enum Resource {
     Address(BoardIndex, String, u8),
     /// An interrupt line.
     Exti(BoardIndex, u8),
+    /// A contact that several pins share.
+    Pad(BoardIndex, String),
 }
 
 impl Resource {
@@ -26,10 +29,11 @@ impl Resource {
     #[must_use]
     pub(crate) fn name(&self) -> String {
         match self {
-            // What devices of a shared bus fight for is the bus, whichever of its wires shows it.
-            Self::Signal(_, name) | Self::Unit(_, name) | Self::BusWire(_, name, _) => name.clone(),
+            Self::Unit(_, name) | Self::BusWire(_, name, _) => name.clone(),
+            Self::Signal(_, name) => bus(name).unwrap_or_else(|| name.clone()),
             Self::Address(_, unit, address) => format!("{unit} address 0x{address:02X}"),
             Self::Exti(_, line) => format!("EXTI{line}"),
+            Self::Pad(_, name) => format!("contact {name}"),
         }
     }
 
@@ -41,9 +45,25 @@ impl Resource {
             | Self::Unit(board, _)
             | Self::BusWire(board, ..)
             | Self::Address(board, ..)
-            | Self::Exti(board, _) => *board,
+            | Self::Exti(board, _)
+            | Self::Pad(board, _) => *board,
         }
     }
+}
+
+/// The unit of a bus signal: what devices fight for is the bus, whichever of its wires shows it.
+fn bus(signal: &str) -> Option<String> {
+    let (signal, _) = Signal::parse(signal);
+    let unit = match signal.function() {
+        Function::I2c { .. }
+        | Function::Uart { .. }
+        | Function::Spi { .. }
+        | Function::Can { .. } => signal.function().units().into_iter().next()?,
+        Function::Adc { .. } | Function::Timer { .. } | Function::Dac { .. } | Function::Other => {
+            return None;
+        }
+    };
+    Some(unit.to_string())
 }
 
 /// On whose behalf several devices hold something together.
@@ -55,6 +75,8 @@ pub(crate) enum Group {
     Frequency(BoardIndex, String, u32),
     /// The devices that use a pin, with that signal, for one wire of their bus.
     Pin(BoardIndex, String, Role, usize, usize),
+    /// The devices that use a pin, for the contact that it shares with other pins.
+    Pad(BoardIndex, usize),
 }
 
 /// Numbers for things, given in the order in which they are first seen.
