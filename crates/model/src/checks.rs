@@ -4,7 +4,6 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
 };
-use sensedsl_wire::ScalarType;
 
 use crate::design::{Design, Device};
 use crate::kind::Kind;
@@ -52,14 +51,9 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
 fn narrow(device: &Device) -> Option<Diagnostic> {
     let value = device.value.value;
     let (_, most) = value.scalar.integer_range()?;
-    let (largest, wider) = match &device.kind {
-        Kind::Analog(_) => ((1_i128 << ADC_BITS) - 1, ScalarType::Uint16),
-        Kind::I2c(i2c) if value.length.is_none() => match i2c.length_bytes {
-            0 | 1 => return None,
-            2 => (i128::from(u16::MAX), ScalarType::Uint16),
-            3 | 4 => (i128::from(u32::MAX), ScalarType::Uint32),
-            _ => (i128::from(u64::MAX), ScalarType::Uint64),
-        },
+    let (bits, wider) = match &device.kind {
+        Kind::Analog(_) => (ADC_BITS, "uint16".to_owned()),
+        Kind::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
         Kind::I2c(_)
         | Kind::Icu(_)
         | Kind::Encoder(_)
@@ -70,10 +64,34 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         | Kind::Dac(_)
         | Kind::Can(_) => return None,
     };
-    if most >= largest || value.scalar.size_bytes() >= wider.size_bytes() {
+    let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
+    if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)
+    {
         return None;
     }
-    let range = format!("0 to {largest}");
+    let range = if bits <= MANY_BITS {
+        format!("0 to {}", (1_u64 << bits) - 1)
+    } else {
+        format!("{} bytes", bits / 8)
+    };
     let found = value.to_string();
-    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, wider.name()))
+    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+}
+
+/// Ranges of more bits are told in bytes.
+const MANY_BITS: u32 = 32;
+
+/// Bits of a register of that many bytes, and a type that holds them: a number where there is one
+/// of that size, otherwise an array, since so many bytes are several numbers.
+fn of_bytes(length_bytes: u16) -> Option<(u32, String)> {
+    let bits = u32::from(length_bytes) * 8;
+    let wider = match length_bytes {
+        0 | 1 => return None,
+        2 => "uint16".to_owned(),
+        3 | 4 => "uint32".to_owned(),
+        8 => "uint64".to_owned(),
+        even if even % 2 == 0 => format!("an array such as int16[{}]", even / 2),
+        odd => format!("an array such as uint8[{odd}]"),
+    };
+    Some((bits, wider))
 }

@@ -13,9 +13,7 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::design::{BoardIndex, Device, Placement, Presentation, Spanned};
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
-use crate::kind::{
-    Kind, KindName, Role, analog, can, dac, digital, encoder, i2c, icu, pwm, spi, uart,
-};
+use crate::kind::{Kind, KindName, analog, can, dac, digital, encoder, i2c, icu, pwm, spi, uart};
 use crate::rules;
 
 /// The properties of every device, but for those that show its value.
@@ -274,22 +272,4 @@ fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
         &kind.with_article(),
         &others.join(", "),
     )
-}
-
-/// The role that a property of a soft rule speaks of.
-pub(crate) fn role_of_property(name: &str) -> Option<Role> {
-    let roles = [
-        Role::Scl,
-        Role::Sda,
-        Role::Tx,
-        Role::Rx,
-        Role::Sck,
-        Role::Miso,
-        Role::Mosi,
-        Role::Cs,
-        Role::A,
-        Role::B,
-        Role::Trigger,
-    ];
-    roles.into_iter().find(|role| role.property() == name)
 }

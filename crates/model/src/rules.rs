@@ -9,14 +9,17 @@ use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, DeviceItem, Rule};
 
 use crate::design::{Allow, Design, Spanned, Wish, WishFor};
-use crate::devices::role_of_property;
 use crate::fields::{name_or_text, span};
+use crate::kind::Role;
 
-/// The properties that can be wished for.
-const WISHES: &[&str] = &[
-    "pin", "unit", "side", "header", "scl", "sda", "tx", "rx", "sck", "miso", "mosi", "cs", "a",
-    "b",
-];
+/// The properties that can be wished for beside the pins of the roles.
+const WISHES: [&str; 4] = ["pin", "unit", "side", "header"];
+
+/// All properties that can be wished for.
+fn wishes() -> impl Iterator<Item = &'static str> {
+    let roles = Role::ALL.into_iter().map(Role::property);
+    WISHES.into_iter().chain(roles.filter(|name| *name != "pin"))
+}
 
 /// The rules of a board.
 #[derive(Debug, Default)]
@@ -89,9 +92,9 @@ fn wish(
 ) -> Option<Wish> {
     let property = property?;
     let (name, value) = (property.name()?, property.value()?);
-    if !WISHES.contains(&name.text()) {
+    if wishes().all(|known| known != name.text()) {
         let word = if prefer { "`prefer`" } else { "`avoid`" };
-        let meant = nearest(name.text(), WISHES.iter().copied());
+        let meant = nearest(name.text(), wishes());
         diagnostics.push(e0201_unknown_property::unknown_property(
             span(file, name.range()),
             name.text(),
@@ -112,7 +115,7 @@ fn wish(
         "side" => WishFor::Side(text),
         "header" => WishFor::Header(text),
         property => match PinName::parse(&text) {
-            Some(pin) => WishFor::Pin(role_of_property(property), pin),
+            Some(pin) => WishFor::Pin(Role::from_property(property), pin),
             None => {
                 let place = span(file, value.range());
                 let takes = "a pin such as PA1";

@@ -155,6 +155,10 @@ impl<'a> Lexer<'a> {
 
     fn number(&mut self, start: usize) -> SyntaxKind {
         self.position = start;
+        if let Some(length) = frame_word(self.rest()) {
+            self.position += length;
+            return SyntaxKind::Ident;
+        }
         let (digits, base) = literal::split_base(self.rest());
         if base != 10 {
             self.position = self.text.len() - digits.len();
@@ -307,6 +311,21 @@ fn starts_token(rest: &str) -> bool {
     }
 }
 
+/// The length of a word such as `8N1`: digits, letters, digits. Such a word is no number with a unit,
+/// since no unit has digits; serial lines call their frames like that.
+fn frame_word(text: &str) -> Option<usize> {
+    let run = |from: usize, of: fn(&u8) -> bool| {
+        let rest = text.as_bytes().get(from..).unwrap_or_default();
+        from + rest.iter().take_while(|byte| of(byte)).count()
+    };
+    let digits = run(0, u8::is_ascii_digit);
+    let letters = run(digits, u8::is_ascii_uppercase);
+    let end = run(letters, u8::is_ascii_digit);
+    let ends = text.get(end..)?.chars().next().is_none_or(|next| !is_name_continue(next));
+    let prefix = text.get(digits..letters)?;
+    (letters > digits && end > letters && ends && !matches!(prefix, "E" | "X" | "B")).then_some(end)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -341,6 +360,9 @@ mod tests {
         check("1e3kHz", &[(Float, "1e3"), (Ident, "kHz")]);
         check("1e", &[(Int, "1"), (Ident, "e")]);
         check("0.1", &[(Float, "0.1")]);
+        check("8N1;", &[(Ident, "8N1"), (SyntaxKind::Semicolon, ";")]);
+        check("1E3", &[(Float, "1E3")]);
+        check("8N1_", &[(Int, "8"), (Ident, "N1_")]);
         check("18446744073709551615", &[(Int, "18446744073709551615")]);
     }
 

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::signal::Function;
-use sensedsl_model::design::{Board, Design, DeviceIndex};
+use sensedsl_model::design::{Board, Design, DeviceIndex, Wish, WishFor};
 use sensedsl_model::kind::Kind;
 
 use crate::assignment::DeviceWiring;
@@ -28,7 +28,7 @@ pub(crate) fn choose(
             continue;
         }
         let fixed = device.placement.unit.as_ref().map(|unit| unit.value.as_str());
-        let units = units(board, wiring, fixed);
+        let units = wished(units(board, wiring, fixed), &device.wishes, &board.wishes);
         let class = (device.delay_ms, device.prio);
         classes.entry(class).or_default().push((wiring.device, units));
     }
@@ -51,12 +51,27 @@ fn units(board: &Board, wiring: &DeviceWiring, fixed: Option<&str>) -> BTreeSet<
         return BTreeSet::new();
     };
     let serves = |unit: &u8| {
-        fixed.is_none_or(|fixed| fixed == format!("ADC{unit}"))
+        let name = format!("ADC{unit}");
+        fixed.is_none_or(|fixed| fixed == name)
+            && board.reserved.iter().all(|reserved| reserved.value != name)
             && board.profile().is_none_or(|profile| {
                 profile.adc(*unit).is_some_and(|adc| adc.inputs.contains(channel))
             })
     };
     units.iter().copied().filter(serves).collect()
+}
+
+/// The units that meet most of the wishes for units.
+fn wished(units: BTreeSet<u8>, own: &[Wish], of_board: &[Wish]) -> BTreeSet<u8> {
+    let met = |unit: u8| {
+        let wishes = own.iter().chain(of_board).filter_map(|wish| match &wish.what {
+            WishFor::Unit(wanted) => Some((*wanted == format!("ADC{unit}")) == wish.prefer),
+            WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => None,
+        });
+        wishes.filter(|met| *met).count()
+    };
+    let most = units.iter().map(|unit| met(*unit)).max().unwrap_or_default();
+    units.into_iter().filter(|unit| met(*unit) == most).collect()
 }
 
 /// The unit that serves most of the devices, the lowest of those.

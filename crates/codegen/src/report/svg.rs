@@ -78,9 +78,12 @@ fn board_picture(
     let mcu = board.mcu.as_deref().unwrap_or("MCU unknown");
     let subtitle = format!("{mcu}, cost {}", on.cost);
     let name = &board.name.value;
-    for (text, y, size, weight) in
-        [(name.as_str(), top + 26, 14, "bold"), (subtitle.as_str(), top + 46, 11, "normal")]
-    {
+    let name_size = if name.len() <= 24 { 14 } else { 10 };
+    let shown_name = cut(name, 34);
+    for (text, y, size, weight) in [
+        (shown_name.as_str(), top + 26, name_size, "bold"),
+        (subtitle.as_str(), top + 46, 11, "normal"),
+    ] {
         let text = escaped(text);
         let _ = writeln!(
             out,
@@ -168,11 +171,16 @@ fn label(pin: &Pin, uses: &[&Row]) -> String {
             format!("{} {} ({})", devices.join(", "), first.role, first.signal)
         }
     };
-    if text.chars().count() <= LETTERS_MAX {
-        return text;
+    cut(&text, LETTERS_MAX)
+}
+
+/// The text, cut where it is too long for its place.
+fn cut(text: &str, letters_max: usize) -> String {
+    if text.chars().count() <= letters_max {
+        return text.to_owned();
     }
-    let cut: String = text.chars().take(LETTERS_MAX - 1).collect();
-    format!("{cut}…")
+    let start: String = text.chars().take(letters_max - 1).collect();
+    format!("{start}…")
 }
 
 fn legend(out: &mut String, top: usize, kinds: &[&str]) {

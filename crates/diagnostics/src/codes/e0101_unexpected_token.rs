@@ -28,5 +28,8 @@ const CODE: Code = Code(&INFO);
 pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("expected {expected}, found {found}"))
         .here(format!("expected {expected}"))
-        .help(format!("write {expected} here, or remove {found}"))
+        .help(match found {
+            "none" | "the end of the file" => format!("write {expected} here"),
+            found => format!("write {expected} here, or remove {found}"),
+        })
 }

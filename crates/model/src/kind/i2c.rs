@@ -26,8 +26,9 @@ pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"
 /// Bus clock where the file says nothing: the standard mode.
 const SPEED_DEFAULT_HZ: u32 = 100_000;
 
-/// 7-bit addresses that the I2C specification leaves to devices.
-const ADDRESSES: std::ops::RangeInclusive<u64> = 0x08..=0x77;
+/// 7-bit addresses that devices have: the specification reserves 0x78 to 0x7F as well, and
+/// Devantech rangers use them all the same.
+const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x7F;
 
 /// Order of the bytes of one number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -100,7 +101,7 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
         fields.say(e0215_bad_address::bad_address(span, &text, why));
         return None;
     }
-    if !ADDRESSES.contains(&u64::from(seven_bit)) && !allowed_by_devices(byte) {
+    if !ADDRESSES.contains(&seven_bit) {
         let why = format!("0x{seven_bit:02X} is reserved by the I2C specification");
         fields.say(e0215_bad_address::bad_address(span, &text, &why));
         return None;
@@ -109,11 +110,6 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
         fields.say(h0701_eight_bit_address::eight_bit_address(span, byte));
     }
     Some(Spanned { value: seven_bit, span })
-}
-
-/// Devantech rangers use 8-bit addresses up to 0xFE although the specification reserves the last.
-fn allowed_by_devices(eight_bit: u8) -> bool {
-    (0xF0..=0xFE).contains(&eight_bit)
 }
 
 impl I2c {

@@ -100,6 +100,29 @@ pub enum Role {
 }
 
 impl Role {
+    /// All roles, in the order of the tie-break.
+    pub const ALL: [Self; 13] = [
+        Self::In,
+        Self::Out,
+        Self::Scl,
+        Self::Sda,
+        Self::Tx,
+        Self::Rx,
+        Self::Sck,
+        Self::Miso,
+        Self::Mosi,
+        Self::Cs,
+        Self::A,
+        Self::B,
+        Self::Trigger,
+    ];
+
+    /// The role whose pin that property fixes; none for `pin`, which stands for any only wire.
+    #[must_use]
+    pub fn from_property(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.property() == name && name != Self::In.property())
+    }
+
     /// The word in JSON output and, but for `in` and `out`, the property that fixes the pin.
     #[must_use]
     pub const fn name(self) -> &'static str {

@@ -1,0 +1,222 @@
+//! Seeded pin problems as JSON lines, each with our answer and the time it took: what
+//! `benches/compare.py` puts to other solvers.
+//!
+//!     cargo run --release -p sensedsl-solve --example instances -- [FAMILY...] > instances.jsonl
+#![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a developer's program")]
+#![allow(dead_code, reason = "the support code serves several programs")]
+
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+use std::time::{Duration, Instant};
+
+use sensedsl_solve::problem::{Claim, Holder, Problem};
+use sensedsl_solve::{Options, Outcome, solve};
+use support::board::TABLE_1;
+use support::generate::{Mix, problem, table};
+
+/// Instances of each size of a family.
+const SEEDS: u64 = 5;
+/// A run ends there: no instance is worth more.
+const LIMIT: Duration = Duration::from_secs(20);
+
+/// A family: its name, the tables of its boards, its sizes, its mix.
+struct Family {
+    name: &'static str,
+    boards: Boards,
+    sizes: &'static [u64],
+    mix: Mix,
+    dma: bool,
+}
+
+enum Boards {
+    Table1,
+    /// Boards of that many pins each, all different.
+    Different(&'static [u64]),
+    /// That many boards of that many pins, all the same.
+    Same(usize, u64),
+}
+
+const FAMILIES: &[Family] = &[
+    Family {
+        name: "table 1",
+        boards: Boards::Table1,
+        sizes: &[2, 4, 6, 8, 10, 12],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "one small board",
+        boards: Boards::Different(&[37]),
+        sizes: &[4, 8, 12, 16],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "one board",
+        boards: Boards::Different(&[82]),
+        sizes: &[8, 16, 24, 32],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "one full board",
+        boards: Boards::Different(&[114]),
+        sizes: &[40, 50, 60],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "one board, DMA-tight",
+        boards: Boards::Different(&[82]),
+        sizes: &[8, 12, 16, 20],
+        mix: Mix::Dma,
+        dma: true,
+    },
+    Family {
+        name: "one board, timer-tight",
+        boards: Boards::Different(&[82]),
+        sizes: &[8, 12, 16, 20],
+        mix: Mix::Timers,
+        dma: false,
+    },
+    Family {
+        name: "two boards",
+        boards: Boards::Different(&[51, 82]),
+        sizes: &[16, 32, 48],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "two equal boards",
+        boards: Boards::Same(2, 82),
+        sizes: &[16, 32, 48],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "four equal boards",
+        boards: Boards::Same(4, 51),
+        sizes: &[24, 48],
+        mix: Mix::General,
+        dma: false,
+    },
+    Family {
+        name: "eight boards",
+        boards: Boards::Different(&[37, 37, 51, 51, 51, 82, 82, 82]),
+        sizes: &[40, 80],
+        mix: Mix::General,
+        dma: false,
+    },
+];
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    for family in FAMILIES {
+        if !wanted.is_empty() && wanted.iter().all(|name| name != family.name) {
+            continue;
+        }
+        for size in family.sizes {
+            for seed in 0..SEEDS {
+                print_instance(family, *size, seed);
+            }
+        }
+    }
+}
+
+fn print_instance(family: &Family, size: u64, seed: u64) {
+    let tables: Vec<String> = match family.boards {
+        Boards::Table1 => vec![TABLE_1.to_owned()],
+        Boards::Different(pins) => {
+            (1..).zip(pins).map(|(number, pins)| table(seed * 100 + number, *pins)).collect()
+        }
+        Boards::Same(count, pins) => vec![table(seed * 100 + 1, pins); count],
+    };
+    let boards: Vec<(&str, bool)> = tables.iter().map(|table| (table.as_str(), false)).collect();
+    let problem = problem(seed, &boards, size, family.mix, family.dma).problem;
+    let (status, objective, micros) = measured(&problem);
+    println!(
+        "{{\"family\":\"{}\",\"devices\":{size},\"seed\":{seed},\"status\":\"{status}\",\
+         \"objective\":{objective:?},\"micros\":{micros},\"problem\":{}}}",
+        family.name,
+        json(&problem)
+    );
+}
+
+/// Status, objective (moved, violated, cost, spares) and the best of a few runs, proof and
+/// tie-break included.
+fn measured(problem: &Problem) -> (&'static str, [u32; 4], f64) {
+    let mut best = f64::INFINITY;
+    let mut result = ("stopped", [0; 4]);
+    for _ in 0..5 {
+        let start = Instant::now();
+        let stop = || start.elapsed() > LIMIT;
+        let outcome = solve(problem, &Options { any: false, stop: Some(&stop) }).unwrap();
+        let micros = start.elapsed().as_secs_f64() * 1e6;
+        best = best.min(micros);
+        result = match outcome {
+            Outcome::Solved(answer) => {
+                let o = answer.objective;
+                ("optimal", [o.moved, o.violated, o.cost, o.spares])
+            }
+            Outcome::Infeasible(_) => ("infeasible", [0; 4]),
+            Outcome::Stopped { .. } => ("stopped", [0; 4]),
+        };
+        if micros > 200_000.0 {
+            break;
+        }
+    }
+    (result.0, result.1, best)
+}
+
+fn holder(holder: Holder) -> i64 {
+    match holder {
+        Holder::Own => -1,
+        Holder::Group(group) => i64::from(group),
+    }
+}
+
+fn claims(claims: &[Claim]) -> String {
+    list(claims.iter().map(|claim| format!("[{},{}]", claim.resource.0, holder(claim.holder))))
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(","))
+}
+
+/// The problem with numbers for names; a holder of -1 is the device itself.
+fn json(problem: &Problem) -> String {
+    let pins = list(problem.pins.iter().map(|pin| pin.cost.to_string()));
+    let spares = list(problem.boards.iter().map(|board| u32::from(board.spare).to_string()));
+    let dma = list(problem.dma.iter().map(|user| {
+        list(user.requests.iter().map(|request| {
+            list(request.streams.iter().map(|stream| stream.0.to_string()))
+        }))
+    }));
+    let devices = list(problem.devices.iter().map(|device| {
+        list(device.alternatives.iter().map(|alternative| {
+            let roles = list(alternative.roles.iter().map(|role| {
+                list(role.candidates.iter().map(|candidate| {
+                    format!(
+                        "[{},{},{},{}]",
+                        candidate.pin.0,
+                        holder(candidate.holder),
+                        claims(&candidate.claims),
+                        list(candidate.violates.iter().map(|rule| rule.0.to_string()))
+                    )
+                }))
+            }));
+            format!(
+                "{{\"board\":{},\"claims\":{},\"violates\":{},\"dma\":{},\"roles\":{roles}}}",
+                alternative.board.0,
+                claims(&alternative.claims),
+                list(alternative.violates.iter().map(|rule| rule.0.to_string())),
+                list(alternative.dma.iter().map(|user| user.0.to_string()))
+            )
+        }))
+    }));
+    format!(
+        "{{\"pins\":{pins},\"spares\":{spares},\"rules\":{},\"dma\":{dma},\"devices\":{devices}}}",
+        problem.rules
+    )
+}
