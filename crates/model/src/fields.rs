@@ -320,7 +320,11 @@ impl<'a> Fields<'a> {
     pub(crate) fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Option<Spanned<T>> {
         let field = self.take(name)?;
         let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
-        let Some(found) = name_or_text(&field.value) else {
+        // `8E1` is a number to the parser, and a word to who wants one.
+        let as_written = field.value.syntax().text().to_string();
+        let is_word = words.iter().any(|(word, _)| *word == as_written);
+        let found = name_or_text(&field.value).or_else(|| is_word.then_some(as_written));
+        let Some(found) = found else {
             self.wrong(&field, &format!("one of {}", all()));
             return None;
         };
