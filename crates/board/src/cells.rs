@@ -9,26 +9,27 @@ use std::ops::Range;
 
 /// The text, cut into pieces.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct Sheet {
+pub struct Sheet {
     /// Comment lines without their `#`, in order.
-    pub(crate) comments: Vec<Range<usize>>,
+    pub comments: Vec<Range<usize>>,
     /// All other lines that are not blank, in order.
-    pub(crate) rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Vec<Cell>>,
     /// Quotes that do not end, and what follows a closing quote.
-    pub(crate) bad_quotes: Vec<Range<usize>>,
+    pub bad_quotes: Vec<Range<usize>>,
 }
 
 /// One cell: the bytes between its separators, or between its quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Cell {
+pub struct Cell {
     /// Where its content is.
-    pub(crate) range: Range<usize>,
+    pub range: Range<usize>,
     /// True where `""` stands for one quote.
-    pub(crate) quoted: bool,
+    pub quoted: bool,
 }
 
 /// Cuts a text. Never fails.
-pub(crate) fn split(text: &str) -> Sheet {
+#[must_use]
+pub fn split(text: &str) -> Sheet {
     let mut cutter = Cutter { bytes: text.as_bytes(), at: 0, separator: b',' };
     if text.starts_with('\u{feff}') {
         cutter.at = '\u{feff}'.len_utf8();

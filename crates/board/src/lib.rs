@@ -6,7 +6,7 @@
 //! understood and a list of [`finding::Finding`]s, each with its place in the text.
 
 pub mod catalog;
-mod cells;
+pub mod cells;
 pub mod finding;
 mod load;
 pub mod mcu;

@@ -1,0 +1,191 @@
+//! Pins with their usages in any order in, a board table out: usages in the columns of their
+//! peripherals, the inputs of several converters merged.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::signal::{Function, Signal};
+use sensedsl_board::table::{Column, Onboard, Pin, Property, Role, Table, Usage};
+
+/// One pin of a table to be.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) name: PinName,
+    pub(crate) position: Option<String>,
+    pub(crate) side: Option<String>,
+    pub(crate) header: Option<String>,
+    pub(crate) label: Option<String>,
+    pub(crate) voltage: Option<String>,
+    pub(crate) note: Option<String>,
+    pub(crate) onboard: Option<Onboard>,
+    /// Signals and their alternate functions.
+    pub(crate) usages: Vec<(String, Option<u8>)>,
+}
+
+impl Row {
+    pub(crate) fn new(name: PinName) -> Self {
+        Self {
+            name,
+            position: None,
+            side: None,
+            header: None,
+            label: None,
+            voltage: None,
+            note: None,
+            onboard: None,
+            usages: Vec::new(),
+        }
+    }
+
+    /// The text of a column that describes the pin; none for the other columns.
+    pub(crate) fn text(&mut self, role: Role) -> Option<&mut Option<String>> {
+        match role {
+            Role::Position => Some(&mut self.position),
+            Role::Side => Some(&mut self.side),
+            Role::Header => Some(&mut self.header),
+            Role::Label => Some(&mut self.label),
+            Role::Voltage => Some(&mut self.voltage),
+            Role::Note => Some(&mut self.note),
+            Role::Pin | Role::Onboard | Role::Alternate | Role::Usages => None,
+        }
+    }
+}
+
+/// The columns of usages and the starts of the peripherals that stand in each; the last takes the
+/// rest.
+const COLUMNS: [(&str, &[&str]); 10] = [
+    ("ADC", &["ADC"]),
+    ("DAC", &["DAC"]),
+    ("I2C", &["I2C", "FMPI2C"]),
+    ("TIM", &["TIM", "LPTIM", "HRTIM"]),
+    ("UART", &["USART", "UART", "LPUART"]),
+    ("SPI", &["SPI"]),
+    ("I2S", &["I2S"]),
+    ("CAN", &["CAN", "FDCAN"]),
+    ("USB", &["USB"]),
+    ("Other", &[]),
+];
+
+/// The column of a signal.
+fn column(signal: &Signal) -> &'static str {
+    let unit = signal.name().split('_').next().unwrap_or_default();
+    let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
+    let of = COLUMNS.iter().find(|(_, stems)| stems.contains(&stem));
+    of.map_or("Other", |(column, _)| column)
+}
+
+/// Makes a table. The rows are sorted; of two rows for a pin the usages are united.
+pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
+    let mut pins: BTreeMap<PinName, Pin> = BTreeMap::new();
+    for row in rows {
+        let usages = usages(row.usages);
+        if let Some(pin) = pins.get_mut(&row.name) {
+            for usage in usages {
+                if pin.usage(&usage.signal).is_none() {
+                    pin.usages.push(usage);
+                }
+            }
+            continue;
+        }
+        let pin = Pin {
+            spelled: row.name.to_string(),
+            name: row.name.clone(),
+            usages,
+            position: row.position,
+            side: row.side,
+            header: row.header,
+            label: row.label,
+            voltage: row.voltage,
+            note: row.note,
+            onboard: row.onboard,
+            row: 0,
+            range: 0..0,
+        };
+        pins.insert(row.name, pin);
+    }
+    let pins: Vec<Pin> = pins.into_values().collect();
+    let properties: Vec<Property> = properties
+        .iter()
+        .map(|(key, value)| Property { key: (*key).into(), value: value.clone(), range: 0..0 })
+        .collect();
+    let mcu = properties.iter().find(|one| one.key == "mcu").map(|one| one.value.clone());
+    Table { mcu, columns: columns(&pins), properties, pins }
+}
+
+/// The columns that have something in them.
+fn columns(pins: &[Pin]) -> Vec<Column> {
+    let any = |has: &dyn Fn(&Pin) -> bool| pins.iter().any(has);
+    let mut columns = vec![("Pin", Role::Pin)];
+    let described: [(&str, Role, &dyn Fn(&Pin) -> bool); 6] = [
+        ("Position", Role::Position, &|pin| pin.position.is_some()),
+        ("Side", Role::Side, &|pin| pin.side.is_some()),
+        ("Header", Role::Header, &|pin| pin.header.is_some()),
+        ("Label", Role::Label, &|pin| pin.label.is_some()),
+        ("Voltage", Role::Voltage, &|pin| pin.voltage.is_some()),
+        ("Onboard", Role::Onboard, &|pin| pin.onboard.is_some()),
+    ];
+    let present = described.iter().filter(|(_, _, has)| any(has));
+    columns.extend(present.map(|(header, role, _)| (*header, *role)));
+    let used = |header: &str| any(&|pin: &Pin| pin.usages.iter().any(|u| u.column == header));
+    let of_usages = COLUMNS.iter().filter(|(header, _)| used(header));
+    columns.extend(of_usages.map(|(header, _)| (*header, Role::Usages)));
+    if any(&|pin| pin.note.is_some()) {
+        columns.push(("Note", Role::Note));
+    }
+    let column = |(header, role): (&str, Role)| Column { header: header.into(), role, range: 0..0 };
+    columns.into_iter().map(column).collect()
+}
+
+/// The usages of a row in natural order, each signal once.
+fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
+    let mut converters: BTreeMap<u8, Vec<u8>> = BTreeMap::new();
+    let mut usages: Vec<Usage> = Vec::new();
+    for (spelled, alternate) in list {
+        let (signal, _) = Signal::parse(&spelled);
+        if let Function::Adc { units, channel } = signal.function() {
+            converters.entry(*channel).or_default().extend(units);
+        } else if let Some(known) = usages.iter_mut().find(|known| known.signal == signal) {
+            known.alternate = known.alternate.or(alternate);
+        } else {
+            usages.push(usage(signal, spelled, alternate));
+        }
+    }
+    for (channel, mut units) in converters {
+        units.sort_unstable();
+        units.dedup();
+        let units: String = units.iter().map(u8::to_string).collect();
+        let spelled = format!("ADC{units}_IN{channel}");
+        usages.push(usage(Signal::parse(&spelled).0, spelled, None));
+    }
+    usages.sort_by(|a, b| natural(a.signal.name(), b.signal.name()));
+    usages
+}
+
+fn usage(signal: Signal, spelled: String, alternate: Option<u8>) -> Usage {
+    Usage { column: column(&signal).into(), signal, spelled, alternate, range: 0..0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn converters_merge_and_columns_hold_their_peripherals() {
+        let mut row = Row::new(PinName::parse("PA10").unwrap());
+        for (signal, alternate) in [
+            ("ADC3_IN1", None),
+            ("TIM2_CH2", Some(1)),
+            ("ADC1_IN1", None),
+            ("ADC2_INP4", None),
+            ("TIM2_CH2", None),
+            ("ETH_REF_CLK", Some(11)),
+        ] {
+            row.usages.push((signal.into(), alternate));
+        }
+        let rows = vec![row, Row::new(PinName::parse("PA2").unwrap())];
+        let csv = table(&[("mcu", "STM32F407VGTx".into())], rows).to_csv();
+        let expected = "# mcu = STM32F407VGTx\nPin,ADC,TIM,Other\nPA2,-,-,-\n\
+                        PA10,ADC2_IN4 ADC13_IN1,TIM2_CH2@1,ETH_REF_CLK@11\n";
+        assert_eq!(csv, expected);
+    }
+}

@@ -1,0 +1,288 @@
+//! The description of an MCU in XML, from a CubeMX installation or ST's open pin data, in; its
+//! board table out.
+//!
+//! The file lists packages, pads and signals; the alternate functions stand in a second file that
+//! it names, `IP/GPIO-<version>_Modes.xml`. Pads that several pins share have one `Position`. On
+//! the F1 family signals have no alternate function but belong to remap blocks, of which each
+//! peripheral uses one: the column `Note` lists them.
+
+use std::collections::BTreeMap;
+
+use roxmltree::{Document, Node, ParsingOptions};
+use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::{Function, Signal};
+use sensedsl_diagnostics::{FileId, Span};
+
+use crate::assemble::{self, Row};
+use crate::log::Log;
+use crate::{Made, Source};
+
+/// Imports the description of an MCU.
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+    let (file, text) = log.text(source.name, source.bytes);
+    if text.is_empty() {
+        return Made::default();
+    }
+    let whole = Span::new(file, 0..0);
+    let document = match parse(&text) {
+        Ok(document) => document,
+        Err(why) => {
+            log.unreadable(whole, source.name, &why);
+            return Made::default();
+        }
+    };
+    let mcu = document.root_element();
+    let reference = mcu.attribute("RefName").unwrap_or_default();
+    if !is(&mcu, "Mcu") || reference.is_empty() {
+        log.unreadable(whole, source.name, "its root is no `Mcu` with a `RefName`");
+        return Made::default();
+    }
+    let gpio = mcu.children().find(|node| is(node, "IP") && node.attribute("Name") == Some("GPIO"));
+    let Some(version) = gpio.and_then(|gpio| gpio.attribute("Version")) else {
+        log.unreadable(whole, source.name, "it names no version of its GPIO");
+        return Made::default();
+    };
+    let path = format!("IP/GPIO-{version}_Modes.xml");
+    let Some(modes) = (source.beside)(&path) else {
+        let why = format!("the file `{path}` with its alternate functions is not beside it");
+        log.unreadable(whole, source.name, &why);
+        return Made::default();
+    };
+    let functions = match functions(&modes) {
+        Ok(functions) => functions,
+        Err(why) => {
+            log.unreadable(whole, &path, &why);
+            return Made::default();
+        }
+    };
+    let reader = Reader { file, functions };
+    let rows = reader.pins(&mcu, log);
+    if rows.is_empty() {
+        log.no_table(whole, "the MCU has no general-purpose pin");
+        return Made::default();
+    }
+    let mut properties = vec![("mcu", largest(reference))];
+    if reference.contains('(') {
+        properties.push(("parts", parts(reference).join(" ")));
+    }
+    let more = [("package", "Package"), ("line", "Line"), ("version", "DBVersion")];
+    for (key, attribute) in more {
+        let value = mcu.attribute(attribute).unwrap_or_default();
+        if !value.is_empty() {
+            properties.push((key, value.to_owned()));
+        }
+    }
+    Made { table: Some(assemble::table(&properties, rows).to_csv()), program: None }
+}
+
+fn parse(text: &str) -> Result<Document<'_>, String> {
+    // A document type could only bring entities, which these files do not use.
+    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
+    Document::parse_with_options(text, options).map_err(|error| error.to_string())
+}
+
+fn is(node: &Node<'_, '_>, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name
+}
+
+/// `STM32F407V(E-G)Tx` stands for one part each flash size.
+fn parts(reference: &str) -> Vec<String> {
+    let Some((start, rest)) = reference.split_once('(') else { return vec![reference.to_owned()] };
+    let Some((sizes, end)) = rest.split_once(')') else { return vec![reference.to_owned()] };
+    sizes.split('-').map(|size| format!("{start}{size}{end}")).collect()
+}
+
+/// The part with the most flash: the last one.
+fn largest(reference: &str) -> String {
+    parts(reference).pop().unwrap_or_default()
+}
+
+/// What the GPIO file says of a pin's signal.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Route {
+    alternate: Option<u8>,
+    /// The numbers of the remap blocks, on the F1 family.
+    remaps: Vec<String>,
+}
+
+/// The routes by canonical pin and signal.
+type Functions = BTreeMap<String, BTreeMap<String, Route>>;
+
+fn functions(bytes: &[u8]) -> Result<Functions, String> {
+    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+    let document = parse(text)?;
+    let mut functions = Functions::new();
+    for pin in document.root_element().children().filter(|node| is(node, "GPIO_Pin")) {
+        let Some(name) = pin.attribute("Name").and_then(PinName::parse) else { continue };
+        let signals = functions.entry(name.as_str().to_owned()).or_default();
+        for signal in pin.children().filter(|node| is(node, "PinSignal")) {
+            let route = route(&signal);
+            let name = signal.attribute("Name").unwrap_or_default();
+            signals.entry(name.to_owned()).or_insert(route);
+        }
+    }
+    Ok(functions)
+}
+
+fn route(signal: &Node<'_, '_>) -> Route {
+    let mut route = Route::default();
+    for child in signal.children().filter(Node::is_element) {
+        if is(&child, "RemapBlock") {
+            let block = child.attribute("Name").unwrap_or_default();
+            let number = block.rsplit_once("REMAP").map_or(block, |(_, number)| number);
+            route.remaps.push(number.to_owned());
+        } else if child.attribute("Name") == Some("GPIO_AF") {
+            let value = child.children().find(|node| is(node, "PossibleValue"));
+            let text = value.and_then(|value| value.text()).unwrap_or_default();
+            let digits = text.trim().strip_prefix("GPIO_AF").unwrap_or_default();
+            let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+            let number = digits.get(..end).and_then(|digits| digits.parse().ok());
+            route.alternate = number.filter(|number| *number < 16);
+        }
+    }
+    route
+}
+
+struct Reader {
+    file: FileId,
+    functions: Functions,
+}
+
+impl Reader {
+    fn span(&self, node: &Node<'_, '_>) -> Span {
+        // The opening tag alone: a pin with its signals would fill the screen.
+        let range = node.range();
+        let end = node.first_child().map_or(range.end, |child| child.range().start);
+        Span::new(self.file, range.start..end)
+    }
+
+    fn pins(&self, mcu: &Node<'_, '_>, log: &mut Log) -> Vec<Row> {
+        let mut rows: Vec<Row> = Vec::new();
+        let mut others: Vec<(&str, Span)> = Vec::new();
+        let mut indices: BTreeMap<PinName, usize> = BTreeMap::new();
+        for node in mcu.children().filter(|node| is(node, "Pin")) {
+            let spelled = node.attribute("Name").unwrap_or_default();
+            let type_of = node.attribute("Type").unwrap_or_default();
+            let has_signals = node.children().any(|child| is(&child, "Signal"));
+            if !matches!(type_of, "I/O" | "MonoIO") || !has_signals {
+                continue;
+            }
+            let name = PinName::parse(spelled).filter(|name| name.port().is_some());
+            let Some(name) = name else {
+                others.push((spelled, self.span(&node)));
+                continue;
+            };
+            let row = self.pin(&node, name);
+            match indices.get(&row.name).and_then(|at| rows.get_mut(*at)) {
+                Some(first) => self.again(&node, first, row, log),
+                None => {
+                    indices.insert(row.name.clone(), rows.len());
+                    rows.push(row);
+                }
+            }
+        }
+        if let Some((_, first)) = others.first() {
+            let names: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
+            let what = match names.as_slice() {
+                [one] => format!("`{one}` is no pin of a port and is left out"),
+                [one, .., last] => {
+                    format!(
+                        "{} pads are no pins of a port and are left out: {one} … {last}",
+                        names.len()
+                    )
+                }
+                [] => String::new(),
+            };
+            log.dropped(*first, "", &what);
+        }
+        rows
+    }
+
+    /// A pin that can be routed to a second pad: its usages are one row's.
+    fn again(&self, node: &Node<'_, '_>, first: &mut Row, row: Row, log: &mut Log) {
+        let what = format!(
+            "{} is on position {} too, by remapping; the table has it on {}",
+            row.name,
+            row.position.as_deref().unwrap_or("?"),
+            first.position.as_deref().unwrap_or("?"),
+        );
+        log.doubtful(self.span(node), "", &what);
+        for usage in row.usages {
+            if !first.usages.contains(&usage) {
+                first.usages.push(usage);
+            }
+        }
+    }
+
+    fn pin(&self, node: &Node<'_, '_>, name: PinName) -> Row {
+        let routes = self.functions.get(name.as_str());
+        let mut row = Row::new(name);
+        row.position = node.attribute("Position").map(str::to_owned);
+        let mut remaps = Vec::new();
+        for signal in node.children().filter(|child| is(child, "Signal")) {
+            let signal = signal.attribute("Name").unwrap_or_default();
+            if signal == "GPIO" || signal.is_empty() {
+                continue;
+            }
+            let spelled = spelled(signal);
+            let route = routes.and_then(|routes| routes.get(signal));
+            let alternate = route.and_then(|route| route.alternate);
+            let blocks = route.map(|route| route.remaps.as_slice()).unwrap_or_default();
+            if !blocks.is_empty() {
+                remaps.push(format!("{spelled}={}", blocks.join("|")));
+            }
+            row.usages.push((spelled, alternate));
+        }
+        if !remaps.is_empty() {
+            row.note = Some(format!("remap {}", remaps.join(" ")));
+        }
+        row
+    }
+}
+
+/// A signal as a usage of a table: one word. Some names of ST's would be taken for slips of the
+/// pen: a break input becomes `BKIN`, an event of the only converter one of the first, and what is
+/// left gets `ST_` before it.
+fn spelled(signal: &str) -> String {
+    let name = signal.split_whitespace().collect::<Vec<_>>().join("_").replace('@', "_");
+    if Signal::parse(&name).1.is_none() {
+        return name;
+    }
+    let (unit, line) = name.split_once('_').unwrap_or((&name, ""));
+    let known = match line {
+        "BK" | "BRK" => format!("{unit}_BKIN"),
+        "BK2" | "BRK2" => format!("{unit}_BKIN2"),
+        _ => format!("{unit}1_{line}"),
+    };
+    let fits = |name: &&String| {
+        let (signal, malformed) = Signal::parse(name);
+        malformed.is_none() && *signal.function() == Function::Other
+    };
+    Some(known).filter(|known| fits(&known)).unwrap_or_else(|| format!("ST_{name}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_st_are_no_slips() {
+        for (signal, expected) in [
+            ("TIM2_CH1", "TIM2_CH1"),
+            ("SYS_JTMS-SWDIO", "SYS_JTMS-SWDIO"),
+            ("TIM1_BK2", "TIM1_BKIN2"),
+            ("DAC_EXTI9", "DAC1_EXTI9"),
+            ("ADC_IN0b", "ST_ADC_IN0b"),
+            ("DEBUG_X Y", "DEBUG_X_Y"),
+        ] {
+            assert_eq!(spelled(signal), expected);
+            assert_eq!(Signal::parse(&spelled(signal)).1, None, "{signal}");
+        }
+    }
+
+    #[test]
+    fn a_reference_stands_for_its_parts() {
+        assert_eq!(parts("STM32F407V(E-G)Tx"), ["STM32F407VETx", "STM32F407VGTx"]);
+        assert_eq!(largest("STM32G031Y8Yx"), "STM32G031Y8Yx");
+    }
+}

@@ -1,0 +1,158 @@
+//! Bytes in, text out, and what of it is a guess.
+//!
+//! UTF-8 is read as it is, UTF-16 by its byte order mark or its zero bytes. What is left over is
+//! taken for Windows-1252, the superset of Latin-1 that spreadsheets write: byte by byte, so that
+//! one wrong byte in a UTF-8 file costs one character.
+
+use std::ops::Range;
+
+/// A text and the places that are guesses.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Decoded {
+    pub(crate) text: String,
+    pub(crate) guesses: Vec<Guess>,
+    /// The encoding of the whole text, where it is not UTF-8.
+    pub(crate) wide: Option<&'static str>,
+}
+
+/// Bytes that are no UTF-8.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Guess {
+    /// Where the characters are that they were read as.
+    pub(crate) range: Range<usize>,
+    /// The first of them in the file.
+    pub(crate) offset: usize,
+    /// The bytes.
+    pub(crate) bytes: Vec<u8>,
+}
+
+/// Decodes a text; none for what is no text.
+pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
+    if let Some(decoded) = utf16(bytes) {
+        return Some(decoded);
+    }
+    let control = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c | 0x1a);
+    if bytes.iter().any(control) {
+        return None;
+    }
+    let mut decoded = Decoded::default();
+    let mut offset = 0;
+    for chunk in bytes.utf8_chunks() {
+        decoded.text.push_str(chunk.valid());
+        offset += chunk.valid().len();
+        let invalid = chunk.invalid();
+        if !invalid.is_empty() {
+            let start = decoded.text.len();
+            decoded.text.extend(invalid.iter().map(|byte| windows_1252(*byte)));
+            let range = start..decoded.text.len();
+            decoded.guess(Guess { range, offset, bytes: invalid.to_vec() });
+            offset += invalid.len();
+        }
+    }
+    Some(decoded)
+}
+
+impl Decoded {
+    /// Adds a guess, to the one before it where they touch.
+    fn guess(&mut self, guess: Guess) {
+        match self.guesses.last_mut() {
+            Some(last) if last.range.end == guess.range.start => {
+                last.range.end = guess.range.end;
+                last.bytes.extend(guess.bytes);
+            }
+            Some(_) | None => self.guesses.push(guess),
+        }
+    }
+}
+
+fn utf16(bytes: &[u8]) -> Option<Decoded> {
+    let (wide, skip) = match bytes {
+        [0xff, 0xfe, ..] => ("UTF-16LE", 2),
+        [0xfe, 0xff, ..] => ("UTF-16BE", 2),
+        // Without a mark: the first letters of a table are ASCII.
+        [1..=255, 0, 1..=255, 0, ..] => ("UTF-16LE", 0),
+        [0, 1..=255, 0, 1..=255, ..] => ("UTF-16BE", 0),
+        _ => return None,
+    };
+    let unit = |pair: &[u8]| match *pair {
+        [low, high] if wide == "UTF-16LE" => u16::from_le_bytes([low, high]),
+        [high, low] => u16::from_be_bytes([high, low]),
+        // Half a character at the end.
+        _ => 0xfffd,
+    };
+    let units = bytes.get(skip..)?.chunks(2).map(unit);
+    let mut decoded = Decoded { wide: Some(wide), ..Decoded::default() };
+    let mut offset = skip;
+    for character in char::decode_utf16(units) {
+        let start = decoded.text.len();
+        let read = character.as_ref().copied().unwrap_or(char::REPLACEMENT_CHARACTER);
+        if read.is_control() && !matches!(read, '\t' | '\n' | '\r') {
+            return None;
+        }
+        decoded.text.push(read);
+        if read == char::REPLACEMENT_CHARACTER {
+            let of = bytes.get(offset..bytes.len().min(offset + 2)).unwrap_or_default().to_vec();
+            let range = start..decoded.text.len();
+            decoded.guess(Guess { range, offset, bytes: of });
+        }
+        offset += 2 * read.len_utf16();
+    }
+    Some(decoded)
+}
+
+/// A byte of the code page 1252; that of an unused place is lost.
+fn windows_1252(byte: u8) -> char {
+    const FROM_0X80: [char; 32] = [
+        '€', '\u{fffd}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{fffd}', 'Ž',
+        '\u{fffd}', '\u{fffd}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ',
+        '\u{fffd}', 'ž', 'Ÿ',
+    ];
+    let special = byte.checked_sub(0x80).and_then(|at| FROM_0X80.get(usize::from(at)));
+    special.copied().unwrap_or(char::from(byte))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn utf8_is_no_guess() {
+        let text = "Pin,Größe\n";
+        let expected = Decoded { text: text.into(), ..Decoded::default() };
+        assert_eq!(decode(text.as_bytes()), Some(expected));
+    }
+
+    #[test]
+    fn latin_1_is_guessed_at_its_place() {
+        let decoded = decode(b"I\xb2C1,\xc3\xa4,\x80").unwrap();
+        assert_eq!(decoded.text, "I²C1,ä,€");
+        let places: Vec<_> = decoded.guesses.iter().map(|guess| guess.offset).collect();
+        assert_eq!(places, [1, 8]);
+        assert_eq!(&decoded.text[decoded.guesses[0].range.clone()], "²");
+    }
+
+    #[test]
+    fn utf_16_comes_both_ways() {
+        let text = "Pin;µ\n😀";
+        let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        for (mark, bytes) in
+            [(&b"\xff\xfe"[..], &little), (b"", &little), (b"\xfe\xff", &big), (b"", &big)]
+        {
+            let decoded = decode(&[mark, bytes].concat()).unwrap();
+            assert_eq!(decoded.text, text);
+            assert!(decoded.wide.is_some() && decoded.guesses.is_empty());
+        }
+    }
+
+    #[test]
+    fn half_a_character_is_found() {
+        let decoded = decode(b"\xff\xfeP\0i\0\x00\xd8n\0").unwrap();
+        assert_eq!((decoded.text.as_str(), decoded.guesses.len()), ("Pi\u{fffd}n", 1));
+    }
+
+    #[test]
+    fn what_is_no_text_is_none() {
+        assert_eq!(decode(b"\x7fELF\x02\x01\x00"), None);
+    }
+}

@@ -1,0 +1,78 @@
+//! Bytes in, the format they are in out: by content alone, as names lie.
+
+use crate::decode::decode;
+
+/// A format that can be imported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Format {
+    /// A table as text, wide or long.
+    Csv,
+    /// A workbook of Excel and others.
+    Xlsx,
+    /// A workbook of LibreOffice and others.
+    Ods,
+    /// The description of an MCU in a CubeMX installation.
+    CubeMx,
+    /// A project of CubeMX.
+    Ioc,
+    /// A board of `ArduPilot`.
+    Hwdef,
+    /// The alternate functions of `MicroPython`'s ports.
+    MicroPython,
+}
+
+/// The format of a content, if it looks like any.
+#[must_use]
+pub fn detect(bytes: &[u8]) -> Option<Format> {
+    if bytes.starts_with(b"PK\x03\x04") {
+        // The first member of an OpenDocument file is its type, uncompressed.
+        let head = bytes.get(..200).unwrap_or(bytes);
+        let ods = head.windows(8).any(|window| window == b"mimetype");
+        return Some(if ods { Format::Ods } else { Format::Xlsx });
+    }
+    let text = decode(bytes)?.text;
+    if text.trim().is_empty() {
+        return None;
+    }
+    if text.trim_start().starts_with('<') {
+        return text.contains("<Mcu").then_some(Format::CubeMx);
+    }
+    let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
+    if lines().any(|line| line.starts_with("Mcu.") && line.contains('=')) {
+        return Some(Format::Ioc);
+    }
+    let content = || lines().filter(|line| !line.starts_with('#'));
+    if content().next().is_some_and(|head| head.starts_with("Port,") && head.contains(",AF0,")) {
+        return Some(Format::MicroPython);
+    }
+    let hwdef = |line: &str| {
+        let mut words = line.split_whitespace();
+        let first = words.next().unwrap_or_default();
+        let start = matches!(first, "MCU" | "APJ_BOARD_ID" | "OSCILLATOR_HZ" | "include");
+        start && words.next().is_some() && !line.contains([',', ';'])
+    };
+    Some(if content().any(hwdef) { Format::Hwdef } else { Format::Csv })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_by_content() {
+        for (content, expected) in [
+            ("Pin,ADC\nPA1,ADC1_IN1\n", Some(Format::Csv)),
+            ("# mcu = STM32F407VG\nPin;ADC\n", Some(Format::Csv)),
+            ("Port,,AF0,AF1\n,,SYS,TIM1/2\n", Some(Format::MicroPython)),
+            ("<?xml version=\"1.0\"?>\n<Mcu RefName=\"X\"/>", Some(Format::CubeMx)),
+            ("<html/>", None),
+            ("#c\nMcu.Name=STM32F407VGTx\n", Some(Format::Ioc)),
+            ("# b\nMCU STM32F4xx STM32F405xx\nPA0 UART4_TX UART4\n", Some(Format::Hwdef)),
+            ("include ../x/hwdef.dat\n", Some(Format::Hwdef)),
+            ("", None),
+            ("\u{0}\u{1}\u{2}", None),
+        ] {
+            assert_eq!(detect(content.as_bytes()), expected, "{content:?}");
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! From the pins of a project to devices: an analog sensor for each converter input, a serial port
+//! for TX and RX of one unit, and so on. What a project does not say (an address, the frame of a
+//! message) is left open, the device is a comment then.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::{CanLine, Function, I2cLine, Signal, SpiLine, UartLine};
+
+use crate::log::Log;
+use crate::project::{Project, TimerMode, Using, Wire, identifier, one_line};
+
+/// Identifiers go from 1 to this.
+const IDS_MAX: usize = 254;
+/// Words of the language that a device cannot be called.
+const WORDS: [&str; 18] = [
+    "use", "spare", "board", "on", "link", "sensor", "actuator", "returns", "accepts", "driver",
+    "for", "prefer", "avoid", "reserve", "release", "allow", "true", "false",
+];
+
+/// A device as text.
+#[derive(Clone, Debug)]
+pub(crate) struct Device {
+    /// `sensor Front returns uint16`.
+    pub(crate) head: String,
+    /// The lines of its block.
+    pub(crate) properties: Vec<String>,
+    /// The pins it is on.
+    pub(crate) pins: Vec<PinName>,
+    /// Something is missing: it stands in the file as a comment.
+    pub(crate) open: bool,
+}
+
+/// The devices of a project, in the order of its pins.
+pub(crate) fn infer(project: &Project, log: &mut Log) -> Vec<Device> {
+    let mut maker =
+        Maker { project, log, names: BTreeSet::new(), devices: Vec::new(), units: Units::new() };
+    for wire in &project.wires {
+        maker.wire(wire);
+    }
+    let units = std::mem::take(&mut maker.units);
+    for (unit, wires) in &units {
+        maker.unit(unit, wires);
+    }
+    maker.devices
+}
+
+/// The wires of each peripheral instance that takes several, by role.
+type Units<'a> = BTreeMap<String, BTreeMap<&'static str, &'a Wire>>;
+
+struct Maker<'a, 'l> {
+    project: &'a Project,
+    log: &'l mut Log,
+    /// Names that are taken, without case and underscores.
+    names: BTreeSet<String>,
+    devices: Vec<Device>,
+    units: Units<'a>,
+}
+
+/// A device to be.
+struct Plan<'p> {
+    /// The wanted name, and what is used where there is none.
+    label: Option<&'p str>,
+    name: String,
+    /// `sensor` or `actuator`, and its type.
+    kind: (&'p str, &'p str),
+    properties: Vec<String>,
+    wires: Vec<(&'p str, &'p Wire)>,
+    open: bool,
+}
+
+impl<'a> Maker<'a, '_> {
+    fn wire(&mut self, wire: &'a Wire) {
+        match &wire.using {
+            Using::Input => {
+                self.single(wire, "Input", ("sensor", "bool"), vec!["type = digital;".into()]);
+            }
+            Using::Output(high) => {
+                let mut properties = vec!["type = digital;".to_owned()];
+                if *high {
+                    properties.push("initial = true;".into());
+                }
+                self.single(wire, "Output", ("actuator", "bool"), properties);
+            }
+            Using::Interrupt(edge) => {
+                let properties = vec!["type = digital;".into(), format!("edge = {edge};")];
+                self.single(wire, "Input", ("sensor", "bool"), properties);
+            }
+            Using::Select(_) => {}
+            Using::Timer(signal, mode) => self.timer(wire, signal, *mode),
+            Using::Signal(signal) => self.signal(wire, signal),
+        }
+    }
+
+    /// A device on one pin.
+    fn single(&mut self, wire: &'a Wire, stem: &str, kind: (&str, &str), properties: Vec<String>) {
+        let name = format!("{stem}{}", wire.pin);
+        let (label, wires) = (wire.label.as_deref(), vec![("pin", wire)]);
+        self.push(Plan { label, name, kind, properties, wires, open: false });
+    }
+
+    fn timer(&mut self, wire: &'a Wire, spelled: &str, mode: TimerMode) {
+        let (signal, _) = Signal::parse(spelled);
+        let Function::Timer { timer, channel, complementary } = *signal.function() else { return };
+        let unit = format!("unit = TIM{timer};");
+        let what = match mode {
+            TimerMode::Capture if !complementary && channel <= 2 => {
+                let properties = vec!["type = icu;".into(), unit];
+                return self.single(wire, "Capture", ("sensor", "uint32"), properties);
+            }
+            TimerMode::Output if !complementary => {
+                let properties = vec!["type = pwm;".into(), unit];
+                return self.single(wire, "Pwm", ("actuator", "uint16"), properties);
+            }
+            TimerMode::Encoder if !complementary && channel <= 2 => {
+                let role = if channel == 1 { "a" } else { "b" };
+                self.units.entry(format!("TIM{timer}")).or_default().insert(role, wire);
+                return;
+            }
+            TimerMode::Unknown => "the project does not say whether it is an input or an output",
+            TimerMode::Capture | TimerMode::Encoder => "captures are on channels 1 and 2 alone",
+            TimerMode::Output => "inverted outputs are no devices",
+        };
+        let what = format!("{spelled} of {} is left out: {what}", wire.pin);
+        self.log.dropped(wire.span, "", &what);
+    }
+
+    fn signal(&mut self, wire: &'a Wire, spelled: &str) {
+        let (signal, _) = Signal::parse(spelled);
+        let mut of_unit = |unit: String, role: &'static str| {
+            self.units.entry(unit).or_default().insert(role, wire);
+        };
+        match signal.function() {
+            Function::Adc { .. } => {
+                self.single(wire, "Analog", ("sensor", "uint16"), vec!["type = analog;".into()]);
+            }
+            Function::Dac { .. } => {
+                self.single(wire, "Dac", ("actuator", "uint16"), vec!["type = dac;".into()]);
+            }
+            Function::I2c { unit, line } => of_unit(
+                format!("I2C{unit}"),
+                match line {
+                    I2cLine::Scl => "scl",
+                    I2cLine::Sda => "sda",
+                },
+            ),
+            Function::Uart { unit, line } => of_unit(
+                unit.to_string(),
+                match line {
+                    UartLine::Tx => "tx",
+                    UartLine::Rx => "rx",
+                },
+            ),
+            Function::Can { unit, line } => of_unit(
+                unit.to_string(),
+                match line {
+                    CanLine::Tx => "tx",
+                    CanLine::Rx => "rx",
+                },
+            ),
+            Function::Spi { unit, line } => of_unit(
+                format!("SPI{unit}"),
+                match line {
+                    SpiLine::Sck => "sck",
+                    SpiLine::Miso => "miso",
+                    SpiLine::Mosi => "mosi",
+                    SpiLine::Nss => "cs",
+                },
+            ),
+            // Everything else is in the table, as an on-board part.
+            Function::Timer { .. } | Function::Other => {}
+        }
+    }
+
+    /// The devices on a peripheral instance that takes several wires.
+    fn unit(&mut self, unit: &str, wires: &BTreeMap<&'static str, &'a Wire>) {
+        let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
+        let (needed, kind): (&[&str], &str) = match stem {
+            "I2C" => (&["scl", "sda"], "i2c"),
+            "SPI" => (&["sck", "miso", "mosi"], "spi"),
+            "TIM" => (&["a", "b"], "encoder"),
+            "CAN" | "FDCAN" => (&["tx", "rx"], "can"),
+            _ => (&["rx"], "uart"),
+        };
+        let missing: Vec<String> = needed
+            .iter()
+            .filter(|role| !wires.contains_key(*role))
+            .map(|role| role.to_uppercase())
+            .collect();
+        if let Some((_, wire)) = wires.iter().next().filter(|_| !missing.is_empty()) {
+            let what = format!("{unit} is left out: it has no pin for {}", missing.join(", "));
+            self.log.dropped(wire.span, "", &what);
+            return;
+        }
+        let roles = ["scl", "sda", "tx", "rx", "sck", "miso", "mosi", "a", "b"];
+        let wires_in_order: Vec<(&str, &Wire)> =
+            roles.iter().filter_map(|role| Some((*role, *wires.get(role)?))).collect();
+        let plan = Plan {
+            label: None,
+            name: format!("{}Device", camel(unit)),
+            kind: ("sensor", "uint8"),
+            properties: vec![format!("type = {kind};"), format!("unit = {unit};")],
+            wires: wires_in_order,
+            open: false,
+        };
+        match kind {
+            "i2c" => self.i2c(unit, plan),
+            "spi" => self.spi(unit, plan, wires.get("cs").copied()),
+            "encoder" => {
+                self.push(Plan {
+                    kind: ("sensor", "int32"),
+                    name: format!("Encoder{unit}"),
+                    ..plan
+                });
+            }
+            "can" => self.left_open(
+                unit,
+                plan,
+                "frame = 0x000; // which?",
+                "the frames of CAN messages are",
+            ),
+            _ => self.uart(unit, plan, wires),
+        }
+    }
+
+    fn uart(&mut self, unit: &str, mut plan: Plan<'_>, wires: &BTreeMap<&'static str, &'a Wire>) {
+        if !wires.contains_key("tx") {
+            plan.properties.push("tx = none;".into());
+        }
+        if let Some(baud) =
+            self.project.bauds.get(unit).filter(|baud| (300..=10_000_000).contains(*baud))
+        {
+            plan.properties.push(format!("baud = {baud};"));
+        }
+        self.push(plan);
+    }
+
+    fn i2c(&mut self, unit: &str, plan: Plan<'_>) {
+        let known: Vec<_> =
+            self.project.addressed.iter().filter(|device| device.unit == unit).collect();
+        if known.is_empty() {
+            let address = "address = 0x00; // which?";
+            return self.left_open(unit, plan, address, "the addresses of I2C devices are");
+        }
+        for device in known {
+            let mut properties = plan.properties.clone();
+            properties.push(format!("address = 0x{:02X};", device.address));
+            self.push(Plan {
+                label: Some(&device.name),
+                name: plan.name.clone(),
+                properties,
+                wires: plan.wires.clone(),
+                ..plan
+            });
+        }
+    }
+
+    /// One device for each chip select; without any it is open which pin that is.
+    fn spi(&mut self, unit: &str, mut plan: Plan<'_>, nss: Option<&'a Wire>) {
+        let project = self.project;
+        let mut selects: Vec<&Wire> = nss.into_iter().collect();
+        let of_unit = |wire: &&Wire| matches!(&wire.using, Using::Select(Some(of)) if of == unit);
+        selects.extend(project.wires.iter().filter(of_unit));
+        if selects.is_empty() {
+            return self.left_open(unit, plan, "// cs = ?;", "the chip selects of SPI devices are");
+        }
+        let shared = std::mem::take(&mut plan.wires);
+        for select in selects {
+            let mut wires = shared.clone();
+            wires.push(("cs", select));
+            self.push(Plan {
+                label: select.label.as_deref(),
+                name: plan.name.clone(),
+                properties: plan.properties.clone(),
+                wires,
+                ..plan
+            });
+        }
+    }
+
+    fn left_open(&mut self, unit: &str, mut plan: Plan<'_>, line: &str, what: &str) {
+        let Some(wire) = plan.wires.first().map(|(_, wire)| *wire) else { return };
+        let what = format!("{what} not in the project: the device on {unit} is a comment");
+        self.log.open(wire.span, &what);
+        plan.properties.push(line.into());
+        self.push(Plan { open: true, ..plan });
+    }
+
+    fn push(&mut self, plan: Plan<'_>) {
+        let Some((_, first)) = plan.wires.first() else { return };
+        let id = self.devices.len() + 1;
+        if id > IDS_MAX {
+            let what = format!("{} is left out: a file has at most {IDS_MAX} devices", first.pin);
+            self.log.dropped(first.span, "", &what);
+            return;
+        }
+        let name = self.name(plan.label, &plan.name, first);
+        let (direction, value) = plan.kind;
+        let verb = if direction == "sensor" { "returns" } else { "accepts" };
+        let mut properties = vec![format!("id = {id};")];
+        properties.extend(plan.properties);
+        let pull = plan.wires.iter().find_map(|(role, wire)| wire.pull.filter(|_| *role == "pin"));
+        let digital = properties.iter().any(|line| line == "type = digital;");
+        if let Some(pull) = pull.filter(|_| digital) {
+            properties.push(format!("pull = {pull};"));
+        }
+        for (role, wire) in &plan.wires {
+            let label = wire.label.as_ref().map(|label| format!(" // {}", one_line(label)));
+            properties.push(format!("{role} = {};{}", wire.pin, label.unwrap_or_default()));
+        }
+        let pins = plan.wires.iter().map(|(_, wire)| wire.pin.clone()).collect();
+        let head = format!("{direction} {name} {verb} {value}");
+        self.devices.push(Device { head, properties, pins, open: plan.open });
+    }
+
+    /// A name that no other device has.
+    fn name(&mut self, label: Option<&str>, plain: &str, wire: &Wire) -> String {
+        let wanted = label.and_then(identifier).unwrap_or_else(|| plain.to_owned());
+        let id = self.devices.len() + 1;
+        let options = [wanted.clone(), format!("{wanted}_{}", wire.pin), format!("{wanted}_n{id}")];
+        for option in options {
+            let folded: String = option.chars().filter(|c| *c != '_').collect();
+            let word = WORDS.contains(&option.as_str());
+            if !word && self.names.insert(folded.to_ascii_lowercase()) {
+                return option;
+            }
+        }
+        format!("Device{id}")
+    }
+}
+
+/// `USART2` as part of a name: `Usart2`.
+fn camel(unit: &str) -> String {
+    let (first, rest) = unit.split_at_checked(1).unwrap_or((unit, ""));
+    format!("{first}{}", rest.to_ascii_lowercase())
+}

@@ -1,0 +1,243 @@
+//! A board of `ArduPilot` (`hwdef.dat`) in; a `.sense` file with its pins, and the table of them,
+//! out.
+//!
+//! A line that begins with a pin says what it is for: `PA9 USART1_TX USART1`, `PC2 BATT ADC1`,
+//! `PD7 BARO_CS CS`. `include` reads a further file, `undef` takes pins back, `SPIDEV` ties chip
+//! selects to buses, and the lines of sensors name buses and addresses (`BARO MS5611 I2C:0:0x77`).
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::catalog;
+use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::{Function, Signal};
+use sensedsl_diagnostics::{FileId, Span};
+
+use crate::log::Log;
+use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
+use crate::{Made, Source};
+
+/// Files may include each other so deep.
+const DEPTH_MAX: usize = 8;
+
+/// Imports a board.
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+    let (file, text) = log.text(source.name, source.bytes);
+    let mut reader =
+        Reader { source, mcu: None, orders: Vec::new(), wires: BTreeMap::new(), lines: Vec::new() };
+    reader.file(file, &text, "", 0, log);
+    let whole = Span::new(file, 0..0);
+    if log.diagnostics.iter().any(|one| one.code.name() == "E0801") {
+        return Made::default();
+    }
+    let Some(mcu) = reader.mcu.clone() else {
+        log.unreadable(whole, source.name, "no line `MCU` names the MCU");
+        return Made::default();
+    };
+    if reader.wires.is_empty() {
+        log.no_table(whole, "no line begins with a pin");
+        return Made::default();
+    }
+    let addressed = reader.addressed(log);
+    reader.selects();
+    let path = source.name.strip_suffix("/hwdef.dat").unwrap_or(source.name);
+    let stem = path.rsplit(['/', '\\']).next().and_then(|name| name.split('.').next());
+    let project = Project {
+        name: stem.unwrap_or_default().to_owned(),
+        mcu: Some(mcu),
+        wires: reader.wires.into_values().collect(),
+        bauds: BTreeMap::new(),
+        addressed,
+    };
+    project::made(&project, source, log)
+}
+
+/// A line about something else than a pin.
+struct Line {
+    words: Vec<String>,
+    span: Span,
+}
+
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    mcu: Option<String>,
+    /// The I2C units in the order of their numbers.
+    orders: Vec<String>,
+    wires: BTreeMap<PinName, Wire>,
+    lines: Vec<Line>,
+}
+
+impl Reader<'_> {
+    /// Reads a file; `folder` is where it is, relative to the source.
+    fn file(&mut self, file: FileId, text: &str, folder: &str, depth: usize, log: &mut Log) {
+        let mut start = 0;
+        for line in text.split_inclusive('\n') {
+            let content = line.split('#').next().unwrap_or_default().trim_end();
+            let span = Span::new(file, start..start + content.len());
+            start += line.len();
+            let words: Vec<String> = content.split_whitespace().map(str::to_owned).collect();
+            let Some(first) = words.first() else { continue };
+            let second = words.get(1).map(String::as_str);
+            match (first.as_str(), second) {
+                ("include", Some(path)) => self.include(path, folder, (depth, span), log),
+                ("MCU", Some(family)) => {
+                    let name = words.get(2).map_or(family, String::as_str);
+                    self.mcu = Some(name.to_ascii_uppercase());
+                }
+                ("I2C_ORDER", Some(_)) => self.orders = words.into_iter().skip(1).collect(),
+                ("undef", Some(_)) => self.undefine(&words),
+                _ => match PinName::parse(first).filter(|pin| pin.port().is_some()) {
+                    Some(pin) => self.pin(pin, &words, span, log),
+                    None => self.lines.push(Line { words, span }),
+                },
+            }
+        }
+    }
+
+    fn include(&mut self, path: &str, folder: &str, (depth, span): (usize, Span), log: &mut Log) {
+        let path = if folder.is_empty() { path.to_owned() } else { format!("{folder}/{path}") };
+        if depth >= DEPTH_MAX {
+            log.dropped(
+                span,
+                "",
+                &format!("`{path}` is left out: files include each other too deep"),
+            );
+            return;
+        }
+        let Some(bytes) = (self.source.beside)(&path) else {
+            let why = format!("the file `{path}` that it includes is not there");
+            log.unreadable(span, self.source.name, &why);
+            return;
+        };
+        let (file, text) = log.text(&path, &bytes);
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
+        self.file(file, &text, &folder, depth + 1, log);
+    }
+
+    fn undefine(&mut self, words: &[String]) {
+        for word in words.iter().skip(1) {
+            if let Some(pin) = PinName::parse(word) {
+                self.wires.remove(&pin);
+            }
+            self.lines.retain(|line| line.words.first() != Some(word));
+        }
+    }
+
+    fn pin(&mut self, pin: PinName, words: &[String], span: Span, log: &mut Log) {
+        let word = |at: usize| words.get(at).map(String::as_str).unwrap_or_default();
+        let (label, type_of) = (word(1), word(2));
+        let has = |wanted: &str| words.iter().skip(2).any(|word| word == wanted);
+        if type_of.is_empty() {
+            log.dropped(span, "", &format!("the line of {pin} does not say what it is for"));
+            return;
+        }
+        if words.iter().skip(3).any(|word| word.starts_with("ALT(") && word != "ALT(0)") {
+            let what = format!("{pin} in another configuration of the board is left out");
+            log.dropped(span, "", &what);
+            return;
+        }
+        let pull = if has("PULLUP") {
+            Some("up")
+        } else if has("PULLDOWN") {
+            Some("down")
+        } else {
+            None
+        };
+        let timer = matches!(Signal::parse(label).0.function(), Function::Timer { .. });
+        let using = match type_of {
+            "INPUT" => Using::Input,
+            "OUTPUT" => Using::Output(has("HIGH")),
+            "CS" => Using::Select(None),
+            _ if type_of.starts_with("ADC") => match self.converter_input(&pin, type_of) {
+                Some(signal) => Using::Signal(signal),
+                None => {
+                    let what = format!("which input of {type_of} {pin} is, no built-in table says");
+                    log.dropped(span, "", &what);
+                    Using::Signal(label.to_owned())
+                }
+            },
+            _ if timer => {
+                let mode = if has("RCININT") || has("RCIN") {
+                    TimerMode::Capture
+                } else if words.iter().any(|word| word.starts_with("PWM(")) || has("ALARM") {
+                    TimerMode::Output
+                } else {
+                    TimerMode::Unknown
+                };
+                Using::Timer(label.to_owned(), mode)
+            }
+            _ => Using::Signal(label.to_owned()),
+        };
+        // The name of a signal is no name for a device.
+        let label = (using.signal() != Some(label)).then(|| label.to_owned());
+        if self.wires.contains_key(&pin) {
+            log.doubtful(span, "", &format!("{pin} is defined again; the last line counts"));
+        }
+        self.wires.insert(pin.clone(), Wire { pin, label, using, pull, span });
+    }
+
+    /// The input of a converter at a pin, as the table of a built-in board with a like MCU says.
+    fn converter_input(&self, pin: &PinName, unit: &str) -> Option<String> {
+        const FAMILY: usize = "STM32F4".len();
+        let family = self.mcu.as_deref()?.get(..FAMILY)?;
+        let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
+        let boards = catalog::all().iter().filter(|board| board.mcu.starts_with(family));
+        for board in boards {
+            let table = board.table();
+            let usages = table.pin(pin).map(|pin| pin.usages.as_slice()).unwrap_or_default();
+            for usage in usages {
+                if let Function::Adc { units, channel } = usage.signal.function()
+                    && units.contains(&unit)
+                {
+                    return Some(format!("ADC{unit}_IN{channel}"));
+                }
+            }
+        }
+        None
+    }
+
+    /// The sensors that hang on an I2C bus at a known address.
+    fn addressed(&self, log: &mut Log) -> Vec<Addressed> {
+        let mut found = Vec::new();
+        for Line { words, span } in &self.lines {
+            let [kind, name, rest @ ..] = words.as_slice() else { continue };
+            if !matches!(kind.as_str(), "IMU" | "BARO" | "COMPASS" | "AIRSPEED" | "RANGEFINDER") {
+                continue;
+            }
+            for place in rest.iter().filter_map(|word| word.strip_prefix("I2C:")) {
+                let (bus, address) = place.split_once(':').unwrap_or((place, ""));
+                let unit = bus.parse().ok().and_then(|bus: usize| self.orders.get(bus));
+                let digits = address.trim_start_matches("0x").trim_start_matches("0X");
+                let address = u8::from_str_radix(digits, 16).ok().filter(|a| (1..0x80).contains(a));
+                match (unit, address) {
+                    (Some(unit), Some(address)) => {
+                        let (name, unit) = (name.clone(), unit.clone());
+                        found.push(Addressed { name, unit, address });
+                    }
+                    _ => {
+                        let what =
+                            format!("{kind} {name} is left out: `{place}` is no bus and address");
+                        log.dropped(*span, "", &what);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Ties chip selects to the buses that `SPIDEV name SPI1 DEVID1 NAME_CS …` says.
+    fn selects(&mut self) {
+        for Line { words, .. } in &self.lines {
+            let [key, name, unit, _, select, ..] = words.as_slice() else { continue };
+            if key != "SPIDEV" {
+                continue;
+            }
+            let of_device = |wire: &&mut Wire| wire.label.as_ref() == Some(select);
+            if let Some(wire) = self.wires.values_mut().find(of_device)
+                && matches!(wire.using, Using::Select(_))
+            {
+                wire.using = Using::Select(Some(unit.clone()));
+                wire.label = Some(name.clone());
+            }
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! A project of CubeMX (`.ioc`) in; a `.sense` file with its pins, and the table of them, out.
+//!
+//! The file is a list of `key=value` lines. `PA5.Signal` says what a pin is used for; a signal
+//! that several modes share (`S_TIM3_CH1`, `ADCx_IN1`) is told by a line `SH.<signal>.0`.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::{Function, Signal};
+use sensedsl_diagnostics::{FileId, Span};
+
+use crate::log::Log;
+use crate::project::{self, Project, TimerMode, Using, Wire};
+use crate::{Made, Source};
+
+/// Imports a project.
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+    let (file, text) = log.text(source.name, source.bytes);
+    let values = values(&text);
+    let whole = Span::new(file, 0..0);
+    let value = |key: &str| values.get(key).map(|value| value.text.as_str());
+    let Some(mcu) = value("Mcu.UserName").or(value("Mcu.Name")).filter(|mcu| !mcu.is_empty())
+    else {
+        if !log.diagnostics.iter().any(|one| one.code.name() == "E0801") {
+            log.unreadable(whole, source.name, "it names no MCU (`Mcu.Name`)");
+        }
+        return Made::default();
+    };
+    let reader = Reader { file, values: &values };
+    let wires = reader.wires(log);
+    if wires.is_empty() {
+        log.no_table(whole, "no pin of the project has a signal");
+        return Made::default();
+    }
+    let name = value("ProjectManager.ProjectName").or(value("board"));
+    let stem = source.name.rsplit(['/', '\\']).next().and_then(|name| name.split('.').next());
+    let project = Project {
+        name: name.or(stem).unwrap_or_default().to_owned(),
+        mcu: Some(mcu.to_owned()),
+        wires,
+        bauds: reader.bauds(),
+        addressed: Vec::new(),
+    };
+    project::made(&project, source, log)
+}
+
+/// A value and where its line is.
+struct Value {
+    text: String,
+    line: std::ops::Range<usize>,
+}
+
+type Values = BTreeMap<String, Value>;
+
+fn values(text: &str) -> Values {
+    let mut values = Values::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.trim_end_matches(['\n', '\r']);
+        let range = start..start + content.len();
+        start += line.len();
+        if content.starts_with(['#', '!']) {
+            continue;
+        }
+        if let Some((key, value)) = content.split_once('=') {
+            let value = Value { text: plain(value), line: range };
+            values.insert(plain(key), value);
+        }
+    }
+    values
+}
+
+/// A text without the backslashes before signs that mean something in such files.
+fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    let mut chars = text.trim().chars();
+    while let Some(c) = chars.next() {
+        let next = if c == '\\' { chars.next() } else { Some(c) };
+        plain.push(next.unwrap_or(c));
+    }
+    plain
+}
+
+struct Reader<'a> {
+    file: FileId,
+    values: &'a Values,
+}
+
+impl Reader<'_> {
+    fn value(&self, key: &str) -> Option<&str> {
+        self.values.get(key).map(|value| value.text.as_str())
+    }
+
+    /// The pins that have a signal, in natural order.
+    fn wires(&self, log: &mut Log) -> Vec<Wire> {
+        let mut wires: BTreeMap<PinName, Wire> = BTreeMap::new();
+        let mut others: Vec<(&str, Span)> = Vec::new();
+        for (key, value) in self.values {
+            let Some(spelled) = key.strip_suffix(".Signal") else { continue };
+            let span = Span::new(self.file, value.line.clone());
+            // Virtual pins stand for parts without a pad.
+            if spelled.starts_with("VP_") {
+                continue;
+            }
+            let Some(pin) = PinName::parse(spelled).filter(|pin| pin.port().is_some()) else {
+                others.push((spelled, span));
+                continue;
+            };
+            let wire = self.wire(spelled, pin.clone(), &value.text, span, log);
+            if wires.contains_key(&pin) {
+                log.doubtful(span, "", &format!("{pin} is used twice; the first use counts"));
+            } else {
+                wires.insert(pin, wire);
+            }
+        }
+        if let Some((_, first)) = others.first() {
+            let names: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
+            let what = format!("no pins of a port, left out: {}", names.join(", "));
+            log.dropped(*first, "", &what);
+        }
+        wires.into_values().collect()
+    }
+
+    fn wire(&self, spelled: &str, pin: PinName, signal: &str, span: Span, log: &mut Log) -> Wire {
+        let of_pin = |key: &str| self.value(&format!("{spelled}.{key}"));
+        let pull = of_pin("GPIO_PuPd").or(of_pin("GPIO_Pu")).and_then(|pull| match pull {
+            "GPIO_PULLUP" => Some("up"),
+            "GPIO_PULLDOWN" => Some("down"),
+            _ => None,
+        });
+        let using = match signal {
+            "GPIO_Input" => Using::Input,
+            "GPIO_Output" => Using::Output(of_pin("PinState") == Some("GPIO_PIN_SET")),
+            _ if signal.starts_with("GPXTI") => {
+                let mode = of_pin("GPIO_ModeDefaultEXTI").unwrap_or("GPIO_MODE_IT_RISING");
+                Using::Interrupt(match mode.rsplit("GPIO_MODE_").next().unwrap_or_default() {
+                    "IT_FALLING" | "EVT_FALLING" => "falling",
+                    "IT_RISING_FALLING" | "EVT_RISING_FALLING" => "both",
+                    _ => "rising",
+                })
+            }
+            _ => self.signal(spelled, signal, span, log),
+        };
+        let label = of_pin("GPIO_Label").filter(|label| !label.is_empty()).map(str::to_owned);
+        Wire { pin, label, using, pull, span }
+    }
+
+    /// What a signal of a peripheral is used for.
+    fn signal(&self, spelled: &str, signal: &str, span: Span, log: &mut Log) -> Using {
+        let shared: Vec<&str> =
+            (0..8).map_while(|at| self.value(&format!("SH.{signal}.{at}"))).collect();
+        let parts = |shared: &&str| {
+            let (name, mode) = shared.split_once(',').unwrap_or((shared, ""));
+            (name.to_owned(), mode.to_owned())
+        };
+        let (name, mode) = match shared.first() {
+            Some(first) => parts(first),
+            None => {
+                let mode = self.value(&format!("{spelled}.Mode")).unwrap_or_default();
+                (signal.strip_prefix("S_").unwrap_or(signal).to_owned(), mode.to_owned())
+            }
+        };
+        if let Some(second) = shared.get(1).map(parts).filter(|second| second.0 != name) {
+            let what = format!("{spelled} is {name} and {}; {name} is imported", second.0);
+            log.doubtful(span, "", &what);
+        }
+        let name = name.split_whitespace().collect::<Vec<_>>().join("_").replace('@', "_");
+        let timer = matches!(Signal::parse(&name).0.function(), Function::Timer { .. });
+        if !timer {
+            return Using::Signal(name);
+        }
+        let has = |word: &str| mode.to_ascii_lowercase().contains(word);
+        let mode = if has("encoder") {
+            TimerMode::Encoder
+        } else if has("input") {
+            TimerMode::Capture
+        } else if has("pwm") || has("output") {
+            TimerMode::Output
+        } else {
+            TimerMode::Unknown
+        };
+        Using::Timer(name, mode)
+    }
+
+    /// `USART2.BaudRate=115200`.
+    fn bauds(&self) -> BTreeMap<String, u32> {
+        let baud = |(key, value): (&String, &Value)| {
+            let unit = key.strip_suffix(".BaudRate")?;
+            Some((unit.to_owned(), value.text.parse().ok()?))
+        };
+        self.values.iter().filter_map(baud).collect()
+    }
+}

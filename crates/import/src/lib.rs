@@ -1,0 +1,108 @@
+//! What other tools know about pins: their files come in as bytes, a board table or a `.sense`
+//! file goes out as text, with a coded diagnostic for everything that was left out or doubtful.
+//!
+//! Nothing here does I/O: a source that names further files (the alternate functions of an MCU,
+//! an included `hwdef`) asks for them through [`Source::beside`].
+
+mod assemble;
+mod cubemx;
+mod decode;
+mod detect;
+mod devices;
+mod hwdef;
+mod ioc;
+mod log;
+mod place;
+mod project;
+mod tabular;
+mod workbook;
+
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
+
+pub use detect::{Format, detect};
+
+use log::Log;
+
+/// What is to be imported.
+pub struct Source<'a> {
+    /// The file's name, as people see it.
+    pub name: &'a str,
+    /// Its content.
+    pub bytes: &'a [u8],
+    /// What it is; by its content where nothing is said.
+    pub format: Option<Format>,
+    /// The sheet of a workbook.
+    pub sheet: Option<&'a str>,
+    /// The name under which a `.sense` file that is made shall find its table.
+    pub table: &'a str,
+    /// The content of a file by its path relative to the source, if there is one.
+    pub beside: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The board table as CSV; none when the source could not be read.
+    pub table: Option<String>,
+    /// The `.sense` file that goes with it, from the project of another tool.
+    pub program: Option<String>,
+    /// What is to be said, in the order of the source.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The texts the diagnostics speak of. A sheet of a workbook is a text of its own, with a line
+    /// for each row.
+    pub sources: SourceMap,
+}
+
+impl Imported {
+    /// Whether the source could not be imported.
+    #[must_use]
+    pub fn failed(&self) -> bool {
+        self.diagnostics.iter().any(|one| one.severity == Severity::Error)
+    }
+}
+
+/// The result of one importer.
+#[derive(Debug, Default)]
+struct Made {
+    table: Option<String>,
+    program: Option<String>,
+}
+
+/// Imports a source. Never fails: what cannot be read is among the diagnostics.
+#[must_use]
+pub fn import(source: &Source<'_>) -> Imported {
+    let mut log = Log::default();
+    let format = source.format.or_else(|| detect(source.bytes));
+    let made = match format {
+        None => unknown(source, &mut log),
+        Some(Format::Xlsx | Format::Ods) => workbook::import(source, &mut log),
+        Some(_) if source.sheet.is_some() => no_sheets(source, &mut log),
+        Some(Format::Csv | Format::MicroPython) => {
+            let (file, text) = log.text(source.name, source.bytes);
+            tabular::import(file, &text, None, &mut log)
+        }
+        Some(Format::CubeMx) => cubemx::import(source, &mut log),
+        Some(Format::Ioc) => ioc::import(source, &mut log),
+        Some(Format::Hwdef) => hwdef::import(source, &mut log),
+    };
+    let Log { sources, mut diagnostics } = log;
+    diagnostics.sort_by_key(|one| (one.primary.span, one.code));
+    let mut imported = Imported { table: made.table, program: made.program, diagnostics, sources };
+    if imported.failed() {
+        (imported.table, imported.program) = (None, None);
+    }
+    imported
+}
+
+fn unknown(source: &Source<'_>, log: &mut Log) -> Made {
+    let why = "it is no CSV, XLSX, ODS, XML of CubeMX, .ioc or hwdef.dat";
+    let file = log.sources.add(source.name, "");
+    log.unreadable(Span::new(file, 0..0), source.name, why);
+    Made::default()
+}
+
+fn no_sheets(source: &Source<'_>, log: &mut Log) -> Made {
+    let file = log.sources.add(source.name, "");
+    log.no_sheet(Span::new(file, 0..0), source.sheet.unwrap_or_default(), &[]);
+    Made::default()
+}

@@ -1,0 +1,49 @@
+//! Places in tables as spreadsheets show them: a row and column in, `C3` out.
+
+use sensedsl_board::cells;
+
+/// The name of a cell, both counted from 0: `A1` is the first.
+pub(crate) fn a1(row: usize, column: usize) -> String {
+    let mut letters = Vec::new();
+    let mut rest = column + 1;
+    while rest > 0 {
+        rest -= 1;
+        letters.push(char::from(b'A' + u8::try_from(rest % 26).unwrap_or_default()));
+        rest /= 26;
+    }
+    let letters: String = letters.iter().rev().collect();
+    format!("{letters}{}", row + 1)
+}
+
+/// The name of the cell at an offset of a text, its lines taken for rows; empty where there is no
+/// cell.
+pub(crate) fn place_of(text: &str, offset: usize) -> String {
+    let at = |cell: &cells::Cell| cell.range.start <= offset && offset <= cell.range.end;
+    let sheet = cells::split(text);
+    let found = sheet.rows.iter().find_map(|row| {
+        let end = row.last().map_or(0, |cell| cell.range.end);
+        if end < offset { None } else { row.iter().position(at) }
+    });
+    let line = text.get(..offset).map_or(0, |before| before.matches('\n').count());
+    found.map_or(String::new(), |column| a1(line, column))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_named_as_spreadsheets_do() {
+        let names = [(0, 0), (2, 2), (9, 25), (0, 26), (99, 27), (0, 701), (0, 702)];
+        let names: Vec<String> = names.iter().map(|(row, column)| a1(*row, *column)).collect();
+        assert_eq!(names, ["A1", "C3", "Z10", "AA1", "AB100", "ZZ1", "AAA1"]);
+    }
+
+    #[test]
+    fn offsets_are_in_cells() {
+        let text = "# x\nPin;ADC\nPA1;\"a;b\";c\n";
+        assert_eq!(place_of(text, text.find(";b").unwrap()), "B3");
+        assert_eq!(place_of(text, text.find("c\n").unwrap()), "C3");
+        assert_eq!(place_of(text, 0), "");
+    }
+}

@@ -1,0 +1,352 @@
+//! A workbook in, a board table out.
+//!
+//! The sheet with the pins becomes a text of comma-separated cells with a line for each row, which
+//! is then read like any other table; what only a spreadsheet has (formulas, merged cells, dates,
+//! other sheets) is reported here, each at its cell.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::io::{Cursor, Read as _};
+use std::ops::Range;
+
+use calamine::{Data, Dimensions, Ods, Reader as _, Xlsx, open_workbook_from_rs};
+use sensedsl_board::table::Role;
+use sensedsl_diagnostics::Span;
+
+use crate::log::Log;
+use crate::place::a1;
+use crate::{Format, Made, Source, tabular};
+
+/// Sheets of pins are far smaller; cells beyond are stray.
+const ROWS_MAX: u32 = 20_000;
+const COLUMNS_MAX: u32 = 512;
+/// Largest `content.xml` that is looked through for merged cells.
+const CONTENT_MAX: u64 = 64 << 20;
+
+/// A cell by row and column, from 0.
+type At = (u32, u32);
+
+/// What a sheet holds.
+#[derive(Debug, Default)]
+struct Sheet {
+    name: String,
+    cells: BTreeMap<At, Data>,
+    formulas: BTreeMap<At, String>,
+    merged: Vec<Dimensions>,
+    /// A cell that is too far out.
+    beyond: Option<At>,
+}
+
+/// Imports the sheet that has a pin table.
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+    let read = match source.format {
+        Some(Format::Ods) => ods(source.bytes),
+        Some(Format::Xlsx) => xlsx(source.bytes),
+        _ if crate::detect(source.bytes) == Some(Format::Ods) => ods(source.bytes),
+        _ => xlsx(source.bytes),
+    };
+    let sheets = match read {
+        Ok(sheets) => sheets,
+        Err(why) => {
+            let file = log.sources.add(source.name, "");
+            log.unreadable(Span::new(file, 0..0), source.name, &why);
+            return Made::default();
+        }
+    };
+    let texts: Vec<Text> = sheets.iter().map(Text::new).collect();
+    let names: Vec<String> = sheets.iter().map(|sheet| sheet.name.clone()).collect();
+    let chosen = match source.sheet {
+        Some(wanted) => names.iter().position(|name| name == wanted),
+        None => texts.iter().position(|text| tabular::has_head(&text.text)),
+    };
+    let Some(chosen) = chosen else {
+        let file = log.sources.add(source.name, "");
+        let span = Span::new(file, 0..0);
+        match source.sheet {
+            Some(wanted) => log.no_sheet(span, wanted, &names),
+            None => log.no_table(span, "no sheet has a row with a column `Pin`"),
+        }
+        return Made::default();
+    };
+    for (at, (sheet, text)) in sheets.iter().zip(&texts).enumerate() {
+        if at != chosen && !sheet.cells.is_empty() {
+            stray(source, sheet, text, log);
+        }
+    }
+    match (sheets.get(chosen), texts.get(chosen)) {
+        (Some(sheet), Some(text)) => table(source, sheet, text, log),
+        _ => Made::default(),
+    }
+}
+
+/// Reports a sheet that is not read, at its first cell.
+fn stray(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) {
+    let file = log.sources.add(format!("{} [{}]", source.name, sheet.name), text.text.as_str());
+    let Some(at) = sheet.cells.keys().next() else { return };
+    let (span, place) = (Span::new(file, text.range(*at)), place(sheet, *at));
+    if tabular::has_head(&text.text) {
+        let what = "the sheet has a pin table too and is not read; name it with `--sheet`";
+        log.doubtful(span, &place, what);
+    } else {
+        log.dropped(span, &place, "the sheet has no pin table and is not read");
+    }
+}
+
+/// Reads the chosen sheet.
+fn table(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) -> Made {
+    let file = log.sources.add(format!("{} [{}]", source.name, sheet.name), text.text.as_str());
+    let span = |at: At| Span::new(file, text.range(at));
+    for (at, formula) in &sheet.formulas {
+        let value = sheet.cells.get(at).map(shown).unwrap_or_default();
+        let formula = formula.trim_start_matches("of:").trim_start_matches('=');
+        let what = match value.as_str() {
+            "" => format!("the formula `={formula}` has no value that was stored"),
+            value => format!("the formula `={formula}` is read as its last value, `{value}`"),
+        };
+        log.doubtful(span(*at), &place(sheet, *at), &what);
+    }
+    for merged in &sheet.merged {
+        let last = a1(merged.end.0 as usize, merged.end.1 as usize);
+        let what = format!("the cell is merged up to {last}; its value counts for this cell alone");
+        log.doubtful(span(merged.start), &place(sheet, merged.start), &what);
+    }
+    if let Some(at) = sheet.beyond {
+        let what = format!("cells beyond row {ROWS_MAX} or column {COLUMNS_MAX} are left out");
+        log.dropped(Span::new(file, 0..0), &place(sheet, at), &what);
+    }
+    let heads = heads(sheet);
+    for (at, value) in &sheet.cells {
+        values(sheet, (*at, value), &heads, span(*at), log);
+    }
+    empty_rows(sheet, &span, log);
+    tabular::import(file, &text.text, Some(&sheet.name), log)
+}
+
+/// The texts of the first row with several, by column: enough to tell descriptions from usages.
+fn heads(sheet: &Sheet) -> BTreeMap<u32, String> {
+    let mut rows: BTreeMap<u32, BTreeMap<u32, String>> = BTreeMap::new();
+    for ((row, column), value) in &sheet.cells {
+        if let Data::String(text) = value {
+            rows.entry(*row).or_default().insert(*column, text.clone());
+        }
+    }
+    rows.into_values().find(|row| row.len() >= 2).unwrap_or_default()
+}
+
+/// Reports a value that is no text, where a text belongs.
+fn values(
+    sheet: &Sheet,
+    (at, value): (At, &Data),
+    heads: &BTreeMap<u32, String>,
+    span: Span,
+    log: &mut Log,
+) {
+    let role = heads.get(&at.1).map_or(Role::Usages, |head| Role::of(head));
+    let place = place(sheet, at);
+    match value {
+        Data::DateTime(_) | Data::DateTimeIso(_) | Data::DurationIso(_) => {
+            let what =
+                "a date or time is left out; what was typed is lost, format the cell as text";
+            log.dropped(span, &place, what);
+        }
+        Data::Bool(value) => {
+            log.dropped(span, &place, &format!("the truth value {value} is left out"));
+        }
+        Data::Error(error) => {
+            log.dropped(span, &place, &format!("the error value {error} is left out"));
+        }
+        Data::Int(_) | Data::Float(_) if matches!(role, Role::Usages | Role::Pin) => {
+            let what = format!("the number {} stands where a name is usual", shown(value));
+            log.doubtful(span, &place, &what);
+        }
+        Data::Int(_) | Data::Float(_) | Data::String(_) | Data::Empty => {}
+    }
+}
+
+/// Reports rows without content between rows with content.
+fn empty_rows(sheet: &Sheet, span: &dyn Fn(At) -> Span, log: &mut Log) {
+    let mut rows: Vec<u32> = sheet.cells.keys().map(|(row, _)| *row).collect();
+    rows.dedup();
+    for pair in rows.windows(2) {
+        let (Some(before), Some(after)) = (pair.first(), pair.last()) else { continue };
+        if before + 1 < *after {
+            let first = (before + 1, 0);
+            let what = match after - before - 1 {
+                1 => "an empty row in the table is skipped".to_owned(),
+                count => format!("{count} empty rows in the table are skipped"),
+            };
+            log.dropped(span(first), &place(sheet, first), &what);
+        }
+    }
+}
+
+fn place(sheet: &Sheet, (row, column): At) -> String {
+    format!("{}!{}", sheet.name, a1(row as usize, column as usize))
+}
+
+/// A value as the cell of a table; what cannot be one is empty.
+fn shown(value: &Data) -> String {
+    match value {
+        Data::Int(number) => number.to_string(),
+        // Spreadsheets know no integers: 23.0 is 23, which is how `{}` shows it.
+        Data::Float(number) => number.to_string(),
+        Data::String(text) => text.split_whitespace().collect::<Vec<_>>().join(" "),
+        Data::Bool(_)
+        | Data::DateTime(_)
+        | Data::DateTimeIso(_)
+        | Data::DurationIso(_)
+        | Data::Error(_)
+        | Data::Empty => String::new(),
+    }
+}
+
+/// A sheet as text.
+struct Text {
+    text: String,
+    ranges: BTreeMap<At, Range<usize>>,
+    /// Where each row starts.
+    rows: Vec<usize>,
+}
+
+impl Text {
+    fn new(sheet: &Sheet) -> Self {
+        let mut made = Self { text: String::new(), ranges: BTreeMap::new(), rows: Vec::new() };
+        let rows = sheet.cells.keys().map(|(row, _)| row + 1).max().unwrap_or_default();
+        let columns = sheet.cells.keys().map(|(_, column)| column + 1).max().unwrap_or_default();
+        for row in 0..rows {
+            made.rows.push(made.text.len());
+            let filled = sheet.cells.range((row, 0)..(row + 1, 0)).next().is_some();
+            for column in 0..if filled { columns } else { 0 } {
+                if column > 0 {
+                    made.text.push(',');
+                }
+                let value = sheet.cells.get(&(row, column)).map(shown).unwrap_or_default();
+                let start = made.text.len();
+                // Quotes around all that is not plain: the separator is guessed from the head.
+                if value.contains([',', '"', ';', '\t']) {
+                    made.text.push_str(&format!("\"{}\"", value.replace('"', "\"\"")));
+                } else {
+                    made.text.push_str(&value);
+                }
+                made.ranges.insert((row, column), start..made.text.len());
+            }
+            made.text.push('\n');
+        }
+        made
+    }
+
+    /// Where a cell is; the start of its row where it is outside of all.
+    fn range(&self, at: At) -> Range<usize> {
+        let row = || {
+            let start = self.rows.get(at.0 as usize).copied().unwrap_or(self.text.len());
+            start..start
+        };
+        self.ranges.get(&at).cloned().unwrap_or_else(row)
+    }
+}
+
+fn words(error: &dyn Display) -> String {
+    error.to_string()
+}
+
+impl Sheet {
+    fn put(&mut self, at: At, value: Data) {
+        if value == Data::Empty || matches!(&value, Data::String(text) if text.trim().is_empty()) {
+            return;
+        }
+        if at.0 >= ROWS_MAX || at.1 >= COLUMNS_MAX {
+            self.beyond.get_or_insert(at);
+        } else {
+            self.cells.insert(at, value);
+        }
+    }
+
+    fn put_formula(&mut self, at: At, formula: String) {
+        if !formula.is_empty() && at.0 < ROWS_MAX && at.1 < COLUMNS_MAX {
+            self.formulas.insert(at, formula);
+        }
+    }
+}
+
+fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
+    let book: Result<Xlsx<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
+    let mut book = book.map_err(|error| words(&error))?;
+    let mut sheets = Vec::new();
+    for name in book.sheet_names() {
+        let mut sheet = Sheet { name: name.clone(), ..Sheet::default() };
+        // A sheet of another type, such as a chart, has no cells.
+        let Ok(mut cells) = book.worksheet_cells_reader(&name) else { continue };
+        while let Some(cell) = cells.next_cell_with_formula().map_err(|error| words(&error))? {
+            sheet.put(cell.pos, Data::from(cell.value));
+            sheet.put_formula(cell.pos, cell.formula.unwrap_or_default());
+        }
+        drop(cells);
+        sheet.merged = book.merge_cells_by_sheet_name(&name).map_err(|error| words(&error))?;
+        sheets.push(sheet);
+    }
+    Ok(sheets)
+}
+
+fn ods(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
+    let book: Result<Ods<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
+    let mut book = book.map_err(|error| words(&error))?;
+    let merged = merged(bytes)?;
+    let mut sheets = Vec::new();
+    for name in book.sheet_names() {
+        let mut sheet = Sheet { name: name.clone(), ..Sheet::default() };
+        let values = book.worksheet_range(&name).map_err(|error| words(&error))?;
+        let from = values.start().unwrap_or_default();
+        for (row, column, value) in values.used_cells() {
+            sheet.put((from.0 + small(row), from.1 + small(column)), value.clone());
+        }
+        let formulas = book.worksheet_formula(&name).map_err(|error| words(&error))?;
+        let from = formulas.start().unwrap_or_default();
+        for (row, column, formula) in formulas.used_cells() {
+            sheet.put_formula((from.0 + small(row), from.1 + small(column)), formula.clone());
+        }
+        sheet.merged = merged.get(&name).cloned().unwrap_or_default();
+        sheets.push(sheet);
+    }
+    Ok(sheets)
+}
+
+fn small(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX / 2)
+}
+
+/// The merged cells of each sheet of an OpenDocument file, which the reader does not tell.
+fn merged(bytes: &[u8]) -> Result<BTreeMap<String, Vec<Dimensions>>, String> {
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| words(&error))?;
+    let content = archive.by_name("content.xml").map_err(|error| words(&error))?;
+    let mut text = String::new();
+    content.take(CONTENT_MAX).read_to_string(&mut text).map_err(|error| words(&error))?;
+    let document = roxmltree::Document::parse(&text).map_err(|error| words(&error))?;
+    let attribute = |node: &roxmltree::Node<'_, '_>, name: &str| -> Option<String> {
+        node.attributes().find(|one| one.name() == name).map(|one| one.value().to_owned())
+    };
+    let count = |node: &roxmltree::Node<'_, '_>, name: &str| -> u32 {
+        attribute(node, name).and_then(|count| count.parse().ok()).unwrap_or(1)
+    };
+    let mut sheets = BTreeMap::new();
+    let is =
+        |name: &'static str| move |node: &roxmltree::Node<'_, '_>| node.tag_name().name() == name;
+    for table in document.descendants().filter(is("table")) {
+        let mut found = Vec::new();
+        let mut row: u32 = 0;
+        for line in table.descendants().filter(is("table-row")) {
+            let mut column: u32 = 0;
+            for cell in line.children().filter(roxmltree::Node::is_element) {
+                let wide = count(&cell, "number-columns-spanned");
+                let high = count(&cell, "number-rows-spanned");
+                if wide > 1 || high > 1 {
+                    let end = (row.saturating_add(high - 1), column.saturating_add(wide - 1));
+                    found.push(Dimensions { start: (row, column), end });
+                }
+                column = column.saturating_add(count(&cell, "number-columns-repeated"));
+            }
+            row = row.saturating_add(count(&line, "number-rows-repeated"));
+        }
+        sheets.insert(attribute(&table, "name").unwrap_or_default(), found);
+    }
+    Ok(sheets)
+}

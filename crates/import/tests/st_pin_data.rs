@@ -1,0 +1,202 @@
+//! All MCU files and projects of ST's open pin data, where `SENSEDSL_ST_PIN_DATA` names the
+//! folder: each is imported, or refused with a coded reason, and what comes out is read again
+//! without a mistake. In release the MCU files together take less than three seconds.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    missing_docs,
+    reason = "a test over files of the machine"
+)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use sensedsl_board::table;
+use sensedsl_import::{Format, Imported, Source, import};
+use sensedsl_model::{Files, Request, resolve};
+
+/// The folder, or a word that the test is skipped.
+fn data() -> Option<PathBuf> {
+    let folder = std::env::var_os("SENSEDSL_ST_PIN_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        eprintln!("SKIPPED: SENSEDSL_ST_PIN_DATA names no folder with ST's open pin data");
+    }
+    folder
+}
+
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> =
+        entries.filter(|path| path.extension().is_some_and(|found| found == ending)).collect();
+    files.sort();
+    files
+}
+
+fn imported(path: &Path) -> Imported {
+    let bytes = fs::read(path).unwrap();
+    let folder = path.parent().unwrap();
+    let name = path.file_name().unwrap().to_string_lossy();
+    let beside = |path: &str| fs::read(folder.join(path)).ok();
+    import(&Source {
+        name: &name,
+        bytes: &bytes,
+        format: None,
+        sheet: None,
+        table: "pins.csv",
+        beside: &beside,
+    })
+}
+
+#[test]
+fn every_mcu_is_imported() {
+    let Some(data) = data() else { return };
+    let paths = files(&data.join("mcu"), "xml");
+    assert!(paths.len() >= 2_000, "{} files", paths.len());
+    let mut spent = Duration::ZERO;
+    let mut findings: BTreeMap<String, usize> = BTreeMap::new();
+    let mut said: BTreeMap<String, usize> = BTreeMap::new();
+    let mut distinct: BTreeSet<String> = BTreeSet::new();
+    let (mut pins, mut shared) = (0, 0);
+    for path in &paths {
+        let start = Instant::now();
+        let made = imported(path);
+        spent += start.elapsed();
+        assert!(!made.failed(), "{}: {:?}", path.display(), made.diagnostics);
+        for one in &made.diagnostics {
+            *said.entry(one.code.to_string()).or_default() += 1;
+        }
+        let csv = made.table.unwrap();
+        if !distinct.insert(csv.split_once("\nPin").unwrap().1.to_owned()) {
+            continue;
+        }
+        let loaded = table::load(&csv);
+        for finding in &loaded.findings {
+            *findings.entry(format!("{:?}", finding.kind)).or_default() += 1;
+        }
+        assert_eq!(loaded.board.to_csv(), csv, "{}", path.display());
+        pins += loaded.board.pins.len();
+        let mut positions: Vec<_> = loaded.board.pins.iter().map(|pin| &pin.position).collect();
+        positions.sort();
+        shared += usize::from(positions.windows(2).any(|pair| pair[0] == pair[1]));
+    }
+    eprintln!(
+        "{} MCU files in {spent:?}, {} tables, {pins} pins, {shared} with shared pads; said {said:?}; read again {findings:?}",
+        paths.len(),
+        distinct.len()
+    );
+    assert!(findings.is_empty(), "{findings:?}");
+    if !cfg!(debug_assertions) {
+        assert!(spent < Duration::from_secs(3), "{spent:?}");
+    }
+}
+
+#[test]
+fn table_1_is_part_of_its_mcu() {
+    let Some(data) = data() else { return };
+    let made = imported(&data.join("mcu/STM32F407V(E-G)Tx.xml"));
+    let chip = table::load(&made.table.unwrap()).board;
+    assert_eq!(chip.mcu.as_deref(), Some("STM32F407VGTx"));
+    let paper = sensedsl_board::catalog::find("STM32F4DiscoveryBoard").unwrap().table();
+    assert_eq!(paper.pins.len(), 26);
+    for pin in &paper.pins {
+        let row = chip.pin(&pin.name).unwrap();
+        for usage in &pin.usages {
+            assert!(row.usage(&usage.signal).is_some(), "{} {}", pin.name, usage.spelled);
+        }
+    }
+    let pb10 = chip.pin(&sensedsl_board::pin::PinName::parse("PB10").unwrap()).unwrap();
+    let scl = pb10.usages.iter().find(|usage| usage.spelled == "I2C2_SCL").unwrap();
+    assert_eq!((scl.alternate, pb10.position.as_deref()), (Some(4), Some("47")));
+}
+
+#[test]
+fn pads_that_pins_share_have_one_position() {
+    let Some(data) = data() else { return };
+    let made = imported(&data.join("mcu/STM32G031J(4-6)Mx.xml"));
+    let chip = table::load(&made.table.unwrap()).board;
+    let on = |position: &str| -> Vec<String> {
+        let pins = chip.pins.iter().filter(|pin| pin.position.as_deref() == Some(position));
+        pins.map(|pin| pin.name.to_string()).collect()
+    };
+    assert_eq!(on("4"), ["PA0", "PA1", "PA2", "PF2"]);
+}
+
+#[test]
+fn remap_blocks_of_an_f1_are_in_its_notes() {
+    let Some(data) = data() else { return };
+    let made = imported(&data.join("mcu/STM32F103C(8-B)Tx.xml"));
+    let chip = table::load(&made.table.unwrap()).board;
+    let pb6 = chip.pin(&sensedsl_board::pin::PinName::parse("PB6").unwrap()).unwrap();
+    assert_eq!(pb6.note.as_deref(), Some("remap I2C1_SCL=0 TIM4_CH1=0 USART1_TX=1"));
+}
+
+/// The one table that an imported project has.
+struct Pins(String);
+
+impl Files for Pins {
+    fn read(&self, path: &str) -> Result<String, String> {
+        if path == "pins.csv" { Ok(self.0.clone()) } else { Err("there is no such file".into()) }
+    }
+}
+
+#[test]
+fn every_project_is_imported_or_refused_with_a_reason() {
+    let Some(data) = data() else { return };
+    let paths = files(&data.join("boards"), "ioc");
+    assert!(paths.len() >= 250, "{} files", paths.len());
+    let mut refused: BTreeMap<String, usize> = BTreeMap::new();
+    let mut said: BTreeMap<String, usize> = BTreeMap::new();
+    let (mut devices, mut done) = (0, 0);
+    for path in &paths {
+        let made = imported(path);
+        for one in &made.diagnostics {
+            *said.entry(one.code.to_string()).or_default() += 1;
+        }
+        let (Some(program), Some(csv)) = (made.program, made.table) else {
+            let code = made.diagnostics.first().unwrap().code;
+            *refused.entry(code.to_string()).or_default() += 1;
+            continue;
+        };
+        done += 1;
+        let findings = table::load(&csv).findings;
+        let findings: Vec<_> = findings
+            .iter()
+            .filter(|one| {
+                !matches!(one.kind, sensedsl_board::finding::FindingKind::UnknownMcu { .. })
+            })
+            .collect();
+        assert!(findings.is_empty(), "{}: {findings:?}\n{csv}", path.display());
+        let request =
+            Request { path: "b.sense", text: &program, board: None, target: Some("none") };
+        let resolved = resolve(&request, &Pins(csv));
+        let errors: Vec<_> = resolved
+            .diagnostics
+            .iter()
+            .filter(|one| one.severity == sensedsl_diagnostics::Severity::Error)
+            .collect();
+        let empty = errors.iter().all(|one| one.message.contains("no device"));
+        assert!(errors.is_empty() || empty, "{}: {errors:?}\n{program}", path.display());
+        devices += resolved.design.map_or(0, |design| design.devices.len());
+        let laid_out = sensedsl_syntax::format(&program);
+        assert_eq!(laid_out.as_deref(), Ok(program.as_str()), "{}", path.display());
+    }
+    eprintln!(
+        "{done} of {} projects imported, {devices} devices, refused {refused:?}, said {said:?}",
+        paths.len()
+    );
+    assert!(devices > 2_000, "{devices} devices");
+}
+
+#[test]
+fn formats_are_told_by_content() {
+    let Some(data) = data() else { return };
+    for path in files(&data.join("mcu"), "xml").iter().step_by(97) {
+        assert_eq!(sensedsl_import::detect(&fs::read(path).unwrap()), Some(Format::CubeMx));
+    }
+    for path in files(&data.join("boards"), "ioc").iter().step_by(17) {
+        assert_eq!(sensedsl_import::detect(&fs::read(path).unwrap()), Some(Format::Ioc));
+    }
+}
