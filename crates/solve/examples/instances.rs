@@ -189,9 +189,11 @@ fn json(problem: &Problem) -> String {
     let pins = list(problem.pins.iter().map(|pin| pin.cost.to_string()));
     let spares = list(problem.boards.iter().map(|board| u32::from(board.spare).to_string()));
     let dma = list(problem.dma.iter().map(|user| {
-        list(user.requests.iter().map(|request| {
-            list(request.streams.iter().map(|stream| stream.0.to_string()))
-        }))
+        list(
+            user.requests
+                .iter()
+                .map(|request| list(request.streams.iter().map(|stream| stream.0.to_string()))),
+        )
     }));
     let devices = list(problem.devices.iter().map(|device| {
         list(device.alternatives.iter().map(|alternative| {

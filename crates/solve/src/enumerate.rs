@@ -1,8 +1,8 @@
 //! All answers, best first: a problem in, an iterator out that works only as far as it is asked.
 //!
 //! The answers of one objective are walked in order by a depth-first search over the entries of
-//! the tie-break; a branch is entered only when some answer within the objective lies there. What
-//! is cut off tells the least objective that can come next.
+//! the tie-break; a branch is entered only when some answer within the objective lies there. Then
+//! the least objective above it is looked for.
 #![expect(clippy::indexing_slicing, reason = "frames hold positions in `entries`")]
 
 use crate::answer::{Answer, Fault, Optimality};
@@ -70,7 +70,6 @@ impl Iterator for Answers<'_> {
                 let mut engine = Engine::unpark(self.problem, &self.model, parked);
                 let (weight, known) = engine.search(u64::MAX, false)?;
                 (self.level, self.best) = (weight, weight);
-                engine.cut = u64::MAX;
                 let mut frames = Vec::new();
                 let first = begin(&mut engine, &self.entries, known, &mut frames);
                 let choices = match first {
@@ -103,22 +102,14 @@ impl Answers<'_> {
     /// Goes up to the next objective that some answer has.
     fn next_level(&mut self, parked: Parked) -> Option<(Choices, Parked, Vec<Frame>)> {
         let mut engine = Engine::unpark(self.problem, &self.model, parked);
-        loop {
-            if engine.cut == u64::MAX {
-                return None;
-            }
-            self.level = engine.cut;
-            engine.cut = u64::MAX;
-            engine.settle().ok()?;
-            let Some((_, known)) = engine.search(self.level + 1, true) else { continue };
-            let mut frames = Vec::new();
-            if begin(&mut engine, &self.entries, known, &mut frames).is_some() {
-                return None;
-            }
-            if let Some(choices) = advance(&mut engine, &self.entries, self.level, &mut frames) {
-                return Some((choices, engine.park(), frames));
-            }
-        }
+        let (weight, known) = engine.search_above(self.level)?;
+        self.level = weight;
+        let mut frames = Vec::new();
+        let choices = match begin(&mut engine, &self.entries, known, &mut frames) {
+            Some(only) => Some(only),
+            None => advance(&mut engine, &self.entries, self.level, &mut frames),
+        };
+        choices.map(|choices| (choices, engine.park(), frames))
     }
 }
 

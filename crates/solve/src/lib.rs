@@ -16,9 +16,13 @@ mod frontier;
 mod model;
 mod order;
 pub mod problem;
+mod read;
 mod search;
 mod solve;
 mod state;
+mod terms;
+mod view;
+mod wires;
 
 pub use answer::{Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome};
 pub use check::{Violation, check};

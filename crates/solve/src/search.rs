@@ -6,17 +6,20 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::dma::Matching;
-use crate::dual::{Dual, NEVER, Terms};
+use crate::dual::{Dual, NEVER};
 use crate::flow::{Flow, Saved};
-use crate::model::{Kind, Model, NONE, agree};
-use crate::problem::Problem;
+use crate::model::Model;
+use crate::problem::{Problem, StreamId};
+use crate::read::Scratch;
 use crate::state::{Dead, State, Toll};
+use crate::terms::Terms;
 
 /// Alternative and candidates of each device, by id.
 pub(crate) type Choices = Vec<(usize, Vec<usize>)>;
 
+/// What a node splits on: taken first, then refused.
 #[derive(Clone, Copy, Debug)]
-enum Branch {
+pub(crate) enum Branch {
     Alt(usize),
     Cand(usize),
     Rule(usize),
@@ -34,41 +37,34 @@ pub(crate) struct Engine<'a> {
     /// Whether the first one is enough.
     first: bool,
     best: Option<(u64, Choices)>,
-    /// Least bound of what was cut off because of the limit.
-    pub(crate) cut: u64,
+    /// Only answers above this are looked for.
+    floor: Option<u64>,
     pub(crate) nodes: u64,
     stop: Option<&'a dyn Fn() -> bool>,
     pub(crate) stopped: bool,
-    scratch: Scratch,
+    pub(crate) scratch: Scratch,
     /// The second bound, made when the flow is not enough.
     dual: Option<Box<(Terms, Dual)>>,
     /// Nodes until which any answer will do, so that there is a limit to bound against.
     dive: u64,
+    /// Nodes when the present search began.
+    begun: u64,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
 pub(crate) struct Parked {
     state: State,
     flow: Flow,
-    cut: u64,
     nodes: u64,
     scratch: Scratch,
     dual: Option<Box<(Terms, Dual)>>,
 }
 
-/// Who holds what while a wiring is read off the flow.
-#[derive(Clone, Debug)]
-struct Scratch {
-    resource: Vec<(usize, usize)>,
-    pin: Vec<(usize, usize, usize)>,
-    touched_resources: Vec<usize>,
-    touched_pins: Vec<usize>,
-}
-
-const NOBODY: usize = NONE;
-
 /// How long the search looks for a first answer by the flow alone.
 const DIVE: u64 = 300;
+
+/// Nodes of a mere question that are spent on the flow alone.
+const PATIENCE: u64 = 3;
 
 /// Steps of the price ascent at the root and at other nodes.
 const ROOT_STEPS: usize = 250;
@@ -90,28 +86,24 @@ impl<'a> Engine<'a> {
             limit: u64::MAX,
             first: false,
             best: None,
-            cut: u64::MAX,
+            floor: None,
             nodes: 0,
             stop,
             stopped: false,
-            scratch: Scratch {
-                resource: vec![(NOBODY, 0); problem.resources as usize],
-                pin: vec![(NOBODY, 0, 0); model.pins],
-                touched_resources: Vec::new(),
-                touched_pins: Vec::new(),
-            },
+            scratch: Scratch::new(problem.resources as usize, model.pins),
             dual: None,
             dive: 0,
+            begun: 0,
         })
     }
 
     pub(crate) fn park(self) -> Parked {
-        let Self { state, flow, cut, nodes, scratch, dual, .. } = self;
-        Parked { state, flow, cut, nodes, scratch, dual }
+        let Self { state, flow, nodes, scratch, dual, .. } = self;
+        Parked { state, flow, nodes, scratch, dual }
     }
 
     pub(crate) fn unpark(problem: &'a Problem, model: &'a Model, parked: Parked) -> Self {
-        let Parked { state, flow, cut, nodes, scratch, dual } = parked;
+        let Parked { state, flow, nodes, scratch, dual } = parked;
         Self {
             problem,
             model,
@@ -120,13 +112,14 @@ impl<'a> Engine<'a> {
             limit: u64::MAX,
             first: false,
             best: None,
-            cut,
+            floor: None,
             nodes,
             stop: None,
             stopped: false,
             scratch,
             dual,
             dive: 0,
+            begun: 0,
         }
     }
 
@@ -137,6 +130,7 @@ impl<'a> Engine<'a> {
         self.best = None;
         let mark = self.state.mark();
         let saved = self.flow.save();
+        self.begun = self.nodes;
         if limit == u64::MAX && !first {
             self.dive = self.nodes + DIVE;
             self.node(0);
@@ -146,6 +140,14 @@ impl<'a> Engine<'a> {
         self.node(0);
         self.back(mark, &saved);
         self.best.take()
+    }
+
+    /// The cheapest choice that costs more than `floor`.
+    pub(crate) fn search_above(&mut self, floor: u64) -> Option<(u64, Choices)> {
+        self.floor = Some(floor);
+        let found = self.search(u64::MAX, false);
+        self.floor = None;
+        found
     }
 
     pub(crate) fn bound(&self) -> u64 {
@@ -171,42 +173,20 @@ impl<'a> Engine<'a> {
             if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
                 return;
             }
-            if self.stop.is_some_and(|stop| stop()) {
-                self.stopped = true;
-            }
+            self.stopped |= self.stop.is_some_and(|stop| stop());
             if self.stopped || self.settle().is_err() {
                 return;
             }
             let bound = self.bound();
             if bound >= self.limit {
-                self.cut = self.cut.min(bound);
                 return;
             }
             if self.model.dma_matters && !self.dma_possible() {
                 return;
             }
-            let branch = match self.read() {
-                Ok(choices) => {
-                    let weight = self.model.evaluate(&choices);
-                    let toll = self.open_toll(&choices);
-                    if weight < self.limit {
-                        self.limit = weight;
-                        self.best = Some((weight, choices));
-                    } else {
-                        self.cut = self.cut.min(weight);
-                    }
-                    if self.first && self.best.is_some() || weight == bound {
-                        return;
-                    }
-                    toll.or_else(|| self.any_branch())
-                }
-                Err(branch) => branch,
-            };
-            let Some(branch) = branch else { return };
-            let mut branch = branch;
-            if self.dive == 0 {
-                let root = depth == 0 && !self.first;
-                let steps = match (root, fresh) {
+            let Some(mut branch) = self.try_wiring(bound) else { return };
+            if self.dive == 0 && (!self.first || self.nodes > self.begun + PATIENCE) {
+                let steps = match (depth == 0 && !self.first, fresh) {
                     (true, true) => ROOT_STEPS,
                     (true, false) => ROOT_STEPS / 4,
                     (false, _) => NODE_STEPS,
@@ -218,31 +198,55 @@ impl<'a> Engine<'a> {
                     Ok(false) => branch = self.guided(branch),
                 }
             }
-            let mark = self.state.mark();
-            let saved = self.flow.save();
-            let prices = self.dual.as_ref().map(|dual| dual.1.save());
             let limit = self.limit;
-            if self.take(branch).is_ok() {
-                self.node(depth + 1);
-            }
-            if self.first && self.best.is_some() {
+            let refused = self.follow(branch, depth);
+            if refused.is_err() || self.first && self.best.is_some() {
                 return;
             }
-            self.back(mark, &saved);
-            if let (Some(dual), Some(prices)) = (&mut self.dual, prices) {
-                dual.1.restore(&prices);
-            }
             // A better limit strikes more at the root than anywhere below it.
-            if self.limit < limit && !self.first {
-                if depth > 0 {
-                    return;
-                }
-                continue;
-            }
-            if self.refuse(branch).is_err() {
+            if self.limit < limit && !self.first && depth > 0 {
                 return;
             }
         }
+    }
+
+    /// Reads a wiring off the flow and keeps it if it is better; what to branch on, if anything.
+    fn try_wiring(&mut self, bound: u64) -> Option<Branch> {
+        let choices = match self.read() {
+            Ok(choices) => choices,
+            Err(branch) => return branch,
+        };
+        let weight = self.model.evaluate(&choices);
+        let toll = self.open_toll(&choices);
+        let counts = self.floor.is_none_or(|floor| weight > floor);
+        if counts && weight < self.limit {
+            self.limit = weight;
+            self.best = Some((weight, choices));
+        }
+        if self.first && self.best.is_some() || counts && weight == bound {
+            return None;
+        }
+        toll.or_else(|| self.any_branch())
+    }
+
+    /// Searches where the branch is taken, then refuses it here (unless the limit has improved,
+    /// which makes the root start again, or the first answer was enough).
+    fn follow(&mut self, branch: Branch, depth: usize) -> Result<(), Dead> {
+        let mark = self.state.mark();
+        let saved = self.flow.save();
+        let prices = self.dual.as_ref().map(|dual| dual.1.save());
+        let limit = self.limit;
+        if self.take(branch).is_ok() {
+            self.node(depth + 1);
+        }
+        if self.first && self.best.is_some() {
+            return Ok(());
+        }
+        self.back(mark, &saved);
+        if let (Some(dual), Some(prices)) = (&mut self.dual, prices) {
+            dual.1.restore(&prices);
+        }
+        if self.limit < limit && !self.first { Ok(()) } else { self.refuse(branch) }
     }
 
     /// The same branching with the alternative that the prices favour.
@@ -276,12 +280,9 @@ impl<'a> Engine<'a> {
             return Err(Dead);
         }
         if bound >= self.limit {
-            self.cut = self.cut.min(bound);
             return Err(Dead);
         }
-        let struck = dual.strike(terms, model, &mut self.state, bound, self.limit);
-        self.cut = self.cut.min(dual.struck);
-        struck
+        dual.strike(terms, model, &mut self.state, bound, self.limit)
     }
 
     fn take(&mut self, branch: Branch) -> Result<(), Dead> {
@@ -326,7 +327,8 @@ impl<'a> Engine<'a> {
     fn twins(&self, device: usize) -> Vec<usize> {
         let class = self.model.class[device];
         let same = |&d: &usize| {
-            self.model.class[d] == class && (d == device || self.state.same_domain(self.model, d, device))
+            self.model.class[d] == class
+                && (d == device || self.state.same_domain(self.model, d, device))
         };
         (class..self.model.devices).filter(same).collect()
     }
@@ -340,7 +342,7 @@ impl<'a> Engine<'a> {
             .collect();
         users.sort_unstable();
         users.dedup();
-        let mut unions: Vec<Vec<crate::problem::StreamId>> = Vec::new();
+        let mut unions: Vec<Vec<StreamId>> = Vec::new();
         for device in (0..model.devices).filter(|&d| self.state.decided(d).is_none()) {
             self.undecided_requests(device, &mut unions);
         }
@@ -351,7 +353,7 @@ impl<'a> Engine<'a> {
     }
 
     /// The requests of a device that needs streams of its own whatever it chooses.
-    fn undecided_requests(&self, device: usize, unions: &mut Vec<Vec<crate::problem::StreamId>>) {
+    fn undecided_requests(&self, device: usize, unions: &mut Vec<Vec<StreamId>>) {
         let model = self.model;
         let requests = |alt: usize| {
             let users = model.alt_dma.at(alt).iter();
@@ -388,7 +390,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Any open choice.
-    fn any_branch(&self) -> Option<Branch> {
+    pub(crate) fn any_branch(&self) -> Option<Branch> {
         let model = self.model;
         let open = (0..model.devices).filter(|&d| self.state.device_left(d) > 1);
         if let Some(device) = open.min_by_key(|&d| self.state.device_left(d)) {
@@ -397,7 +399,7 @@ impl<'a> Engine<'a> {
         (0..model.devices).find_map(|d| self.open_role(d))
     }
 
-    fn open_role(&self, device: usize) -> Option<Branch> {
+    pub(crate) fn open_role(&self, device: usize) -> Option<Branch> {
         let model = self.model;
         let alt = self.state.decided(device)?;
         let (position, role) = model
@@ -410,203 +412,5 @@ impl<'a> Engine<'a> {
         let here = |c: &usize| Some(model.cand(*c).pin) == flow;
         let mut cands = self.state.cands(model, role);
         cands.clone().find(here).or_else(|| cands.next()).map(Branch::Cand)
-    }
-
-    /// Reads a wiring off the flow, or tells what to branch on.
-    fn read(&mut self) -> Result<Choices, Option<Branch>> {
-        let model = self.model;
-        let mut choices = Choices::with_capacity(model.devices);
-        let mut wires = vec![NONE; model.wires];
-        let mut fault = None;
-        // Decided devices first: the others adapt.
-        let order = (0..model.devices).filter(|&d| self.state.device_left(d) == 1);
-        let order: Vec<usize> =
-            order.chain((0..model.devices).filter(|&d| self.state.device_left(d) > 1)).collect();
-        choices.resize(model.devices, (NONE, Vec::new()));
-        for device in order {
-            match self.read_device(device, &mut wires) {
-                Ok(choice) => choices[device] = choice,
-                Err(culprit) => {
-                    fault = Some((device, culprit));
-                    break;
-                }
-            }
-        }
-        for resource in self.scratch.touched_resources.drain(..) {
-            self.scratch.resource[resource] = (NOBODY, 0);
-        }
-        for pin in self.scratch.touched_pins.drain(..) {
-            self.scratch.pin[pin] = (NOBODY, 0, 0);
-        }
-        if let Some((device, culprit)) = fault {
-            return Err(self.blame(device, culprit));
-        }
-        if model.dma_matters && !self.dma_fits(&choices) {
-            let uses = |d: &usize| {
-                self.state.device_left(*d) > 1
-                    && self.state.alts(model, *d).any(|a| !model.alt_dma.at(a).is_empty())
-            };
-            let device = (0..model.devices).find(uses);
-            return Err(device.map(|d| Branch::Alt(choices[d].0)));
-        }
-        Ok(choices)
-    }
-
-    fn dma_fits(&self, choices: &Choices) -> bool {
-        let mut users: Vec<usize> =
-            choices.iter().flat_map(|(alt, _)| self.model.alt_dma.at(*alt)).copied().collect();
-        users.sort_unstable();
-        users.dedup();
-        let mut matching = Matching::new(self.problem.streams);
-        let mut requests = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
-        requests.all(|r| matching.add(&r.streams))
-    }
-
-    /// A device that cannot follow the flow is to choose; if it has chosen, its opponent is.
-    fn blame(&self, device: usize, culprit: usize) -> Option<Branch> {
-        let model = self.model;
-        for d in [device, culprit] {
-            if d != NOBODY && self.state.device_left(d) > 1 {
-                return self.preferred(d).map(Branch::Alt);
-            }
-        }
-        let culprit = (culprit != NOBODY).then_some(culprit);
-        self.open_role(device)
-            .or_else(|| culprit.and_then(|d| self.open_role(d)))
-            .or_else(|| self.any_branch())
-            .filter(|_| model.devices > 0)
-    }
-
-    /// The alternative that the flow would give the device.
-    fn preferred(&self, device: usize) -> Option<usize> {
-        let model = self.model;
-        let positions = 0..model.demand[device + 1] - model.demand[device];
-        let mut flow = positions
-            .filter_map(|p| self.flow.at(model, device, p))
-            .map(|(_, id)| model.cand_alt(id))
-            .filter(|&alt| model.alt_device[alt] == device && self.state.alt_on(alt));
-        flow.next().or_else(|| self.state.alts(model, device).next())
-    }
-
-    fn read_device(
-        &mut self,
-        device: usize,
-        wires: &mut [usize],
-    ) -> Result<(usize, Vec<usize>), usize> {
-        let model = self.model;
-        let first = self.preferred(device);
-        let mut culprit = NOBODY;
-        let others = self.state.alts(model, device).filter(|a| Some(*a) != first);
-        let alts: Vec<usize> = first.into_iter().chain(others).collect();
-        for alt in alts {
-            let resources = self.scratch.touched_resources.len();
-            let pins = self.scratch.touched_pins.len();
-            match self.read_alt(device, alt, wires) {
-                Ok(cands) => {
-                    for (role, &id) in model.roles.range(alt).zip(&cands) {
-                        if let Kind::Wire(wire) = model.role_kind[role] {
-                            wires[wire] = model.cand(id).pin;
-                        }
-                    }
-                    return Ok((alt, cands));
-                }
-                Err(opponent) => {
-                    if culprit == NOBODY {
-                        culprit = opponent;
-                    }
-                    for r in self.scratch.touched_resources.drain(resources..) {
-                        self.scratch.resource[r] = (NOBODY, 0);
-                    }
-                    for p in self.scratch.touched_pins.drain(pins..) {
-                        self.scratch.pin[p] = (NOBODY, 0, 0);
-                    }
-                }
-            }
-        }
-        Err(culprit)
-    }
-
-    fn read_alt(
-        &mut self,
-        device: usize,
-        alt: usize,
-        wires: &[usize],
-    ) -> Result<Vec<usize>, usize> {
-        let model = self.model;
-        self.hold_all(device, model.alt_claims.at(alt))?;
-        let mut cands = Vec::with_capacity(model.roles.range(alt).len());
-        for (position, role) in model.roles.range(alt).enumerate() {
-            let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
-            let wanted = match model.role_kind[role] {
-                _ if self.state.role_left(role) == 1 => None,
-                Kind::Own => flow,
-                Kind::Wire(wire) => self
-                    .flow
-                    .wire(model, wire)
-                    .or(Some(wires[wire]).filter(|p| *p != NONE))
-                    .or(flow),
-                Kind::Odd => None,
-            };
-            let mut culprit = NOBODY;
-            let mut found = None;
-            for id in model.cands.range(role) {
-                if !self.state.cand_on(model, id) {
-                    continue;
-                }
-                let pin = model.cand(id).pin;
-                let twice = cands.iter().any(|&c: &usize| model.cand(c).pin == pin);
-                if twice || wanted.is_some_and(|wanted| wanted != pin) {
-                    continue;
-                }
-                match self.hold_cand(device, id) {
-                    Ok(()) => {
-                        found = Some(id);
-                        break;
-                    }
-                    Err(opponent) => culprit = opponent,
-                }
-            }
-            cands.push(found.ok_or(culprit)?);
-        }
-        Ok(cands)
-    }
-
-    fn hold_cand(&mut self, device: usize, id: usize) -> Result<(), usize> {
-        let model = self.model;
-        let c = model.cand(id);
-        let (holder, code, signal) = self.scratch.pin[c.pin];
-        if holder != NOBODY && (!agree(code, c.holder) || signal != c.signal) {
-            return Err(holder);
-        }
-        let mark = self.scratch.touched_resources.len();
-        if let Err(opponent) = self.hold_all(device, model.cand_claims.at(id)) {
-            for r in self.scratch.touched_resources.drain(mark..) {
-                self.scratch.resource[r] = (NOBODY, 0);
-            }
-            return Err(opponent);
-        }
-        if holder == NOBODY {
-            self.scratch.touched_pins.push(c.pin);
-            self.scratch.pin[c.pin] = (device, c.holder, c.signal);
-        }
-        Ok(())
-    }
-
-    fn hold_all(&mut self, device: usize, claims: &[(usize, usize)]) -> Result<(), usize> {
-        for &(resource, code) in claims {
-            let (holder, held) = self.scratch.resource[resource];
-            if holder == NOBODY {
-                self.scratch.resource[resource] = (device, code);
-                self.scratch.touched_resources.push(resource);
-            } else if holder == device {
-                // One device with two holders shares with nobody.
-                if held != code {
-                    self.scratch.resource[resource] = (device, 0);
-                }
-            } else if !agree(held, code) {
-                return Err(holder);
-            }
-        }
-        Ok(())
     }
 }

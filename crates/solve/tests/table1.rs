@@ -19,7 +19,10 @@ fn build(target: Target, analog: u32, i2c: u32, icu: u32) -> Builder {
     builder
 }
 
-const ROWS: [(u32, u32, u32, u32, [u64; 3], [u64; 3]); 5] = [
+type Row = (u32, u32, u32, u32, [u64; 3], [u64; 3]);
+
+/// Analog, I2C, ICU; best cost; counts and numbers of optima for each target.
+const ROWS: [Row; 5] = [
     (2, 1, 1, 5, [6_240, 6_240, 5_952], [720, 720, 720]),
     (2, 1, 2, 6, [80_744, 74_576, 66_592], [5_040, 4_320, 4_320]),
     (3, 1, 3, 8, [5_927_616, 4_582_368, 3_697_344], [120_960, 69_120, 69_120]),
@@ -78,7 +81,7 @@ fn every_answer_of_the_example_once_and_in_order() {
 
 fn position(builder: &Builder, name: &str) -> u32 {
     let all = builder.names.iter().chain(&builder.signals);
-    all.into_iter().position(|n| n == name).expect("a known name") as u32
+    all.into_iter().position(|n| n == name).unwrap_or(usize::MAX) as u32
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub enum Mix {
     Timers,
 }
 
-/// Request streams of an STM32F40x, as its reference manual's tables give them (8 and up: DMA2).
+/// Request streams of an `STM32F40x`, as its reference manual's tables give them (8 and up: DMA2).
 pub const DMA_F4: [(&str, &[&[u32]]); 12] = [
     ("I2C1", &[&[0, 5], &[6, 7]]),
     ("I2C2", &[&[2, 3], &[7]]),

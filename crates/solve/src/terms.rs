@@ -1,0 +1,308 @@
+//! What the price bound prices: a model in, the things with prices and who is tied to them out.
+//!
+//! Pins, resources and DMA streams can be held once; a link ties a use to the opening of the
+//! facility within which it happens.
+#![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
+
+use crate::model::{Kind, Model, NONE, Rows};
+use crate::problem::Problem;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What never changes: who is tied to which price.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Terms {
+    pub(crate) prices: usize,
+    /// From here on prices are links: they bind a use to the opening of a facility.
+    pub(crate) first_link: usize,
+    pub(crate) first_stream: usize,
+    /// Prices of an alternative and of a candidate, beside its pin.
+    pub(crate) alt_prices: Rows<usize>,
+    pub(crate) cand_prices: Rows<usize>,
+    /// Streams (as prices) of each request of a user that belongs to the alternative alone.
+    pub(crate) alt_requests: Vec<Vec<Vec<usize>>>,
+    pub(crate) alt_facilities: Rows<usize>,
+    pub(crate) facilities: Vec<Facility>,
+    /// Facilities of which so many must be open together.
+    pub(crate) families: Vec<Family>,
+}
+
+/// Something that is opened for all who use it together: a bus, a timer at one frequency.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Facility {
+    /// Price of what it occupies.
+    pub(crate) resource: Option<usize>,
+    pub(crate) wires: Vec<usize>,
+    /// Price and how many links have it.
+    pub(crate) links: Vec<(usize, i64)>,
+    pub(crate) requests: Vec<Vec<usize>>,
+    pub(crate) alts: Vec<usize>,
+}
+
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Family {
+    pub(crate) members: Vec<usize>,
+    pub(crate) need: usize,
+}
+
+impl Terms {
+    pub(crate) fn new(problem: &Problem, model: &Model) -> Self {
+        let first_stream = model.pins + model.resource_users.len();
+        let first_link = first_stream + problem.streams as usize;
+        let mut terms = Self { first_link, first_stream, ..Self::default() };
+        let odd = odd_resources(problem, model);
+        let of_alt = terms.find_facilities(model, &odd);
+        let mut links: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for alt in 0..model.alt_device.len() {
+            let mut price_all = |claims: &[(usize, usize)]| -> BTreeSet<usize> {
+                let own = claims.iter().filter(|c| c.1 == 0 && !odd[c.0]).map(|c| c.0);
+                own.map(|r| terms.price_of(model, r, &of_alt, alt, &mut links)).collect()
+            };
+            let mut own = price_all(model.alt_claims.at(alt));
+            let mut linked = own.iter().any(|p| *p >= first_link);
+            let mut of_cands = Vec::new();
+            for role in model.roles.range(alt) {
+                let mut inner = !model.cands.range(role).is_empty();
+                for id in model.cands.range(role) {
+                    let prices = price_all(model.cand_claims.at(id));
+                    inner &= prices.iter().any(|p| *p >= first_link);
+                    of_cands.push(prices);
+                }
+                linked |= inner;
+            }
+            for &facility in &of_alt[alt] {
+                terms.alt_facilities.add(facility);
+                if !(linked && of_alt[alt].len() == 1) {
+                    let class = model.class[model.alt_device[alt]];
+                    let key = (usize::MAX - class, facility);
+                    let next = first_link + links.len();
+                    own.insert(*links.entry(key).or_insert(next));
+                }
+            }
+            own.into_iter().for_each(|p| terms.alt_prices.add(p));
+            terms.alt_prices.close();
+            terms.alt_facilities.close();
+            for prices in of_cands {
+                prices.into_iter().for_each(|p| terms.cand_prices.add(p));
+                terms.cand_prices.close();
+            }
+        }
+        for (&(of, facility), &link) in &links {
+            // Alike devices have one price together, but each its own link.
+            let alike = model.class.iter().filter(|c| usize::MAX - **c == of).count();
+            terms.facilities[facility].links.push((link, alike.max(1) as i64));
+        }
+        terms.prices = first_link + links.len();
+        terms.find_requests(problem, model);
+        terms.find_families(model);
+        terms
+    }
+
+    /// Makes the facilities and tells those of each alternative.
+    fn find_facilities(&mut self, model: &Model, odd: &[bool]) -> Vec<Vec<usize>> {
+        let mut numbers: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        let mut of_alt = vec![Vec::new(); model.alt_device.len()];
+        let mut wire_keys: Vec<Option<BTreeSet<(usize, usize)>>> = vec![None; model.wires];
+        let wires = |alt: usize| {
+            model.roles.range(alt).filter_map(|role| match model.role_kind[role] {
+                Kind::Wire(wire) => Some(wire),
+                Kind::Own | Kind::Odd => None,
+            })
+        };
+        // A wire belongs to a group when it is there whenever the group is.
+        let mut group_size: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        let mut wire_size = vec![0; model.wires];
+        for alt in 0..model.alt_device.len() {
+            let keys: BTreeSet<(usize, usize)> = model.alt_groups.at(alt).iter().copied().collect();
+            for key in &keys {
+                *group_size.entry(*key).or_default() += 1;
+            }
+            for wire in wires(alt) {
+                wire_size[wire] += 1;
+                wire_keys[wire] = Some(match wire_keys[wire].take() {
+                    None => keys.clone(),
+                    Some(old) => old.intersection(&keys).copied().collect(),
+                });
+            }
+        }
+        for (alt, own) in of_alt.iter_mut().enumerate() {
+            let contested = model.alt_claims.at(alt).iter().filter(|c| c.1 != 0).copied();
+            let mut keys: BTreeSet<(usize, usize)> = contested.collect();
+            let key = |wire: usize| {
+                let always = |k: &&(usize, usize)| group_size[*k] == wire_size[wire];
+                let common = wire_keys[wire].iter().flatten().find(always).copied();
+                common.unwrap_or((NONE, wire))
+            };
+            keys.extend(wires(alt).map(key));
+            for k in keys {
+                let next = numbers.len();
+                let facility = *numbers.entry(k).or_insert(next);
+                if facility == next {
+                    let contested =
+                        k.0 != NONE && !odd[k.0] && !model.resource_users.at(k.0).is_empty();
+                    let resource = contested.then_some(model.pins + k.0);
+                    self.facilities.push(Facility { resource, ..Facility::default() });
+                }
+                own.push(facility);
+                self.facilities[facility].alts.push(alt);
+                for wire in wires(alt).filter(|w| key(*w) == k) {
+                    let list = &mut self.facilities[facility].wires;
+                    if !list.contains(&wire) {
+                        list.push(wire);
+                    }
+                }
+            }
+        }
+        of_alt
+    }
+
+    fn price_of(
+        &self,
+        model: &Model,
+        resource: usize,
+        of_alt: &[Vec<usize>],
+        alt: usize,
+        links: &mut BTreeMap<(usize, usize), usize>,
+    ) -> usize {
+        // Outputs of one channel at several frequencies: one link for each facility.
+        let users = model.resource_users.at(resource);
+        let facility = of_alt[alt]
+            .iter()
+            .copied()
+            .find(|_| users.iter().all(|u| u.holder == 0 && of_alt[model.user_alt(u)].len() == 1));
+        match facility.filter(|f| self.same_resource(model, resource, *f, of_alt)) {
+            Some(facility) => {
+                let next = self.first_link + links.len();
+                *links.entry((resource, facility)).or_insert(next)
+            }
+            None => model.pins + resource,
+        }
+    }
+
+    /// Whether all facilities within which the resource is claimed exclude each other.
+    fn same_resource(
+        &self,
+        model: &Model,
+        resource: usize,
+        facility: usize,
+        of_alt: &[Vec<usize>],
+    ) -> bool {
+        let occupied = self.facilities[facility].resource;
+        model.resource_users.at(resource).iter().all(|user| {
+            of_alt[model.user_alt(user)].iter().all(|f| {
+                *f == facility || (occupied.is_some() && self.facilities[*f].resource == occupied)
+            })
+        })
+    }
+
+    fn find_requests(&mut self, problem: &Problem, model: &Model) {
+        self.alt_requests = vec![Vec::new(); model.alt_device.len()];
+        if !model.dma_matters {
+            return;
+        }
+        let mut users: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for alt in 0..model.alt_device.len() {
+            for &user in model.alt_dma.at(alt) {
+                users.entry(user).or_default().push(alt);
+            }
+        }
+        for (user, alts) in users {
+            let requests = problem.dma[user].requests.iter().map(|request| {
+                request.streams.iter().map(|s| self.first_stream + s.0 as usize).collect()
+            });
+            let requests: Vec<Vec<usize>> = requests.collect();
+            if model.user_private[user] {
+                for &alt in &alts {
+                    self.alt_requests[alt].extend(requests.iter().cloned());
+                }
+                continue;
+            }
+            // A bus pays for its streams when all who use them use the bus.
+            let home = (0..self.facilities.len())
+                .find(|&f| self.facilities[f].alts.iter().eq(alts.iter()));
+            if let Some(facility) = home {
+                self.facilities[facility].requests.extend(requests);
+            }
+        }
+    }
+
+    /// Facilities that the same devices choose from, and how many they need at least.
+    fn find_families(&mut self, model: &Model) {
+        let mut family: Vec<usize> = (0..self.facilities.len()).collect();
+        for device in 0..model.devices {
+            let mut all = model.alts.range(device).flat_map(|alt| self.alt_facilities.at(alt));
+            let Some(&first) = all.next() else { continue };
+            let target = family[first];
+            for &other in all {
+                let old = family[other];
+                family.iter_mut().filter(|f| **f == old).for_each(|f| *f = target);
+            }
+        }
+        let mut devices: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for device in 0..model.devices {
+            let mut alts = model.alts.range(device);
+            let first = alts.start;
+            if alts.all(|alt| self.alt_facilities.at(alt).len() == 1)
+                && let Some(f) = self.alt_facilities.at(first).first()
+            {
+                devices.entry(family[*f]).or_default().push(device);
+            }
+        }
+        for (number, devices) in devices {
+            let members: Vec<usize> =
+                (0..self.facilities.len()).filter(|f| family[*f] == number).collect();
+            let most = members.iter().map(|&f| self.capacity(model, f)).max().unwrap_or(1).max(1);
+            self.families.push(Family { need: devices.len().div_ceil(most), members });
+        }
+    }
+
+    /// Most devices that a facility can serve: as many as its links, and as many as there are pins
+    /// for the first wire that each of them needs of its own.
+    fn capacity(&self, model: &Model, facility: usize) -> usize {
+        let facility = &self.facilities[facility];
+        let link = |prices: &[usize]| facility.links.iter().find(|l| prices.contains(&l.0));
+        let mut links: Option<BTreeSet<&(usize, i64)>> = Some(BTreeSet::new());
+        let mut pins = Some(BTreeSet::new());
+        for &alt in &facility.alts {
+            let role = model.roles.range(alt).find(|r| model.role_kind[*r] == Kind::Own);
+            let cands = role.map_or(0..0, |role| model.cands.range(role));
+            match (&mut pins, role) {
+                (Some(pins), Some(_)) => pins.extend(cands.clone().map(|id| model.cand(id).pin)),
+                _ => pins = None,
+            }
+            let of_cands: Option<Vec<_>> = cands.map(|c| link(self.cand_prices.at(c))).collect();
+            let found = match link(self.alt_prices.at(alt)) {
+                Some(own) => Some(vec![own]),
+                None => of_cands.filter(|links| !links.is_empty()),
+            };
+            match (&mut links, found) {
+                (Some(links), Some(found)) => links.extend(found),
+                _ => links = None,
+            }
+        }
+        let links = links.map(|set| set.iter().map(|l| l.1 as usize).sum());
+        let pins = pins.map(|set| set.len());
+        [links, pins].into_iter().flatten().min().unwrap_or(usize::MAX)
+    }
+}
+
+/// Resources that one device can claim in several places or for several holders at once: it does
+/// not quarrel with itself, so no price counts them right.
+fn odd_resources(problem: &Problem, model: &Model) -> Vec<bool> {
+    let mut odd = vec![false; problem.resources as usize];
+    for alt in 0..model.alt_device.len() {
+        let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+        let mut book = |place: usize, claims: &[(usize, usize)]| {
+            for &(resource, holder) in claims {
+                let first = seen.entry(resource).or_insert((place, holder));
+                // The tie of a shared wire has a holder for each pin and carries no price.
+                let tie = first.1 != 0 && holder != 0 && place != NONE;
+                odd[resource] |= *first != (place, holder) && !(tie && first.0 == place);
+            }
+        };
+        book(NONE, model.alt_claims.at(alt));
+        for role in model.roles.range(alt) {
+            model.cands.range(role).for_each(|id| book(role, model.cand_claims.at(id)));
+        }
+    }
+    odd
+}
