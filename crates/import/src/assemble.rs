@@ -114,22 +114,23 @@ pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
 
 /// The columns that have something in them.
 fn columns(pins: &[Pin]) -> Vec<Column> {
-    let any = |has: &dyn Fn(&Pin) -> bool| pins.iter().any(has);
     let mut columns = vec![("Pin", Role::Pin)];
-    let described: [(&str, Role, &dyn Fn(&Pin) -> bool); 6] = [
-        ("Position", Role::Position, &|pin| pin.position.is_some()),
-        ("Side", Role::Side, &|pin| pin.side.is_some()),
-        ("Header", Role::Header, &|pin| pin.header.is_some()),
-        ("Label", Role::Label, &|pin| pin.label.is_some()),
-        ("Voltage", Role::Voltage, &|pin| pin.voltage.is_some()),
-        ("Onboard", Role::Onboard, &|pin| pin.onboard.is_some()),
-    ];
-    let present = described.iter().filter(|(_, _, has)| any(has));
-    columns.extend(present.map(|(header, role, _)| (*header, *role)));
-    let used = |header: &str| any(&|pin: &Pin| pin.usages.iter().any(|u| u.column == header));
+    let mut described = |header: &'static str, role, has: &dyn Fn(&Pin) -> bool| {
+        columns.extend(pins.iter().any(has).then_some((header, role)));
+    };
+    described("Position", Role::Position, &|pin| pin.position.is_some());
+    described("Side", Role::Side, &|pin| pin.side.is_some());
+    described("Header", Role::Header, &|pin| pin.header.is_some());
+    described("Label", Role::Label, &|pin| pin.label.is_some());
+    described("Voltage", Role::Voltage, &|pin| pin.voltage.is_some());
+    described("Onboard", Role::Onboard, &|pin| pin.onboard.is_some());
+    let used = |header: &str| {
+        let mut usages = pins.iter().flat_map(|pin| &pin.usages);
+        usages.any(|usage| usage.column == header)
+    };
     let of_usages = COLUMNS.iter().filter(|(header, _)| used(header));
     columns.extend(of_usages.map(|(header, _)| (*header, Role::Usages)));
-    if any(&|pin| pin.note.is_some()) {
+    if pins.iter().any(|pin| pin.note.is_some()) {
         columns.push(("Note", Role::Note));
     }
     let column = |(header, role): (&str, Role)| Column { header: header.into(), role, range: 0..0 };

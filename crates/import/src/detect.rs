@@ -9,7 +9,7 @@ pub enum Format {
     Csv,
     /// A workbook of Excel and others.
     Xlsx,
-    /// A workbook of LibreOffice and others.
+    /// A workbook of `LibreOffice` and others.
     Ods,
     /// The description of an MCU in a CubeMX installation.
     CubeMx,

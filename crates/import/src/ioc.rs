@@ -4,6 +4,7 @@
 //! that several modes share (`S_TIM3_CH1`, `ADCx_IN1`) is told by a line `SH.<signal>.0`.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
@@ -107,10 +108,14 @@ impl Reader<'_> {
                 continue;
             };
             let wire = self.wire(spelled, pin.clone(), &value.text, span, log);
-            if wires.contains_key(&pin) {
-                log.doubtful(span, "", &format!("{pin} is used twice; the first use counts"));
-            } else {
-                wires.insert(pin, wire);
+            match wires.entry(pin) {
+                Entry::Vacant(free) => {
+                    free.insert(wire);
+                }
+                Entry::Occupied(first) => {
+                    let what = format!("{} is used twice; the first use counts", first.key());
+                    log.doubtful(span, "", &what);
+                }
             }
         }
         if let Some((_, first)) = others.first() {

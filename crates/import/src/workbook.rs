@@ -314,7 +314,7 @@ fn small(number: usize) -> u32 {
     u32::try_from(number).unwrap_or(u32::MAX / 2)
 }
 
-/// The merged cells of each sheet of an OpenDocument file, which the reader does not tell.
+/// The merged cells of each sheet of an ODS file, which the reader does not tell.
 fn merged(bytes: &[u8]) -> Result<BTreeMap<String, Vec<Dimensions>>, String> {
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| words(&error))?;
     let content = archive.by_name("content.xml").map_err(|error| words(&error))?;
