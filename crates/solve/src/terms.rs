@@ -58,17 +58,14 @@ impl Terms {
                 own.map(|r| terms.price_of(model, r, &of_alt, alt, &mut links)).collect()
             };
             let mut own = price_all(model.alt_claims.at(alt));
-            let mut linked = own.iter().any(|p| *p >= first_link);
+            let linked = own.iter().any(|p| *p >= first_link);
             let mut of_cands = Vec::new();
             for role in model.roles.range(alt) {
-                let mut inner = !model.cands.range(role).is_empty();
                 for id in model.cands.range(role) {
-                    let prices = price_all(model.cand_claims.at(id));
-                    inner &= prices.iter().any(|p| *p >= first_link);
-                    of_cands.push(prices);
+                    of_cands.push(price_all(model.cand_claims.at(id)));
                 }
-                linked |= inner;
             }
+            // Links of single candidates (channels) do not bind the device as a whole.
             for &facility in &of_alt[alt] {
                 terms.alt_facilities.add(facility);
                 if !(linked && of_alt[alt].len() == 1) {
@@ -270,9 +267,9 @@ impl Terms {
                 _ => pins = None,
             }
             let of_cands: Option<Vec<_>> = cands.map(|c| link(self.cand_prices.at(c))).collect();
-            let found = match link(self.alt_prices.at(alt)) {
-                Some(own) => Some(vec![own]),
-                None => of_cands.filter(|links| !links.is_empty()),
+            let found = match of_cands.filter(|links| !links.is_empty()) {
+                Some(links) => Some(links),
+                None => link(self.alt_prices.at(alt)).map(|own| vec![own]),
             };
             match (&mut links, found) {
                 (Some(links), Some(found)) => links.extend(found),
