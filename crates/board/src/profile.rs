@@ -83,6 +83,16 @@ pub fn full_name(target: &str) -> Option<&'static str> {
     versions.max_by(|a, b| crate::pin::natural(a, b))
 }
 
+/// The start of part numbers under which a target covers an MCU. MCUs with the same start have the
+/// same profile.
+#[must_use]
+pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
+    let target = full_name(target)?;
+    let name = mcu::normalise(mcu);
+    let parts = TARGETS.iter().filter(|entry| entry.target == target).flat_map(|entry| entry.parts);
+    parts.copied().filter(|part| name.starts_with(part)).max_by_key(|part| part.len())
+}
+
 /// Finds the profile of an MCU under a target.
 ///
 /// # Errors

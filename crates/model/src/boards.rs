@@ -5,7 +5,7 @@ use sensedsl_board::profile::{self, NoProfile, Target};
 use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0202_property_twice, e0301_unknown_board, e0302_table_unreadable,
-    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none,
+    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none, w0607_part_not_certain,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
@@ -106,16 +106,30 @@ fn pins(
 }
 
 fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
-    let Some(entry) = catalog::find(&name.value) else {
-        let meant = catalog::nearest_name(&name.value);
-        let unknown = e0301_unknown_board::unknown_board(name.span, &name.value, meant);
-        context.diagnostics.push(unknown);
-        return None;
-    };
+    let Some(entry) = catalog::find(&name.value) else { return part(context, name) };
     let shown = format!("boards/{}/pins.csv", entry.name);
     let file = context.sources.find(&shown);
     let file = file.unwrap_or_else(|| context.sources.add(shown, entry.csv()));
     Some(Pins { table: entry.table(), file, entry: Some(entry) })
+}
+
+/// The pins of a bare MCU.
+fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
+    let Some(found) = sensedsl_parts::find(&name.value) else {
+        let meant = catalog::nearest_name(&name.value).map(str::to_owned);
+        let meant = meant.or_else(|| sensedsl_parts::nearest_name(&name.value));
+        let unknown = e0301_unknown_board::unknown_board(name.span, &name.value, meant.as_deref());
+        context.diagnostics.push(unknown);
+        return None;
+    };
+    if let Some(doubt) = found.doubt() {
+        context.diagnostics.push(w0607_part_not_certain::part_not_certain(name.span, &doubt));
+    }
+    let shown = format!("parts/{}.csv", found.mcu);
+    let file = context.sources.find(&shown);
+    let file = file.unwrap_or_else(|| context.sources.add(shown, found.csv()));
+    let table = table::load(context.sources.text(file)).board;
+    Some(Pins { table, file, entry: None })
 }
 
 fn from_file(context: &mut Context<'_>, path: &str, at: Span) -> Option<Pins> {

@@ -37,6 +37,8 @@ pub(crate) enum Command {
     Capacity(CapacityArgs),
     /// Say what changes on the bench from one wiring to another
     Diff(DiffArgs),
+    /// Say which MCU parts and boards can carry the devices, cheapest wiring first
+    Parts(PartsArgs),
     /// List the built-in boards, or print one's table
     Boards(BoardsArgs),
     /// Lay files out canonically, comments kept
@@ -214,9 +216,40 @@ pub(crate) struct DiffArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct PartsArgs {
+    /// The file; - is the standard input
+    #[arg(conflicts_with_all = ["list", "table"])]
+    pub(crate) file: Option<PathBuf>,
+    /// List the parts instead, or those with this text in their number or package
+    #[arg(long, value_name = "SEARCH", num_args = 0..=1)]
+    pub(crate) list: Option<Option<String>>,
+    /// Print the table of a part as CSV instead
+    #[arg(long, value_name = "PART", conflicts_with = "list")]
+    pub(crate) table: Option<String>,
+    /// Only parts of this family: STM32F4, G0, RP2040
+    #[arg(long)]
+    pub(crate) family: Option<String>,
+    /// Only parts in this package: LQFP, LQFP48, 48
+    #[arg(long)]
+    pub(crate) package: Option<String>,
+    /// Only parts with at most that many contacts
+    #[arg(long, value_name = "N")]
+    pub(crate) max_pins: Option<u32>,
+    /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
+    #[arg(long, value_name = "NAME")]
+    pub(crate) target: Option<String>,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct BoardsArgs {
     /// A board: prints its table as CSV
     pub(crate) name: Option<String>,
+    /// Only boards with this text in their name, MCU or description
+    #[arg(long, value_name = "TEXT", conflicts_with = "name")]
+    pub(crate) search: Option<String>,
 }
 
 #[derive(Debug, Args)]

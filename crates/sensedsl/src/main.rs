@@ -51,6 +51,7 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Explain(args) => commands::explain::run(&args, terminal),
         Command::Capacity(args) => commands::capacity::run(&args, terminal),
         Command::Diff(args) => commands::diff::run(&args, terminal),
+        Command::Parts(args) => commands::parts::run(&args, terminal),
         Command::Boards(args) => commands::boards::run(&args, terminal),
         Command::Fmt(args) => commands::fmt::run(&args, terminal),
         Command::Completions(args) => commands::help::completions(&args, terminal),

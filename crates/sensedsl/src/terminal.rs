@@ -42,6 +42,20 @@ impl Terminal {
         if self.quiet { Ok(()) } else { self.result(text) }
     }
 
+    /// How far a long work is, where somebody looks; gone when it is done.
+    pub(crate) fn progress(&self, what: &str, done: usize, total: usize) {
+        if self.quiet || !io::stderr().is_terminal() {
+            return;
+        }
+        let text = if done >= total {
+            "\r\x1b[K".to_owned()
+        } else {
+            format!("\r{done} of {total} {what}")
+        };
+        // There is nowhere to report that reporting failed.
+        let _ = io::stderr().lock().write_all(text.as_bytes());
+    }
+
     /// Diagnostics for people; hints and warnings are dropped when quiet.
     pub(crate) fn diagnostics(
         &self,

@@ -120,7 +120,7 @@ impl Maker<'_, '_> {
                 let role =
                     if self.wanted.direction == Direction::Sensor { Role::In } else { Role::Out };
                 let roles = vec![self.role(role, &need, None)];
-                self.finish(None, Vec::new(), roles).into_iter().collect()
+                self.finish(None, Vec::new(), roles)
             }
             Kind::Dac(_) => self.dac(),
             Kind::I2c(_) | Kind::Uart(_) | Kind::Spi(_) | Kind::Can(_) => self.units(),
@@ -153,7 +153,7 @@ impl Maker<'_, '_> {
             | Function::Other => false,
         };
         let roles = vec![self.role(Role::In, &Need::Usage(&serves), None)];
-        self.finish(None, Vec::new(), roles).into_iter().collect()
+        self.finish(None, Vec::new(), roles)
     }
 
     fn dac(&mut self) -> Vec<Made> {
@@ -173,7 +173,7 @@ impl Maker<'_, '_> {
             | Function::Other => false,
         };
         let roles = vec![self.role(Role::Out, &Need::Usage(&serves), None)];
-        self.finish(None, Vec::new(), roles).into_iter().collect()
+        self.finish(None, Vec::new(), roles)
     }
 
     /// Timers: whole ones where a driver takes them whole, channels in the pure pin model.
@@ -188,7 +188,7 @@ impl Maker<'_, '_> {
             };
             let mut roles = vec![self.role(using.role(), &Need::Usage(&serves), None)];
             self.push_trigger(&mut roles);
-            return self.finish(None, Vec::new(), roles).into_iter().collect();
+            return self.finish(None, Vec::new(), roles);
         }
         let mut made = Vec::new();
         for number in self.timer_numbers() {
@@ -208,7 +208,7 @@ impl Maker<'_, '_> {
         number: u8,
         unit: &str,
         timer: Option<&Timer>,
-    ) -> Option<Made> {
+    ) -> Vec<Made> {
         let on = |wanted: Option<u8>| {
             move |usage: &Usage| {
                 channel(usage).is_some_and(|(of, channel)| {
@@ -265,7 +265,7 @@ impl Maker<'_, '_> {
         made
     }
 
-    fn unit(&mut self, unit: &str) -> Option<Made> {
+    fn unit(&mut self, unit: &str) -> Vec<Made> {
         let board = self.offer.index;
         let resource = Resource::Unit(board, unit.to_owned());
         let names = &mut self.builder.names;
@@ -374,11 +374,13 @@ impl Maker<'_, '_> {
                 (Holder::Own, self.builder.names.own(signal))
             }
         };
+        let mut claims = vec![claim];
+        claims.extend(self.pad(index));
         let candidate = Candidate {
             pin: self.builder.pin(board, index),
             holder,
             signal: self.builder.signal(usage.signal.name()),
-            claims: vec![claim],
+            claims,
             violates: self.violates(role, pin, Some(usage)),
             moved: false,
         };
@@ -398,6 +400,7 @@ impl Maker<'_, '_> {
         if let Some(line) = line.filter(|_| interrupt) {
             claims.push(self.builder.names.own(Resource::Exti(board, line)));
         }
+        claims.extend(self.pad(index));
         let candidate = Candidate {
             pin: self.builder.pin(board, index),
             holder: Holder::Own,
@@ -409,27 +412,90 @@ impl Maker<'_, '_> {
         (candidate, Chosen { pin: index, usage: None })
     }
 
+    /// The claim of a contact that the pin shares with others: one of them is in use.
+    fn pad(&mut self, pin: usize) -> Option<Claim> {
+        let board = self.offer.index;
+        let pad = Resource::Pad(board, self.offer.shared_pad(pin)?.to_owned());
+        Some(self.builder.names.shared(pad, Group::Pad(board, pin)))
+    }
+
     fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
         self.rules.violated_by(self.offer.index, role, pin, usage)
     }
 
-    /// An alternative, unless one of its roles has no candidate.
+    /// The alternative, unless one of its roles has no candidate; several where roles could meet on
+    /// one contact.
     fn finish(
         &mut self,
         unit: Option<String>,
         claims: Vec<Claim>,
-        roles: Vec<(SolverRole, Vec<Chosen>)>,
-    ) -> Option<Made> {
-        if roles.iter().any(|(role, _)| role.candidates.is_empty()) {
-            return None;
-        }
+        roles: Vec<MadeRole>,
+    ) -> Vec<Made> {
         let board = self.offer.index;
-        let dma = unit.as_deref().map(|unit| self.builder.dma(board, unit)).unwrap_or_default();
-        let violates = self.rules.violated_by_unit(board, unit.as_deref());
-        let (roles, chosen) = roles.into_iter().unzip();
-        let alternative = Alternative { board: board_id(board), claims, violates, dma, roles };
-        Some((alternative, Meaning { board, unit, roles: chosen }))
+        let mut made = Vec::new();
+        for roles in self.apart(roles) {
+            let dma = unit.as_deref().map(|unit| self.builder.dma(board, unit));
+            let violates = self.rules.violated_by_unit(board, unit.as_deref());
+            let (roles, chosen) = roles.into_iter().unzip();
+            let alternative = Alternative {
+                board: board_id(board),
+                claims: claims.clone(),
+                violates,
+                dma: dma.unwrap_or_default(),
+                roles,
+            };
+            made.push((alternative, Meaning { board, unit: unit.clone(), roles: chosen }));
+        }
+        made
     }
+
+    /// The same choices with no two wires of the device on one contact. Claims keep devices apart,
+    /// not the wires of one device: where the first role may take a contact that a later one may
+    /// take as well, each such contact makes a case of its own, so that no choice is in two cases.
+    fn apart(&self, mut roles: Vec<MadeRole>) -> Vec<Vec<MadeRole>> {
+        if roles.iter().any(|(role, _)| role.candidates.is_empty()) {
+            return Vec::new();
+        }
+        if roles.len() < 2 {
+            return vec![roles];
+        }
+        let first = roles.remove(0);
+        let pads = |(_, chosen): &MadeRole| -> BTreeSet<&str> {
+            chosen.iter().filter_map(|at| self.offer.shared_pad(at.pin)).collect()
+        };
+        let later: BTreeSet<&str> = roles.iter().flat_map(pads).collect();
+        let contested: Vec<&str> = pads(&first).intersection(&later).copied().collect();
+        let free = keep(&first, |at| {
+            self.offer.shared_pad(at.pin).is_none_or(|pad| !contested.contains(&pad))
+        });
+        let mut cases = vec![(free, roles.clone())];
+        for pad in contested {
+            let on = |at: &Chosen| self.offer.shared_pad(at.pin) == Some(pad);
+            let others = roles.iter().map(|role| keep(role, |at| !on(at))).collect();
+            cases.push((keep(&first, on), others));
+        }
+        let mut apart = Vec::new();
+        for (first, others) in cases {
+            if first.1.is_empty() {
+                continue;
+            }
+            for mut roles in self.apart(others) {
+                roles.insert(0, first.clone());
+                apart.push(roles);
+            }
+        }
+        apart
+    }
+}
+
+/// A role's candidates and what they stand for.
+type MadeRole = (SolverRole, Vec<Chosen>);
+
+/// The candidates for which the condition holds.
+fn keep((role, chosen): &MadeRole, fits: impl Fn(&Chosen) -> bool) -> MadeRole {
+    let pairs = role.candidates.iter().zip(chosen).filter(|(_, at)| fits(at));
+    let (candidates, chosen) = pairs.map(|(candidate, at)| (candidate.clone(), *at)).unzip();
+    (SolverRole { candidates }, chosen)
 }
 
 /// Whether the instance is neither reserved nor another one than the fixed one.

@@ -95,7 +95,8 @@ impl<'a> Wiring<'a> {
     }
 
     /// As [`Self::solve`], without looking for repairs.
-    pub(crate) fn solve_only(&self, any: bool) -> Solved {
+    #[must_use]
+    pub fn solve_only(&self, any: bool) -> Solved {
         match self.ask(&Search { any, stop: None }) {
             Ok(solved) => solved,
             Err(conflict) => Solved::Infeasible(conflict::named(&self.formulation, &conflict)),

@@ -1,5 +1,7 @@
 //! Which pins of a board devices may have at all, and why the others may not.
 
+use std::collections::BTreeMap;
+
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile;
 use sensedsl_board::table::{Occupation, Pin};
@@ -25,12 +27,22 @@ pub(crate) struct Offer<'a> {
     pub(crate) board: &'a Board,
     /// For each pin of the table why it is withheld.
     withheld: Vec<Option<Withheld>>,
+    /// For each pin of the table the contact that it shares with others.
+    pads: Vec<Option<String>>,
 }
 
 impl<'a> Offer<'a> {
     pub(crate) fn new(index: BoardIndex, board: &'a Board) -> Self {
-        let withheld = board.table.pins.iter().map(|pin| withheld(board, pin)).collect();
-        Self { index, board, withheld }
+        let mut withheld: Vec<_> =
+            board.table.pins.iter().map(|pin| withheld(board, pin)).collect();
+        let pads = shared_pads(&board.table.pins);
+        keep_pads_free(board, &pads, &mut withheld);
+        Self { index, board, withheld, pads }
+    }
+
+    /// The contact of a pin where other pins are on it as well.
+    pub(crate) fn shared_pad(&self, pin: usize) -> Option<&str> {
+        self.pads.get(pin)?.as_deref()
     }
 
     pub(crate) fn why_withheld(&self, pin: usize) -> Option<&Withheld> {
@@ -46,6 +58,44 @@ impl<'a> Offer<'a> {
     /// True when a rule keeps the peripheral instance free.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
         self.board.reserved.iter().any(|reserved| reserved.value == unit)
+    }
+}
+
+/// The place of each pin where it is not the only one there. A place is a position of the package,
+/// or of a connector.
+fn shared_pads(pins: &[Pin]) -> Vec<Option<String>> {
+    let place = |pin: &Pin| {
+        let position = pin.position.as_deref()?;
+        Some(
+            pin.header
+                .as_ref()
+                .map_or(position.to_owned(), |header| format!("{header}.{position}")),
+        )
+    };
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    for place in pins.iter().filter_map(place) {
+        *count.entry(place).or_default() += 1;
+    }
+    pins.iter()
+        .map(|pin| place(pin).filter(|place| count.get(place).is_some_and(|n| *n > 1)))
+        .collect()
+}
+
+/// What withholds a pin withholds all others on its contact, but those that a rule releases.
+fn keep_pads_free(board: &Board, pads: &[Option<String>], withheld: &mut [Option<Withheld>]) {
+    let reasons: BTreeMap<&str, Withheld> = pads
+        .iter()
+        .zip(withheld.iter())
+        .filter_map(|(pad, why)| Some((pad.as_deref()?, why.clone()?)))
+        .collect();
+    for ((pad, why), pin) in pads.iter().zip(withheld).zip(&board.table.pins) {
+        let released = board
+            .released
+            .iter()
+            .any(|rule| PinName::parse(&rule.value).is_some_and(|name| name == pin.name));
+        if why.is_none() && !released {
+            *why = pad.as_deref().and_then(|pad| reasons.get(pad)).cloned();
+        }
     }
 }
 

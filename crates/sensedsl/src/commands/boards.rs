@@ -9,8 +9,14 @@ use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(name) = &args.name else {
-        let width = catalog::all().iter().map(|board| board.name.len()).max().unwrap_or_default();
-        let lines = catalog::all().iter().map(|board| {
+        let search = args.search.as_deref().unwrap_or_default().to_lowercase();
+        let found = |board: &&catalog::Entry| {
+            let names = board.aliases.iter().chain([&board.name, &board.mcu, &board.description]);
+            names.map(|name| name.to_lowercase()).any(|name| name.contains(&search))
+        };
+        let boards = || catalog::all().iter().filter(found);
+        let width = boards().map(|board| board.name.len()).max().unwrap_or_default();
+        let lines = boards().map(|board| {
             format!("{:width$}  {:14}  {}\n", board.name, board.mcu, board.description)
         });
         terminal.result(&lines.collect::<String>())?;

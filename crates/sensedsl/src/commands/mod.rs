@@ -11,5 +11,6 @@ pub(crate) mod help;
 mod input;
 pub(crate) mod new;
 mod output;
+pub(crate) mod parts;
 pub(crate) mod solve;
 mod table;

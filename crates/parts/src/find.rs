@@ -1,0 +1,116 @@
+//! Which part a name means.
+
+use sensedsl_board::mcu::normalise;
+use sensedsl_diagnostics::nearest;
+
+use crate::listing::{Part, all};
+use crate::sheet::Sheet;
+
+/// What a name leads to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// The part number to go on with: of the part, or the part of it that was given.
+    pub mcu: String,
+    /// The parts that the name fits, in natural order; at least one.
+    pub parts: Vec<Part>,
+    /// The pins that all of them have.
+    pub sheet: Sheet,
+    /// Whether a wiring may depend on which of them is meant.
+    pub ambiguous: bool,
+}
+
+impl Found {
+    /// What is not known for certain, to be warned of.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        let first = self.parts.first()?;
+        if self.ambiguous {
+            let names: Vec<String> = self
+                .parts
+                .iter()
+                .map(|part| format!("{} ({})", part.name(), part.package().unwrap_or("unknown")))
+                .collect();
+            return Some(format!(
+                "{} is made in several packages, so only pins that all of them bring out are \
+                 offered; one is meant of {}",
+                self.mcu,
+                names.join(", ")
+            ));
+        }
+        match first.package() {
+            None => Some(format!(
+                "the package of {} is not known: some of the pins may not be brought out",
+                self.mcu
+            )),
+            Some(package) if !first.has_positions() => {
+                let mcu = &self.mcu;
+                Some(format!("the places of the pins of {mcu} on its {package} are not known"))
+            }
+            Some(_) => None,
+        }
+    }
+
+    /// The package, where the name tells it.
+    #[must_use]
+    pub fn package(&self) -> Option<&'static str> {
+        let mut packages = self.parts.iter().map(Part::package);
+        let first = packages.next()??;
+        packages.all(|package| package == Some(first)).then_some(first)
+    }
+
+    /// The board table as text.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        self.sheet.csv(&self.mcu, self.package())
+    }
+}
+
+/// The part of a part number. The grade may be missing or `x` (`STM32F407VGT`, `STM32F407VGTx`), and
+/// the package as well (`STM32F407VG`): of packages that differ the name means what they have in
+/// common.
+#[must_use]
+pub fn find(name: &str) -> Option<Found> {
+    let name = normalise(name);
+    let trimmed = name.strip_suffix("TR").unwrap_or(&name);
+    let parts: Vec<Part> = all().filter(|part| trimmed.starts_with(part.base())).collect();
+    let whole = parts.iter().find_map(|part| {
+        let number = part.numbers().find(|number| same(number, trimmed))?;
+        Some((*part, number))
+    });
+    if let Some((part, number)) = whole {
+        let sheet = Sheet::of(part);
+        return Some(Found { mcu: number, sheet, parts: vec![part], ambiguous: false });
+    }
+    let begun = |part: &&Part| part.numbers().any(|number| starts(&number, trimmed));
+    let parts: Vec<Part> = parts.iter().filter(begun).copied().collect();
+    let sheets: Vec<Sheet> = parts.iter().map(|part| Sheet::of(*part)).collect();
+    let first = sheets.first()?;
+    let key = first.key();
+    let ambiguous = sheets.iter().any(|sheet| sheet.key() != key);
+    let sheet = if sheets.iter().all(|sheet| sheet == first) || (!ambiguous && first.shares()) {
+        first.clone()
+    } else {
+        Sheet::common(&sheets)
+    };
+    Some(Found { mcu: trimmed.to_owned(), parts, sheet, ambiguous })
+}
+
+/// Equal, where an `X` in the name stands for a digit: a grade.
+fn same(number: &str, name: &str) -> bool {
+    number.len() == name.len() && starts(number, name)
+}
+
+fn starts(number: &str, name: &str) -> bool {
+    let alike = |(a, b): (u8, u8)| a == b || (b == b'X' && a.is_ascii_digit());
+    name.len() <= number.len() && number.bytes().zip(name.bytes()).all(alike)
+}
+
+/// The part number that a misspelt one is near to.
+#[must_use]
+pub fn nearest_name(name: &str) -> Option<String> {
+    let name = normalise(name);
+    let mut known: Vec<String> = all().map(|part| part.name()).collect();
+    known.extend(all().map(|part| part.base().to_owned()));
+    known.dedup();
+    nearest(&name, known.iter().map(String::as_str)).map(str::to_owned)
+}

@@ -1,0 +1,35 @@
+//! MCU parts: a part number in, its pins, usages, package and positions out.
+//!
+//! The facts are one compressed table, made by `cargo xtask parts` from packages of public
+//! registries (see `data/README.md`); RP2040 and RP2350 are rules. The table is unpacked at the
+//! first question. This crate stands beside the built-in boards of `sensedsl-board`, on which it
+//! depends: who looks for a name asks there first and here second.
+
+mod find;
+pub mod format;
+mod listing;
+pub mod rp;
+mod sheet;
+
+use std::sync::OnceLock;
+
+pub use find::{Found, find, nearest_name};
+pub use listing::{Part, all};
+pub use sheet::Sheet;
+
+use format::Data;
+
+/// The table as it is shipped.
+const PACKED: &[u8] = include_bytes!("../data/parts.bin");
+
+/// The unpacked table; empty should the shipped one be damaged, which tests rule out.
+pub(crate) fn data() -> &'static Data {
+    static DATA: OnceLock<Data> = OnceLock::new();
+    DATA.get_or_init(|| format::unpack(PACKED).unwrap_or_default())
+}
+
+/// Bytes of the table in the binary.
+#[must_use]
+pub const fn packed_bytes() -> usize {
+    PACKED.len()
+}

@@ -1,0 +1,85 @@
+//! All parts: the shipped table and the rules as one list.
+
+use crate::format::{Layout, PartData};
+use crate::{data, rp};
+
+/// A part: one die in one package. Its part numbers differ in grade alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part(pub(crate) Origin);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    Table(&'static PartData),
+    Rule(&'static rp::Chip),
+}
+
+/// All parts, by name.
+pub fn all() -> impl Iterator<Item = Part> {
+    let table = data().parts.iter().map(|part| Part(Origin::Table(part)));
+    let rules = rp::CHIPS.iter().map(|chip| Part(Origin::Rule(chip)));
+    let mut parts: Vec<Part> = table.chain(rules).collect();
+    parts.sort_by_cached_key(Part::name);
+    parts.into_iter()
+}
+
+impl Part {
+    /// The number of the part, of its plainest grade.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.numbers().next().unwrap_or_default()
+    }
+
+    /// All its part numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = String> + use<> {
+        let base = self.base();
+        let codes: Vec<&'static str> = match self.0 {
+            Origin::Table(part) => {
+                let codes = part.codes.iter().filter_map(|code| data().codes.get(*code));
+                codes.map(String::as_str).collect()
+            }
+            Origin::Rule(_) => vec![""],
+        };
+        codes.into_iter().map(move |code| format!("{base}{code}"))
+    }
+
+    /// The number without package and grade.
+    #[must_use]
+    pub fn base(&self) -> &'static str {
+        match self.0 {
+            Origin::Table(part) => &part.base,
+            Origin::Rule(chip) => chip.name,
+        }
+    }
+
+    /// The package, where it is known.
+    #[must_use]
+    pub fn package(&self) -> Option<&'static str> {
+        match self.0 {
+            Origin::Table(_) => data().packages.get(self.layout()?.package).map(String::as_str),
+            Origin::Rule(chip) => Some(chip.package),
+        }
+    }
+
+    /// The contacts of the package by its name: 100 of `LQFP100`.
+    #[must_use]
+    pub fn contacts(&self) -> Option<u32> {
+        let package = self.package()?;
+        let digits = |c: char| c.is_ascii_digit();
+        let start = package.find(digits)?;
+        let tail = package.get(start..)?;
+        tail.split(|c| !digits(c)).next()?.parse().ok()
+    }
+
+    /// Whether it is known where on the package each pin is.
+    #[must_use]
+    pub fn has_positions(&self) -> bool {
+        self.layout().is_some()
+    }
+
+    pub(crate) fn layout(&self) -> Option<&'static Layout> {
+        match self.0 {
+            Origin::Table(part) => data().layouts.get(part.layout?),
+            Origin::Rule(_) => None,
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! `sensedsl parts`: which MCU parts and boards can carry the devices of a file, or which there are.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use anyhow::{Result, bail};
+use sensedsl_board::{catalog, profile};
+use sensedsl_model::{Request, resolve};
+use sensedsl_parts::{Part, Sheet};
+use sensedsl_wiring::{Solved, Wiring};
+use serde_json::json;
+
+use super::table::table;
+use crate::Status;
+use crate::cli::{PartsArgs, TableFormat};
+use crate::files::{Disk, read_text, shown};
+use crate::terminal::Terminal;
+
+/// A part or a board that may carry the devices.
+struct Carrier {
+    name: String,
+    /// The part number of the MCU.
+    mcu: String,
+    package: Option<String>,
+    contacts: Option<u32>,
+    is_board: bool,
+}
+
+/// What became of it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fit {
+    /// Optimal, at that cost and with that many wishes violated.
+    Wired { violated: u32, cost: u32 },
+    /// It cannot carry the devices.
+    Not,
+    /// The solver failed its own check.
+    Failed,
+}
+
+pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
+    if let Some(name) = &args.table {
+        let Some(found) = sensedsl_parts::find(name) else {
+            let meant = sensedsl_parts::nearest_name(name);
+            let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+            bail!("there is no part {name}{meant} (`sensedsl parts --list` lists them)");
+        };
+        terminal.result(&found.csv())?;
+        return Ok(Status::Done);
+    }
+    if let Some(search) = &args.list {
+        terminal.result(&listing(args, search.as_deref().unwrap_or_default()))?;
+        return Ok(Status::Done);
+    }
+    let Some(file) = &args.file else {
+        bail!("which file? (`sensedsl parts --list` lists the parts)");
+    };
+    sweep(args, file, terminal)
+}
+
+/// The parts that the filters leave.
+fn parts(args: &PartsArgs) -> impl Iterator<Item = Part> {
+    let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
+    let (family, package) = (upper(&args.family), upper(&args.package));
+    let pins_max = args.max_pins;
+    sensedsl_parts::all().filter(move |part| {
+        fits(part.base(), part.package(), part.contacts(), family.as_deref(), package.as_deref())
+            && pins_max.is_none_or(|most| part.contacts().is_some_and(|pins| pins <= most))
+    })
+}
+
+fn fits(
+    base: &str,
+    of: Option<&str>,
+    contacts: Option<u32>,
+    family: Option<&str>,
+    package: Option<&str>,
+) -> bool {
+    let begins = |family: &str| {
+        base.starts_with(family)
+            || base.strip_prefix("STM32").is_some_and(|base| base.starts_with(family))
+    };
+    let packed = |package: &str| {
+        of.is_some_and(|of| of.to_uppercase().starts_with(package))
+            || contacts.is_some_and(|contacts| contacts.to_string() == package)
+    };
+    family.is_none_or(begins) && package.is_none_or(packed)
+}
+
+fn listing(args: &PartsArgs, search: &str) -> String {
+    let search = search.to_uppercase();
+    let rows = parts(args).filter_map(|part| {
+        let package = part.package().unwrap_or("-");
+        let numbers: Vec<String> = part.numbers().collect();
+        let found = numbers.iter().any(|number| number.contains(&search))
+            || package.to_uppercase().contains(&search);
+        let others = numbers.get(1..).unwrap_or_default().join(" ");
+        found.then(|| [part.name(), package.to_owned(), others])
+    });
+    let rows: Vec<[String; 3]> = rows.collect();
+    table([("Part", false), ("Package", false), ("Also", false)], &rows)
+}
+
+fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
+    let text = read_text(file)?;
+    let path = shown(file);
+    let request = Request { path: &path, text: &text, board: None, target: args.target.as_deref() };
+    // What is wrong with the devices is told once; that the file's own board is unknown, or does not
+    // suit, does not matter here.
+    let resolved = resolve(&request, &Disk);
+    let carriers = carriers(args);
+    if resolved.design.is_none() {
+        let board = carriers.first().map(|(carrier, _)| carrier.name.as_str());
+        if resolve(&Request { board, ..request }, &Disk).design.is_none() {
+            terminal.diagnostics(&resolved.diagnostics, &resolved.sources)?;
+            return Ok(Status::Wrong);
+        }
+    }
+    let answers = solve_all(&request, &carriers, terminal);
+    let mut found: Vec<(&Carrier, u32, u32)> = Vec::new();
+    let mut failed = 0;
+    for ((carrier, _), fit) in carriers.iter().zip(answers) {
+        match fit {
+            Fit::Wired { violated, cost } => found.push((carrier, violated, cost)),
+            Fit::Not => {}
+            Fit::Failed => failed += 1,
+        }
+    }
+    found.sort_by_key(|(carrier, violated, cost)| {
+        let contacts = carrier.contacts.unwrap_or(u32::MAX);
+        (*violated, *cost, contacts, carrier.package.clone(), carrier.name.clone())
+    });
+    terminal.result(&printed(args, &found, carriers.len()))?;
+    if failed > 0 {
+        bail!("the solver failed its own check on {failed} parts");
+    }
+    Ok(if found.is_empty() { Status::Wrong } else { Status::Done })
+}
+
+/// All carriers, with the key under which their wirings are equal.
+fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
+    let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
+    let of_part = |part: Part| {
+        let name = part.name();
+        let covered = profile::covered_by(target, &name).unwrap_or_default();
+        let key = format!("{covered}\n{}", Sheet::of(part).key());
+        let package = part.package().map(str::to_owned);
+        let carrier = Carrier {
+            mcu: name.clone(),
+            name,
+            package,
+            contacts: part.contacts(),
+            is_board: false,
+        };
+        (carrier, key)
+    };
+    let of_board = |entry: &catalog::Entry| {
+        let found = sensedsl_parts::find(entry.mcu);
+        let package = found.as_ref().and_then(|found| found.package()).map(str::to_owned);
+        let contacts = found.and_then(|found| found.parts.first()?.contacts());
+        let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
+        let (family, wanted) = (upper(&args.family), upper(&args.package));
+        let suits =
+            fits(entry.mcu, package.as_deref(), contacts, family.as_deref(), wanted.as_deref())
+                && args.max_pins.is_none_or(|most| contacts.is_some_and(|pins| pins <= most));
+        let carrier = Carrier {
+            name: entry.name.to_owned(),
+            mcu: entry.mcu.to_owned(),
+            package,
+            contacts,
+            is_board: true,
+        };
+        suits.then(|| (carrier, format!("board {}", entry.name)))
+    };
+    let boards = catalog::all().iter().filter_map(of_board);
+    parts(args).map(of_part).chain(boards).collect()
+}
+
+/// The answers in the carriers' order: equal ones are asked once, all cores ask.
+fn solve_all(
+    request: &Request<'_>,
+    carriers: &[(Carrier, String)],
+    terminal: &Terminal,
+) -> Vec<Fit> {
+    let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+    for (index, (_, key)) in carriers.iter().enumerate() {
+        first.entry(key).or_insert(index);
+    }
+    let questions: Vec<usize> = first.values().copied().collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut answers: Vec<(usize, Fit)> = Vec::new();
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some(index) = questions.get(at) else { return answers };
+            if let Some((carrier, _)) = carriers.get(*index) {
+                answers.push((*index, solve(request, &carrier.name)));
+            }
+            terminal.progress("parts", at + 1, questions.len());
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let answers: BTreeMap<usize, Fit> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        // A worker that panicked leaves its parts unanswered, which counts as failed.
+        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
+    });
+    let answer = |(_, key): &(Carrier, String)| {
+        let index = first.get(key.as_str())?;
+        answers.get(index).copied()
+    };
+    carriers.iter().map(|carrier| answer(carrier).unwrap_or(Fit::Failed)).collect()
+}
+
+fn solve(request: &Request<'_>, board: &str) -> Fit {
+    let resolved = resolve(&Request { board: Some(board), ..*request }, &Disk);
+    let Some(design) = &resolved.design else { return Fit::Not };
+    match Wiring::new(design, None).solve_only(false) {
+        Solved::Wired(wiring) => Fit::Wired { violated: wiring.violated, cost: wiring.cost },
+        Solved::Infeasible(_) => Fit::Not,
+        Solved::Failed(_) => Fit::Failed,
+    }
+}
+
+fn printed(args: &PartsArgs, found: &[(&Carrier, u32, u32)], asked: usize) -> String {
+    match args.format {
+        TableFormat::Json => {
+            let line = |(carrier, violated, cost): &(&Carrier, u32, u32)| {
+                let mut value = json!({
+                    "part": carrier.mcu,
+                    "package": carrier.package,
+                    "board": carrier.is_board.then_some(&carrier.name),
+                    "status": "optimal",
+                    "cost": cost,
+                });
+                if *violated > 0
+                    && let Some(object) = value.as_object_mut()
+                {
+                    object.insert("violated".to_owned(), json!(violated));
+                }
+                format!("{value}\n")
+            };
+            found.iter().map(line).collect()
+        }
+        TableFormat::Human => {
+            let rows: Vec<[String; 4]> = found
+                .iter()
+                .map(|(carrier, _, cost)| {
+                    let board = if carrier.is_board { carrier.name.as_str() } else { "" };
+                    let package = carrier.package.clone().unwrap_or_else(|| "-".to_owned());
+                    [cost.to_string(), carrier.mcu.clone(), package, board.to_owned()]
+                })
+                .collect();
+            let heads = [("Cost", true), ("Part", false), ("Package", false), ("Board", false)];
+            format!(
+                "{}\n{} of {asked} parts and boards can carry the devices\n",
+                table(heads, &rows),
+                found.len()
+            )
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! What the sources say, joined and numbered.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_board::pin::natural;
+use sensedsl_parts::format::{Data, Layout, PartData, Row};
+
+use super::avr::Avr;
+use super::metapac::Pins;
+use super::modm::Device;
+
+/// A part by names.
+#[derive(Clone, Debug)]
+struct Part<'a> {
+    base: &'a str,
+    codes: Vec<String>,
+    pins: &'a Pins,
+    layout: Option<(&'a str, &'a [(String, String)])>,
+}
+
+/// The table, and figures for whoever made it.
+pub(crate) fn build(
+    chips: &BTreeMap<String, Pins>,
+    devices: &[Device],
+    avrs: &[Avr],
+) -> (Data, String) {
+    let (mut parts, left_out) = stm32(chips, devices);
+    for avr in avrs {
+        for (code, (package, places)) in &avr.variants {
+            parts.push(Part {
+                base: &avr.base,
+                codes: vec![code.clone()],
+                pins: &avr.pins,
+                layout: Some((package, places)),
+            });
+        }
+    }
+    parts.sort_by(|a, b| (a.base, &a.codes).cmp(&(b.base, &b.codes)));
+    let numbers: usize = parts.iter().map(|part| part.codes.len()).sum();
+    let bare = parts.iter().filter(|part| part.layout.is_none()).count();
+    let bases: BTreeSet<&str> = parts.iter().map(|part| part.base).collect();
+    let data = number(&parts);
+    let summary = format!(
+        "{} parts, {numbers} part numbers, {} without packages ({bare}); left out for want of \
+         usages: {}\n{} rows, {} dies, {} layouts\n",
+        parts.len(),
+        bases.len(),
+        left_out.join(" "),
+        data.rows.len(),
+        data.dies.len(),
+        data.layouts.len(),
+    );
+    (data, summary)
+}
+
+fn stm32<'a>(
+    chips: &'a BTreeMap<String, Pins>,
+    devices: &'a [Device],
+) -> (Vec<Part<'a>>, Vec<String>) {
+    let mut grouped: BTreeMap<(&str, &str, &str), Vec<&Device>> = BTreeMap::new();
+    for device in devices {
+        let key = (device.base.as_str(), device.package_code.as_str(), device.variant.as_str());
+        grouped.entry(key).or_default().push(device);
+    }
+    let mut parts: Vec<Part<'_>> = Vec::new();
+    let mut used = BTreeSet::new();
+    let mut left_out = BTreeSet::new();
+    for ((base, _, variant), group) in grouped {
+        // Dies of another revision have chips of their own: STM32L151CB-A.
+        let names = [format!("{base}-{variant}"), base.to_owned()];
+        let Some((chip, pins)) = names.iter().find_map(|name| chips.get_key_value(name)) else {
+            left_out.insert(base.get(..9).unwrap_or(base).to_owned());
+            continue;
+        };
+        used.insert(chip.as_str());
+        // Grades of one part may differ in a pin: NRST and PF2 of some G0.
+        let mut layouts: BTreeMap<&[(String, String)], Vec<&Device>> = BTreeMap::new();
+        for device in group {
+            layouts.entry(&device.places).or_default().push(device);
+        }
+        for (places, mut devices) in layouts {
+            // The plainest grade first: 6, then the others.
+            devices.sort_by_key(|device| (device.grade != "6", &device.grade));
+            let Some(first) = devices.first() else { continue };
+            let code = |d: &&Device| format!("{}{}{}", d.package_code, d.grade, d.variant);
+            parts.push(Part {
+                base: &first.base,
+                codes: devices.iter().map(code).collect(),
+                pins,
+                layout: Some((&first.package, places)),
+            });
+        }
+    }
+    for (name, pins) in chips.iter().filter(|(name, _)| !used.contains(name.as_str())) {
+        parts.push(Part { base: name, codes: vec![String::new()], pins, layout: None });
+    }
+    (parts, left_out.into_iter().collect())
+}
+
+/// Names in natural order, and their numbers.
+struct Names(Vec<String>);
+
+impl Names {
+    fn new<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let set: BTreeSet<&str> = names.collect();
+        let mut names: Vec<String> = set.into_iter().map(str::to_owned).collect();
+        names.sort_by(|a, b| natural(a, b).then_with(|| a.cmp(b)));
+        Self(names)
+    }
+
+    fn of(&self, name: &str) -> usize {
+        let order = |known: &String| natural(known, name).then_with(|| known.as_str().cmp(name));
+        self.0.binary_search_by(order).unwrap_or_default()
+    }
+}
+
+fn number(parts: &[Part<'_>]) -> Data {
+    let places = || parts.iter().filter_map(|part| part.layout);
+    let pins = || parts.iter().flat_map(|part| part.pins);
+    let on_packages = places().flat_map(|(_, places)| places).map(|(_, pin)| pin.as_str());
+    let signals = Names::new(pins().flat_map(|(_, usages)| usages).map(|(name, _)| name.as_str()));
+    let pin_names = Names::new(pins().map(|(pin, _)| pin.as_str()).chain(on_packages));
+    let positions = Names::new(places().flat_map(|(_, p)| p).map(|(place, _)| place.as_str()));
+    let packages = Names::new(places().map(|(package, _)| package));
+    let codes = Names::new(parts.iter().flat_map(|part| &part.codes).map(String::as_str));
+    let rows_of = |pins: &Pins| -> Vec<Row> {
+        let row = |(pin, usages): (&String, &BTreeSet<(String, Option<u8>)>)| {
+            let mut usages: Vec<_> =
+                usages.iter().map(|(name, number)| (signals.of(name), *number)).collect();
+            usages.sort_unstable();
+            Row { pin: pin_names.of(pin), usages }
+        };
+        pins.iter().map(row).collect()
+    };
+    let layout_of = |(package, places): (&str, &[(String, String)])| Layout {
+        package: packages.of(package),
+        places: places.iter().map(|(at, pin)| (positions.of(at), pin_names.of(pin))).collect(),
+    };
+    let rows: BTreeSet<Row> = parts.iter().flat_map(|part| rows_of(part.pins)).collect();
+    let rows: Vec<Row> = rows.into_iter().collect();
+    let die_of = |pins: &Pins| -> Vec<usize> {
+        let mut die: Vec<usize> =
+            rows_of(pins).iter().filter_map(|row| rows.binary_search(row).ok()).collect();
+        die.sort_unstable();
+        die
+    };
+    let dies: Vec<Vec<usize>> = {
+        let set: BTreeSet<Vec<usize>> = parts.iter().map(|part| die_of(part.pins)).collect();
+        set.into_iter().collect()
+    };
+    let layouts: BTreeSet<Layout> = places().map(layout_of).collect();
+    let layouts: Vec<Layout> = layouts.into_iter().collect();
+    let numbered = parts.iter().map(|part| PartData {
+        base: part.base.to_owned(),
+        codes: part.codes.iter().map(|code| codes.of(code)).collect(),
+        die: dies.binary_search(&die_of(part.pins)).unwrap_or_default(),
+        layout: part.layout.and_then(|layout| layouts.binary_search(&layout_of(layout)).ok()),
+    });
+    Data {
+        parts: numbered.collect(),
+        signals: signals.0,
+        pins: pin_names.0,
+        positions: positions.0,
+        packages: packages.0,
+        codes: codes.0,
+        rows,
+        dies,
+        layouts,
+    }
+}

@@ -1,0 +1,83 @@
+//! The packages that the parts table is made from, fetched by their ordinary clients.
+#![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context as _, Result, ensure};
+
+/// Pins, signals and alternate functions of STM32.
+const METAPAC: (&str, &str) = ("stm32-metapac", "21.0.0");
+/// ATDF files of the AVRs.
+const AVR: (&str, &str) = ("avr-device", "0.9.0");
+/// Packages and positions of STM32.
+const MODM: (&str, &str) = ("modm-devices", "0.13.1");
+
+/// Folders of the unpacked packages.
+pub(crate) struct Sources {
+    pub(crate) metapac: PathBuf,
+    pub(crate) avr: PathBuf,
+    pub(crate) modm: PathBuf,
+}
+
+/// Fetches what is not there yet.
+pub(crate) fn fetch(folder: &Path) -> Result<Sources> {
+    let vendor = folder.join("vendor");
+    let crate_folder = |(name, _): (&str, &str)| vendor.join(name);
+    let python = folder.join(format!("{}-{}", MODM.0, MODM.1));
+    if !(crate_folder(METAPAC).exists() && crate_folder(AVR).exists()) {
+        std::fs::create_dir_all(folder.join("src"))?;
+        write(&folder.join("src/lib.rs"), b"")?;
+        let dependency = |(name, version): (&str, &str)| {
+            format!("{name} = {{ version = \"={version}\", default-features = false }}\n")
+        };
+        let manifest = format!(
+            "[package]\nname = \"parts-sources\"\nedition = \"2024\"\n\n[workspace]\n\n\
+             [dependencies]\n{}{}",
+            dependency(METAPAC),
+            dependency(AVR)
+        );
+        write(&folder.join("Cargo.toml"), manifest.as_bytes())?;
+        call(Command::new("cargo").args(["vendor", "--quiet"]).arg(&vendor).current_dir(folder))?;
+    }
+    if !python.exists() {
+        let wanted = format!("{}=={}", MODM.0, MODM.1);
+        let pip = ["-m", "pip", "install", "--quiet", "--no-deps", "--target"];
+        call(Command::new("python3").args(pip).arg(&python).arg(wanted))?;
+    }
+    Ok(Sources {
+        metapac: crate_folder(METAPAC).join("src/chips"),
+        avr: crate_folder(AVR).join("vendor"),
+        modm: python.join("modm_devices/resources/devices/stm32"),
+    })
+}
+
+fn call(command: &mut Command) -> Result<()> {
+    let status = command.status().with_context(|| format!("{command:?}"))?;
+    ensure!(status.success(), "{command:?}: {status}");
+    Ok(())
+}
+
+/// A file's bytes.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).with_context(|| path.display().to_string())
+}
+
+/// A file's text.
+pub(crate) fn text(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// Writes a file.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    std::fs::write(path, bytes).with_context(|| path.display().to_string())
+}
+
+/// The entries of a folder, by name.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    let read = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
+    let mut paths: Vec<PathBuf> =
+        read.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;
+    paths.sort();
+    Ok(paths)
+}
