@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_tests::{Random, Ran, Scratch, design, sensedsl, text};
+use sensedsl_tests::{Ran, Random, Scratch, design, sensedsl, text};
 use serde_json::Value;
 
 const FIG2: &str = "examples/fig2.sense";

@@ -1,0 +1,97 @@
+//! The corpus: inputs that must be accepted, and malformed ones that must be refused with the code
+//! that names the file, at the place that `tests/corpus/err/expected.txt` tells.
+//!
+//! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests --test corpus`,
+//! and read the difference.
+#![expect(clippy::disallowed_methods, reason = "a test reads its data")]
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sensedsl_tests::{root, sensedsl};
+use serde_json::Value;
+
+/// What stands on the board whose table is malformed.
+const ON_TABLE: &str = "board Robot {\n    sensor A returns uint16 {\n        id = 1;\n        type = analog;\n    }\n}\n";
+
+fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let wanted = |path: &PathBuf| {
+        path.extension().is_some_and(|ending| endings.iter().any(|one| ending == *one))
+    };
+    let mut files: Vec<PathBuf> = entries.filter(wanted).collect();
+    files.sort();
+    files
+}
+
+/// Codes and places of all that is said of a file, and how `check` ended.
+fn said(folder: &Path, file: &str) -> (Vec<(String, String)>, i32) {
+    let call = sensedsl(["check", "--format", "json"]).within(folder);
+    let ran = if file.ends_with(".csv") {
+        call.arg("--board").arg(file).arg("-").stdin(ON_TABLE).run()
+    } else {
+        call.arg(file).run()
+    };
+    let value: Value = serde_json::from_str(&ran.stdout)
+        .unwrap_or_else(|error| panic!("{file}: {error}\n{}\n{}", ran.stdout, ran.stderr));
+    let text = |one: &Value, key: &str| one[key].as_str().unwrap().to_owned();
+    let diagnostics = value["diagnostics"].as_array().unwrap();
+    let said = diagnostics.iter().map(|one| {
+        assert!(one["help"].is_string(), "{file}: {} gives no way out", one["code"]);
+        let (line, column) = (&one["start"]["line"], &one["start"]["column"]);
+        (text(one, "code"), format!("{}:{line}:{column}", text(one, "file")))
+    });
+    (said.collect(), ran.status)
+}
+
+#[test]
+fn malformed_input_gets_the_code_that_names_it() {
+    let folder = root().join("tests/corpus/err");
+    let list = folder.join("expected.txt");
+    let files = files(&folder, &["sense", "csv"]);
+    assert!(files.len() >= 60, "only {} files", files.len());
+    let mut found = String::new();
+    let mut unnamed = Vec::new();
+    for path in &files {
+        let file = path.file_name().unwrap().to_string_lossy().into_owned();
+        let code = file.split('_').next().unwrap().to_owned();
+        let (said, status) = said(&folder, &file);
+        if !said.iter().any(|(one, _)| *one == code) {
+            unnamed.push(format!("{file}: {said:?}"));
+        }
+        let wrong = said.iter().any(|(code, _)| code.starts_with('E'));
+        assert_eq!(status != 0, wrong, "{file}: status {status}");
+        let all: Vec<String> = said.iter().map(|(code, place)| format!("{code} {place}")).collect();
+        writeln!(found, "{file}: {}", all.join(", ")).unwrap();
+    }
+    assert!(unnamed.is_empty(), "not said where the file names it:\n{}", unnamed.join("\n"));
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        fs::write(&list, &found).unwrap();
+    }
+    let expected = fs::read_to_string(&list).unwrap();
+    let by_file = |text: &str| -> BTreeMap<String, String> {
+        let lines = text.lines().filter_map(|line| line.split_once(": "));
+        lines.map(|(file, said)| (file.to_owned(), said.to_owned())).collect()
+    };
+    let (expected, found) = (by_file(&expected), by_file(&found));
+    for (file, said) in &found {
+        assert_eq!(expected.get(file), Some(said), "{file}");
+    }
+    assert_eq!(expected.len(), found.len(), "expected.txt names files that are gone");
+}
+
+#[test]
+fn good_input_is_accepted() {
+    let folders = ["tests/corpus/ok", "examples"];
+    let files: Vec<PathBuf> =
+        folders.iter().flat_map(|folder| files(&root().join(folder), &["sense"])).collect();
+    assert!(files.len() >= 4, "only {} files", files.len());
+    for path in files {
+        let ran = sensedsl(["check"]).arg(&path).run();
+        assert_eq!(ran.status, 0, "{}:\n{}", path.display(), ran.stderr);
+        let formatted = sensedsl(["fmt", "--check"]).arg(&path).run();
+        assert_eq!(formatted.status, 0, "{} is not laid out canonically", path.display());
+    }
+}
