@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Parts(PartsArgs),
     /// List the built-in boards, or print one's table
     Boards(BoardsArgs),
+    /// Make a board table, or a file, of what other tools know about pins
+    Import(ImportArgs),
     /// Lay files out canonically, comments kept
     Fmt(FmtArgs),
     /// Print a completion script for a shell
@@ -250,6 +252,46 @@ pub(crate) struct BoardsArgs {
     /// Only boards with this text in their name, MCU or description
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
     pub(crate) search: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ImportArgs {
+    /// A spreadsheet (CSV, XLSX, ODS), an MCU (XML) or project (.ioc) of CubeMX, an hwdef.dat of
+    /// ArduPilot, alternate functions of MicroPython; - is the standard input
+    pub(crate) source: PathBuf,
+    /// Where to write the result; the table of a project goes beside it, as .csv
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// What the source is
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: ImportFormat,
+    /// The sheet of a workbook
+    #[arg(long, value_name = "NAME")]
+    pub(crate) sheet: Option<String>,
+    /// Of a project print the table of its pins, not the file with its devices
+    #[arg(long)]
+    pub(crate) table: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ImportFormat {
+    /// By its content
+    #[default]
+    Auto,
+    /// A table as text, a row a pin or a row a signal
+    Csv,
+    /// A workbook of Excel
+    Xlsx,
+    /// A workbook of LibreOffice
+    Ods,
+    /// An MCU of CubeMX
+    Cubemx,
+    /// A project of CubeMX
+    Ioc,
+    /// A board of ArduPilot
+    Hwdef,
+    /// Alternate functions of MicroPython
+    Micropython,
 }
 
 #[derive(Debug, Args)]

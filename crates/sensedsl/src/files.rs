@@ -22,6 +22,13 @@ impl Files for Disk {
 
 /// The text of a file, or of the standard input for `-`.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
+    let text = String::from_utf8(read_bytes(path)?);
+    text.map_err(|_| anyhow::anyhow!("it is no text in UTF-8"))
+        .with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// The content of a file, or of the standard input for `-`.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     if path == Path::new("-") {
         io::stdin().lock().take(BYTES_MAX).read_to_end(&mut bytes).context("standard input")?;
@@ -34,9 +41,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String> {
     if bytes.len() as u64 == BYTES_MAX {
         anyhow::bail!("{} is larger than {} MiB", path.display(), BYTES_MAX >> 20);
     }
-    let text = String::from_utf8(bytes);
-    text.map_err(|_| anyhow::anyhow!("it is no text in UTF-8"))
-        .with_context(|| format!("cannot read {}", path.display()))
+    Ok(bytes)
 }
 
 /// The name under which people see a file.

@@ -8,6 +8,7 @@ pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod help;
+pub(crate) mod import;
 mod input;
 pub(crate) mod new;
 mod output;
