@@ -48,13 +48,15 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         log.unreadable(whole, source.name, &why);
         return Made::default();
     };
-    let functions = match functions(&modes) {
-        Ok(functions) => functions,
+    let modes = std::str::from_utf8(&modes).map_err(|error| error.to_string());
+    let modes = match modes.and_then(parse) {
+        Ok(modes) => modes,
         Err(why) => {
             log.unreadable(whole, &path, &why);
             return Made::default();
         }
     };
+    let functions = functions(&modes);
     let reader = Reader { file, functions };
     let rows = reader.pins(&mcu, log);
     if rows.is_empty() {
@@ -105,23 +107,19 @@ struct Route {
     remaps: Vec<String>,
 }
 
-/// The routes by canonical pin and signal.
-type Functions = BTreeMap<String, BTreeMap<String, Route>>;
+/// The pins of the GPIO file.
+type Functions<'m> = BTreeMap<PinName, Node<'m, 'm>>;
 
-fn functions(bytes: &[u8]) -> Result<Functions, String> {
-    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
-    let document = parse(text)?;
-    let mut functions = Functions::new();
-    for pin in document.root_element().children().filter(|node| is(node, "GPIO_Pin")) {
-        let Some(name) = pin.attribute("Name").and_then(PinName::parse) else { continue };
-        let signals = functions.entry(name.as_str().to_owned()).or_default();
-        for signal in pin.children().filter(|node| is(node, "PinSignal")) {
-            let route = route(&signal);
-            let name = signal.attribute("Name").unwrap_or_default();
-            signals.entry(name.to_owned()).or_insert(route);
-        }
-    }
-    Ok(functions)
+fn functions<'m>(modes: &'m Document<'_>) -> Functions<'m> {
+    let pins = modes.root_element().children().filter(|node| is(node, "GPIO_Pin"));
+    pins.filter_map(|pin| Some((PinName::parse(pin.attribute("Name")?)?, pin))).collect()
+}
+
+/// The route of a signal to a pin, as the GPIO file has it.
+fn find_route(pin: &Node<'_, '_>, signal: &str) -> Option<Route> {
+    let named = |node: &Node<'_, '_>| node.attribute("Name") == Some(signal);
+    let found = pin.children().find(|node| is(node, "PinSignal") && named(node))?;
+    Some(route(&found))
 }
 
 fn route(signal: &Node<'_, '_>) -> Route {
@@ -143,12 +141,12 @@ fn route(signal: &Node<'_, '_>) -> Route {
     route
 }
 
-struct Reader {
+struct Reader<'m> {
     file: FileId,
-    functions: Functions,
+    functions: Functions<'m>,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn span(&self, node: &Node<'_, '_>) -> Span {
         // The opening tag alone: a pin with its signals would fill the screen.
         let range = node.range();
@@ -215,7 +213,7 @@ impl Reader {
     }
 
     fn pin(&self, node: &Node<'_, '_>, name: PinName) -> Row {
-        let routes = self.functions.get(name.as_str());
+        let routes = self.functions.get(&name);
         let mut row = Row::new(name);
         row.position = node.attribute("Position").map(str::to_owned);
         let mut remaps = Vec::new();
@@ -225,9 +223,8 @@ impl Reader {
                 continue;
             }
             let spelled = spelled(signal);
-            let route = routes.and_then(|routes| routes.get(signal));
-            let alternate = route.and_then(|route| route.alternate);
-            let blocks = route.map(|route| route.remaps.as_slice()).unwrap_or_default();
+            let route = routes.and_then(|routes| find_route(routes, signal)).unwrap_or_default();
+            let (alternate, blocks) = (route.alternate, route.remaps);
             if !blocks.is_empty() {
                 remaps.push(format!("{spelled}={}", blocks.join("|")));
             }
