@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 
 pub use find::{Found, find, nearest_name};
 pub use listing::{Part, all};
-pub use sheet::Sheet;
+pub use sheet::{Sheet, Usage};
 
 use format::Data;
 

@@ -46,7 +46,7 @@ impl Chip {
         let mut push = |name: String, function: u8| usages.push((name, Some(function)));
         push(format!("SPI{spi}_{}", of(["MISO", "NSS", "SCK", "MOSI"])), 1);
         push(format!("UART{uart}_{}", of(["TX", "RX", "CTS", "RTS"])), 2);
-        push(format!("I2C{i2c}_{}", if pin % 2 == 0 { "SDA" } else { "SCL" }), 3);
+        push(format!("I2C{i2c}_{}", if pin.is_multiple_of(2) { "SDA" } else { "SCL" }), 3);
         push(format!("TIM{slice}_CH{}", 1 + pin % 2), 4);
         for pio in 0..self.pio {
             push(format!("PIO{pio}"), 6 + pio);

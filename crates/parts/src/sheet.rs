@@ -8,6 +8,9 @@ use sensedsl_board::pin::{PinName, natural};
 use crate::data;
 use crate::listing::{Origin, Part};
 
+/// A usage and its alternate function.
+pub type Usage = (String, Option<u8>);
+
 /// The columns of usages, with the starts of what stands in them; the last takes the rest.
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
@@ -71,7 +74,7 @@ impl Sheet {
     }
 
     /// Each pin with its position and usages.
-    pub fn pins(&self) -> impl Iterator<Item = (&PinName, Option<&str>, &[(String, Option<u8>)])> {
+    pub fn pins(&self) -> impl Iterator<Item = (&PinName, Option<&str>, &[Usage])> {
         let rows = self.rows.iter();
         rows.map(|(name, row)| (name, row.position.as_deref(), row.usages.as_slice()))
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::profile::{TargetProfile, Timer};
 use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, UartLine};
-use sensedsl_board::table::{Occupation, Pin, Usage};
+use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{BoardIndex, Device, Placement, Wish};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Role as SolverRole, RuleId};
@@ -120,7 +120,7 @@ impl Maker<'_, '_> {
                 let role =
                     if self.wanted.direction == Direction::Sensor { Role::In } else { Role::Out };
                 let roles = vec![self.role(role, &need, None)];
-                self.finish(None, Vec::new(), roles)
+                self.finish(None, &[], roles)
             }
             Kind::Dac(_) => self.dac(),
             Kind::I2c(_) | Kind::Uart(_) | Kind::Spi(_) | Kind::Can(_) => self.units(),
@@ -153,7 +153,7 @@ impl Maker<'_, '_> {
             | Function::Other => false,
         };
         let roles = vec![self.role(Role::In, &Need::Usage(&serves), None)];
-        self.finish(None, Vec::new(), roles)
+        self.finish(None, &[], roles)
     }
 
     fn dac(&mut self) -> Vec<Made> {
@@ -173,7 +173,7 @@ impl Maker<'_, '_> {
             | Function::Other => false,
         };
         let roles = vec![self.role(Role::Out, &Need::Usage(&serves), None)];
-        self.finish(None, Vec::new(), roles)
+        self.finish(None, &[], roles)
     }
 
     /// Timers: whole ones where a driver takes them whole, channels in the pure pin model.
@@ -188,7 +188,7 @@ impl Maker<'_, '_> {
             };
             let mut roles = vec![self.role(using.role(), &Need::Usage(&serves), None)];
             self.push_trigger(&mut roles);
-            return self.finish(None, Vec::new(), roles);
+            return self.finish(None, &[], roles);
         }
         let mut made = Vec::new();
         for number in self.timer_numbers() {
@@ -238,7 +238,7 @@ impl Maker<'_, '_> {
             TimerUse::Icu | TimerUse::Encoder => self.builder.names.own(resource),
         };
         let claims = if timer.is_some() { vec![claim] } else { Vec::new() };
-        self.finish(Some(unit.to_owned()), claims, roles)
+        self.finish(Some(unit), &claims, roles)
     }
 
     fn push_trigger(&mut self, roles: &mut Vec<(SolverRole, Vec<Chosen>)>) {
@@ -306,7 +306,7 @@ impl Maker<'_, '_> {
             self.role(role, &Need::Usage(&serves), bus.as_ref().map(|bus| (unit, bus)))
         });
         let roles: Vec<_> = roles.collect();
-        self.finish(Some(unit.to_owned()), claims, roles)
+        self.finish(Some(unit), &claims, roles)
     }
 
     /// The instances of the device's kind that the offered pins name, in natural order.
@@ -336,13 +336,14 @@ impl Maker<'_, '_> {
             match need {
                 Need::Usage(serves) => {
                     for (at, usage) in pin.usages.iter().enumerate() {
-                        if serves(usage) && may_join(pin, self.wanted.kind) {
+                        if serves(usage) && (!offer.bus_only(pin) || joins_buses(self.wanted.kind))
+                        {
                             made.push(self.with_signal(role, (index, pin), (at, usage), bus));
                         }
                     }
                 }
                 Need::Gpio | Need::Interrupt => {
-                    if pin.onboard.as_ref().is_none_or(|part| part.how != Occupation::Bus) {
+                    if !offer.bus_only(pin) {
                         let interrupt = matches!(need, Need::Interrupt);
                         made.push(self.bare(role, index, pin, interrupt));
                     }
@@ -425,26 +426,24 @@ impl Maker<'_, '_> {
 
     /// The alternative, unless one of its roles has no candidate; several where roles could meet on
     /// one contact.
-    fn finish(
-        &mut self,
-        unit: Option<String>,
-        claims: Vec<Claim>,
-        roles: Vec<MadeRole>,
-    ) -> Vec<Made> {
+    fn finish(&mut self, unit: Option<&str>, claims: &[Claim], roles: Vec<MadeRole>) -> Vec<Made> {
         let board = self.offer.index;
         let mut made = Vec::new();
         for roles in self.apart(roles) {
-            let dma = unit.as_deref().map(|unit| self.builder.dma(board, unit));
-            let violates = self.rules.violated_by_unit(board, unit.as_deref());
+            let dma = unit.map(|unit| self.builder.dma(board, unit));
+            let violates = self.rules.violated_by_unit(board, unit);
             let (roles, chosen) = roles.into_iter().unzip();
             let alternative = Alternative {
                 board: board_id(board),
-                claims: claims.clone(),
+                claims: claims.to_vec(),
                 violates,
                 dma: dma.unwrap_or_default(),
                 roles,
             };
-            made.push((alternative, Meaning { board, unit: unit.clone(), roles: chosen }));
+            made.push((
+                alternative,
+                Meaning { board, unit: unit.map(str::to_owned), roles: chosen },
+            ));
         }
         made
     }
@@ -590,7 +589,6 @@ fn is_wire(usage: &Usage, unit: &str, role: Role) -> bool {
 }
 
 /// A pin on an on-board bus is for devices that join the bus.
-fn may_join(pin: &Pin, kind: &Kind) -> bool {
-    let on_bus = pin.onboard.as_ref().is_some_and(|part| part.how == Occupation::Bus);
-    !on_bus || matches!(kind, Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_))
+fn joins_buses(kind: &Kind) -> bool {
+    matches!(kind, Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_))
 }
