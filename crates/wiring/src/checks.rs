@@ -43,7 +43,10 @@ fn why_hopeless(
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
         }) {
-            return Some(cannot_serve(design, &offers, device, *role, pin));
+            let bus_only = bus_only(design, device, *role, pin);
+            return Some(
+                bus_only.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
+            );
         }
     }
     let unit = device.placement.unit.as_ref()?;
@@ -120,6 +123,37 @@ fn cannot_serve(
         row,
         &pins.join(", "),
     )
+}
+
+/// The report for a fixed pin that an on-board part has left to the devices of its bus, where the
+/// device could have the pin without the part.
+fn bus_only(
+    design: &Design,
+    device: &Device,
+    role: Role,
+    pin: &Spanned<sensedsl_board::pin::PinName>,
+) -> Option<Diagnostic> {
+    let parts = design.boards.iter().filter_map(|board| board.table.pin(&pin.value));
+    let part = parts.filter_map(|pin| pin.onboard.as_ref()).next()?;
+    let name = pin.value.as_str();
+    let mut released = design.clone();
+    for board in &mut released.boards {
+        board.released.push(Spanned { value: name.to_owned(), span: pin.span });
+    }
+    let boards = released.boards.iter().enumerate();
+    let offers: Vec<Offer<'_>> =
+        boards.map(|(index, board)| Offer::new(BoardIndex(index), board)).collect();
+    let offers: Vec<&Offer<'_>> = offers.iter().collect();
+    let free = possible(&released, &offers, device, |wanted| {
+        wanted.unit = None;
+        wanted.side = None;
+        wanted.header = None;
+        wanted.pins.retain(|(fixed, _)| *fixed == role);
+    });
+    let help =
+        format!("take another pin, or write `release {name};` if {} is not needed", part.part);
+    let by = format!("{} on the board", part.part);
+    free.then(|| e0316_pin_not_available::pin_not_available(pin.span, name, &by, None, &help))
 }
 
 /// Whether the device could be connected to one of the boards with its placement relaxed.

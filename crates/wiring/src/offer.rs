@@ -55,6 +55,12 @@ impl<'a> Offer<'a> {
         pins.filter(|(index, _)| self.why_withheld(*index).is_none())
     }
 
+    /// True when an on-board part leaves the pin to further devices of its bus only.
+    pub(crate) fn bus_only(&self, pin: &Pin) -> bool {
+        let on_bus = pin.onboard.as_ref().is_some_and(|part| part.how == Occupation::Bus);
+        on_bus && !released(self.board, pin)
+    }
+
     /// True when a rule keeps the peripheral instance free.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
         self.board.reserved.iter().any(|reserved| reserved.value == unit)
@@ -99,19 +105,24 @@ fn keep_pads_free(board: &Board, pads: &[Option<String>], withheld: &mut [Option
     }
 }
 
+/// Whether a rule gives the pin free from its on-board part.
+fn released(board: &Board, pin: &Pin) -> bool {
+    let part = pin.onboard.as_ref().map(|part| part.part.as_str());
+    board.released.iter().any(|rule| {
+        PinName::parse(&rule.value).is_some_and(|name| name == pin.name)
+            || part.is_some_and(|part| part.eq_ignore_ascii_case(&rule.value))
+    })
+}
+
 fn withheld(board: &Board, pin: &Pin) -> Option<Withheld> {
     let named = |name: &str| PinName::parse(name).is_some_and(|name| name == pin.name);
     if let Some(rule) = board.reserved.iter().find(|rule| named(&rule.value)) {
         return Some(Withheld::Reserved(rule.span));
     }
-    let part = pin.onboard.as_ref();
-    let released = board.released.iter().any(|rule| {
-        named(&rule.value) || part.is_some_and(|part| part.part.eq_ignore_ascii_case(&rule.value))
-    });
-    if released {
+    if released(board, pin) {
         return None;
     }
-    if let Some(part) = part
+    if let Some(part) = &pin.onboard
         && part.how == Occupation::Taken
     {
         return Some(Withheld::Onboard(part.part.clone()));
