@@ -30,14 +30,20 @@ pub(crate) fn explain(
         Some(seed) if infeasible(&only(problem, &seed), stop)? => seed,
         _ => all,
     };
-    let mut index = kept.len();
-    while index > 0 {
-        index -= 1;
-        let mut fewer = kept.clone();
-        fewer.remove(index);
-        if infeasible(&only(problem, &fewer), stop)? {
-            kept = fewer;
+    // Many at once first: most devices have no part in it.
+    let mut chunk = kept.len().div_ceil(2);
+    while chunk > 0 {
+        let mut end = kept.len();
+        while end > 0 {
+            let start = end.saturating_sub(chunk);
+            let mut fewer = kept.clone();
+            fewer.drain(start..end);
+            if infeasible(&only(problem, &fewer), stop)? {
+                kept = fewer;
+            }
+            end = start;
         }
+        chunk /= 2;
     }
     // A reason of one kind is the best to read: one kind after another is left out as a whole
     // first (signals are as good as pins, but pins are what people see).

@@ -19,9 +19,6 @@ pub(crate) const SHIFT: u32 = 8;
 /// More than any sum of costs ([`crate::answer::Fault::TooLarge`] sees to that).
 const FAR: i64 = 1 << 54;
 
-/// A bound from here on means that there is no answer.
-pub(crate) const NEVER: u64 = 1 << 45;
-
 /// Prices and the work space of the ascent.
 #[derive(Clone, Debug)]
 pub(crate) struct Dual {
@@ -64,7 +61,7 @@ impl Dual {
     ) -> u64 {
         self.build(terms, model, state);
         let paid = (state.paid as i64) << SHIFT;
-        let known = limit < u64::MAX;
+        let known = limit < model.most;
         let unit = (model.weights.cost as i64) << SHIFT;
         let mut best = i64::MIN;
         let (mut pace, mut idle) = (256, 0);
@@ -83,8 +80,9 @@ impl Dual {
                 (pace, idle) = (pace / 2, 0);
                 self.prices.copy_from_slice(&self.best);
             }
-            let target = if known { (limit as i64) << SHIFT } else { best + best / 16 + unit };
-            if known && value >= target || step == steps || pace < 4 {
+            let goal = (limit as i64) << SHIFT;
+            let target = if known { goal } else { best + best / 8 + unit };
+            if value >= goal || step == steps || pace < 4 {
                 break;
             }
             self.step(terms, (target - value).max(unit / 8), pace);
@@ -134,7 +132,7 @@ impl Dual {
         bound: u64,
         limit: u64,
     ) -> Result<bool, Dead> {
-        if limit == u64::MAX || bound >= limit {
+        if bound >= limit {
             return Ok(false);
         }
         let value = self.evaluate(terms, model) + ((state.paid as i64) << SHIFT);
@@ -292,6 +290,10 @@ impl Dual {
                 self.take(c, way, 1);
             }
         } else {
+            if order.len() > number {
+                order.select_nth_unstable(number - 1);
+                order.truncate(number);
+            }
             order.sort_unstable();
             let mut left = number;
             for &(cost, c, way) in &order {

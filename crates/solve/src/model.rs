@@ -166,6 +166,8 @@ pub(crate) struct Model {
     /// First demand of each device; demand = role position of a device.
     pub(crate) demand: Vec<usize>,
     pub(crate) demand_cands: Rows<usize>,
+    /// More than any answer weighs.
+    pub(crate) most: u64,
     /// Whether DMA can fail at all.
     pub(crate) dma_matters: bool,
     /// Every use of this DMA user excludes all others.
@@ -206,6 +208,7 @@ impl Model {
         model.find_classes();
         model.find_demands();
         model.find_private_users(problem);
+        model.most = model.find_most();
         Ok(model)
     }
 
@@ -369,6 +372,20 @@ impl Model {
         }
         let private = |c: &Option<BTreeSet<usize>>| c.as_ref().is_some_and(|s| !s.is_empty());
         self.user_private = common.iter().map(private).collect();
+    }
+
+    fn find_most(&self) -> u64 {
+        let moved = self.cands.items.iter().any(|c| c.moved);
+        let dearest = |role| {
+            let cands = self.cands.at(role).iter();
+            let wire = |c: &Cand| self.pin_weight[c.pin] + u64::from(moved) * self.weights.moved;
+            cands.map(wire).max().unwrap_or(0)
+        };
+        let of_alt = |alt| self.roles.range(alt).map(dearest).sum::<u64>();
+        let of_device = |device| self.alts.range(device).map(of_alt).max().unwrap_or(0);
+        let wires: u64 = (0..self.devices).map(of_device).sum();
+        let pins = self.pin_weight.iter().map(|w| w + u64::from(moved) * self.weights.moved).sum();
+        wires.min(pins) + self.rule_users.len() as u64 * self.weights.rule + self.weights.cost
     }
 
     /// The exact objective of complete choices.

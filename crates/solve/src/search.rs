@@ -6,7 +6,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::dma::Matching;
-use crate::dual::{Dual, NEVER};
+use crate::dual::Dual;
 use crate::flow::{Flow, Saved};
 use crate::model::Model;
 use crate::problem::{Problem, StreamId};
@@ -125,20 +125,22 @@ impl<'a> Engine<'a> {
 
     /// The cheapest choice below `limit`, or with `first` any one below it.
     pub(crate) fn search(&mut self, limit: u64, first: bool) -> Option<(u64, Choices)> {
-        self.limit = limit;
+        self.limit = limit.min(self.model.most);
         self.first = first;
         self.best = None;
         let mark = self.state.mark();
         let saved = self.flow.save();
         self.begun = self.nodes;
-        if limit == u64::MAX && !first {
+        if limit == u64::MAX {
             self.dive = self.nodes + DIVE;
             self.node(0);
             self.dive = 0;
             self.back(mark, &saved);
         }
-        self.node(0);
-        self.back(mark, &saved);
+        if !(first && self.best.is_some()) {
+            self.node(0);
+            self.back(mark, &saved);
+        }
         self.best.take()
     }
 
@@ -186,11 +188,12 @@ impl<'a> Engine<'a> {
             }
             let Some(mut branch) = self.try_wiring(bound) else { return };
             if self.dive == 0 && (!self.first || self.nodes > self.begun + PATIENCE) {
-                let steps = match (depth == 0 && !self.first, fresh) {
-                    (true, true) => ROOT_STEPS,
-                    (true, false) => ROOT_STEPS / 4,
-                    (false, _) => NODE_STEPS,
-                };
+                let steps =
+                    match (depth == 0 && (!self.first || self.limit == self.model.most), fresh) {
+                        (true, true) => ROOT_STEPS,
+                        (true, false) => ROOT_STEPS / 4,
+                        (false, _) => NODE_STEPS,
+                    };
                 fresh = false;
                 match self.price(steps) {
                     Err(Dead) => return,
@@ -276,9 +279,6 @@ impl<'a> Engine<'a> {
         });
         let (terms, dual) = &mut **pair;
         let bound = dual.ascend(terms, model, &self.state, self.limit, steps);
-        if bound >= NEVER {
-            return Err(Dead);
-        }
         if bound >= self.limit {
             return Err(Dead);
         }
