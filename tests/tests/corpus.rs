@@ -3,7 +3,13 @@
 //!
 //! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests --test corpus`,
 //! and read the difference.
-#![expect(clippy::disallowed_methods, reason = "a test reads its data")]
+#![expect(
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test reads its data, and a panic is its failure"
+)]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

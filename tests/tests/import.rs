@@ -31,7 +31,8 @@ fn an_mcu_finds_its_alternate_functions_beside_it() {
     assert!(alone.stdout.is_empty() && alone.stderr.contains("E0801"), "{}", alone.stderr);
     scratch.write("mcu/IP/GPIO-demo_v1_0_Modes.xml", MODES);
     let both = call().run().exits(0);
-    let expected = "# mcu = STM32F405RGTx\n# package = LQFP64\nPin,Position,I2C\nPB6,58,I2C1_SCL@4\n";
+    let expected =
+        "# mcu = STM32F405RGTx\n# package = LQFP64\nPin,Position,I2C\nPB6,58,I2C1_SCL@4\n";
     assert_eq!((both.stdout.as_str(), both.stderr.as_str()), (expected, ""));
 }
 
