@@ -213,11 +213,25 @@ impl Terms {
                 }
                 continue;
             }
-            // A bus pays for its streams when all who use them use the bus.
+            // A bus pays for its streams when all on it use them, and nobody else at that time:
+            // either there is nobody else, or all claim one resource.
+            let whole = |f: &usize| self.facilities[*f].alts.iter().all(|a| alts.contains(a));
             let home = (0..self.facilities.len())
-                .find(|&f| self.facilities[f].alts.iter().eq(alts.iter()));
+                .find(|f| self.facilities[*f].alts.len() == alts.len() && whole(f));
             if let Some(facility) = home {
                 self.facilities[facility].requests.extend(requests);
+            } else if let Some(resource) = common_resource(model, &alts) {
+                let price = Some(model.pins + resource);
+                let buses: Vec<usize> = (0..self.facilities.len())
+                    .filter(|f| self.facilities[*f].resource == price && whole(f))
+                    .collect();
+                for facility in buses {
+                    self.facilities[facility].requests.extend(requests.iter().cloned());
+                }
+                let own = |alt: &&usize| model.alt_claims.at(**alt).contains(&(resource, 0));
+                for &alt in alts.iter().filter(own) {
+                    self.alt_requests[alt].extend(requests.iter().cloned());
+                }
             }
         }
     }
@@ -280,6 +294,16 @@ impl Terms {
         let pins = pins.map(|set| set.len());
         [links, pins].into_iter().flatten().min().unwrap_or(usize::MAX)
     }
+}
+
+/// A resource that all these alternatives claim.
+fn common_resource(model: &Model, alts: &[usize]) -> Option<usize> {
+    let (first, rest) = alts.split_first()?;
+    let claims = |alt: usize, resource: usize| {
+        model.alt_claims.at(alt).iter().any(|claim| claim.0 == resource)
+    };
+    let mut own = model.alt_claims.at(*first).iter().map(|claim| claim.0);
+    own.find(|&r| rest.iter().all(|&alt| claims(alt, r)))
 }
 
 /// Resources that one device can claim in several places or for several holders at once: it does
