@@ -157,7 +157,7 @@ fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
     };
     let of_board = |entry: &catalog::Entry| {
         let found = sensedsl_parts::find(entry.mcu);
-        let package = found.as_ref().and_then(|found| found.package()).map(str::to_owned);
+        let package = found.as_ref().and_then(sensedsl_parts::Found::package).map(str::to_owned);
         let contacts = found.and_then(|found| found.parts.first()?.contacts());
         let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
         let (family, wanted) = (upper(&args.family), upper(&args.package));
