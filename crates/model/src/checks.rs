@@ -50,6 +50,9 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
 
 fn narrow(device: &Device) -> Option<Diagnostic> {
     let value = device.value.value;
+    if device.kind.name().accepts_type(value).is_err() {
+        return None;
+    }
     let (_, most) = value.scalar.integer_range()?;
     let (bits, wider) = match &device.kind {
         Kind::Analog(_) => (ADC_BITS, "uint16".to_owned()),

@@ -132,8 +132,15 @@ fn kind_name(fields: &mut Fields<'_>, direction: Direction) -> Option<Spanned<Ki
         return None;
     };
     if !kind.directions().contains(&direction) {
-        let can: Vec<&str> = kind.directions().iter().map(|direction| direction.name()).collect();
-        let can = format!("a {}", can.join(" or "));
+        let can: Vec<&str> = kind
+            .directions()
+            .iter()
+            .map(|direction| match direction {
+                Direction::Sensor => "a sensor",
+                Direction::Actuator => "an actuator",
+            })
+            .collect();
+        let can = can.join(" or ");
         fields.say(e0214_wrong_direction::wrong_direction(
             written.span,
             &kind.with_article(),

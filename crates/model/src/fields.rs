@@ -379,7 +379,7 @@ impl<'a> Fields<'a> {
     ) -> Option<Spanned<Vec<u8>>> {
         let field = self.take(name)?;
         let Some(numbers) = byte_list(&field.value) else {
-            self.wrong(&field, "a list of bytes such as [0x00, 0x51]");
+            self.wrong(&field, "a list of whole numbers such as [0x00, 0x51]");
             return None;
         };
         let mut bytes = Vec::with_capacity(numbers.len());
@@ -502,6 +502,9 @@ fn describe(value: &Value) -> &'static str {
         },
         Value::Name(_) => "a name",
         Value::String(_) => "a text",
+        Value::List(list) if list.values().any(|value| plain_integer(&value).is_none()) => {
+            "a list of something else"
+        }
         Value::List(_) => "a list",
     }
 }
