@@ -1,7 +1,5 @@
 //! `sensedsl check`: what is wrong, and whether there is a wiring.
 
-use std::fmt::Write as _;
-
 use anyhow::Result;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
 use sensedsl_wiring::{Search, Solved};
@@ -21,7 +19,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         let resolved = input::load(path, &args.on)?;
         let sources = resolved.sources;
         let (diagnostics, feasible) = match &resolved.design {
-            None => (resolved.diagnostics, false),
+            None => (resolved.diagnostics, None),
             Some(design) => {
                 let answer = input::solve(
                     design,
@@ -29,7 +27,11 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
                     None,
                     &Search { any: true, stop: None },
                 );
-                let feasible = matches!(answer.solved, Some(Solved::Wired(_)));
+                let feasible = match answer.solved {
+                    Some(Solved::Wired(_)) => Some(true),
+                    Some(Solved::Infeasible(_)) => Some(false),
+                    Some(Solved::Failed(_)) | None => None,
+                };
                 (answer.diagnostics, feasible)
             }
         };
@@ -58,21 +60,16 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(status)
 }
 
-fn summary(file: &str, diagnostics: &[Diagnostic], feasible: bool) -> String {
+/// One line a file. Whether there is a wiring is said only where it was looked for.
+fn summary(file: &str, diagnostics: &[Diagnostic], feasible: Option<bool>) -> String {
     let count = |severity| diagnostics.iter().filter(|one| one.severity == severity).count();
-    let mut text = format!("{file}: ");
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
     let plural = |n: usize| if n == 1 { "" } else { "s" };
-    text.push_str(if feasible { "a wiring exists" } else { "no wiring" });
-    // Writing to a String cannot fail.
-    if errors > 0 {
-        let _ = write!(text, ", {errors} error{}", plural(errors));
-    }
-    if warnings > 0 {
-        let _ = write!(text, ", {warnings} warning{}", plural(warnings));
-    }
-    text.push('\n');
-    text
+    let wiring = feasible.map(|yes| if yes { "a wiring exists" } else { "no wiring" }.to_owned());
+    let errors = (errors > 0).then(|| format!("{errors} error{}", plural(errors)));
+    let warnings = (warnings > 0).then(|| format!("{warnings} warning{}", plural(warnings)));
+    let parts: Vec<String> = [wiring, errors, warnings].into_iter().flatten().collect();
+    format!("{file}: {}\n", parts.join(", "))
 }
 
 /// One log for all files: each file's diagnostics are a run of their own.
