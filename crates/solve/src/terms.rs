@@ -136,7 +136,7 @@ impl Terms {
                 if facility == next {
                     let contested =
                         k.0 != NONE && !odd[k.0] && !model.resource_users.at(k.0).is_empty();
-                    let resource = contested.then_some(model.pins + k.0);
+                    let resource = contested.then(|| model.pins + k.0);
                     self.facilities.push(Facility { resource, ..Facility::default() });
                 }
                 own.push(facility);
