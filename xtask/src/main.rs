@@ -1,9 +1,12 @@
 //! Developer tasks: `cargo xtask TASK`.
+//!
+//! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
+//! corpus' list, tables that are embedded. `parts` writes the table of known parts.
 
 mod parts;
 
 use std::io::Write as _;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 use anyhow::{Result, bail};
 
@@ -21,9 +24,30 @@ fn main() -> ExitCode {
 fn run() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
+        Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "parts" => parts::run(rest),
-        _ => bail!("tasks: parts [--check]"),
+        _ => bail!("tasks: bless, parts [--check]"),
     }
+}
+
+/// Tests that write what they compare with, by package.
+const BLESSED: &[(&str, &[&str])] = &[
+    ("sensedsl-board", &["registry"]),
+    ("sensedsl-diagnostics", &["reference", "render"]),
+    ("sensedsl-tests", &["corpus", "golden", "messages"]),
+];
+
+fn bless() -> Result<()> {
+    for (package, tests) in BLESSED {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["test", "--quiet", "--package", package]);
+        cargo.args(tests.iter().flat_map(|test| ["--test", test]));
+        let status = cargo.env("SENSEDSL_BLESS", "1").env("INSTA_UPDATE", "always").status()?;
+        if !status.success() {
+            bail!("the tests of {package} failed");
+        }
+    }
+    say("blessed; now read the difference\n")
 }
 
 /// What a task has to tell.

@@ -1,0 +1,25 @@
+/* Written by SenseDSL: sizes and choices the runtime is compiled with. */
+#ifndef UP_CONF_H
+#define UP_CONF_H
+
+/* The link is a USB device (CDC ACM). */
+#define UP_LINK_USB TRUE
+#define UP_LINK_USB_DRIVER USBD1
+
+/* The shell; the Makefile's UP_MODE decides. */
+#if !defined(UP_SHELL)
+#define UP_SHELL TRUE
+#endif
+
+/* The board's button, held at the start, asks for frames instead of the shell. */
+#define UP_HAS_BUTTON TRUE
+
+/* Clock of the core's cycle counter, in Hz. */
+#define UP_CORE_HZ STM32_HCLK
+
+#define UP_FIELDS_COUNT 4U
+#define UP_VALUE_BYTES_MAX 4U
+#define UP_FRAME_BYTES_MAX_TO_HOST 17U
+#define UP_FRAME_BYTES_MAX_TO_BOARD 4U
+
+#endif

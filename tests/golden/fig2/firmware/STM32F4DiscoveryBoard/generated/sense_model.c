@@ -1,0 +1,87 @@
+/* Written by SenseDSL: the schema of the link. */
+#include "sense_model.h"
+
+sense_values_t sense_values;
+
+static const up_field_t fields[] = {
+    {
+        .name = "IRFront",
+        .id = 17U,
+        .type = UP_TYPE_UINT16,
+        .direction = UP_TO_HOST,
+        .count = 1U,
+        .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRFront),
+    },
+    {
+        .name = "IRFrontRight",
+        .id = 18U,
+        .type = UP_TYPE_UINT16,
+        .direction = UP_TO_HOST,
+        .count = 1U,
+        .offset = (uint16_t)offsetof(sense_values_t, SENSE_IRFrontRight),
+    },
+    {
+        .name = "USRear",
+        .id = 19U,
+        .type = UP_TYPE_UINT8,
+        .direction = UP_TO_HOST,
+        .count = 1U,
+        .offset = (uint16_t)offsetof(sense_values_t, SENSE_USRear),
+    },
+    {
+        .name = "WheelEncoder",
+        .id = 20U,
+        .type = UP_TYPE_UINT32,
+        .direction = UP_TO_HOST,
+        .count = 1U,
+        .offset = (uint16_t)offsetof(sense_values_t, SENSE_WheelEncoder),
+    },
+};
+
+const up_schema_t sense_schema = {
+    .fields = fields,
+    .fields_count = 4U,
+    .checksum_crc16 = false,
+    .hash = 0xb2d2a70bU,
+};
+
+/* ---- transforms that the user did not define ---- */
+
+__attribute__((weak)) void sense_transform_IRFront(uint16_t *value) {
+  (void)value;
+}
+
+static void transform_0(void *value) {
+  sense_transform_IRFront(value);
+}
+
+__attribute__((weak)) void sense_transform_IRFrontRight(uint16_t *value) {
+  (void)value;
+}
+
+static void transform_1(void *value) {
+  sense_transform_IRFrontRight(value);
+}
+
+__attribute__((weak)) void sense_transform_USRear(uint8_t *value) {
+  (void)value;
+}
+
+static void transform_2(void *value) {
+  sense_transform_USRear(value);
+}
+
+__attribute__((weak)) void sense_transform_WheelEncoder(uint32_t *value) {
+  (void)value;
+}
+
+static void transform_3(void *value) {
+  sense_transform_WheelEncoder(value);
+}
+
+void (*const sense_transforms[])(void *value) = {
+    transform_0,
+    transform_1,
+    transform_2,
+    transform_3,
+};

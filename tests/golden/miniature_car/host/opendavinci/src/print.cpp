@@ -1,0 +1,55 @@
+// Prints each Container of this design: the smallest application that takes them. Written by SenseDSL;
+// do not edit: copy it to start an application of your own.
+#include "messages.h"
+
+#include <exception>
+#include <iostream>
+
+#include "opendavinci/odcore/base/module/DataTriggeredConferenceClientModule.h"
+#include "opendavinci/odcore/data/Container.h"
+
+namespace {
+
+class Printer final : public odcore::base::module::DataTriggeredConferenceClientModule {
+public:
+    Printer(int argc, char **argv)
+        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "sense_print") {}
+
+private:
+    void setUp() override {}
+    void tearDown() override {}
+
+    void nextContainer(odcore::data::Container &container) override {
+        print< ::sense::IRFrontRight>(container);
+        print< ::sense::IRRearRight>(container);
+        print< ::sense::IRRear>(container);
+        print< ::sense::USFront>(container);
+        print< ::sense::USFrontRight>(container);
+        print< ::sense::USRear>(container);
+        print< ::sense::WheelLeftA>(container);
+        print< ::sense::WheelLeftB>(container);
+        print< ::sense::WheelRightA>(container);
+        print< ::sense::WheelRightB>(container);
+        print< ::sense::RCSteering>(container);
+        print< ::sense::RCThrottle>(container);
+        print< ::sense::RCSwitch>(container);
+    }
+
+    template <typename Message> static void print(odcore::data::Container &container) {
+        if (container.getDataType() == Message::ID()) {
+            std::cout << container.getData<Message>().toString() << std::endl;
+        }
+    }
+};
+
+} // namespace
+
+int main(int argc, char **argv) {
+    try {
+        Printer printer(argc, argv);
+        return printer.runModule();
+    } catch (const std::exception &problem) {
+        std::cerr << problem.what() << "\nusage: " << argv[0] << " --cid=2..253 --freq=HZ" << std::endl;
+        return 2;
+    }
+}

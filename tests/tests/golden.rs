@@ -1,0 +1,63 @@
+//! Everything that `generate` writes for two designs, byte for byte, as it was read and agreed to.
+//!
+//! The runtime's own files are copied from `runtime/` and left out here. After a change that is
+//! meant: `cargo xtask bless`, and read the difference.
+#![expect(clippy::disallowed_methods, reason = "a test reads and writes its data")]
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use sensedsl_tests::{Scratch, root, sensedsl, tree};
+
+/// Copied as they are from `runtime/`, whatever the design.
+fn is_runtime(path: &str) -> bool {
+    path.contains("/uproxy/") || path.contains("/include/sensedsl/")
+}
+
+fn generated(example: &str) -> BTreeMap<String, Vec<u8>> {
+    let scratch = Scratch::new("golden");
+    let file = format!("examples/{example}.sense");
+    let call = sensedsl(["generate", &file, "-q", "-o"]).arg(scratch.join("out"));
+    let _ = call.run().exits(0);
+    let mut files = tree(&scratch.join("out"));
+    files.retain(|path, _| !is_runtime(path));
+    files
+}
+
+fn agrees(example: &str) {
+    let folder = root().join("tests/golden").join(example);
+    let files = generated(example);
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        if folder.exists() {
+            fs::remove_dir_all(&folder).unwrap();
+        }
+        for (path, bytes) in &files {
+            let path = folder.join(path);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, bytes).unwrap();
+        }
+    }
+    let golden = tree(&folder);
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&files), names(&golden), "{example}: other files");
+    for (path, bytes) in &files {
+        let (found, agreed) =
+            (String::from_utf8_lossy(bytes), String::from_utf8_lossy(&golden[path]));
+        if let Some((number, (found, agreed))) =
+            found.lines().zip(agreed.lines()).enumerate().find(|(_, (one, other))| one != other)
+        {
+            panic!("{example}/{path}:{}\n- {agreed}\n+ {found}\n", number + 1);
+        }
+        assert_eq!(bytes, &golden[path], "{example}/{path}: another end");
+    }
+}
+
+#[test]
+fn fig2() {
+    agrees("fig2");
+}
+
+#[test]
+fn miniature_car() {
+    agrees("miniature_car");
+}
