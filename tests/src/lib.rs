@@ -56,7 +56,8 @@ pub fn binary() -> &'static Path {
 /// Builds the binary with the profile and into the folder of this test.
 fn built() -> Option<PathBuf> {
     let test = std::env::current_exe().unwrap();
-    let target = test.ancestors().find(|folder| folder.join("CACHEDIR.TAG").is_file());
+    // A test lies in TARGET/PROFILE/deps. Cargo marks TARGET (CACHEDIR.TAG) only where it made it.
+    let target = test.ancestors().nth(3);
     let target = target.unwrap_or_else(|| panic!("{} is in no target folder", test.display()));
     let release = test.components().any(|part| part.as_os_str() == "release");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
