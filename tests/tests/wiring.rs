@@ -66,6 +66,11 @@ fn reserved_pins_and_units_are_left_free() {
     assert!(["PB6", "PB8"].contains(&found[0].as_str()), "{found:?}");
     let none = rules("reserve I2C1, I2C2, I2C3;", &["i2c: address = 0x20;"]);
     assert_eq!(solve(none, &[]).exits(1).json()["status"], "infeasible");
+    // A converter that is kept free samples nothing; without all of them nothing is sampled.
+    let third = solve(rules("reserve ADC1, ADC2;", &["analog"]), &[]).exits(0);
+    assert_eq!(third.json()["boards"][0]["devices"][0]["unit"], "ADC3");
+    let none = solve(rules("reserve ADC1, ADC2, ADC3;", &["analog"]), &[]).exits(1);
+    assert_eq!(none.json()["status"], "infeasible");
 }
 
 #[test]
@@ -77,6 +82,18 @@ fn parts_of_the_board_are_spared_until_released() {
     assert_eq!(best(&released), ["PA5"]);
     let by_part = spared.replacen('{', "{ release LIS302DL;", 1);
     assert_eq!(best(&by_part), ["PA5"]);
+}
+
+#[test]
+fn the_link_keeps_its_pins() {
+    let text = |link: &str| {
+        let rules = format!("{{ release PA9; link {{ {link} }}");
+        design(FULL, &["pwm: frequency = 1 kHz; pin = PA9;"]).replacen('{', &rules, 1)
+    };
+    let kept = solve(text("transport = usb;"), &[]).exits(1);
+    assert!(kept.stderr.contains("E0316") && kept.stderr.contains("W0604"), "{}", kept.stderr);
+    let free = solve(text("transport = uart;"), &[]).exits(0);
+    assert!(pins(&free).values().any(|pin| pin == "PA9"), "{}", free.stdout);
 }
 
 #[test]

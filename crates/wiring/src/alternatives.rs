@@ -132,18 +132,18 @@ impl Maker<'_, '_> {
         if self.wanted.unit.is_some() && unit.is_none() {
             return Vec::new();
         }
-        let profile = self.offer.board.profile();
+        let offer = self.offer;
+        let profile = offer.board.profile();
+        let can_be = |one: u8| {
+            unit.is_none_or(|unit| unit == one) && !offer.unit_reserved(&format!("ADC{one}"))
+        };
         let serves = |usage: &Usage| match usage.signal.function() {
-            Function::Adc { units, channel } => {
-                unit.is_none_or(|unit| units.contains(&unit))
+            Function::Adc { units, channel } => units.iter().any(|one| {
+                can_be(*one)
                     && profile.is_none_or(|profile| {
-                        let mut units =
-                            units.iter().filter(|one| unit.is_none_or(|unit| unit == **one));
-                        units.any(|one| {
-                            profile.adc(*one).is_some_and(|adc| adc.inputs.contains(channel))
-                        })
+                        profile.adc(*one).is_some_and(|adc| adc.inputs.contains(channel))
                     })
-            }
+            }),
             Function::I2c { .. }
             | Function::Timer { .. }
             | Function::Uart { .. }
@@ -153,15 +153,25 @@ impl Maker<'_, '_> {
             | Function::Other => false,
         };
         let roles = vec![self.role(Role::In, &Need::Usage(&serves), None)];
-        self.finish(None, &[], roles)
+        let mut made = self.finish(None, &[], roles);
+        // Where there is a choice of converters it is made after the wiring, and streams with it.
+        let converters = profile.map(|profile| profile.adcs.as_slice()).unwrap_or_default();
+        let mut converters = converters.iter().filter(|adc| adc.number().is_some_and(can_be));
+        if let (Some(only), None) = (converters.next(), converters.next()) {
+            let dma = self.builder.dma(offer.index, &only.name);
+            for (alternative, _) in &mut made {
+                alternative.dma.clone_from(&dma);
+            }
+        }
+        made
     }
 
     fn dac(&mut self) -> Vec<Made> {
-        let profile = self.offer.board.profile();
-        let fixed = self.wanted.unit;
+        let (offer, wanted) = (self.offer, self.wanted);
+        let profile = offer.board.profile();
         let serves = |usage: &Usage| match usage.signal.function() {
             Function::Dac { unit, channel } => {
-                fixed.is_none_or(|fixed| fixed == format!("DAC{unit}"))
+                unit_fits(offer, wanted, &format!("DAC{unit}"))
                     && profile.is_none_or(|profile| profile.dac_output(*unit, *channel).is_some())
             }
             Function::Adc { .. }

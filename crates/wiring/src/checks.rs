@@ -2,13 +2,13 @@
 //! exist, on-board parts that are touched.
 
 use sensedsl_board::pin::natural;
-use sensedsl_board::table::Occupation;
+use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, w0604_unused_rule,
     w0605_onboard_part,
 };
-use sensedsl_model::design::{BoardIndex, Design, Device, Spanned, WishFor};
+use sensedsl_model::design::{Board, BoardIndex, Design, Device, Spanned, WishFor};
 use sensedsl_model::kind::Role;
 
 use crate::alternatives::{Wanted, alternatives};
@@ -248,7 +248,7 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
 /// Rules that cannot do anything.
 pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
-    for board in &design.boards {
+    for (index, board) in design.boards.iter().enumerate() {
         let known = |name: &str| {
             let pins = board.table.pins.iter();
             pins.clone().any(|pin| pin.name.as_str() == name)
@@ -262,21 +262,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
             let why = "the board has no such pin or peripheral";
             diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));
         }
-        for rule in &board.released {
-            let has = board.table.pins.iter().any(|pin| {
-                let part = pin.onboard.as_ref();
-                let debug = || {
-                    board.profile().is_some_and(|profile| profile.debug.pins.contains(&pin.name))
-                };
-                (pin.name.as_str() == rule.value && (part.is_some() || debug()))
-                    || part.is_some_and(|part| part.part.eq_ignore_ascii_case(&rule.value))
-            });
-            if !has {
-                let text = format!("release {}", rule.value);
-                let why = "no on-board part is there";
-                diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));
-            }
-        }
+        diagnostics.extend(releases(BoardIndex(index), board));
     }
     for device in &design.devices {
         let several = device.kind.roles(device.direction).len() > 1;
@@ -290,4 +276,31 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         }
     }
     diagnostics
+}
+
+/// Releases that give nothing free: nothing has the pin, or the link keeps it.
+fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
+    let offer = Offer::new(index, board);
+    let debug =
+        |pin: &Pin| board.profile().is_some_and(|profile| profile.debug.pins.contains(&pin.name));
+    let why_useless = |rule: &str| {
+        let pins = board.table.pins.iter().enumerate();
+        let named = pins.filter(|(_, pin)| {
+            let part = pin.onboard.as_ref();
+            (pin.name.as_str() == rule && (part.is_some() || debug(pin)))
+                || part.is_some_and(|part| part.part.eq_ignore_ascii_case(rule))
+        });
+        let named: Vec<usize> = named.map(|(at, _)| at).collect();
+        let linked = |at: &usize| offer.why_withheld(*at) == Some(&Withheld::Link);
+        match (named.is_empty(), named.iter().any(linked)) {
+            (true, _) => Some("no on-board part is there"),
+            (false, true) => Some("the USB link keeps it"),
+            (false, false) => None,
+        }
+    };
+    let useless = board.released.iter().filter_map(|rule| {
+        let text = format!("release {}", rule.value);
+        Some(w0604_unused_rule::unused_rule(rule.span, &text, why_useless(&rule.value)?))
+    });
+    useless.collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::pin::PinName;
-use sensedsl_board::profile;
+use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
@@ -119,6 +119,10 @@ fn withheld(board: &Board, pin: &Pin) -> Option<Withheld> {
     if let Some(rule) = board.reserved.iter().find(|rule| named(&rule.value)) {
         return Some(Withheld::Reserved(rule.span));
     }
+    let profile = board.profile();
+    if profile.is_some_and(|profile| is_of_usb_link(board, profile, pin)) {
+        return Some(Withheld::Link);
+    }
     if released(board, pin) {
         return None;
     }
@@ -127,16 +131,16 @@ fn withheld(board: &Board, pin: &Pin) -> Option<Withheld> {
     {
         return Some(Withheld::Onboard(part.part.clone()));
     }
-    let profile = board.profile()?;
-    if profile.debug.pins.contains(&pin.name) {
-        return Some(Withheld::Debug);
+    profile?.debug.pins.contains(&pin.name).then_some(Withheld::Debug)
+}
+
+/// Whether the link to the host takes the pin: no rule can give it away.
+fn is_of_usb_link(board: &Board, profile: &TargetProfile, pin: &Pin) -> bool {
+    if board.link.transport != Transport::Usb {
+        return false;
     }
-    let usb = board.link.transport == Transport::Usb;
-    let of_chip = profile.link_pins(profile::Transport::Usb, None).contains(&pin.name);
-    let of_board = || {
-        let links = board.facts.iter().flat_map(|facts| &facts.link);
-        let mut links = links.filter(|link| link.transport == profile::Transport::Usb);
-        links.any(|link| link.pins.contains(&pin.name))
-    };
-    (usb && (of_chip || of_board())).then_some(Withheld::Link)
+    let links = board.facts.iter().flat_map(|facts| &facts.link);
+    let mut links = links.filter(|link| link.transport == profile::Transport::Usb);
+    profile.link_pins(profile::Transport::Usb, None).contains(&pin.name)
+        || links.any(|link| link.pins.contains(&pin.name))
 }
