@@ -90,7 +90,7 @@ fn the_link_keeps_its_pins() {
         let rules = format!("{{ release PA9; link {{ {link} }}");
         design(FULL, &["pwm: frequency = 1 kHz; pin = PA9;"]).replacen('{', &rules, 1)
     };
-    let kept = solve(text("transport = usb;"), &[]).exits(1);
+    let kept = sensedsl(["solve", "-"]).stdin(text("transport = usb;")).run().exits(1);
     assert!(kept.stderr.contains("E0316") && kept.stderr.contains("W0604"), "{}", kept.stderr);
     let free = solve(text("transport = uart;"), &[]).exits(0);
     assert!(pins(&free).values().any(|pin| pin == "PA9"), "{}", free.stdout);
