@@ -84,6 +84,48 @@ fn parts_of_the_board_are_spared_until_released() {
     assert_eq!(best(&by_part), ["PA5"]);
 }
 
+/// The rules and the repairs of an impossible design.
+fn conflict(text: &str, arguments: &[&str]) -> (Vec<String>, Vec<String>) {
+    let value = solve(text, arguments).exits(1).json();
+    let words = |list: &Value, word: &dyn Fn(&Value) -> Value| {
+        let list = list.as_array().unwrap().iter();
+        list.map(|one| word(one).as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let conflict = &value["conflict"];
+    (
+        words(&conflict["rules"], &Clone::clone),
+        words(&conflict["repairs"], &|one| one["message"].clone()),
+    )
+}
+
+#[test]
+fn a_conflict_names_the_rules_it_needs_and_what_helps() {
+    let (_table, path) = table("Pin,ADC,Side\nPA0,ADC1_IN0,n\nPA1,ADC1_IN1,s\nPA3,ADC1_IN3,s\n");
+    let text = design("t", &["analog: side = s;", "analog", "analog: pin = PA3;"]);
+    let text = text.replacen('{', "{ reserve PA0; reserve PB7;", 1);
+    let (rules, repairs) = conflict(&text, &["--board", &path]);
+    assert_eq!(rules, ["`reserve PA0`"], "neither the side nor the fixed pin is needed");
+    assert!(repairs.contains(&"do not reserve PA0".to_owned()), "{repairs:?}");
+    let places = solve(text, &["--board", &path]).json()["conflict"]["places"].clone();
+    assert_eq!(places[0]["line"], 3, "{places}");
+
+    let timer = design(BOARD, &["icu: unit = TIM3;", "icu: unit = TIM3;"]);
+    let (rules, _) = conflict(&timer, &[]);
+    let needed = ["what the drivers of chibios-21.11 can do", "the unit of D1", "the unit of D2"];
+    assert_eq!(rules, needed);
+
+    let buses: Vec<String> =
+        (0..4).map(|at| format!("i2c: address = {}; exclusive = true;", 0x20 + at)).collect();
+    let buses: Vec<&str> = buses.iter().map(String::as_str).collect();
+    let (_, repairs) = conflict(&design(BOARD, &buses), &[]);
+    assert_eq!(repairs[0], "let D1 and D2 share a bus");
+
+    let (_table, path) = table("# mcu = STM32F407VGT6\nPin,TIM\nPB4,TIM3_CH1\nPB5,TIM3_CH2\n");
+    let outputs = ["pwm: frequency = 50 Hz;", "pwm: frequency = 60 Hz;"];
+    let (_, repairs) = conflict(&design("t", &outputs), &["--board", &path]);
+    assert_eq!(repairs[..2], ["run D1 at 60 Hz", "run D2 at 50 Hz"]);
+}
+
 #[test]
 fn the_link_keeps_its_pins() {
     let text = |link: &str| {

@@ -123,7 +123,9 @@ fn blockers(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> V
         Solved::Infeasible(conflict) if conflict.resources.is_empty() => {
             vec![format!("no free {} pin", kind.name())]
         }
-        Solved::Infeasible(conflict) => conflict.resources,
+        Solved::Infeasible(conflict) => {
+            conflict.resources.into_iter().map(|one| one.name).collect()
+        }
         Solved::Wired(_) | Solved::Failed(_) => Vec::new(),
     }
 }

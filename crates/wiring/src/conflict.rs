@@ -1,12 +1,15 @@
 //! Why there is no wiring, in names, with repairs that were tried.
 
+use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
-use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
+use sensedsl_model::design::{BoardIndex, Design, DeviceIndex};
 use sensedsl_solve::Conflict;
 
+use crate::blame::{self, Rule};
 use crate::formulate::{Asker, Formulation};
-use crate::repairs::{self, Repaired};
+use crate::names::list;
+use crate::repairs::{self, Repair, Repaired};
 
 /// Repairs in one message; all are in the JSON output.
 const REPAIRS_NAMED_MAX: usize = 4;
@@ -19,10 +22,23 @@ pub struct NoWiring {
     pub devices: Vec<DeviceIndex>,
     /// Boards whose serial link is part of the conflict.
     pub links: Vec<BoardIndex>,
-    /// Pins and other resources that they fight for, by name.
-    pub resources: Vec<String>,
+    /// Pins and other resources that they fight for.
+    pub resources: Vec<Contested>,
+    /// The rules without which the devices could be wired; minimal like the devices.
+    pub rules: Vec<Rule>,
     /// What would help; each was checked by solving.
     pub repairs: Vec<Repaired>,
+}
+
+/// Something that is fought for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Contested {
+    /// The pin, unit, signal, interrupt line or DMA stream; with its board where there are several.
+    pub name: String,
+    /// The board it is on.
+    pub board: BoardIndex,
+    /// The pins that offer it, as indices into the board's table; none for what no pin shows.
+    pub pins: Vec<usize>,
 }
 
 fn name(design: &Design, device: DeviceIndex) -> &str {
@@ -36,6 +52,9 @@ pub(crate) fn read(
     conflict: &Conflict,
 ) -> NoWiring {
     let mut named = named(formulation, conflict);
+    if named.links.is_empty() {
+        named.rules = blame::rules(design, &named.devices);
+    }
     named.repairs = repairs::find(design, &named.devices);
     named
 }
@@ -51,32 +70,34 @@ pub(crate) fn named(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWir
         }
     }
     let resources = resources(formulation, conflict);
-    NoWiring { devices, links, resources, repairs: Vec::new() }
+    NoWiring { devices, links, resources, rules: Vec::new(), repairs: Vec::new() }
 }
 
-fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<String> {
+fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
     let several = formulation.offers.len() > 1;
-    let on = |board: BoardIndex, name: String| {
-        let offer = formulation.offers.get(board.0).filter(|_| several);
-        offer.map_or(name.clone(), |offer| format!("{}.{name}", offer.board.name.value))
+    let on = |board: BoardIndex, name: String, offers: &dyn Fn(&Pin) -> bool| {
+        let offer = formulation.offers.get(board.0)?;
+        let pins = offer.pins().filter(|(_, pin)| offers(pin)).map(|(at, _)| at).collect();
+        let name = if several { format!("{}.{name}", offer.board.name.value) } else { name };
+        Some(Contested { name, board, pins })
     };
     let of_chip = conflict.resources.iter().filter_map(|id| {
         let resource = formulation.resources.get(id.0 as usize)?;
-        Some(on(resource.board(), resource.name()))
+        on(resource.board(), resource.name(), &|pin| resource.is_shown_by(pin))
     });
     let streams = conflict.streams.iter().filter_map(|id| {
         let (board, stream) = formulation.streams.get(id.0 as usize)?;
-        Some(on(*board, format!("DMA{}", stream.replace(',', "_stream"))))
+        on(*board, format!("DMA{}", stream.replace(',', "_stream")), &|_| false)
     });
     let pins = conflict.pins.iter().filter_map(|id| {
         let (board, pin) = formulation.pins.get(id.0 as usize)?;
         let pin = formulation.offers.get(board.0)?.board.table.pins.get(*pin)?;
-        Some(on(*board, pin.name.to_string()))
+        on(*board, pin.name.to_string(), &|one| one.name == pin.name)
     });
-    let mut all: Vec<String> = Vec::new();
-    for name in of_chip.chain(streams).chain(pins) {
-        if !all.contains(&name) {
-            all.push(name);
+    let mut all: Vec<Contested> = Vec::new();
+    for contested in of_chip.chain(streams).chain(pins) {
+        if !all.iter().any(|one| one.name == contested.name) {
+            all.push(contested);
         }
     }
     all
@@ -104,37 +125,66 @@ impl NoWiring {
         let Some(first) = first else {
             return e0401_no_wiring::no_wiring(
                 sensedsl_diagnostics::Span::new(design.file, 0..0),
-                &list(&names),
-                &self.resources.join(", "),
+                &list(&names, "and"),
+                &self.contested(design),
             );
         };
-        let resources = self.resources.join(", ");
+        let resources = self.contested(design);
         let mut diagnostic = match names.as_slice() {
             [alone] => e0401_no_wiring::nothing_serves(first, alone, &resources),
-            _ => e0401_no_wiring::no_wiring(first, &list(&names), &resources),
+            _ => e0401_no_wiring::no_wiring(first, &list(&names, "and"), &resources),
         };
         for place in places {
             diagnostic = diagnostic.label(place, "and this");
         }
+        for rule in &self.rules {
+            if let Some(span) = rule.span() {
+                diagnostic = diagnostic.label(span, "because of this");
+            }
+        }
         diagnostic.help(self.help(design))
     }
 
+    /// What they fight for, with the lines of a table that the user can look at.
+    fn contested(&self, design: &Design) -> String {
+        let words = self.resources.iter().map(|contested| {
+            let board = design.board(contested.board).filter(|board| !board.built_in);
+            let row = |pin: &usize| Some(board?.table.pins.get(*pin)?.row.to_string());
+            let rows: Vec<String> = contested.pins.iter().filter_map(row).collect();
+            match rows.as_slice() {
+                [] => contested.name.clone(),
+                [one] => format!("{} (line {one})", contested.name),
+                [..] => {
+                    let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+                    format!("{} (lines {})", contested.name, list(&rows, "and"))
+                }
+            }
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+
     fn help(&self, design: &Design) -> String {
-        let repairs: Vec<String> = self
-            .repairs
-            .iter()
-            .take(REPAIRS_NAMED_MAX)
-            .map(|one| one.repair.describe(design))
-            .collect();
-        let mut help = match repairs.as_slice() {
+        let dropped = self.repairs.iter().filter_map(|one| match one.repair {
+            Repair::Drop(device) => Some(name(design, device)),
+            _ => None,
+        });
+        let dropped: Vec<&str> = dropped.collect();
+        let others = self.repairs.iter().filter(|one| !matches!(one.repair, Repair::Drop(_)));
+        let mut ways: Vec<String> =
+            others.take(REPAIRS_NAMED_MAX).map(|one| one.repair.describe(design)).collect();
+        match dropped.as_slice() {
+            [] => {}
+            [one] => ways.push(format!("leave out {one}")),
+            [..] => ways.push(format!("leave out one of {}", list(&dropped, "and"))),
+        }
+        let mut help = match ways.as_slice() {
             [] if names_one(self) => "take another board, or another kind of device".to_owned(),
             [] => "without any one of them the others can be connected, but more stands in the way"
                 .to_owned(),
-            [one] => format!("it works if you {one}"),
-            _ => format!("it works if you {}", repairs.join(", or ")),
+            [..] => format!("it works if you {}", ways.join(", or ")),
         };
-        if design.boards.iter().any(|board: &Board| board.profile().is_some()) {
-            help.push_str("; `--target none` looks at the pins alone");
+        if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {
+            help.push_str("; with `--target none`, the pins alone would do");
         }
         help
     }
@@ -142,13 +192,4 @@ impl NoWiring {
 
 fn names_one(conflict: &NoWiring) -> bool {
     conflict.devices.len() + conflict.links.len() == 1
-}
-
-/// `a`, `a and b`, `a, b and c`.
-fn list(names: &[&str]) -> String {
-    match names {
-        [] => "nothing".into(),
-        [one] => (*one).into(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
 }

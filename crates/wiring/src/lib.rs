@@ -2,6 +2,7 @@
 
 mod alternatives;
 pub mod assignment;
+mod blame;
 mod capacity;
 mod checks;
 mod conflict;
@@ -27,8 +28,9 @@ use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcom
 use assignment::{Assignment, Bound};
 use formulate::{Formulation, formulate};
 
+pub use blame::Rule;
 pub use capacity::{Capacity, capacity};
-pub use conflict::NoWiring;
+pub use conflict::{Contested, NoWiring};
 pub use keep::Keep;
 pub use repairs::{Repair, Repaired};
 pub use sensedsl_solve as solver;

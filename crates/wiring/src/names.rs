@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::signal::{Function, Signal};
+use sensedsl_board::table::Pin;
 use sensedsl_model::design::BoardIndex;
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Claim, Holder, ResourceId};
@@ -37,6 +38,25 @@ impl Resource {
         }
     }
 
+    /// Whether the pin's row is where the table speaks of the resource.
+    #[must_use]
+    pub(crate) fn is_shown_by(&self, pin: &Pin) -> bool {
+        let of_unit = |unit: &str| {
+            let mut functions = pin.usages.iter().map(|usage| usage.signal.function());
+            functions.any(|function| function.units().iter().any(|of| of.as_str() == unit))
+        };
+        match self {
+            Self::Unit(_, unit) | Self::BusWire(_, unit, _) | Self::Address(_, unit, _) => {
+                of_unit(unit)
+            }
+            Self::Signal(_, name) => match bus(name) {
+                Some(unit) => of_unit(&unit),
+                None => pin.usages.iter().any(|usage| usage.signal.name() == name),
+            },
+            Self::Exti(..) | Self::Pad(..) => false,
+        }
+    }
+
     /// The board it is on.
     #[must_use]
     pub(crate) fn board(&self) -> BoardIndex {
@@ -64,6 +84,15 @@ fn bus(signal: &str) -> Option<String> {
         }
     };
     Some(unit.to_string())
+}
+
+/// `a`, `a and b`, `a, b and c`; the last word is given.
+pub(crate) fn list(names: &[&str], and: &str) -> String {
+    match names {
+        [] => "nothing".into(),
+        [one] => (*one).into(),
+        [first @ .., last] => format!("{} {and} {last}", first.join(", ")),
+    }
 }
 
 /// On whose behalf several devices hold something together.

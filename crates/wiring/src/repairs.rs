@@ -1,9 +1,12 @@
 //! What would help where there is no wiring: changes that were each tried by solving.
 
+use std::collections::BTreeSet;
+
 use sensedsl_board::table::Occupation;
-use sensedsl_model::design::{BoardIndex, Design, DeviceIndex, Placement, Spanned};
+use sensedsl_model::design::{BoardIndex, Design, Device, DeviceIndex, Placement, Spanned};
 use sensedsl_model::kind::Kind;
 
+use crate::names::list;
 use crate::{Solved, Wiring};
 
 /// A change after which there is a wiring.
@@ -11,8 +14,10 @@ use crate::{Solved, Wiring};
 pub enum Repair {
     /// Remove what the file fixes of the device's wiring.
     Free(DeviceIndex),
-    /// Let the device share its bus.
-    Share(DeviceIndex),
+    /// Let the devices share a bus.
+    Share(Vec<DeviceIndex>),
+    /// Run an output at the frequency of others, so that they can be on one timer.
+    Retune(DeviceIndex, u32),
     /// Let the device go to another board of the file.
     Move(DeviceIndex, BoardIndex),
     /// Do without a `reserve`.
@@ -39,6 +44,7 @@ impl Repair {
         match self {
             Self::Free(_) => "free",
             Self::Share(_) => "share",
+            Self::Retune(..) => "retune",
             Self::Move(..) => "move",
             Self::Unreserve(..) => "unreserve",
             Self::Release(..) => "release",
@@ -46,14 +52,18 @@ impl Repair {
         }
     }
 
-    /// The device that is changed.
+    /// The device that is changed, where it is a single one.
     #[must_use]
     pub const fn device(&self) -> Option<DeviceIndex> {
         match self {
             Self::Free(device)
-            | Self::Share(device)
+            | Self::Retune(device, _)
             | Self::Move(device, _)
             | Self::Drop(device) => Some(*device),
+            Self::Share(devices) => match devices.as_slice() {
+                [device] => Some(*device),
+                _ => None,
+            },
             Self::Unreserve(..) | Self::Release(..) => None,
         }
     }
@@ -68,7 +78,12 @@ impl Repair {
             |index: &BoardIndex| design.board(*index).map_or("", |board| board.name.value.as_str());
         match self {
             Self::Free(index) => format!("remove the fixed pins or place of {}", device(index)),
-            Self::Share(index) => format!("let {} share its bus", device(index)),
+            Self::Share(devices) => {
+                let names: Vec<&str> = devices.iter().map(device).collect();
+                let bus = if names.len() == 1 { "its bus" } else { "a bus" };
+                format!("let {} share {bus}", list(&names, "and"))
+            }
+            Self::Retune(index, hz) => format!("run {} at {hz} Hz", device(index)),
             Self::Move(index, to) => format!("move {} to {}", device(index), board(to)),
             Self::Unreserve(_, name) => format!("do not reserve {name}"),
             Self::Release(_, part) => format!("release {part}"),
@@ -85,11 +100,20 @@ impl Repair {
                     device.placement = Placement::default();
                 }
             }
-            Self::Share(index) => {
+            Self::Share(devices) => {
+                for index in devices {
+                    if let Some(device) = design.devices.get_mut(index.0)
+                        && let Kind::I2c(i2c) = &mut device.kind
+                    {
+                        i2c.exclusive = false;
+                    }
+                }
+            }
+            Self::Retune(index, hz) => {
                 if let Some(device) = design.devices.get_mut(index.0)
-                    && let Kind::I2c(i2c) = &mut device.kind
+                    && let Kind::Pwm(pwm) = &mut device.kind
                 {
-                    i2c.exclusive = false;
+                    pwm.frequency_hz = *hz;
                 }
             }
             Self::Move(index, to) => {
@@ -118,29 +142,72 @@ impl Repair {
     }
 }
 
-/// The repairs that work, the gentlest first: freeing what was fixed, then moving, then doing
-/// without something, then leaving a device out; within each the cheapest wiring first.
+/// The repairs that work, the gentlest first: freeing what was fixed, then sharing, then moving,
+/// then doing without something, then leaving a device out; within each the cheapest wiring first.
 pub(crate) fn find(design: &Design, devices: &[DeviceIndex]) -> Vec<Repaired> {
-    let mut found: Vec<(usize, Repaired)> = Vec::new();
-    for repair in proposals(design, devices) {
-        let changed = repair.applied(design);
-        if let Solved::Wired(wiring) = Wiring::new(&changed, None).solve_only(false) {
-            found.push((rank(&repair), Repaired { repair, cost: wiring.cost }));
-        }
+    let mut found: Vec<Repaired> =
+        proposals(design, devices).into_iter().filter_map(|repair| tried(design, repair)).collect();
+    if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
+        found.extend(sharing(design, devices));
     }
-    found.sort_by_key(|(rank, repaired)| (*rank, repaired.cost));
-    found.into_iter().map(|(_, repaired)| repaired).collect()
+    found.sort_by_key(|one| (rank(&one.repair), one.cost));
+    found
+}
+
+fn tried(design: &Design, repair: Repair) -> Option<Repaired> {
+    let changed = repair.applied(design);
+    match Wiring::new(&changed, None).solve_only(false) {
+        Solved::Wired(wiring) => Some(Repaired { repair, cost: wiring.cost }),
+        Solved::Infeasible(_) | Solved::Failed(_) => None,
+    }
+}
+
+/// The first two devices, or else all, that would help by sharing a bus.
+fn sharing(design: &Design, devices: &[DeviceIndex]) -> Option<Repaired> {
+    let exclusive = |index: &&DeviceIndex| {
+        let kind = design.device(**index).map(|device| &device.kind);
+        matches!(kind, Some(Kind::I2c(i2c)) if i2c.exclusive)
+    };
+    let exclusive: Vec<DeviceIndex> = devices.iter().filter(exclusive).copied().collect();
+    let (first, others) = exclusive.split_first()?;
+    let pairs = others.iter().map(|other| vec![*first, *other]);
+    pairs.chain([exclusive.clone()]).find_map(|some| tried(design, Repair::Share(some)))
 }
 
 const fn rank(repair: &Repair) -> usize {
     match repair {
         Repair::Free(_) => 0,
         Repair::Share(_) => 1,
-        Repair::Move(..) => 2,
-        Repair::Unreserve(..) => 3,
-        Repair::Release(..) => 4,
-        Repair::Drop(_) => 5,
+        Repair::Retune(..) => 2,
+        Repair::Move(..) => 3,
+        Repair::Unreserve(..) => 4,
+        Repair::Release(..) => 5,
+        Repair::Drop(_) => 6,
     }
+}
+
+/// The other frequencies at which outputs of the conflict run.
+fn frequencies<'a>(
+    design: &'a Design,
+    devices: &'a [DeviceIndex],
+    device: &'a Device,
+) -> impl Iterator<Item = u32> {
+    let hz = |device: &Device| match &device.kind {
+        Kind::Pwm(pwm) => Some(pwm.frequency_hz),
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    };
+    let own = hz(device);
+    let all = devices.iter().filter_map(move |index| hz(design.device(*index)?));
+    let others: BTreeSet<u32> = all.filter(|hz| own.is_some_and(|own| own != *hz)).collect();
+    others.into_iter()
 }
 
 /// Changes that could help the devices of a conflict.
@@ -153,8 +220,9 @@ fn proposals(design: &Design, devices: &[DeviceIndex]) -> Vec<Repair> {
             proposals.push(Repair::Free(*index));
         }
         if matches!(&device.kind, Kind::I2c(i2c) if i2c.exclusive) {
-            proposals.push(Repair::Share(*index));
+            proposals.push(Repair::Share(vec![*index]));
         }
+        proposals.extend(frequencies(design, devices, device).map(|hz| Repair::Retune(*index, hz)));
         if let Some(bound) = device.board {
             boards.push(bound);
             let others = (0..design.boards.len()).map(BoardIndex).filter(|to| *to != bound);

@@ -104,6 +104,8 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
             })
         })
         .collect();
+    let resources: Vec<&str> = conflict.resources.iter().map(|one| one.name.as_str()).collect();
+    let rules: Vec<String> = conflict.rules.iter().map(|rule| rule.describe(design)).collect();
     json!({
         "version": VERSION,
         "status": "infeasible",
@@ -113,9 +115,27 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
         "count": null,
         "boards": [],
         "conflict": {
-            "devices": devices, "resources": conflict.resources, "repairs": repairs,
+            "devices": devices, "resources": resources, "places": places(design, conflict),
+            "rules": rules, "repairs": repairs,
         },
     })
+}
+
+/// Where the tables speak of what is fought for: the resource, the board, the pin and its line.
+fn places(design: &Design, conflict: &NoWiring) -> Vec<Value> {
+    let mut places = Vec::new();
+    for contested in &conflict.resources {
+        let Some(board) = design.board(contested.board) else { continue };
+        for pin in contested.pins.iter().filter_map(|pin| board.table.pins.get(*pin)) {
+            places.push(json!({
+                "resource": contested.name,
+                "board": board.name.value,
+                "pin": pin.name.as_str(),
+                "line": pin.row,
+            }));
+        }
+    }
+    places
 }
 
 /// An earlier answer, read back to be kept; none where the value is none.

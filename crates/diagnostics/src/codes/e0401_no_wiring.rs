@@ -11,10 +11,11 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "there is no wiring",
     explanation: r#"The devices that the message names cannot all be connected, whatever pins are chosen, and the set is
 minimal: without any one of them the others can. The message lists the pins and resources they fight
-for; a resource is more than a pin: a whole timer, a bus, a DMA stream, an interrupt line.
+for; a resource is more than a pin: a whole timer, a bus, a DMA stream, an interrupt line. Marked with
+"because of this" are the rules without which it would work, a minimal set as well.
 
-Way out: drop or move one of the devices, free what is reserved, or use a kind that needs something
-else. `--target none` shows whether the pins alone would do.
+Way out: one of the changes that the message proposes; each was tried by solving. Otherwise drop or
+move one of the devices, or use a kind that needs something else.
 "#,
 };
 

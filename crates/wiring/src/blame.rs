@@ -1,0 +1,210 @@
+//! Which rules a conflict needs: what the file fixes or reserves, what the board has soldered on,
+//! what the operating system's drivers cannot do.
+//!
+//! The devices of a conflict are minimal with all rules in force. Rules are then taken away one by
+//! one; each whose absence leaves the devices unwirable stays away. What is left is minimal too:
+//! without any one of the devices, or of the rules, there is a wiring.
+
+use sensedsl_board::profile::Target;
+use sensedsl_board::table::Occupation;
+use sensedsl_diagnostics::Span;
+use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex, Spanned};
+use sensedsl_model::kind::{Kind, Role};
+
+use crate::{Solved, Wiring};
+
+/// A rule that can be taken away.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// What the drivers of the board's operating system can do.
+    Target(BoardIndex),
+    /// An on-board part and its pins.
+    Part(BoardIndex, String),
+    /// A `reserve`.
+    Reserve(BoardIndex, String, Span),
+    /// `exclusive` of an i2c device.
+    Exclusive(DeviceIndex),
+    /// The `side` of a device.
+    Side(DeviceIndex, Span),
+    /// The `header` of a device.
+    Header(DeviceIndex, Span),
+    /// The `unit` of a device.
+    Unit(DeviceIndex, Span),
+    /// A fixed pin of a device.
+    Pin(DeviceIndex, Role, Span),
+    /// The board that a device stands in, where there are others.
+    Board(DeviceIndex),
+}
+
+impl Rule {
+    /// Where the file says so; none for what nobody wrote.
+    #[must_use]
+    pub const fn span(&self) -> Option<Span> {
+        match self {
+            Self::Reserve(.., span)
+            | Self::Side(_, span)
+            | Self::Header(_, span)
+            | Self::Unit(_, span)
+            | Self::Pin(.., span) => Some(*span),
+            Self::Target(_) | Self::Part(..) | Self::Exclusive(_) | Self::Board(_) => None,
+        }
+    }
+
+    /// The rule in words.
+    #[must_use]
+    pub fn describe(&self, design: &Design) -> String {
+        let device = |index: &DeviceIndex| {
+            design.device(*index).map_or("", |device| device.name.value.as_str())
+        };
+        match self {
+            Self::Target(on) => {
+                let profile = design.board(*on).and_then(Board::profile);
+                let target = profile.map_or("the target", |profile| profile.name.as_str());
+                format!("what the drivers of {target} can do")
+            }
+            Self::Part(_, part) => format!("{part} on the board"),
+            Self::Reserve(_, name, _) => format!("`reserve {name}`"),
+            Self::Exclusive(index) => format!("`exclusive` of {}", device(index)),
+            Self::Side(index, _) => format!("the side of {}", device(index)),
+            Self::Header(index, _) => format!("the header of {}", device(index)),
+            Self::Unit(index, _) => format!("the unit of {}", device(index)),
+            Self::Pin(index, role, _) => format!("the fixed `{role}` of {}", device(index)),
+            Self::Board(index) => format!("the board of {}", device(index)),
+        }
+    }
+
+    fn lift(&self, design: &mut Design) {
+        let board = |on: &BoardIndex| on.0;
+        match self {
+            Self::Target(on) => {
+                if let Some(board) = design.boards.get_mut(board(on)) {
+                    board.target = Target::None;
+                }
+            }
+            Self::Part(on, part) => {
+                let pins = design.boards.get_mut(board(on)).map(|board| &mut board.table.pins);
+                for pin in pins.into_iter().flatten() {
+                    if pin.onboard.as_ref().is_some_and(|onboard| onboard.part == *part) {
+                        pin.onboard = None;
+                    }
+                }
+            }
+            Self::Reserve(on, name, span) => {
+                if let Some(board) = design.boards.get_mut(board(on)) {
+                    board.reserved.retain(|rule| rule.value != *name || rule.span != *span);
+                }
+            }
+            Self::Exclusive(index)
+            | Self::Side(index, _)
+            | Self::Header(index, _)
+            | Self::Unit(index, _)
+            | Self::Pin(index, ..)
+            | Self::Board(index) => self.lift_of_device(design, *index),
+        }
+    }
+
+    fn lift_of_device(&self, design: &mut Design, index: DeviceIndex) {
+        let Some(device) = design.devices.get_mut(index.0) else { return };
+        match self {
+            Self::Exclusive(_) => {
+                if let Kind::I2c(i2c) = &mut device.kind {
+                    i2c.exclusive = false;
+                }
+            }
+            Self::Side(..) => device.placement.side = None,
+            Self::Header(..) => device.placement.header = None,
+            Self::Unit(..) => device.placement.unit = None,
+            Self::Pin(_, role, _) => device.placement.pins.retain(|(fixed, _)| fixed != role),
+            Self::Board(_) => device.board = None,
+            Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
+        }
+    }
+}
+
+/// The rules without which the devices could be wired, minimal; empty where nothing but the
+/// hardware stands in the way.
+pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
+    let mut left = design.clone();
+    let mut numbers = (0..design.devices.len()).map(DeviceIndex);
+    left.devices.retain(|_| numbers.next().is_some_and(|index| devices.contains(&index)));
+    let all = in_force(&left);
+    let mut free = left.clone();
+    all.iter().for_each(|rule| rule.lift(&mut free));
+    if !is_hopeless(&free) {
+        let mut needed = Vec::new();
+        for rule in &all {
+            let mut without = left.clone();
+            rule.lift(&mut without);
+            if is_hopeless(&without) {
+                left = without;
+            } else {
+                needed.push(rule.clone());
+            }
+        }
+        return needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect();
+    }
+    Vec::new()
+}
+
+impl Rule {
+    /// The rule with the numbers that the devices have in the whole design.
+    fn renumbered(mut self, devices: &[DeviceIndex]) -> Option<Self> {
+        match &mut self {
+            Self::Exclusive(index)
+            | Self::Side(index, _)
+            | Self::Header(index, _)
+            | Self::Unit(index, _)
+            | Self::Pin(index, ..)
+            | Self::Board(index) => *index = *devices.get(index.0)?,
+            Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
+        }
+        Some(self)
+    }
+}
+
+fn is_hopeless(design: &Design) -> bool {
+    matches!(Wiring::new(design, None).solve_only(true), Solved::Infeasible(_))
+}
+
+/// All rules of a design, those first that are blamed last: what nobody wrote before what the file
+/// says.
+fn in_force(design: &Design) -> Vec<Rule> {
+    let mut rules = Vec::new();
+    for (index, board) in design.boards.iter().enumerate() {
+        let index = BoardIndex(index);
+        if board.profile().is_some() {
+            rules.push(Rule::Target(index));
+        }
+        let parts = board.table.pins.iter().filter_map(|pin| pin.onboard.as_ref());
+        let parts = parts.filter(|part| part.how != Occupation::Care);
+        let mut parts: Vec<&str> = parts.map(|part| part.part.as_str()).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        rules.extend(parts.into_iter().map(|part| Rule::Part(index, part.to_owned())));
+    }
+    for (index, device) in design.devices.iter().enumerate() {
+        let index = DeviceIndex(index);
+        if device.board.is_some() && design.boards.len() > 1 {
+            rules.push(Rule::Board(index));
+        }
+        if matches!(&device.kind, Kind::I2c(i2c) if i2c.exclusive) {
+            rules.push(Rule::Exclusive(index));
+        }
+    }
+    for (index, board) in design.boards.iter().enumerate() {
+        let reserved = board.reserved.iter();
+        let rule = |rule: &Spanned<String>| {
+            Rule::Reserve(BoardIndex(index), rule.value.clone(), rule.span)
+        };
+        rules.extend(reserved.map(rule));
+    }
+    for (index, device) in design.devices.iter().enumerate() {
+        let index = DeviceIndex(index);
+        let placement = &device.placement;
+        rules.extend(placement.side.iter().map(|side| Rule::Side(index, side.span)));
+        rules.extend(placement.header.iter().map(|header| Rule::Header(index, header.span)));
+        rules.extend(placement.unit.iter().map(|unit| Rule::Unit(index, unit.span)));
+        rules.extend(placement.pins.iter().map(|(role, pin)| Rule::Pin(index, *role, pin.span)));
+    }
+    rules
+}
