@@ -164,9 +164,9 @@ impl NoWiring {
     }
 
     fn help(&self, design: &Design) -> String {
-        let dropped = self.repairs.iter().filter_map(|one| match one.repair {
-            Repair::Drop(device) => Some(name(design, device)),
-            _ => None,
+        let dropped = self.repairs.iter().filter_map(|one| {
+            let Repair::Drop(device) = one.repair else { return None };
+            Some(name(design, device))
         });
         let dropped: Vec<&str> = dropped.collect();
         let others = self.repairs.iter().filter(|one| !matches!(one.repair, Repair::Drop(_)));
