@@ -4,30 +4,7 @@
 /// word into the other, letter case ignored.
 #[must_use]
 pub fn distance(left: &str, right: &str) -> usize {
-    let left: Vec<char> = left.to_lowercase().chars().collect();
-    let right: Vec<char> = right.to_lowercase().chars().collect();
-    let mut before_last: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=right.len()).collect();
-    let mut left_before = None;
-    for (row, &from) in left.iter().enumerate() {
-        let mut current = vec![row + 1];
-        let mut right_before = None;
-        for (column, &to) in right.iter().enumerate() {
-            let at = |line: &[usize], index: usize| line.get(index).copied().unwrap_or(usize::MAX);
-            let replaced = at(&last, column) + usize::from(from != to);
-            let edited = at(&last, column + 1).min(at(&current, column)) + 1;
-            let swapped = if column > 0 && left_before == Some(to) && right_before == Some(from) {
-                at(&before_last, column - 1) + 1
-            } else {
-                usize::MAX
-            };
-            current.push(replaced.min(edited).min(swapped));
-            right_before = Some(to);
-        }
-        left_before = Some(from);
-        before_last = std::mem::replace(&mut last, current);
-    }
-    last.last().copied().unwrap_or(left.len())
+    strsim::osa_distance(&left.to_lowercase(), &right.to_lowercase())
 }
 
 /// The candidate nearest to `word`, the first among equals, if it is near enough to be a slip: at
