@@ -3,6 +3,7 @@
 //! A target name and an MCU come in, the facts of that MCU under that system go out. All facts are
 //! data of `targets/`; this module only finds and serves them.
 
+mod entries;
 mod file;
 mod lookup;
 mod types;
@@ -11,10 +12,10 @@ use sensedsl_diagnostics::nearest;
 
 use crate::mcu;
 use crate::registry::TARGETS;
-use file::File;
+use file::{File, starts};
 pub use types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
-    Fallback, I2cs, Kernel, Off, Sourced, Stream, TargetProfile, Timer, TimerDriver, Transport,
+    Adc, Adcs, Cycles, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
+    Fallback, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver, Transport,
     Tree, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
@@ -48,7 +49,8 @@ pub enum NoProfile {
     UnknownMcu {
         /// The full name of the target.
         target: String,
-        /// The starts of the part numbers it covers.
+        /// The starts of the part numbers it covers: those of the MCU's family where it has
+        /// some, otherwise all families.
         covered: Vec<String>,
     },
     /// A file of `targets/` is damaged; tests rule that out.
@@ -90,7 +92,7 @@ pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
     let target = full_name(target)?;
     let name = mcu::normalise(mcu);
     let parts = TARGETS.iter().filter(|entry| entry.target == target).flat_map(|entry| entry.parts);
-    parts.copied().filter(|part| name.starts_with(part)).max_by_key(|part| part.len())
+    parts.copied().filter(|part| starts(&name, part)).max_by_key(|part| part.len())
 }
 
 /// Finds the profile of an MCU under a target.
@@ -109,15 +111,61 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
     }
     let name = mcu::normalise(mcu);
     let entries = || TARGETS.iter().filter(|entry| entry.target == target);
-    let covers = |parts: &[&str]| parts.iter().any(|part| name.starts_with(part));
+    let covers = |parts: &[&str]| parts.iter().any(|part| starts(&name, part));
     let Some(entry) = entries().find(|entry| covers(entry.parts)) else {
-        let covered = entries().flat_map(|entry| entry.parts).map(|part| (*part).to_owned());
-        return Err(NoProfile::UnknownMcu {
-            target: target.to_owned(),
-            covered: covered.collect(),
-        });
+        let family = entries().filter(|entry| name.starts_with(entry.family));
+        let mut covered: Vec<String> =
+            family.flat_map(|entry| entry.parts).map(|part| (*part).to_owned()).collect();
+        if covered.is_empty() {
+            covered = entries().map(|entry| entry.family.to_owned()).collect();
+            covered.dedup();
+        }
+        return Err(NoProfile::UnknownMcu { target: target.to_owned(), covered });
     };
     read(entry.text, &name).map_err(|message| NoProfile::Broken { message })
+}
+
+/// A line of a profile file: its facts, and how a tree is asked for them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineFacts {
+    /// The facts.
+    pub profile: TargetProfile,
+    /// The units the line lists.
+    pub units: Vec<String>,
+    /// Units that the registry names and the profile leaves out on purpose.
+    pub left_out: Vec<String>,
+    /// The file of the system's source that says what each MCU has.
+    pub registry: String,
+    /// The macros that the file needs, beside one of the next.
+    pub macros: Vec<String>,
+    /// The macros of the line's MCUs.
+    pub devices: Vec<String>,
+}
+
+/// All lines of the files there are for a target.
+///
+/// # Errors
+///
+/// When a file is damaged; tests rule that out.
+pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
+    let mut all = Vec::new();
+    for entry in TARGETS.iter().filter(|entry| Some(entry.target) == full_name(target)) {
+        let names = File::parse(entry.text)?.lines().to_vec();
+        for line in names {
+            let file = File::parse(entry.text)?;
+            let (registry, macros) = file.registry();
+            let (registry, macros) = (registry.to_owned(), macros.to_vec());
+            all.push(LineFacts {
+                units: line.units.split_whitespace().map(str::to_owned).collect(),
+                left_out: file.left_out(&line).map(str::to_owned).collect(),
+                devices: line.devices.clone(),
+                profile: file.into_profile(&line),
+                registry,
+                macros,
+            });
+        }
+    }
+    Ok(all)
 }
 
 fn read(text: &str, mcu: &str) -> Result<Target, String> {

@@ -28,7 +28,7 @@ fn targets_are_found_by_name_and_mcu() {
     assert_eq!(profile::full_name("chibios-21.11"), Some("chibios-21.11"));
     assert_eq!(profile::names(), ["none", "chibios", "chibios-21.11"]);
     assert_eq!(f407().name, "chibios-21.11");
-    assert_eq!(f407().parts, ["STM32F405", "STM32F415", "STM32F407", "STM32F417"]);
+    assert_eq!(f407().parts, ["STM32F405", "STM32F407", "STM32F415", "STM32F417"]);
     let Err(NoProfile::UnknownTarget { nearest, .. }) = profile::find("chibois", "STM32F407VG")
     else {
         panic!("an unknown target was found")
@@ -38,7 +38,11 @@ fn targets_are_found_by_name_and_mcu() {
         panic!("an unknown MCU was found")
     };
     assert_eq!(target, "chibios-21.11");
-    assert!(covered.contains(&"STM32F407".to_owned()));
+    assert!(covered.contains(&"STM32F4".to_owned()), "{covered:?}");
+    let Err(NoProfile::UnknownMcu { covered, .. }) = profile::find("chibios", "STM32F423ZH") else {
+        panic!("a profile for F423 was found")
+    };
+    assert!(covered.contains(&"STM32F413".to_owned()), "{covered:?}");
 }
 
 #[test]

@@ -1,15 +1,18 @@
-//! The file form of a target profile: TOML in, checked entries out.
+//! The file form of a target profile: TOML in, the facts of one line out.
 //!
-//! The entries of a file are the types of [`crate::profile`]; here is what only the file has
-//! (lines, and which entry is for which line) and the checks that its data make sense.
+//! A file holds a family. What repeats stands once in it: a line lists the units it has, a group
+//! has the rules by which a unit's driver, switch and options are named, a multiplexer stands for
+//! all the streams behind it. Here they are put together to the types of [`crate::profile`].
 
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
 
+use super::entries::{
+    AdcGroup, BusGroup, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerGroup, UsbGroup,
+};
 use super::types::{
-    Adc, Adcs, Dac, Dacs, Debug, Drivers, Exti, I2cs, Kernel, Off, Sourced, TargetProfile, Timer,
-    Tree, Unit, Usb,
+    Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
 };
 
 /// A file of `targets/`.
@@ -18,6 +21,12 @@ use super::types::{
 pub(crate) struct File {
     target: String,
     family: String,
+    registry: String,
+    #[serde(default)]
+    macros: Vec<String>,
+    /// Units that the registry names and no line takes.
+    #[serde(default)]
+    left_out: String,
     line: Vec<Line>,
     tree: Tree,
     drivers: Drivers,
@@ -25,29 +34,16 @@ pub(crate) struct File {
     exti: Exti,
     debug: Debug,
     off: Off,
-    timers: Sourced,
     #[serde(default)]
-    timer: Vec<Timer>,
-    adcs: Adcs,
-    #[serde(default)]
-    adc: Vec<Adc>,
-    i2cs: I2cs,
-    #[serde(default)]
-    i2c: Vec<Unit>,
-    spis: Sourced,
-    #[serde(default)]
-    spi: Vec<Unit>,
-    serials: Sourced,
-    #[serde(default)]
-    serial: Vec<Unit>,
-    cans: Sourced,
-    #[serde(default)]
-    can: Vec<Unit>,
-    dacs: Dacs,
-    #[serde(default)]
-    dac: Vec<Dac>,
-    #[serde(default)]
-    usb: Vec<Usb>,
+    multiplexer: Vec<Multiplexer>,
+    timers: TimerGroup,
+    adcs: AdcGroup,
+    i2cs: I2cGroup,
+    spis: BusGroup,
+    serials: SerialGroup,
+    cans: Option<BusGroup>,
+    dacs: Option<DacGroup>,
+    usbs: Option<UsbGroup>,
 }
 
 /// Parts with the same peripherals.
@@ -55,20 +51,60 @@ pub(crate) struct File {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Line {
     pub(crate) name: String,
+    /// The starts of part numbers; `?` stands for any character.
     pub(crate) parts: Vec<String>,
-    pub(crate) gpio_ports: Vec<char>,
+    /// The macros by which the system's source is told the MCU.
+    pub(crate) devices: Vec<String>,
+    /// Letters of the GPIO ports.
+    pub(crate) gpio_ports: String,
+    /// Names of the units, with white space between.
+    pub(crate) units: String,
+    /// Units that the registry names and the line does not take.
+    #[serde(default)]
+    pub(crate) left_out: String,
+    /// Where the line has its own list of drivers.
+    pub(crate) platform_mk: Option<String>,
     pub(crate) source: String,
 }
 
-/// An entry of a file: it has a name, and is for all lines or for some.
-pub(crate) trait Entry {
-    fn name(&self) -> &str;
-    fn lines(&self) -> &[String];
+impl Line {
+    /// The units the line has.
+    pub(crate) fn has(&self, unit: &str) -> bool {
+        self.units.split_whitespace().any(|name| name == unit)
+    }
+
+    /// True when an entry is for the line.
+    fn wants(&self, entry: &impl Entry) -> bool {
+        self.has(entry.name()) && self.fits(entry.lines())
+    }
+
+    fn fits(&self, lines: &[String]) -> bool {
+        lines.is_empty() || lines.contains(&self.name)
+    }
 }
 
-fn of_line<E: Entry>(entries: Vec<E>, line: &Line) -> Vec<E> {
-    let fits = |entry: &E| entry.lines().is_empty() || entry.lines().contains(&line.name);
-    entries.into_iter().filter(fits).collect()
+/// A multiplexer through which any request reaches any of its streams.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Multiplexer {
+    name: String,
+    #[serde(default)]
+    lines: Vec<String>,
+    streams: Vec<Stream>,
+    #[serde(default)]
+    id: StreamId,
+    source: String,
+}
+
+/// True when a name starts like a pattern, in which `?` stands for any character.
+pub(crate) fn starts(name: &str, pattern: &str) -> bool {
+    let alike = |(a, b): (u8, u8)| a == b || b == b'?';
+    name.len() >= pattern.len() && name.bytes().zip(pattern.bytes()).all(alike)
+}
+
+/// The entries of a group that are for the line.
+fn of_line<E: Entry>(units: Vec<E>, line: &Line) -> impl Iterator<Item = E> {
+    units.into_iter().filter(|unit| line.wants(unit))
 }
 
 impl File {
@@ -79,34 +115,91 @@ impl File {
 
     /// The line of an MCU.
     pub(crate) fn line_of(&self, mcu: &str) -> Option<&Line> {
-        self.line.iter().find(|line| line.parts.iter().any(|part| mcu.starts_with(part.as_str())))
+        self.line.iter().find(|line| line.parts.iter().any(|part| starts(mcu, part)))
+    }
+
+    /// The units that the registry names for a line and the profile leaves out on purpose.
+    pub(crate) fn left_out<'a>(&'a self, line: &'a Line) -> impl Iterator<Item = &'a str> {
+        self.left_out.split_whitespace().chain(line.left_out.split_whitespace())
+    }
+
+    /// All lines.
+    pub(crate) fn lines(&self) -> &[Line] {
+        &self.line
+    }
+
+    /// Where the system's source says what each MCU has, and the macros that it needs beside that
+    /// of the MCU.
+    pub(crate) fn registry(&self) -> (&str, &[String]) {
+        (&self.registry, &self.macros)
     }
 
     /// What of the file is for one line.
     pub(crate) fn into_profile(self, line: &Line) -> TargetProfile {
+        let streams = |streams: Streams| match streams {
+            Streams::Each(list) => (list, StreamId::default()),
+            Streams::Behind(name) => {
+                let mut all = self.multiplexer.iter();
+                let found = all.find(|mux| mux.name == name && line.fits(&mux.lines));
+                found.map(|mux| (mux.streams.clone(), mux.id.clone())).unwrap_or_default()
+            }
+        };
+        let mut tree = self.tree;
+        if let Some(platform_mk) = &line.platform_mk {
+            tree.platform_mk.clone_from(platform_mk);
+        }
+        let timers = self.timers;
+        let timers: Vec<Timer> =
+            of_line(timers.units, line).map(|unit| unit.timer(&timers.rules)).collect();
+        let mut kernel = self.kernel;
+        kernel.timers.retain(|name| timers.iter().any(|timer| timer.name == *name));
+        let (adc_rules, adc) = (self.adcs.rules, self.adcs.facts);
+        let (i2c_rules, i2c) = (self.i2cs.rules, self.i2cs.facts);
+        let buses = |group: BusGroup| -> Vec<_> {
+            of_line(group.units, line).map(|unit| unit.unit(&group.rules, &streams)).collect()
+        };
+        let adcs = of_line(self.adcs.units, line).map(|unit| unit.adc(&adc_rules, &streams));
+        let i2cs = of_line(self.i2cs.units, line).map(|unit| unit.unit(&i2c_rules, &streams));
+        let serials = self.serials.rules;
         TargetProfile {
             name: self.target,
             family: self.family,
             line: line.name.clone(),
             parts: line.parts.clone(),
-            gpio_ports: line.gpio_ports.clone(),
-            tree: self.tree,
+            gpio_ports: line.gpio_ports.chars().collect(),
+            tree,
             drivers: self.drivers,
-            kernel: self.kernel,
+            kernel,
             exti: self.exti,
             debug: self.debug,
             off: self.off,
-            timers: of_line(self.timer, line),
-            adc: self.adcs,
-            adcs: of_line(self.adc, line),
-            i2c: self.i2cs,
-            i2cs: of_line(self.i2c, line),
-            spis: of_line(self.spi, line),
-            serials: of_line(self.serial, line),
-            cans: of_line(self.can, line),
-            dac: self.dacs,
-            dacs: of_line(self.dac, line),
-            usbs: of_line(self.usb, line),
+            timers,
+            adc,
+            adcs: adcs.collect(),
+            i2c,
+            i2cs: i2cs.collect(),
+            spis: buses(self.spis),
+            serials: of_line(self.serials.units, line)
+                .map(|unit| unit.unit(&serials, &streams))
+                .collect(),
+            cans: self.cans.map(buses).unwrap_or_default(),
+            dac: self.dacs.as_ref().map(|group| group.facts.clone()),
+            dacs: self
+                .dacs
+                .into_iter()
+                .flat_map(|group| {
+                    let rules = group.rules;
+                    of_line(group.units, line).map(move |unit| unit.dac(&rules))
+                })
+                .collect(),
+            usbs: self
+                .usbs
+                .into_iter()
+                .flat_map(|group| {
+                    let source = group.source;
+                    of_line(group.units, line).map(move |unit| unit.usb(&source))
+                })
+                .collect(),
         }
     }
 
@@ -115,38 +208,38 @@ impl File {
         let mut problems = Vec::new();
         let known: BTreeSet<&str> = self.line.iter().map(|line| line.name.as_str()).collect();
         let mut entries: Vec<(&str, &[String])> = Vec::new();
-        push(&mut entries, &self.timer);
-        push(&mut entries, &self.adc);
-        push(&mut entries, &self.i2c);
-        push(&mut entries, &self.spi);
-        push(&mut entries, &self.serial);
-        push(&mut entries, &self.can);
-        push(&mut entries, &self.dac);
-        push(&mut entries, &self.usb);
+        push(&mut entries, &self.timers.units);
+        push(&mut entries, &self.adcs.units);
+        push(&mut entries, &self.i2cs.units);
+        push(&mut entries, &self.spis.units);
+        push(&mut entries, &self.serials.units);
+        push(&mut entries, self.cans.as_ref().map(|group| &group.units).into_iter().flatten());
+        push(&mut entries, self.dacs.as_ref().map(|group| &group.units).into_iter().flatten());
+        push(&mut entries, self.usbs.as_ref().map(|group| &group.units).into_iter().flatten());
         for line in &self.line {
-            let mut names = BTreeSet::new();
-            for (name, lines) in &entries {
-                let fits = lines.is_empty() || lines.contains(&line.name);
-                if fits && !names.insert(*name) {
-                    problems.push(format!("{}: {name} stands twice", line.name));
+            for unit in line.units.split_whitespace() {
+                let fits = |(name, lines): &&(&str, &[String])| *name == unit && line.fits(lines);
+                let count = entries.iter().filter(fits).count();
+                if count != 1 {
+                    problems.push(format!("{}: {unit} stands {count} times", line.name));
                 }
             }
-            for timer in self.kernel.timers.iter().filter(|timer| !names.contains(timer.as_str())) {
-                problems.push(format!("{}: kernel timer {timer} is unknown", line.name));
+            let named =
+                [line.devices.is_empty(), line.parts.is_empty(), line.gpio_ports.is_empty()];
+            if named.contains(&true) {
+                problems.push(format!("{}: no devices, parts or ports", line.name));
             }
         }
         for (name, lines) in &entries {
             for line in lines.iter().filter(|line| !known.contains(line.as_str())) {
                 problems.push(format!("{name}: there is no line {line}"));
             }
+            if !self.line.iter().any(|line| line.has(name) && line.fits(lines)) {
+                problems.push(format!("{name} ({}): no line has it", lines.join(" ")));
+            }
         }
-        problems.extend(
-            self.sources()
-                .filter(|source| source.is_empty())
-                .map(|_| "a group has no source".to_owned()),
-        );
-        problems.extend(self.timer.iter().filter_map(Timer::problem));
-        problems.extend(self.adc.iter().filter_map(Adc::problem));
+        let empty = self.sources().filter(|source| source.is_empty());
+        problems.extend(empty.map(|_| "a group has no source".to_owned()));
         problems
     }
 
@@ -159,18 +252,25 @@ impl File {
             self.debug.source.as_str(),
             self.off.source.as_str(),
             self.timers.source.as_str(),
-            self.adcs.source.as_str(),
-            self.i2cs.source.as_str(),
+            self.adcs.facts.source.as_str(),
+            self.i2cs.facts.source.as_str(),
             self.spis.source.as_str(),
             self.serials.source.as_str(),
-            self.cans.source.as_str(),
-            self.dacs.source.as_str(),
         ];
         let lines = self.line.iter().map(|line| line.source.as_str());
-        groups.into_iter().chain(lines).chain(self.usb.iter().map(|usb| usb.source.as_str()))
+        let optional = [
+            self.cans.as_ref().map(|group| group.source.as_str()),
+            self.dacs.as_ref().map(|group| group.facts.source.as_str()),
+            self.usbs.as_ref().map(|group| group.source.as_str()),
+        ];
+        let multiplexers = self.multiplexer.iter().map(|mux| mux.source.as_str());
+        groups.into_iter().chain(lines).chain(optional.into_iter().flatten()).chain(multiplexers)
     }
 }
 
-fn push<'a, E: Entry>(all: &mut Vec<(&'a str, &'a [String])>, entries: &'a [E]) {
-    all.extend(entries.iter().map(|entry| (entry.name(), entry.lines())));
+fn push<'a, E: Entry + 'a>(
+    all: &mut Vec<(&'a str, &'a [String])>,
+    entries: impl IntoIterator<Item = &'a E>,
+) {
+    all.extend(entries.into_iter().map(|entry| (entry.name(), entry.lines())));
 }

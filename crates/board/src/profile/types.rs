@@ -5,7 +5,6 @@ use std::fmt;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::file::Entry;
 use crate::pin::PinName;
 
 /// What an operating system can do on one MCU.
@@ -49,8 +48,8 @@ pub struct TargetProfile {
     pub serials: Vec<Unit>,
     /// CAN controllers.
     pub cans: Vec<Unit>,
-    /// What all digital-analog converters have in common.
-    pub dac: Dacs,
+    /// What all digital-analog converters have in common, where there are any.
+    pub dac: Option<Dacs>,
     /// Digital-analog converters.
     pub dacs: Vec<Dac>,
     /// USB devices.
@@ -65,14 +64,6 @@ pub enum Transport {
     Usb,
     /// A serial port of the MCU, often behind the board's debug probe.
     Uart,
-}
-
-/// A group of facts with nothing but their source.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sourced {
-    /// Where in the system's source the facts were read.
-    pub source: String,
 }
 
 /// Files of the system's tree, relative to its root.
@@ -101,9 +92,11 @@ pub struct Tree {
 pub struct Drivers {
     /// Analog-digital conversion.
     pub adc: String,
-    /// CAN.
+    /// CAN; empty where there is no driver.
+    #[serde(default)]
     pub can: String,
-    /// Digital-analog conversion.
+    /// Digital-analog conversion; empty where there is no driver.
+    #[serde(default)]
     pub dac: String,
     /// DMA.
     pub dma: String,
@@ -119,8 +112,6 @@ pub struct Drivers {
     pub spi: String,
     /// Timers.
     pub timer: String,
-    /// USB.
-    pub usb: String,
     /// Where in the system's source the facts were read.
     pub source: String,
 }
@@ -195,14 +186,10 @@ pub struct Off {
 }
 
 /// A timer.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timer {
     /// `TIM3`.
     pub name: String,
-    /// Lines it is for; none means all.
-    #[serde(default)]
-    pub lines: Vec<String>,
     /// Width of the counter.
     pub bits: u8,
     /// The macro of the clock that drives it.
@@ -214,13 +201,11 @@ pub struct Timer {
     /// The pulse-width driver.
     pub pwm: Option<TimerDriver>,
     /// The hardware can count quadrature on channels 1 and 2.
-    #[serde(default)]
     pub encoder: bool,
 }
 
 /// A driver of a timer.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TimerDriver {
     /// The driver object: `ICUD3`.
     pub driver: String,
@@ -229,7 +214,6 @@ pub struct TimerDriver {
     /// The channels it can use.
     pub channels: Vec<u8>,
     /// The channels whose inverted output it can use.
-    #[serde(default)]
     pub complementary: Vec<u8>,
 }
 
@@ -239,15 +223,37 @@ impl Timer {
     pub fn number(&self) -> Option<u8> {
         self.name.strip_prefix("TIM")?.parse().ok()
     }
+}
 
-    pub(crate) fn problem(&self) -> Option<String> {
-        let ranged = |driver: &TimerDriver| {
-            let all = driver.channels.iter().chain(&driver.complementary);
-            !driver.channels.is_empty() && all.into_iter().all(|c| (1..=6).contains(c))
-        };
-        let drivers = self.icu.iter().chain(&self.pwm).all(ranged);
-        let sound = self.number().is_some() && matches!(self.bits, 16 | 32) && drivers;
-        (!sound).then(|| format!("{}: name, bits or channels are impossible", self.name))
+/// A sampling time in cycles of the converter's clock: whole, or and a half.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cycles {
+    halves: u32,
+}
+
+impl Cycles {
+    /// So many cycles.
+    #[must_use]
+    pub const fn new(cycles: u32) -> Self {
+        Self { halves: cycles.saturating_mul(2) }
+    }
+
+    /// So many cycles and a half.
+    pub(crate) const fn and_a_half(cycles: u32) -> Self {
+        Self { halves: cycles.saturating_mul(2).saturating_add(1) }
+    }
+
+    /// The whole cycles.
+    #[must_use]
+    pub const fn whole(self) -> u32 {
+        self.halves / 2
+    }
+}
+
+impl fmt::Display for Cycles {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let half = if self.halves % 2 == 1 { ".5" } else { "" };
+        write!(f, "{}{half}", self.whole())
     }
 }
 
@@ -255,10 +261,10 @@ impl Timer {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adcs {
-    /// Sampling times there are, in cycles.
-    pub sample_cycles: Vec<u32>,
+    /// Sampling times there are, ascending.
+    pub sample_cycles: Vec<Cycles>,
     /// The one that is taken when nothing is said.
-    pub sample_cycles_default: u32,
+    pub sample_cycles_default: Cycles,
     /// Bits of a result.
     pub resolution_bits: u8,
     /// Inputs in one conversion group.
@@ -268,14 +274,10 @@ pub struct Adcs {
 }
 
 /// An analog-digital converter.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adc {
     /// `ADC1`.
     pub name: String,
-    /// Lines it is for; none means all.
-    #[serde(default)]
-    pub lines: Vec<String>,
     /// The driver object.
     pub driver: String,
     /// The option that turns it on.
@@ -283,7 +285,6 @@ pub struct Adc {
     /// Inputs that can be pins.
     pub inputs: Vec<u8>,
     /// DMA requests of the driver.
-    #[serde(default)]
     pub dma: Vec<DmaRequest>,
 }
 
@@ -292,11 +293,6 @@ impl Adc {
     #[must_use]
     pub fn number(&self) -> Option<u8> {
         self.name.strip_prefix("ADC")?.parse().ok()
-    }
-
-    pub(crate) fn problem(&self) -> Option<String> {
-        let sound = self.number().is_some() && !self.inputs.is_empty();
-        (!sound).then(|| format!("{}: name or inputs are impossible", self.name))
     }
 }
 
@@ -313,14 +309,10 @@ pub struct I2cs {
 }
 
 /// A unit with one driver: I²C, SPI, serial, CAN.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// `I2C1`.
     pub name: String,
-    /// Lines it is for; none means all.
-    #[serde(default)]
-    pub lines: Vec<String>,
     /// The driver object: `I2CD1`.
     pub driver: String,
     /// The option that turns it on.
@@ -330,13 +322,10 @@ pub struct Unit {
     /// The usual alternate function of its pins.
     pub alternate: Option<u8>,
     /// Pins with another alternate function.
-    #[serde(default)]
     pub exceptions: Vec<Exception>,
     /// DMA requests of the driver.
-    #[serde(default)]
     pub dma: Vec<DmaRequest>,
     /// Options that must be on as well.
-    #[serde(default)]
     pub needs: Vec<String>,
 }
 
@@ -362,21 +351,16 @@ pub struct Dacs {
 }
 
 /// A digital-analog converter.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dac {
     /// `DAC1`.
     pub name: String,
-    /// Lines it is for; none means all.
-    #[serde(default)]
-    pub lines: Vec<String>,
     /// Its outputs.
     pub outputs: Vec<DacOutput>,
 }
 
 /// An output of a digital-analog converter.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DacOutput {
     /// The output's number.
     pub channel: u8,
@@ -387,14 +371,12 @@ pub struct DacOutput {
 }
 
 /// A USB device.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usb {
     /// `OTG1`.
     pub name: String,
-    /// Lines it is for; none means all.
-    #[serde(default)]
-    pub lines: Vec<String>,
+    /// The driver's version; it chooses the variant of the generated code.
+    pub version: String,
     /// The driver object.
     pub driver: String,
     /// The option that turns it on.
@@ -402,11 +384,11 @@ pub struct Usb {
     /// The alternate function of its pins.
     pub alternate: Option<u8>,
     /// The data lines: minus, plus.
-    #[serde(deserialize_with = "pins")]
     pub pins: Vec<PinName>,
     /// Options that must be on as well.
-    #[serde(default)]
     pub needs: Vec<String>,
+    /// Units that cannot work beside it.
+    pub excludes: Vec<String>,
     /// Endpoints beside the control endpoint.
     pub endpoints: u8,
     /// Where in the system's source the facts were read.
@@ -414,16 +396,36 @@ pub struct Usb {
 }
 
 /// A request of a driver for a DMA stream of its own.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DmaRequest {
     /// `I2C1_RX`.
-    #[serde(rename = "request")]
     pub name: String,
-    /// The option that names the stream.
-    pub option: String,
+    /// The option that names the stream; none where the system's source fixes it.
+    pub option: Option<String>,
     /// Streams that can serve it, best first.
     pub streams: Vec<Stream>,
+    /// How the option names a stream.
+    pub id: StreamId,
+}
+
+/// How the system's source names a stream: a text with `{controller}` and `{stream}`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(transparent)]
+pub struct StreamId(String);
+
+impl Default for StreamId {
+    fn default() -> Self {
+        Self("STM32_DMA_STREAM_ID({controller}, {stream})".to_owned())
+    }
+}
+
+impl StreamId {
+    /// The name of a stream, given as `1,0`.
+    #[must_use]
+    pub fn of(&self, stream: &str) -> String {
+        let (controller, stream) = stream.split_once(',').unwrap_or_default();
+        self.0.replace("{controller}", controller).replace("{stream}", stream)
+    }
 }
 
 /// A DMA stream (or channel): `1,0` is stream 0 of controller 1.
@@ -465,17 +467,3 @@ pub(crate) fn pins<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Pin
     };
     texts.iter().map(read).collect()
 }
-
-macro_rules! entries {
-    ($($entry:ty),*) => {
-        $(impl Entry for $entry {
-            fn name(&self) -> &str {
-                &self.name
-            }
-            fn lines(&self) -> &[String] {
-                &self.lines
-            }
-        })*
-    };
-}
-entries!(Timer, Adc, Unit, Dac, Usb);

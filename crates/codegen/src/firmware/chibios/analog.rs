@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use sensedsl_board::profile::Cycles;
 use sensedsl_board::signal::{Function, UnitName};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
@@ -43,7 +44,7 @@ pub(super) struct AnalogSensorPlan {
     pub(super) column: usize,
     pub(super) samples: u16,
     pub(super) channel: u8,
-    cycles: u32,
+    cycles: Cycles,
 }
 
 pub(super) fn plan(
@@ -82,10 +83,12 @@ fn sensor(
     let usage = context.wire(wired, Role::In)?.usage(context.board)?;
     let Function::Adc { channel, .. } = usage.signal.function() else { return None };
     let facts = &context.profile.adc;
-    let asked = analog.sampling_cycles.map_or(facts.sample_cycles_default, u32::from);
+    let asked = analog
+        .sampling_cycles
+        .map_or(facts.sample_cycles_default, |asked| Cycles::new(asked.into()));
     // Rather a little longer than asked: too short a time spoils the reading.
     let Some(&cycles) = facts.sample_cycles.iter().find(|&&cycles| cycles >= asked) else {
-        let most = facts.sample_cycles.iter().max().copied().unwrap_or_default();
+        let most = facts.sample_cycles.iter().max().map_or(0, |most| most.whole());
         let name = &wired.device.name.value;
         let message = format!("{name} asks for {asked} cycles of sampling, the ADC has {most}");
         let help = format!("use `sampling = {most};` or less");

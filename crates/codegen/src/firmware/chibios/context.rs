@@ -106,11 +106,10 @@ impl<'a> Context<'a> {
         Some(pad(pin, &alternate_mode(number, drive)))
     }
 
-    /// The stream that the wiring gives to a DMA request: controller and stream.
-    pub(super) fn stream(&self, unit: &str, request: &str) -> Option<(&'a str, &'a str)> {
+    /// The stream that the wiring gives to a DMA request.
+    pub(super) fn stream(&self, unit: &str, request: &str) -> Option<&'a str> {
         let mut dma = self.wiring.dma.iter();
-        let given = dma.find(|dma| dma.unit == unit && dma.request == request)?;
-        given.stream.split_once(',')
+        dma.find(|dma| dma.unit == unit && dma.request == request).map(|dma| dma.stream.as_str())
     }
 }
 

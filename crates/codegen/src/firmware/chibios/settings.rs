@@ -98,11 +98,10 @@ fn switches(context: &Context<'_>, units: &[UnitName], link: &LinkPlan) -> Vec<S
 fn streams(context: &Context<'_>, units: &[UnitName]) -> Vec<Setting> {
     let mut settings = Vec::new();
     for unit in units {
-        for DmaRequest { name, option, .. } in context.profile.dma(unit.as_str()) {
+        for DmaRequest { name, option, id, .. } in context.profile.dma(unit.as_str()) {
+            let Some(option) = option else { continue };
             let stream = context.stream(unit.as_str(), name);
-            settings.extend(stream.map(|(controller, stream)| {
-                setting(option, &format!("STM32_DMA_STREAM_ID({controller}, {stream})"))
-            }));
+            settings.extend(stream.map(|stream| setting(option, &id.of(stream))));
         }
     }
     settings
