@@ -1,7 +1,7 @@
 //! Developer tasks: `cargo xtask TASK`.
 //!
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
-//! corpus' list, tables that are embedded. `parts` writes the table of known parts.
+//! corpus' list, tables that are embedded. `parts` writes the table of known parts, or compares it.
 
 mod parts;
 
@@ -26,7 +26,7 @@ fn run() -> Result<()> {
     match arguments.split_first() {
         Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "parts" => parts::run(rest),
-        _ => bail!("tasks: bless, parts [--check]"),
+        _ => bail!("tasks: bless, parts [--check | --compare FOLDER]"),
     }
 }
 

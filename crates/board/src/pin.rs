@@ -58,7 +58,9 @@ fn port_and_number(upper: &str) -> Option<String> {
     let number: u8 = digits.parse().ok()?;
     let analog = suffix.strip_prefix("_C");
     let suffix = analog.unwrap_or(suffix);
-    let known = suffix.is_empty() || suffix.starts_with(['-', ' ', '/', '(', '[']);
+    // Some files of ST's have `PC14OSC32_IN` and `PF11BOOT0` in one word.
+    let glued = suffix.starts_with("OSC") || suffix.starts_with("BOOT");
+    let known = suffix.is_empty() || glued || suffix.starts_with(['-', ' ', '/', '(', '[']);
     known.then(|| format!("P{port}{number}{}", if analog.is_some() { "_C" } else { "" }))
 }
 
@@ -131,6 +133,8 @@ mod tests {
             ("PC14-OSC32_IN (PC14)", "PC14"),
             ("PA9 [PA11]", "PA9"),
             ("PF2 - NRST", "PF2"),
+            ("PC14OSC32_IN", "PC14"),
+            ("PF11BOOT0", "PF11"),
             ("pc2_c", "PC2_C"),
             ("GP0", "GP0"),
             ("D3", "D3"),

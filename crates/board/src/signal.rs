@@ -280,7 +280,7 @@ const FAMILIES: [(&str, &[&str]); 10] = [
     ("USART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("UART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("FDCAN", &[]),
-    ("ADC", &["INN*", "EXTI*", "VINM*", "VINP*"]),
+    ("ADC", &["INN*", "EXTI*", "VINM*", "VINP*", "PDM*", "PGA*"]),
     ("I2C", &["SMBA*", "WS"]),
     ("TIM", &["ETR*", "BKIN*"]),
     ("SPI", &["RDY"]),
@@ -306,7 +306,14 @@ fn read(name: &str) -> Reading {
         None => line == *pattern,
     };
     let numbered = number.parse::<u32>().is_ok();
-    if numbered && unused.iter().any(fits) { Reading::Unused } else { Reading::Malformed }
+    // Inputs of the second bank of the converter of an STM32L1, which has to be switched to.
+    let second = line.strip_prefix("IN").and_then(|line| line.strip_suffix('B'));
+    let second = *family == "ADC" && second.and_then(small).is_some();
+    if numbered && (second || unused.iter().any(fits)) {
+        Reading::Unused
+    } else {
+        Reading::Malformed
+    }
 }
 
 /// `TIM3_CH1` to (`TIM`, `3`, `CH1`). A stem ends in a letter; `I2C` holds a digit of its own.

@@ -7,6 +7,7 @@
 //! peripheral uses one: the column `Note` lists them.
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use roxmltree::{Document, Node, ParsingOptions};
 use sensedsl_board::pin::PinName;
@@ -17,8 +18,44 @@ use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::{Made, Source};
 
+/// The alternate functions of the GPIO files that were read so far, by path. Some ninety of them
+/// serve two thousand MCUs, and reading one takes longer than all else.
+#[derive(Debug, Default)]
+pub(crate) struct Cache(Mutex<BTreeMap<String, Arc<Functions>>>);
+
+impl Cache {
+    /// The alternate functions in a file beside the source, or why there are none.
+    fn functions(
+        &self,
+        path: &str,
+        beside: &dyn Fn(&str) -> Option<Vec<u8>>,
+    ) -> Result<Arc<Functions>, Refused> {
+        if let Some(known) = self.files().get(path) {
+            return Ok(Arc::clone(known));
+        }
+        // Two threads may read one file at a time; what they get is the same.
+        let bytes = beside(path).ok_or(Refused::Missing)?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string());
+        let document = text.and_then(parse).map_err(Refused::Unreadable)?;
+        let found = Arc::new(functions(&document));
+        self.files().insert(path.to_owned(), Arc::clone(&found));
+        Ok(found)
+    }
+
+    fn files(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Functions>>> {
+        // What a thread that panicked has put in is whole.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Why there are no alternate functions.
+enum Refused {
+    Missing,
+    Unreadable(String),
+}
+
 /// Imports the description of an MCU.
-pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made {
     let (file, text) = log.text(source.name, source.bytes);
     if text.is_empty() {
         return Made::default();
@@ -43,26 +80,30 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         return Made::default();
     };
     let path = format!("IP/GPIO-{version}_Modes.xml");
-    let Some(modes) = (source.beside)(&path) else {
-        let why = format!("the file `{path}` with its alternate functions is not beside it");
-        log.unreadable(whole, source.name, &why);
-        return Made::default();
-    };
-    let modes = std::str::from_utf8(&modes).map_err(|error| error.to_string());
-    let modes = match modes.and_then(parse) {
-        Ok(modes) => modes,
-        Err(why) => {
+    let functions = match cache.functions(&path, source.beside) {
+        Ok(functions) => functions,
+        Err(Refused::Missing) => {
+            let why = format!("the file `{path}` with its alternate functions is not beside it");
+            log.unreadable(whole, source.name, &why);
+            return Made::default();
+        }
+        Err(Refused::Unreadable(why)) => {
             log.unreadable(whole, &path, &why);
             return Made::default();
         }
     };
-    let functions = functions(&modes);
-    let reader = Reader { file, functions };
+    let reader = Reader { file, functions: &functions };
     let rows = reader.pins(&mcu, log);
     if rows.is_empty() {
         log.no_table(whole, "the MCU has no general-purpose pin");
         return Made::default();
     }
+    Made { table: Some(assemble::table(&properties(&mcu), rows).to_csv()), program: None }
+}
+
+/// What the table says of the MCU.
+fn properties(mcu: &Node<'_, '_>) -> Vec<(&'static str, String)> {
+    let reference = mcu.attribute("RefName").unwrap_or_default();
     let mut properties = vec![("mcu", largest(reference))];
     if reference.contains('(') {
         properties.push(("parts", parts(reference).join(" ")));
@@ -74,7 +115,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
             properties.push((key, value.to_owned()));
         }
     }
-    Made { table: Some(assemble::table(&properties, rows).to_csv()), program: None }
+    properties
 }
 
 fn parse(text: &str) -> Result<Document<'_>, String> {
@@ -107,19 +148,20 @@ struct Route {
     remaps: Vec<String>,
 }
 
-/// The pins of the GPIO file.
-type Functions<'m> = BTreeMap<PinName, Node<'m, 'm>>;
+/// The pins of the GPIO file with the routes of their signals.
+type Functions = BTreeMap<PinName, BTreeMap<String, Route>>;
 
-fn functions<'m>(modes: &'m Document<'_>) -> Functions<'m> {
+fn functions(modes: &Document<'_>) -> Functions {
     let pins = modes.root_element().children().filter(|node| is(node, "GPIO_Pin"));
-    pins.filter_map(|pin| Some((PinName::parse(pin.attribute("Name")?)?, pin))).collect()
-}
-
-/// The route of a signal to a pin, as the GPIO file has it.
-fn find_route(pin: &Node<'_, '_>, signal: &str) -> Option<Route> {
-    let named = |node: &Node<'_, '_>| node.attribute("Name") == Some(signal);
-    let found = pin.children().find(|node| is(node, "PinSignal") && named(node))?;
-    Some(route(&found))
+    let routes = |pin: Node<'_, '_>| {
+        let mut routes = BTreeMap::new();
+        for signal in pin.children().filter(|node| is(node, "PinSignal")) {
+            let name = signal.attribute("Name").unwrap_or_default();
+            routes.entry(name.to_owned()).or_insert_with(|| route(&signal));
+        }
+        routes
+    };
+    pins.filter_map(|pin| Some((PinName::parse(pin.attribute("Name")?)?, routes(pin)))).collect()
 }
 
 fn route(signal: &Node<'_, '_>) -> Route {
@@ -143,7 +185,7 @@ fn route(signal: &Node<'_, '_>) -> Route {
 
 struct Reader<'m> {
     file: FileId,
-    functions: Functions<'m>,
+    functions: &'m Functions,
 }
 
 impl Reader<'_> {
@@ -219,16 +261,15 @@ impl Reader<'_> {
         let mut remaps = Vec::new();
         for signal in node.children().filter(|child| is(child, "Signal")) {
             let signal = signal.attribute("Name").unwrap_or_default();
-            if signal == "GPIO" || signal.is_empty() {
+            if signal == "GPIO" || signal.is_empty() || is_trigger(signal) {
                 continue;
             }
             let spelled = spelled(signal);
-            let route = routes.and_then(|routes| find_route(routes, signal)).unwrap_or_default();
-            let (alternate, blocks) = (route.alternate, route.remaps);
-            if !blocks.is_empty() {
+            let route = routes.and_then(|routes| routes.get(signal));
+            if let Some(blocks) = route.map(|route| &route.remaps).filter(|all| !all.is_empty()) {
                 remaps.push(format!("{spelled}={}", blocks.join("|")));
             }
-            row.usages.push((spelled, alternate));
+            row.usages.push((spelled, route.and_then(|route| route.alternate)));
         }
         if !remaps.is_empty() {
             row.note = Some(format!("remap {}", remaps.join(" ")));
@@ -237,8 +278,16 @@ impl Reader<'_> {
     }
 }
 
+/// `ADC1_EXTI11`: a converter can be started by the interrupt line of number 11, which any pin of
+/// that number has. It is as little a usage of a pin as the interrupt itself.
+fn is_trigger(signal: &str) -> bool {
+    let line = signal.split_once("_EXTI").map(|(_, line)| line);
+    let numbered = line.is_some_and(|line| line.bytes().all(|byte| byte.is_ascii_digit()));
+    numbered && (signal.starts_with("ADC") || signal.starts_with("DAC"))
+}
+
 /// A signal as a usage of a table: one word. Some names of ST's would be taken for slips of the
-/// pen: a break input becomes `BKIN`, an event of the only converter one of the first, and what is
+/// pen: a break input becomes `BKIN`, a line of the only converter one of the first, and what is
 /// left gets `ST_` before it.
 fn spelled(signal: &str) -> String {
     let name = signal.split_whitespace().collect::<Vec<_>>().join("_").replace('@', "_");
@@ -268,13 +317,20 @@ mod tests {
             ("TIM2_CH1", "TIM2_CH1"),
             ("SYS_JTMS-SWDIO", "SYS_JTMS-SWDIO"),
             ("TIM1_BK2", "TIM1_BKIN2"),
-            ("DAC_EXTI9", "DAC1_EXTI9"),
-            ("ADC_IN0b", "ST_ADC_IN0b"),
+            ("DAC_X9", "ST_DAC_X9"),
+            ("ADC_IN0b", "ADC1_IN0b"),
+            ("ADC_TAMPER", "ST_ADC_TAMPER"),
             ("DEBUG_X Y", "DEBUG_X_Y"),
         ] {
             assert_eq!(spelled(signal), expected);
             assert_eq!(Signal::parse(&spelled(signal)).1, None, "{signal}");
         }
+    }
+
+    #[test]
+    fn interrupt_lines_are_no_usages() {
+        assert!(is_trigger("ADC1_EXTI11") && is_trigger("DAC_EXTI9"));
+        assert!(!is_trigger("ADC1_IN11") && !is_trigger("SYS_EXTI1"));
     }
 
     #[test]

@@ -35,6 +35,9 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
     if bytes.iter().any(control) {
         return None;
     }
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        return Some(Decoded { text: text.to_owned(), ..Decoded::default() });
+    }
     let mut decoded = Decoded::default();
     let mut offset = 0;
     for chunk in bytes.utf8_chunks() {

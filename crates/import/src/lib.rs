@@ -68,30 +68,46 @@ struct Made {
     program: Option<String>,
 }
 
-/// Imports a source. Never fails: what cannot be read is among the diagnostics.
+/// Imports source after source of one folder, from any number of threads: what several of them
+/// refer to is read once.
+#[derive(Debug, Default)]
+pub struct Importer {
+    cubemx: cubemx::Cache,
+}
+
+/// Imports a single source. Never fails: what cannot be read is among the diagnostics.
 #[must_use]
 pub fn import(source: &Source<'_>) -> Imported {
-    let mut log = Log::default();
-    let format = source.format.or_else(|| detect(source.bytes));
-    let made = match format {
-        None => unknown(source, &mut log),
-        Some(Format::Xlsx | Format::Ods) => workbook::import(source, &mut log),
-        Some(_) if source.sheet.is_some() => no_sheets(source, &mut log),
-        Some(Format::Csv | Format::MicroPython) => {
-            let (file, text) = log.text(source.name, source.bytes);
-            tabular::import(file, &text, None, &mut log)
+    Importer::default().import(source)
+}
+
+impl Importer {
+    /// Imports a source. Never fails: what cannot be read is among the diagnostics.
+    #[must_use]
+    pub fn import(&self, source: &Source<'_>) -> Imported {
+        let mut log = Log::default();
+        let format = source.format.or_else(|| detect(source.bytes));
+        let made = match format {
+            None => unknown(source, &mut log),
+            Some(Format::Xlsx | Format::Ods) => workbook::import(source, &mut log),
+            Some(_) if source.sheet.is_some() => no_sheets(source, &mut log),
+            Some(Format::Csv | Format::MicroPython) => {
+                let (file, text) = log.text(source.name, source.bytes);
+                tabular::import(file, &text, None, &mut log)
+            }
+            Some(Format::CubeMx) => cubemx::import(source, &self.cubemx, &mut log),
+            Some(Format::Ioc) => ioc::import(source, &mut log),
+            Some(Format::Hwdef) => hwdef::import(source, &mut log),
+        };
+        let Log { sources, mut diagnostics } = log;
+        diagnostics.sort_by_key(|one| (one.primary.span, one.code));
+        let mut imported =
+            Imported { table: made.table, program: made.program, diagnostics, sources };
+        if imported.failed() {
+            (imported.table, imported.program) = (None, None);
         }
-        Some(Format::CubeMx) => cubemx::import(source, &mut log),
-        Some(Format::Ioc) => ioc::import(source, &mut log),
-        Some(Format::Hwdef) => hwdef::import(source, &mut log),
-    };
-    let Log { sources, mut diagnostics } = log;
-    diagnostics.sort_by_key(|one| (one.primary.span, one.code));
-    let mut imported = Imported { table: made.table, program: made.program, diagnostics, sources };
-    if imported.failed() {
-        (imported.table, imported.program) = (None, None);
+        imported
     }
-    imported
 }
 
 fn unknown(source: &Source<'_>, log: &mut Log) -> Made {

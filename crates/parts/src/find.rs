@@ -81,6 +81,14 @@ pub fn find(name: &str) -> Option<Found> {
         let sheet = Sheet::of(part);
         return Some(Found { mcu: number, sheet, parts: vec![part], ambiguous: false });
     }
+    let unpacked = parts.iter().find(|part| {
+        let code = trimmed.strip_prefix(part.base()).unwrap_or_default();
+        part.package().is_none() && is_order_code(code)
+    });
+    if let Some(part) = unpacked {
+        let (sheet, parts) = (Sheet::of(*part), vec![*part]);
+        return Some(Found { mcu: trimmed.to_owned(), sheet, parts, ambiguous: false });
+    }
     let begun = |part: &&Part| part.numbers().any(|number| starts(&number, trimmed));
     let parts: Vec<Part> = parts.iter().filter(begun).copied().collect();
     let sheets: Vec<Sheet> = parts.iter().map(|part| Sheet::of(*part)).collect();
@@ -93,6 +101,16 @@ pub fn find(name: &str) -> Option<Found> {
         Sheet::common(&sheets)
     };
     Some(Found { mcu: trimmed.to_owned(), parts, sheet, ambiguous })
+}
+
+/// Whether this can follow the base of a part number: a letter for the package, a grade, options
+/// (`T6`, `UX`, `I6Q`).
+fn is_order_code(code: &str) -> bool {
+    let mut letters = code.chars();
+    let package = letters.next().is_some_and(|c| c.is_ascii_uppercase());
+    let grade = letters.next().is_some_and(|c| c.is_ascii_digit() || c == 'X');
+    let options = letters.as_str();
+    package && grade && options.len() <= 3 && options.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
 /// Equal, where an `X` in the name stands for a digit: a grade.

@@ -1,5 +1,7 @@
 //! All parts: the shipped table and the rules as one list.
 
+use std::sync::OnceLock;
+
 use crate::format::{Layout, PartData};
 use crate::{data, rp};
 
@@ -15,11 +17,15 @@ pub(crate) enum Origin {
 
 /// All parts, by name.
 pub fn all() -> impl Iterator<Item = Part> {
-    let table = data().parts.iter().map(|part| Part(Origin::Table(part)));
-    let rules = rp::CHIPS.iter().map(|chip| Part(Origin::Rule(chip)));
-    let mut parts: Vec<Part> = table.chain(rules).collect();
-    parts.sort_by_cached_key(Part::name);
-    parts.into_iter()
+    static PARTS: OnceLock<Vec<Part>> = OnceLock::new();
+    let sorted = || {
+        let table = data().parts.iter().map(|part| Part(Origin::Table(part)));
+        let rules = rp::CHIPS.iter().map(|chip| Part(Origin::Rule(chip)));
+        let mut parts: Vec<Part> = table.chain(rules).collect();
+        parts.sort_by_cached_key(Part::name);
+        parts
+    };
+    PARTS.get_or_init(sorted).iter().copied()
 }
 
 impl Part {

@@ -1,5 +1,6 @@
 //! What the sources say, joined and numbered.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
@@ -9,12 +10,20 @@ use super::avr::Avr;
 use super::metapac::Pins;
 use super::modm::Device;
 
+/// Parts for which the source has the pinout of their variant with a voltage converter (`Q`), and
+/// parts with the same pins in the same package, as the data sheets DS12737 and DS12736 have them.
+const REPLACED: [(&str, &str); 3] = [
+    ("STM32L552QEI", "STM32L562QEI6"),
+    ("STM32L552VET", "STM32L562VET6"),
+    ("STM32L552ZET", "STM32L562ZET6"),
+];
+
 /// A part by names.
 #[derive(Clone, Debug)]
 struct Part<'a> {
     base: &'a str,
     codes: Vec<String>,
-    pins: &'a Pins,
+    pins: Cow<'a, Pins>,
     layout: Option<(&'a str, &'a [(String, String)])>,
 }
 
@@ -30,7 +39,7 @@ pub(crate) fn build(
             parts.push(Part {
                 base: &avr.base,
                 codes: vec![code.clone()],
-                pins: &avr.pins,
+                pins: Cow::Borrowed(&avr.pins),
                 layout: Some((package, places)),
             });
         }
@@ -41,8 +50,8 @@ pub(crate) fn build(
     let bases: BTreeSet<&str> = parts.iter().map(|part| part.base).collect();
     let data = number(&parts);
     let summary = format!(
-        "{} parts, {numbers} part numbers, {} without packages ({bare}); left out for want of \
-         usages: {}\n{} rows, {} dies, {} layouts\n",
+        "{} parts of {} kinds with {numbers} part numbers; {bare} without packages; left out for \
+         want of usages: {}\n{} rows, {} dies, {} layouts\n",
         parts.len(),
         bases.len(),
         left_out.join(" "),
@@ -62,6 +71,12 @@ fn stm32<'a>(
         let key = (device.base.as_str(), device.package_code.as_str(), device.variant.as_str());
         grouped.entry(key).or_default().push(device);
     }
+    let places = |device: &'a Device| -> &'a [(String, String)] {
+        let plain = format!("{}{}", device.base, device.package_code);
+        let other = REPLACED.iter().find(|(own, _)| device.variant.is_empty() && *own == plain);
+        let other = other.and_then(|(_, other)| devices.iter().find(|d| d.number() == *other));
+        &other.unwrap_or(device).places
+    };
     let mut parts: Vec<Part<'_>> = Vec::new();
     let mut used = BTreeSet::new();
     let mut left_out = BTreeSet::new();
@@ -76,7 +91,7 @@ fn stm32<'a>(
         // Grades of one part may differ in a pin: NRST and PF2 of some G0.
         let mut layouts: BTreeMap<&[(String, String)], Vec<&Device>> = BTreeMap::new();
         for device in group {
-            layouts.entry(&device.places).or_default().push(device);
+            layouts.entry(places(device)).or_default().push(device);
         }
         for (places, mut devices) in layouts {
             // The plainest grade first: 6, then the others.
@@ -86,15 +101,35 @@ fn stm32<'a>(
             parts.push(Part {
                 base: &first.base,
                 codes: devices.iter().map(code).collect(),
-                pins,
+                pins: with_switches(pins, places),
                 layout: Some((&first.package, places)),
             });
         }
     }
     for (name, pins) in chips.iter().filter(|(name, _)| !used.contains(name.as_str())) {
-        parts.push(Part { base: name, codes: vec![String::new()], pins, layout: None });
+        parts.push(Part {
+            base: name,
+            codes: vec![String::new()],
+            pins: Cow::Borrowed(pins),
+            layout: None,
+        });
     }
     (parts, left_out.into_iter().collect())
+}
+
+/// On STM32H7 a pad such as `PC2_C` is connected with `PC2` by an analog switch. Where the package
+/// has no `PC2` of its own, the switch is closed after reset and the pad carries the signals of both.
+fn with_switches<'a>(pins: &'a Pins, places: &[(String, String)]) -> Cow<'a, Pins> {
+    let has = |name: &str| places.iter().any(|(_, pin)| pin == name);
+    let mut made = Cow::Borrowed(pins);
+    for pad in places.iter().map(|(_, pin)| pin) {
+        let Some(pin) = pad.strip_suffix("_C").filter(|pin| !has(pin)) else { continue };
+        let usages = pins.get(pin).into_iter().flatten();
+        // An input of the converter is that of one pad or of the other.
+        let digital = usages.filter(|(_, alternate)| alternate.is_some()).cloned();
+        made.to_mut().entry(pad.clone()).or_default().extend(digital);
+    }
+    made
 }
 
 /// Names in natural order, and their numbers.
@@ -116,7 +151,7 @@ impl Names {
 
 fn number(parts: &[Part<'_>]) -> Data {
     let places = || parts.iter().filter_map(|part| part.layout);
-    let pins = || parts.iter().flat_map(|part| part.pins);
+    let pins = || parts.iter().flat_map(|part| part.pins.as_ref());
     let on_packages = places().flat_map(|(_, places)| places).map(|(_, pin)| pin.as_str());
     let signals = Names::new(pins().flat_map(|(_, usages)| usages).map(|(name, _)| name.as_str()));
     let pin_names = Names::new(pins().map(|(pin, _)| pin.as_str()).chain(on_packages));
@@ -136,7 +171,7 @@ fn number(parts: &[Part<'_>]) -> Data {
         package: packages.of(package),
         places: places.iter().map(|(at, pin)| (positions.of(at), pin_names.of(pin))).collect(),
     };
-    let rows: BTreeSet<Row> = parts.iter().flat_map(|part| rows_of(part.pins)).collect();
+    let rows: BTreeSet<Row> = parts.iter().flat_map(|part| rows_of(&part.pins)).collect();
     let rows: Vec<Row> = rows.into_iter().collect();
     let die_of = |pins: &Pins| -> Vec<usize> {
         let mut die: Vec<usize> =
@@ -145,7 +180,7 @@ fn number(parts: &[Part<'_>]) -> Data {
         die
     };
     let dies: Vec<Vec<usize>> = {
-        let set: BTreeSet<Vec<usize>> = parts.iter().map(|part| die_of(part.pins)).collect();
+        let set: BTreeSet<Vec<usize>> = parts.iter().map(|part| die_of(&part.pins)).collect();
         set.into_iter().collect()
     };
     let layouts: BTreeSet<Layout> = places().map(layout_of).collect();
@@ -153,7 +188,7 @@ fn number(parts: &[Part<'_>]) -> Data {
     let numbered = parts.iter().map(|part| PartData {
         base: part.base.to_owned(),
         codes: part.codes.iter().map(|code| codes.of(code)).collect(),
-        die: dies.binary_search(&die_of(part.pins)).unwrap_or_default(),
+        die: dies.binary_search(&die_of(&part.pins)).unwrap_or_default(),
         layout: part.layout.and_then(|layout| layouts.binary_search(&layout_of(layout)).ok()),
     });
     Data {

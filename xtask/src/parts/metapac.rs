@@ -46,7 +46,8 @@ fn pins(source: &str) -> Result<Pins> {
             let entry = entry.split_once('}').map_or(entry, |(entry, _)| entry);
             let pin = between(entry, "pin: \"", "\"").context("no pin")?.to_owned();
             let line = between(entry, "signal: \"", "\"").context("no signal")?;
-            if let Some(number) = unit.strip_prefix("ADC") {
+            let analog = line.starts_with("IN");
+            if let Some(number) = unit.strip_prefix("ADC").filter(|_| analog) {
                 let units = converters.entry((pin, line.to_owned())).or_default();
                 units.insert(number.to_owned());
                 continue;
@@ -60,6 +61,10 @@ fn pins(source: &str) -> Result<Pins> {
             pins.entry(pin).or_default().insert((usage(unit, line), alternate));
         }
     }
+    // On families whose data sheets name an input without its sign (`IN2`), an inverted input
+    // (`INN1`) is no signal of a pin but another use of `IN2`.
+    let signed = converters.keys().any(|(_, line)| line.starts_with("INP"));
+    converters.retain(|(_, line), _| signed || !line.starts_with("INN"));
     for ((pin, line), units) in converters {
         let units: String = units.into_iter().collect();
         pins.entry(pin).or_default().insert((format!("ADC{units}_{line}"), None));
@@ -67,10 +72,12 @@ fn pins(source: &str) -> Result<Pins> {
     Ok(pins)
 }
 
-/// I2S is part of a SPI unit there.
+/// I2S is part of a SPI unit there, and some break inputs are cut short.
 fn usage(unit: &str, line: &str) -> String {
     match (unit.strip_prefix("SPI"), line.strip_prefix("I2S_")) {
         (Some(number), Some(line)) => format!("I2S{number}_{line}"),
+        _ if unit.starts_with("TIM") && line == "BK" => format!("{unit}_BKIN"),
+        _ if unit.starts_with("TIM") && line == "BK2" => format!("{unit}_BKIN2"),
         _ => format!("{unit}_{line}"),
     }
 }

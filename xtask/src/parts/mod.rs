@@ -1,10 +1,13 @@
 //! `cargo xtask parts`: makes the parts table of `crates/parts` from packages of public registries.
 //!
-//! Cargo and pip fetch the packages in the versions given here into `target/parts-sources`; what
-//! comes out is `crates/parts/data/parts.bin`. `--check` compares instead of writing.
+//! Cargo and pip fetch the packages in the versions given here into `parts-sources` in the target
+//! folder; what comes out is `crates/parts/data/parts.bin`. `--check` compares instead of writing:
+//! where the packages cannot be fetched it says `SKIPPED`, unless `SENSEDSL_REQUIRE_TOOLS=1`.
+//! `--compare FOLDER` compares what the table says with ST's open pin data.
 
 mod avr;
 mod build;
+mod compare;
 mod metapac;
 mod modm;
 mod sources;
@@ -16,13 +19,19 @@ use sensedsl_parts::format;
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let check = match arguments {
         [] => false,
         [flag] if flag == "--check" => true,
-        _ => bail!("cargo xtask parts [--check]"),
+        [flag, folder] if flag == "--compare" => return compare::run(&root, Path::new(folder)),
+        _ => bail!("cargo xtask parts [--check | --compare FOLDER]"),
     };
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let sources = sources::fetch(&root.join("target/parts-sources"))?;
+    let sources = match sources::fetch(&root) {
+        Err(error) if check && !sources::required() => {
+            return super::say(&format!("SKIPPED: the sources cannot be fetched: {error:#}\n"));
+        }
+        fetched => fetched?,
+    };
     let chips = metapac::read(&sources.metapac)?;
     let devices = modm::read(&sources.modm)?;
     let avrs = avr::read(&sources.avr)?;

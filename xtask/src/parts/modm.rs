@@ -24,6 +24,13 @@ pub(crate) struct Device {
     pub(crate) places: Vec<(String, String)>,
 }
 
+impl Device {
+    /// The whole part number.
+    pub(crate) fn number(&self) -> String {
+        format!("{}{}{}{}", self.base, self.package_code, self.grade, self.variant)
+    }
+}
+
 /// The attributes that tell the devices of a file apart.
 type Identity = BTreeMap<String, String>;
 
@@ -37,11 +44,10 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Device>> {
         let schema =
             child(root, "naming-schema").and_then(|node| node.text()).context("no schema")?;
         let mut seen = BTreeSet::new();
-        for name in children(root, "valid-device").filter_map(|node| node.text()) {
-            let identity =
-                identify(root, schema, name).with_context(|| format!("{name}: {schema}"))?;
+        for identity in identities(root, schema) {
             // The cores of a device share its pins.
-            let number = name.split('@').next().unwrap_or(name).to_owned();
+            let name = spell(schema, &identity);
+            let number = name.split('@').next().unwrap_or(&name).to_owned();
             if seen.insert(number) {
                 devices.extend(device(root, &identity));
             }
@@ -58,28 +64,43 @@ fn children<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Ite
     node.children().filter(move |node| node.has_tag_name(name))
 }
 
-/// The values of the schema's fields in a name: each is one of those that the file lists.
-fn identify(root: Node<'_, '_>, schema: &str, name: &str) -> Option<Identity> {
-    fn go(root: Node<'_, '_>, schema: &str, name: &str, found: &mut Identity) -> bool {
-        if schema.is_empty() {
-            return name.is_empty();
-        }
-        if let Some((field, rest)) = schema.strip_prefix('{').and_then(|s| s.split_once('}')) {
-            let values = root.attribute(field).unwrap_or_default().split('|');
-            for value in values.filter(|value| name.starts_with(value)) {
-                found.insert(field.to_owned(), value.to_owned());
-                if go(root, rest, name.get(value.len()..).unwrap_or_default(), found) {
-                    return true;
-                }
-            }
-            return false;
-        }
-        let mut schema = schema.chars();
-        let mut name = name.chars();
-        schema.next() == name.next() && go(root, schema.as_str(), name.as_str(), found)
+/// The devices of a file: all combinations of the values that it lists for the fields of its
+/// schema, without those it calls invalid and, where it calls any valid, those alone.
+fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
+    let fields = schema.split('{').filter_map(|part| Some(part.split_once('}')?.0));
+    let mut all = vec![Identity::new()];
+    for field in fields {
+        let values = root.attribute(field).unwrap_or_default().split('|');
+        let with = |value: &str| {
+            let with = |one: &Identity| {
+                let mut one = one.clone();
+                one.insert(field.to_owned(), value.to_owned());
+                one
+            };
+            all.iter().map(with).collect::<Vec<_>>()
+        };
+        all = values.flat_map(with).collect();
     }
-    let mut found = Identity::new();
-    go(root, schema, name, &mut found).then_some(found)
+    let named =
+        |tag| -> BTreeSet<&str> { children(root, tag).filter_map(|node| node.text()).collect() };
+    let (valid, invalid) = (named("valid-device"), named("invalid-device"));
+    all.retain(|one| {
+        let name = spell(schema, one);
+        !invalid.contains(name.as_str()) && (valid.is_empty() || valid.contains(name.as_str()))
+    });
+    all.sort_by_cached_key(|one| spell(schema, one));
+    all
+}
+
+/// The name of a device.
+fn spell(schema: &str, identity: &Identity) -> String {
+    let value = |part: &str| match part.split_once('}') {
+        Some((field, rest)) => {
+            format!("{}{rest}", identity.get(field).map(String::as_str).unwrap_or_default())
+        }
+        None => part.to_owned(),
+    };
+    schema.split('{').map(value).collect()
 }
 
 /// Whether a node's `device-…` attributes let the device have it.

@@ -20,8 +20,16 @@ pub(crate) struct Sources {
     pub(crate) modm: PathBuf,
 }
 
-/// Fetches what is not there yet.
-pub(crate) fn fetch(folder: &Path) -> Result<Sources> {
+/// Whether it is a failure that something cannot be had.
+pub(crate) fn required() -> bool {
+    std::env::var_os("SENSEDSL_REQUIRE_TOOLS").is_some_and(|value| value == "1")
+}
+
+/// Fetches what is not there yet into the target folder.
+pub(crate) fn fetch(root: &Path) -> Result<Sources> {
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    let folder = &root.join(target).join("parts-sources");
     let vendor = folder.join("vendor");
     let crate_folder = |(name, _): (&str, &str)| vendor.join(name);
     let python = folder.join(format!("{}-{}", MODM.0, MODM.1));
