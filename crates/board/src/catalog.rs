@@ -54,11 +54,13 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
     folded.iter().find(|(folded, _)| folded == found).map(|(_, name)| *name)
 }
 
-/// A board with that MCU which the system can be built for: where a table of the user alone says
-/// which MCU it is, its clocks and folders are taken from there.
+/// A board with that MCU, rather one that the system can be built for: where a table of the user
+/// alone says which MCU it is, its clocks and folders are taken from there.
 #[must_use]
 pub fn of_mcu(name: &str) -> Option<&'static Entry> {
-    BOARDS.iter().find(|entry| mcu::same_part(entry.mcu, name))
+    let alike = || BOARDS.iter().filter(|entry| mcu::same_part(entry.mcu, name));
+    let built = |entry: &&Entry| entry.board().is_ok_and(|board| board.chibios.is_some());
+    alike().find(built).or_else(|| alike().next())
 }
 
 /// The part numbers of all built-in boards.
@@ -86,13 +88,13 @@ impl Entry {
         Self { name, aliases, mcu, description, facts, pins }
     }
 
-    /// The table as it is printed.
+    /// The table as it is stored. It may leave the usages to the MCU.
     #[must_use]
     pub fn csv(&self) -> &'static str {
         self.pins
     }
 
-    /// The pins; the MCU is that of the board where the table names none.
+    /// The pins as they are stored; the MCU is that of the board where the table names none.
     #[must_use]
     pub fn table(&self) -> Table {
         let mut table = load(self.pins).board;

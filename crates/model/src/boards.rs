@@ -6,8 +6,10 @@ use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0202_property_twice, e0301_unknown_board, e0302_table_unreadable,
     e0313_unknown_target, e0504_no_firmware_target, h0702_target_none, w0607_part_not_certain,
+    w0608_usages_unknown,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
+use sensedsl_parts::Completion;
 use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
 use sensedsl_wire::Checksum;
 
@@ -53,13 +55,17 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
             None,
         ));
     }
-    let link = link(file, node, context.diagnostics);
-    let pins = pins(context, file, node, &name)?;
-    let like = pins.entry.or_else(|| catalog::find(&name.value));
-    let mcu = pins.table.mcu.clone().or_else(|| like.map(|entry| entry.mcu.to_owned()));
+    let pins = pins(context, file, node, &name);
+    let entry = pins.as_ref().and_then(|pins| pins.entry);
+    let like = entry.or_else(|| catalog::find(&name.value));
+    let pins = pins.map(|pins| completed(context, pins, like));
+    let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
+    let target = pins.as_ref().and_then(|p| target(context, name.span, p.file, mcu.as_deref()));
+    let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
+    let link = link(file, node, target.as_ref(), &wired.unwrap_or_default(), context.diagnostics);
+    let (pins, target) = (pins?, target?);
     let same_mcu = || mcu.as_deref().and_then(catalog::of_mcu);
     let facts = like.filter(|entry| Some(entry.mcu) == mcu.as_deref()).or_else(same_mcu);
-    let target = target(context, name.span, pins.file, mcu.as_deref())?;
     Some(Board {
         spare: node.is_spare(),
         table: pins.table,
@@ -132,6 +138,45 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     Some(Pins { table, file, entry: None })
 }
 
+/// The pins with their usages and their MCU: that of the built-in board that the file's board is
+/// `like`, where the table names none.
+fn completed(
+    context: &mut Context<'_>,
+    mut pins: Pins,
+    like: Option<&'static catalog::Entry>,
+) -> Pins {
+    let named = pins.table.properties.iter().find(|property| property.key == "mcu");
+    let at = Span::new(pins.file, named.map_or(0..0, |property| property.range.clone()));
+    let table = &mut pins.table;
+    if table.mcu.is_none() {
+        table.mcu = like.map(|entry| entry.mcu.to_owned());
+    }
+    let mcu = table.mcu.clone();
+    let mut say = |diagnostic: Diagnostic| {
+        if !context.diagnostics.contains(&diagnostic) {
+            context.diagnostics.push(diagnostic);
+        }
+    };
+    match sensedsl_parts::complete(table) {
+        Completion::Own => {}
+        Completion::Unknown if table.pins.is_empty() => {}
+        Completion::Unknown => say(w0608_usages_unknown::no_part(at, mcu.as_deref())),
+        Completion::Part { found, strangers } => {
+            // Of a part that is known in one package alone the table tells which pins there are.
+            if found.ambiguous
+                && let Some(doubt) = found.doubt()
+            {
+                say(w0607_part_not_certain::part_not_certain(at, &doubt));
+            }
+            for pin in strangers.iter().filter_map(|name| table.pin(name)) {
+                let at = Span::new(pins.file, pin.range.clone());
+                say(w0608_usages_unknown::no_pin(at, &pin.spelled, &found.mcu));
+            }
+        }
+    }
+    pins
+}
+
 fn from_file(context: &mut Context<'_>, path: &str, at: Span) -> Option<Pins> {
     let file = match context.sources.find(path) {
         Some(file) => file,
@@ -200,10 +245,52 @@ fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>)
     }
 }
 
-fn link(file: FileId, node: &ast::Board, diagnostics: &mut Vec<Diagnostic>) -> Link {
+/// The link. Where the file says nothing it is the first that a built-in board has `wired`, else USB
+/// where the MCU has a driver for it, else a UART. A UART that the board has wired keeps its unit and
+/// its pins. Without a target there is no firmware that a link could belong to, but what is stated.
+fn link(
+    file: FileId,
+    node: &ast::Board,
+    target: Option<&Target>,
+    wired: &[catalog::Link],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Link {
+    let profile = match target {
+        Some(Target::Profile(profile)) => Some(profile),
+        Some(Target::None) | None => None,
+    };
+    let first = wired.first().map(|link| link.transport);
+    let default = match (profile, first) {
+        (Some(_), Some(profile::Transport::Uart)) => Transport::Uart,
+        (Some(profile), None) if profile.usb(None).is_none() => Transport::Uart,
+        _ => Transport::Usb,
+    };
+    let mut link = stated_link(file, node, default, diagnostics);
+    let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
+    let uart = wired.iter().find(|wired| {
+        wired.transport == profile::Transport::Uart
+            && stated.is_none_or(|stated| stated == wired.unit)
+    });
+    if link.transport == Transport::Uart
+        && let Some(uart) = uart
+    {
+        let at = span(file, node.name().map_or_else(|| node.range(), |name| name.range()));
+        link.unit.get_or_insert_with(|| Spanned { value: uart.unit.clone(), span: at });
+        link.pins.clone_from(&uart.pins);
+    }
+    link
+}
+
+/// The link as the file states it.
+fn stated_link(
+    file: FileId,
+    node: &ast::Board,
+    default: Transport,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Link {
     let mut links = node.links();
     let Some(link) = links.next() else {
-        return Link { baud: LINK_BAUD_DEFAULT, ..Link::default() };
+        return Link { transport: default, baud: LINK_BAUD_DEFAULT, ..Link::default() };
     };
     let place = |link: &ast::Link| {
         span(file, link.keyword().map_or_else(|| link.range(), |keyword| keyword.text_range()))
@@ -230,7 +317,7 @@ fn link(file: FileId, node: &ast::Board, diagnostics: &mut Vec<Diagnostic>) -> L
             meant,
         ));
     }
-    let transport = transport.map(|word| word.value).unwrap_or_default();
+    let transport = transport.map_or(default, |word| word.value);
     if transport == Transport::Usb
         && let Some(baud) = baud
     {
@@ -238,6 +325,7 @@ fn link(file: FileId, node: &ast::Board, diagnostics: &mut Vec<Diagnostic>) -> L
     }
     Link {
         transport,
+        pins: Vec::new(),
         unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
         baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
         checksum: checksum.map(|word| word.value).unwrap_or_default(),

@@ -93,6 +93,8 @@ pub struct Link {
     pub transport: Transport,
     /// The UART of `transport = uart`.
     pub unit: Option<Spanned<String>>,
+    /// TX and RX of `transport = uart` where the board has wired them; empty where any will do.
+    pub pins: Vec<PinName>,
     /// Bits per second of `transport = uart`.
     pub baud: u32,
     /// Whether frames end with a checksum.

@@ -3,8 +3,10 @@
 //! The facts are one compressed table, made by `cargo xtask parts` from packages of public
 //! registries (see `data/README.md`); RP2040 and RP2350 are rules. The table is unpacked at the
 //! first question. This crate stands beside the built-in boards of `sensedsl-board`, on which it
-//! depends: who looks for a name asks there first and here second.
+//! depends: who looks for a name asks there first and here second. A table that lists no usages takes
+//! them from here.
 
+mod complete;
 mod find;
 pub mod format;
 mod listing;
@@ -13,6 +15,7 @@ mod sheet;
 
 use std::sync::OnceLock;
 
+pub use complete::{Completion, complete};
 pub use find::{Found, find, nearest_name};
 pub use listing::{Part, all};
 pub use sheet::{Sheet, Usage};

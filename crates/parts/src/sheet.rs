@@ -79,13 +79,29 @@ impl Sheet {
         rows.map(|(name, row)| (name, row.position.as_deref(), row.usages.as_slice()))
     }
 
+    /// The position and the usages of a pin.
+    #[must_use]
+    pub fn pin(&self, name: &PinName) -> Option<(Option<&str>, &[Usage])> {
+        let row = self.rows.get(name)?;
+        Some((row.position.as_deref(), row.usages.as_slice()))
+    }
+
     /// Whether several pins are on one contact of the package.
     #[must_use]
     pub fn shares(&self) -> bool {
+        !self.shared().is_empty()
+    }
+
+    /// The contacts of the package that several pins are on.
+    #[must_use]
+    pub fn shared(&self) -> Vec<&str> {
         let mut places: Vec<&str> =
             self.rows.values().filter_map(|row| row.position.as_deref()).collect();
         places.sort_unstable();
-        places.windows(2).any(|pair| pair.first() == pair.last())
+        let twice = places.windows(2).filter(|pair| pair.first() == pair.last());
+        let mut shared: Vec<&str> = twice.filter_map(|pair| pair.first().copied()).collect();
+        shared.dedup();
+        shared
     }
 
     /// What a wiring can depend on: the pins, their usages, and which pins share a place. Sheets
@@ -139,7 +155,12 @@ impl Sheet {
     }
 }
 
-fn column_of(signal: &str) -> &'static str {
+/// The names of the columns of usages, in order.
+pub(crate) fn columns() -> impl Iterator<Item = &'static str> {
+    COLUMNS.iter().map(|(column, _)| *column)
+}
+
+pub(crate) fn column_of(signal: &str) -> &'static str {
     let fits = |starts: &[&str]| starts.iter().any(|start| signal.starts_with(start));
     COLUMNS.iter().find(|(_, starts)| fits(starts)).map_or("Other", |(column, _)| column)
 }

@@ -44,10 +44,17 @@ impl<'a> Wanted<'a> {
         }
     }
 
-    pub(crate) fn link(board: BoardIndex, kind: &'a Kind, unit: Option<&'a str>) -> Self {
+    /// A serial link; `pins` are TX and RX where the board has wired them.
+    pub(crate) fn link(
+        board: BoardIndex,
+        kind: &'a Kind,
+        unit: Option<&'a str>,
+        pins: &[PinName],
+    ) -> Self {
         let boards = vec![board];
         let direction = Direction::Sensor;
-        let (pins, side, header) = (Vec::new(), None, None);
+        let pins = [Role::Tx, Role::Rx].into_iter().zip(pins.iter().cloned()).collect();
+        let (side, header) = (None, None);
         Self { kind, direction, boards, pins, unit, side, header, wishes: &[] }
     }
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::pin::natural;
-use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Transport};
+use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Link, Transport};
 use sensedsl_model::kind::{Kind, uart};
 use sensedsl_solve::problem::{
     self as solver, BoardId, DmaRequest, DmaUser, DmaUserId, PinId, Problem, RuleId, SignalId,
@@ -164,8 +164,9 @@ pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulat
         .iter()
         .enumerate()
         .map(|(index, device)| (Asker::Device(DeviceIndex(index)), wanted(design, device)));
-    let of_links = links.iter().map(|(board, kind, unit)| {
-        (Asker::Link(*board), Wanted::link(*board, kind, unit.as_deref()))
+    let of_links = links.iter().map(|(board, kind, link)| {
+        let unit = link.unit.as_ref().map(|unit| unit.value.as_str());
+        (Asker::Link(*board), Wanted::link(*board, kind, unit, &link.pins))
     });
     for (asker, wanted) in of_devices.chain(of_links) {
         let (mut list, meaning) = alternatives(&mut builder, &offers, &wanted);
@@ -252,14 +253,11 @@ fn signal_ranks(design: &Design) -> BTreeMap<String, u32> {
 }
 
 /// The boards whose link needs wires of the table, as serial ports.
-fn links(design: &Design) -> Vec<(BoardIndex, Kind, Option<String>)> {
-    let serial = |(index, board): (usize, &Board)| {
-        if board.link.transport != Transport::Uart {
-            return None;
-        }
-        let kind = Kind::Uart(uart::Uart::link(board.link.baud));
-        let unit = board.link.unit.as_ref().map(|unit| unit.value.clone());
-        Some((BoardIndex(index), kind, unit))
-    };
-    design.boards.iter().enumerate().filter_map(serial).collect()
+fn links(design: &Design) -> Vec<(BoardIndex, Kind, &Link)> {
+    let boards = design.boards.iter().enumerate();
+    let serial = boards.filter(|(_, board)| board.link.transport == Transport::Uart);
+    let wanted = serial.map(|(index, board)| {
+        (BoardIndex(index), Kind::Uart(uart::Uart::link(board.link.baud)), &board.link)
+    });
+    wanted.collect()
 }

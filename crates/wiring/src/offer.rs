@@ -123,7 +123,8 @@ fn withheld(board: &Board, pin: &Pin) -> Option<Withheld> {
     if profile.is_some_and(|profile| is_of_usb_link(board, profile, pin)) {
         return Some(Withheld::Link);
     }
-    if released(board, pin) {
+    // The part at the other end of a wired link is what the link talks to.
+    if released(board, pin) || board.link.pins.contains(&pin.name) {
         return None;
     }
     if let Some(part) = &pin.onboard

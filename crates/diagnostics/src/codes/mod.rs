@@ -79,6 +79,7 @@ codes! {
     w0605_onboard_part,
     w0606_table_oddity,
     w0607_part_not_certain,
+    w0608_usages_unknown,
     h0701_eight_bit_address,
     h0702_target_none,
     h0703_default_protocol,

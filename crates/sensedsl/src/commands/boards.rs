@@ -2,6 +2,7 @@
 
 use anyhow::{Result, bail};
 use sensedsl_board::catalog;
+use sensedsl_parts::Completion;
 
 use crate::Status;
 use crate::cli::BoardsArgs;
@@ -27,6 +28,11 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("there is no built-in board {name}{meant} (`sensedsl boards` lists them)");
     };
-    terminal.result(board.csv())?;
+    let mut table = board.table();
+    let printed = match sensedsl_parts::complete(&mut table) {
+        Completion::Part { .. } => table.to_csv(),
+        Completion::Own | Completion::Unknown => board.csv().to_owned(),
+    };
+    terminal.result(&printed)?;
     Ok(Status::Done)
 }

@@ -1,0 +1,70 @@
+//! Usages for a table that lists none: a board table in, the same table with what its MCU's pins
+//! can be used for out.
+
+use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::Signal;
+use sensedsl_board::table::{Column, Property, Role, Table, Usage};
+
+use crate::find::{Found, find};
+use crate::sheet::{column_of, columns};
+
+/// What became of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Completion {
+    /// It lists usages itself, and stays as it is.
+    Own,
+    /// It lists none, and its MCU is not a known part.
+    Unknown,
+    /// It has the usages of its MCU.
+    Part {
+        /// The part.
+        found: Box<Found>,
+        /// Pins of the table that the part does not have.
+        strangers: Vec<PinName>,
+    },
+}
+
+/// Gives a table without a column of usages those of the MCU. A usage points to the cell of its
+/// pin. Pins that share a contact of the package get its position, unless the table has positions
+/// of its own, so that they exclude each other.
+#[must_use]
+pub fn complete(table: &mut Table) -> Completion {
+    if table.columns.iter().any(|column| column.role == Role::Usages) {
+        return Completion::Own;
+    }
+    let Some(found) = table.mcu.as_deref().and_then(find) else { return Completion::Unknown };
+    // What is printed says of which MCU the usages are.
+    if table.property("mcu").is_none() {
+        let value = table.mcu.clone().unwrap_or_default();
+        table.properties.push(Property { key: "mcu".to_owned(), value, range: 0..0 });
+    }
+    let places = !table.columns.iter().any(|column| column.role == Role::Position);
+    let shared = if places { found.sheet.shared() } else { Vec::new() };
+    let mut strangers = Vec::new();
+    for pin in &mut table.pins {
+        let Some((position, usages)) = found.sheet.pin(&pin.name) else {
+            strangers.push(pin.name.clone());
+            continue;
+        };
+        if let Some(position) = position.filter(|position| shared.contains(position)) {
+            pin.position = Some(position.to_owned());
+        }
+        for column in columns() {
+            let of_column = usages.iter().filter(|(signal, _)| column_of(signal) == column);
+            pin.usages.extend(of_column.map(|(spelled, alternate)| Usage {
+                spelled: spelled.clone(),
+                signal: Signal::parse(spelled).0,
+                alternate: *alternate,
+                column: column.to_owned(),
+                range: pin.range.clone(),
+            }));
+        }
+    }
+    let added = columns().map(|header| (header, Role::Usages));
+    let place = (!shared.is_empty()).then_some(("Position", Role::Position));
+    let new = place.into_iter().chain(added);
+    let column =
+        |(header, role): (&str, Role)| Column { header: header.to_owned(), role, range: 0..0 };
+    table.columns.extend(new.map(column));
+    Completion::Part { found: Box::new(found), strangers }
+}
