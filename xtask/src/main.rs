@@ -34,7 +34,7 @@ fn run() -> Result<()> {
 const BLESSED: &[(&str, &[&str])] = &[
     ("sensedsl-board", &["registry"]),
     ("sensedsl-diagnostics", &["reference", "render"]),
-    ("sensedsl-tests", &["corpus", "golden", "messages"]),
+    ("sensedsl-tests", &["boards_page", "corpus", "golden", "messages"]),
 ];
 
 fn bless() -> Result<()> {

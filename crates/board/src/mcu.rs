@@ -22,6 +22,19 @@ pub fn is_plausible(spelled: &str) -> bool {
     shaped && model.is_some_and(|model| model.contains(|c: char| c.is_ascii_digit()))
 }
 
+/// The family: `STM32F4` of `STM32F407VGT6`, `ATMEGA` of `ATMEGA2560-16AU`, `RP2040` of itself.
+#[must_use]
+pub fn family(name: &str) -> &str {
+    let start =
+        STARTS.iter().find(|start| name.starts_with(**start)).map_or(0, |start| start.len());
+    let end = match name.get(..start) {
+        Some("STM32") => start + 2,
+        Some("RP20" | "RP23") => start + 2,
+        _ => start,
+    };
+    name.get(..end).filter(|family| !family.is_empty()).unwrap_or(name)
+}
+
 /// True when one name is the other with more of the ordering code, where `X` stands for any
 /// letter: `STM32F407VG` and `STM32F407VGTx` both mean `STM32F407VGT6`.
 #[must_use]
@@ -48,6 +61,16 @@ mod tests {
         for name in ["", "STM32", "F407", "SMT32F407VG", "STM32 F407", "Discovery"] {
             assert!(!is_plausible(name), "{name}");
         }
+    }
+
+    #[test]
+    fn families() {
+        assert_eq!(family("STM32F407VGT6"), "STM32F4");
+        assert_eq!(family("STM32WB55RGV6"), "STM32WB");
+        assert_eq!(family("ATMEGA328P-PU"), "ATMEGA");
+        assert_eq!(family("RP2350A"), "RP2350");
+        assert_eq!(family("Z80"), "Z80");
+        assert_eq!(family("STM32"), "STM32");
     }
 
     #[test]

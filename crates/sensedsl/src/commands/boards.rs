@@ -1,26 +1,19 @@
 //! `sensedsl boards`: what is built in.
 
 use anyhow::{Result, bail};
-use sensedsl_board::catalog;
+use sensedsl_board::profile::{self, Target, Transport};
+use sensedsl_board::table::Occupation;
+use sensedsl_board::{catalog, mcu};
 use sensedsl_parts::Completion;
 
+use super::table::table;
 use crate::Status;
 use crate::cli::BoardsArgs;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(name) = &args.name else {
-        let search = args.search.as_deref().unwrap_or_default().to_lowercase();
-        let found = |board: &&catalog::Entry| {
-            let names = board.aliases.iter().chain([&board.name, &board.mcu, &board.description]);
-            names.map(|name| name.to_lowercase()).any(|name| name.contains(&search))
-        };
-        let boards = || catalog::all().iter().filter(found);
-        let width = boards().map(|board| board.name.len()).max().unwrap_or_default();
-        let lines = boards().map(|board| {
-            format!("{:width$}  {:14}  {}\n", board.name, board.mcu, board.description)
-        });
-        terminal.result(&lines.collect::<String>())?;
+        terminal.result(&listing(args.search.as_deref().unwrap_or_default()))?;
         return Ok(Status::Done);
     };
     let Some(board) = catalog::find(name) else {
@@ -31,8 +24,71 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
     let mut table = board.table();
     let printed = match sensedsl_parts::complete(&mut table) {
         Completion::Part { .. } => table.to_csv(),
+        // What lists its usages is printed as it stands.
         Completion::Own | Completion::Unknown => board.csv().to_owned(),
     };
     terminal.result(&printed)?;
     Ok(Status::Done)
+}
+
+/// The boards with all words of `search` somewhere in what is known of them.
+fn listing(search: &str) -> String {
+    let search = search.to_lowercase();
+    let found = |board: &catalog::Entry, row: &[String; 8]| {
+        let names = board.aliases.iter().copied().chain([board.name, board.description]);
+        let cells = names.chain(row.iter().map(String::as_str)).map(str::to_lowercase);
+        let text = cells.collect::<Vec<_>>().join("\n");
+        search.split_whitespace().all(|word| text.contains(word))
+    };
+    let rows = catalog::all().iter().map(|board| (board, row(board)));
+    let rows: Vec<[String; 8]> =
+        rows.filter(|(board, row)| found(board, row)).map(|(_, row)| row).collect();
+    let heads = [
+        ("Board", false),
+        ("Family", false),
+        ("MCU", false),
+        ("Package", false),
+        ("Pins", true),
+        ("Free", true),
+        ("Link", false),
+        ("Firmware", false),
+    ];
+    let count = match rows.len() {
+        1 => "1 board".to_owned(),
+        some => format!("{some} boards"),
+    };
+    format!("{}\n{count}; `sensedsl boards NAME` prints the pins of one\n", table(heads, &rows))
+}
+
+fn row(board: &catalog::Entry) -> [String; 8] {
+    let pins = board.table().pins;
+    let is_free = |pin: &&sensedsl_board::table::Pin| {
+        pin.onboard.as_ref().is_none_or(|part| part.how != Occupation::Taken)
+    };
+    let free = pins.iter().filter(is_free).count();
+    let package = sensedsl_parts::find(board.mcu).and_then(|found| found.package());
+    let facts = board.board().ok();
+    let links = facts.iter().flat_map(|facts| &facts.link).map(|link| match link.transport {
+        Transport::Uart => link.unit.as_str(),
+        Transport::Usb => "USB",
+    });
+    let links: Vec<&str> = links.collect();
+    // Firmware takes a profile of the MCU's family and the tree's folders for the board.
+    let firmware = match profile::find(profile::DEFAULT, board.mcu) {
+        Ok(Target::Profile(profile)) if facts.as_ref().is_some_and(|f| f.chibios.is_some()) => {
+            profile.name
+        }
+        _ => "-".to_owned(),
+    };
+    let or_dash = |text: &str| if text.is_empty() { "-" } else { text }.to_owned();
+    [
+        board.name.to_owned(),
+        mcu::family(board.mcu).to_owned(),
+        board.mcu.to_owned(),
+        or_dash(package.unwrap_or_default()),
+        pins.len().to_string(),
+        free.to_string(),
+        or_dash(&links.join(" ")),
+        firmware,
+    ]
 }
