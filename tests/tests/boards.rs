@@ -266,6 +266,17 @@ fn the_printed_table_is_whole() {
     assert_eq!(printed, text("boards/STM32F4DiscoveryBoard/pins.csv"));
 }
 
+/// The picture stands as the board does: by connector and place, with what is printed there.
+#[test]
+fn the_picture_shows_the_connectors() {
+    let file = fig2_on(catalog::find("NUCLEO-F411RE").unwrap());
+    let svg = sensedsl(["solve", "-", "-q", "--format", "svg"]).stdin(file).run().exits(0).stdout;
+    let at = |text: &str| svg.find(text).unwrap_or_else(|| panic!("{text} is not shown"));
+    assert!(at("CN7.4<") < at("CN7.13<"), "by number");
+    assert!(at("CN7.38<") < at("CN10.1<"), "the left edge comes first");
+    assert!(at(">PA0<") < at(">A0  CN7.28<"));
+}
+
 #[test]
 fn boards_are_found_by_what_is_known_of_them() {
     let listed = |words: &str| -> Vec<String> {

@@ -79,7 +79,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("NUCLEO-L053R8", &["ST_NUCLEO64_L053R8", "NUCLEO64-L053R8"], "STM32L053R8T6", "Nucleo-64 L053R8, all pins of its MCU"),
     board!("NUCLEO-L073RZ", &["ST_NUCLEO64_L073RZ", "NUCLEO64-L073RZ"], "STM32L073RZT6", "Nucleo-64 L073RZ, all pins of its MCU"),
     board!("NUCLEO-L152RE", &["ST_NUCLEO64_L152RE", "NUCLEO64-L152RE"], "STM32L152RET6", "Nucleo-64 L152RE, the pins of its Morpho connectors"),
-    board!("NUCLEO-L432KC", &["ST_NUCLEO32_L432KC", "NUCLEO32-L432KC"], "STM32L432KC", "Nucleo-32 L432KC, the pins of its Nano connectors"),
+    board!("NUCLEO-L432KC", &["ST_NUCLEO32_L432KC", "NUCLEO32-L432KC"], "STM32L432KCU6", "Nucleo-32 L432KC, the pins of its Nano connectors"),
     board!("NUCLEO-L452RE-P", &["ST_NUCLEO64_L452RE_P", "NUCLEO64-L452RE-P"], "STM32L452RET6P", "Nucleo-64 L452RE, the pins of its Morpho connectors"),
     board!("NUCLEO-L476RG", &["ST_NUCLEO64_L476RG", "NUCLEO64-L476RG"], "STM32L476RGT6", "Nucleo-64 L476RG, all pins of its MCU"),
     board!("NUCLEO-L496ZG", &["ST_NUCLEO144_L496ZG", "NUCLEO144-L496ZG"], "STM32L496ZGT6", "Nucleo-144 L496ZG, all pins of its MCU"),
@@ -109,7 +109,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("STM32L476G-DISCO", &["ST_STM32L476_DISCOVERY"], "STM32L476VGT6", "STM32L476G-DISCO, Discovery kit, all pins of its MCU"),
     board!("STM32L0538-DISCO", &["ST_STM32L053_DISCOVERY"], "STM32L053C8T6", "STM32L0538-DISCO, Discovery kit, all pins of its MCU"),
     board!("STM32L-DISCOVERY", &["ST_STM32L_DISCOVERY"], "STM32L152RBT6", "STM32L-DISCOVERY, Discovery kit, all pins of its MCU"),
-    board!("STM32VLDISCOVERY", &["ST_STM32VL_DISCOVERY"], "STM32F100RB", "STM32VLDISCOVERY, Discovery kit, all pins of its MCU"),
+    board!("STM32VLDISCOVERY", &["ST_STM32VL_DISCOVERY"], "STM32F100RBT6", "STM32VLDISCOVERY, Discovery kit, all pins of its MCU"),
 ];
 
 #[rustfmt::skip]

@@ -1,10 +1,13 @@
 //! A picture of each board: its pins along two edges, the used ones with what they are used for.
 //!
 //! Pins stand on the side the table gives them (`left` or `right` by name, otherwise the first half
-//! of the natural order on the left), in natural order.
+//! of the natural order on the left), in natural order; where the table tells their places at a
+//! connector, in the order of those. Beside its name stands what is printed beside the pin.
 
+use std::cmp::Ordering;
 use std::fmt::Write as _;
 
+use sensedsl_board::pin::natural;
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
@@ -15,6 +18,8 @@ const ROW_HEIGHT: usize = 22;
 const HEAD_HEIGHT: usize = 64;
 const CHIP_WIDTH: usize = 220;
 const LABEL_WIDTH: usize = 330;
+/// From the edge to the place of a pin, past the longest name.
+const PLACE_INSET: usize = 54;
 const MARGIN: usize = 20;
 const LEGEND_HEIGHT: usize = 30;
 const WIDTH: usize = 2 * LABEL_WIDTH + CHIP_WIDTH + 2 * MARGIN;
@@ -106,7 +111,10 @@ fn board_picture(
 
 /// The pins of the two edges.
 fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
-    let pins: Vec<&Pin> = board.table.pins.iter().collect();
+    let mut pins: Vec<&Pin> = board.table.pins.iter().collect();
+    if pins.iter().any(|pin| pin.header.is_some() && pin.position.is_some()) {
+        pins.sort_by(|a, b| in_rows(a, b));
+    }
     let side = |pin: &Pin| pin.side.as_deref().map(str::to_lowercase);
     if pins.iter().any(|pin| side(pin).is_some()) {
         let first = pins.iter().find_map(|pin| side(pin));
@@ -119,6 +127,27 @@ fn edges(board: &Board) -> (Vec<&Pin>, Vec<&Pin>) {
     let half = pins.len().div_ceil(2);
     let (left, right) = pins.split_at(half.min(pins.len()));
     (left.to_vec(), right.to_vec())
+}
+
+/// By connector and place at it; what has no place comes last.
+fn in_rows(a: &Pin, b: &Pin) -> Ordering {
+    let text = |text: &Option<String>| text.clone().unwrap_or_default();
+    let placed = |pin: &Pin| pin.header.is_none() || pin.position.is_none();
+    placed(a)
+        .cmp(&placed(b))
+        .then_with(|| natural(&text(&a.header), &text(&b.header)))
+        .then_with(|| natural(&text(&a.position), &text(&b.position)))
+        .then_with(|| a.name.cmp(&b.name))
+}
+
+/// What is printed beside a pin, and its place at a connector.
+fn place(pin: &Pin) -> String {
+    let at = match (&pin.header, &pin.position) {
+        (Some(header), Some(position)) => Some(format!("{header}.{position}")),
+        _ => None,
+    };
+    let words: Vec<String> = pin.label.iter().cloned().chain(at).collect();
+    cut(&words.join("  "), 16)
 }
 
 fn pin_picture(out: &mut String, y: usize, on_left: bool, pin: &Pin, uses: &[&Row]) {
@@ -144,6 +173,15 @@ fn pin_picture(out: &mut String, y: usize, on_left: bool, pin: &Pin, uses: &[&Ro
         "<text x=\"{name_x}\" y=\"{baseline}\" text-anchor=\"{name_anchor}\" \
          font-weight=\"{weight}\" fill=\"{ink}\">{name}</text>"
     );
+    let place = escaped(&place(pin));
+    if !place.is_empty() {
+        let place_x = if on_left { edge + PLACE_INSET } else { edge - PLACE_INSET };
+        let _ = writeln!(
+            out,
+            "<text x=\"{place_x}\" y=\"{baseline}\" text-anchor=\"{name_anchor}\" \
+             font-size=\"9\" fill=\"{ink}\">{place}</text>"
+        );
+    }
     let (label_x, anchor) = if on_left { (edge - 16, "end") } else { (edge + 16, "start") };
     let text = label(pin, uses);
     let size = if uses.is_empty() { 10 } else { 12 };
