@@ -292,3 +292,41 @@ fn boards_are_found_by_what_is_known_of_them() {
     let all = sensedsl(["boards"]).run().exits(0).stdout;
     assert!(all.lines().count() > 80 && all.lines().all(|line| line.chars().count() <= 110));
 }
+
+/// The wires of the link by pin, as `solve` tells them.
+fn link_of(on: &str, link: &str, arguments: &[&str]) -> Vec<String> {
+    let device = "sensor A returns uint16 { id = 1; type = analog; }";
+    let file = format!("board B on {on} {{ {link} {device} }}");
+    let call = [&["solve", "-", "-q", "--format", "csv"], arguments].concat();
+    let ran = sensedsl(call).stdin(file).run().exits(0);
+    let wires = ran.stdout.lines().filter(|line| line.starts_with("B,link,"));
+    wires.map(|line| line.split(',').skip(5).take(2).collect::<Vec<_>>().join(" ")).collect()
+}
+
+#[test]
+fn a_board_is_linked_by_what_it_has_wired() {
+    let probe = ["PA2 USART2_TX", "PA3 USART2_RX"];
+    assert_eq!(link_of("NUCLEO_F411RE", "", &[]), probe);
+    assert_eq!(link_of("NUCLEO_F411RE", "link { transport = uart; baud = 9600; }", &[]), probe);
+    assert_eq!(link_of("NUCLEO_F411RE", "link { transport = usb; }", &[]), [""; 0]);
+    let other = link_of("NUCLEO_F411RE", "link { transport = uart; unit = USART1; }", &[]);
+    assert!(other.len() == 2 && other[0].ends_with("USART1_TX"), "{other:?}");
+    // A pure pin model has no link but a stated one.
+    assert_eq!(link_of("NUCLEO_F411RE", "", &["--target", "none"]), [""; 0]);
+    // USB first, where the board has its socket; a port of any pins, where the MCU has no USB.
+    assert_eq!(link_of("STM32F401C_DISCO", "", &[]), [""; 0]);
+    assert_eq!(link_of("STM32F410RBT6", "", &[]).len(), 2);
+    assert_eq!(link_of("STM32F411RET6", "", &[]), [""; 0]);
+}
+
+#[test]
+fn the_pins_of_the_probe_are_taken_without_its_link() {
+    let file = "board B on NUCLEO_F411RE {
+        link { transport = usb; }
+        sensor A returns uint16 { id = 1; type = analog; pin = PA3; }
+    }";
+    let ran = sensedsl(["solve", "-", "-q"]).stdin(file).run().exits(1);
+    assert!(ran.stderr.contains("ST-LINK VCP"), "{}", ran.stderr);
+    let free = file.replace("sensor", "release PA3; sensor");
+    let _ = sensedsl(["solve", "-", "-q"]).stdin(free).run().exits(0);
+}
