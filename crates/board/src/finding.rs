@@ -74,7 +74,8 @@ pub enum FindingKind {
         /// The known spelling that was probably meant.
         nearest: Option<String>,
     },
-    /// An alternate function that is no number from 0 to 15.
+    /// An alternate function that is no number from 0 to 15, or remap blocks that are none from 0
+    /// to 7.
     BadAlternate {
         /// As the table spells it.
         spelled: String,

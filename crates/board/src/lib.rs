@@ -13,5 +13,6 @@ pub mod mcu;
 pub mod pin;
 pub mod profile;
 mod registry;
+pub mod remap;
 pub mod signal;
 pub mod table;

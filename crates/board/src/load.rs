@@ -12,6 +12,7 @@ use crate::cells::{self, Cell, Sheet};
 use crate::finding::{Finding, FindingKind};
 use crate::mcu;
 use crate::pin::PinName;
+use crate::remap::Blocks;
 use crate::signal::Signal;
 use crate::table::{Column, Loaded, Occupation, Onboard, Pin, Property, Role, Table, Usage};
 
@@ -292,9 +293,16 @@ impl Loader<'_> {
                 Some((spelled, number)) => (spelled.to_owned(), Some(number)),
                 None => (text.clone(), None),
             };
+            let (spelled, remap) = match spelled.split_once('#') {
+                Some((spelled, remap)) => (spelled.to_owned(), Some(remap.to_owned())),
+                None => (spelled, None),
+            };
             let number = alternate.and_then(alternate_number);
+            let blocks = remap.as_deref().and_then(Blocks::parse);
             let unnamed = matches!(spelled.as_str(), "" | "-");
-            if unnamed || (alternate.is_some() && number.is_none()) {
+            let unread =
+                alternate.is_some() && number.is_none() || remap.is_some() && blocks.is_none();
+            if unnamed || unread {
                 let kind = FindingKind::BadAlternate { spelled: text.clone() };
                 self.report(kind, &range, Some(&column.header));
             }
@@ -316,7 +324,7 @@ impl Loader<'_> {
                 continue;
             }
             let column = column.header.clone();
-            pin.usages.push(Usage { spelled, signal, alternate: number, column, range });
+            pin.usages.push(Usage { spelled, signal, alternate: number, blocks, column, range });
         }
     }
 

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use crate::finding::Finding;
 use crate::pin::PinName;
+use crate::remap::Blocks;
 use crate::signal::Signal;
 
 /// A table and what is to be said about it.
@@ -154,12 +155,14 @@ impl Pin {
 /// One thing a pin can be used for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usage {
-    /// As the table spells it, without the alternate-function number: `ADC12-IN8`.
+    /// As the table spells it, without remap blocks and alternate-function number: `ADC12-IN8`.
     pub spelled: String,
     /// What it means.
     pub signal: Signal,
     /// The number of the alternate function, where the table gives it.
     pub alternate: Option<u8>,
+    /// The remap blocks of its peripheral in which it is on this pin; none where it always is.
+    pub blocks: Option<Blocks>,
     /// The header of the column it stands in.
     pub column: String,
     /// The bytes of the usage.
@@ -256,9 +259,11 @@ fn cell(pin: &Pin, column: &Column) -> String {
         Role::Usages => {
             let usages = pin.usages.iter().filter(|usage| usage.column == column.header);
             let usages: Vec<String> = usages
-                .map(|usage| match usage.alternate {
-                    Some(alternate) => format!("{}@{alternate}", usage.spelled),
-                    None => usage.spelled.clone(),
+                .map(|usage| {
+                    let blocks = usage.blocks.map_or(String::new(), |blocks| format!("#{blocks}"));
+                    let number =
+                        usage.alternate.map_or(String::new(), |number| format!("@{number}"));
+                    format!("{}{blocks}{number}", usage.spelled)
                 })
                 .collect();
             if usages.is_empty() { "-".to_owned() } else { usages.join(" ") }

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::{Column, Onboard, Pin, Property, Role, Table, Usage};
 
@@ -142,13 +143,14 @@ fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
     let mut converters: BTreeMap<u8, Vec<u8>> = BTreeMap::new();
     let mut usages: Vec<Usage> = Vec::new();
     for (spelled, alternate) in list {
-        let (signal, _) = Signal::parse(&spelled);
+        let (spelled, blocks) = Blocks::split(&spelled);
+        let (signal, _) = Signal::parse(spelled);
         if let Function::Adc { units, channel } = signal.function() {
             converters.entry(*channel).or_default().extend(units);
         } else if let Some(known) = usages.iter_mut().find(|known| known.signal == signal) {
             known.alternate = known.alternate.or(alternate);
         } else {
-            usages.push(usage(signal, spelled, alternate));
+            usages.push(Usage { blocks, ..usage(signal, spelled.to_owned(), alternate) });
         }
     }
     for (channel, mut units) in converters {
@@ -163,7 +165,8 @@ fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
 }
 
 fn usage(signal: Signal, spelled: String, alternate: Option<u8>) -> Usage {
-    Usage { column: column(&signal).into(), signal, spelled, alternate, range: 0..0 }
+    let column = column(&signal).into();
+    Usage { column, signal, spelled, alternate, blocks: None, range: 0..0 }
 }
 
 #[cfg(test)]

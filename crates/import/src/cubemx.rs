@@ -144,7 +144,7 @@ fn largest(reference: &str) -> String {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Route {
     alternate: Option<u8>,
-    /// The numbers of the remap blocks, on the F1 family.
+    /// The remap blocks, on the F1 family, as the register counts them.
     remaps: Vec<String>,
 }
 
@@ -169,8 +169,7 @@ fn route(signal: &Node<'_, '_>) -> Route {
     for child in signal.children().filter(Node::is_element) {
         if is(&child, "RemapBlock") {
             let block = child.attribute("Name").unwrap_or_default();
-            let number = block.rsplit_once("REMAP").map_or(block, |(_, number)| number);
-            route.remaps.push(number.to_owned());
+            route.remaps.extend(remap_block(block));
         } else if child.attribute("Name") == Some("GPIO_AF") {
             let value = child.children().find(|node| is(node, "PossibleValue"));
             let text = value.and_then(|value| value.text()).unwrap_or_default();
@@ -181,6 +180,19 @@ fn route(signal: &Node<'_, '_>) -> Route {
         }
     }
     route
+}
+
+/// The register's number of a block such as `TIM3_REMAP1`. The file counts the blocks there are; in
+/// the register some numbers are left out.
+fn remap_block(name: &str) -> Option<String> {
+    let (unit, number) = name.split_once("_REMAP")?;
+    let number: usize = number.parse().ok()?;
+    let numbers = match unit {
+        "TIM1" | "USART3" => [0, 1, 3, 3],
+        "TIM3" | "CAN" | "CAN1" => [0, 2, 3, 3],
+        _ => [0, 1, 2, 3],
+    };
+    numbers.get(number).map(u8::to_string)
 }
 
 struct Reader<'m> {
@@ -258,7 +270,6 @@ impl Reader<'_> {
         let routes = self.functions.get(&name);
         let mut row = Row::new(name);
         row.position = node.attribute("Position").map(str::to_owned);
-        let mut remaps = Vec::new();
         for signal in node.children().filter(|child| is(child, "Signal")) {
             let signal = signal.attribute("Name").unwrap_or_default();
             if signal == "GPIO" || signal.is_empty() || is_trigger(signal) {
@@ -266,13 +277,10 @@ impl Reader<'_> {
             }
             let spelled = spelled(signal);
             let route = routes.and_then(|routes| routes.get(signal));
-            if let Some(blocks) = route.map(|route| &route.remaps).filter(|all| !all.is_empty()) {
-                remaps.push(format!("{spelled}={}", blocks.join("|")));
-            }
-            row.usages.push((spelled, route.and_then(|route| route.alternate)));
-        }
-        if !remaps.is_empty() {
-            row.note = Some(format!("remap {}", remaps.join(" ")));
+            let blocks = route.map(|route| &route.remaps).filter(|all| !all.is_empty());
+            let blocks = blocks.map_or(String::new(), |all| format!("#{}", all.join("|")));
+            let alternate = route.and_then(|route| route.alternate);
+            row.usages.push((format!("{spelled}{blocks}"), alternate));
         }
         row
     }

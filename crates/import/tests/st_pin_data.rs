@@ -133,12 +133,14 @@ fn pads_that_pins_share_have_one_position() {
 }
 
 #[test]
-fn remap_blocks_of_an_f1_are_in_its_notes() {
+fn remap_blocks_of_an_f1_are_at_its_usages() {
     let Some(data) = data() else { return };
     let made = imported(&data.join("mcu/STM32F103C(8-B)Tx.xml"));
     let chip = table::load(&made.table.unwrap()).board;
     let pb6 = chip.pin(&sensedsl_board::pin::PinName::parse("PB6").unwrap()).unwrap();
-    assert_eq!(pb6.note.as_deref(), Some("remap I2C1_SCL=0 TIM4_CH1=0 USART1_TX=1"));
+    let blocks = |usage: &table::Usage| Some(format!("{}#{}", usage.signal.name(), usage.blocks?));
+    let blocks: Vec<String> = pb6.usages.iter().filter_map(blocks).collect();
+    assert_eq!(blocks, ["I2C1_SCL#0", "TIM4_CH1#0", "USART1_TX#1"]);
 }
 
 /// The one table that an imported project has.

@@ -44,8 +44,12 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
             e0306_table_signal::table_signal(at, row, column, spelled, nearest.as_deref())
         }
         Kind::BadAlternate { spelled } => {
-            e0306_table_signal::table_signal(at, row, column, spelled, None)
-                .here("the number behind `@` is an alternate function from 0 to 15")
+            let here = if spelled.contains('#') {
+                "behind `#` are remap blocks from 0 to 7, as in `#0|2`"
+            } else {
+                "the number behind `@` is an alternate function from 0 to 15"
+            };
+            e0306_table_signal::table_signal(at, row, column, spelled, None).here(here)
         }
         Kind::UnnamedColumn
         | Kind::BadQuote

@@ -2,6 +2,7 @@
 //! can be used for out.
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::Signal;
 use sensedsl_board::table::{Column, Property, Role, Table, Usage};
 
@@ -51,12 +52,16 @@ pub fn complete(table: &mut Table) -> Completion {
         }
         for column in columns() {
             let of_column = usages.iter().filter(|(signal, _)| column_of(signal) == column);
-            pin.usages.extend(of_column.map(|(spelled, alternate)| Usage {
-                spelled: spelled.clone(),
-                signal: Signal::parse(spelled).0,
-                alternate: *alternate,
-                column: column.to_owned(),
-                range: pin.range.clone(),
+            pin.usages.extend(of_column.map(|(usage, alternate)| {
+                let (spelled, blocks) = Blocks::split(usage);
+                Usage {
+                    spelled: spelled.to_owned(),
+                    signal: Signal::parse(spelled).0,
+                    alternate: *alternate,
+                    blocks,
+                    column: column.to_owned(),
+                    range: pin.range.clone(),
+                }
             }));
         }
     }

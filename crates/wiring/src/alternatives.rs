@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::profile::{TargetProfile, Timer};
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, UartLine};
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{BoardIndex, Device, Placement, Wish};
@@ -394,6 +395,7 @@ impl Maker<'_, '_> {
         };
         let mut claims = vec![claim];
         claims.extend(self.pad(index));
+        claims.extend(self.remap(usage));
         let candidate = Candidate {
             pin: self.builder.pin(board, index),
             holder,
@@ -437,16 +439,32 @@ impl Maker<'_, '_> {
         Some(self.builder.names.shared(pad, Group::Pad(board, pin)))
     }
 
+    /// The claims of a usage that is on its pin in some remap blocks of its peripheral alone: no
+    /// other may be where no such block is.
+    fn remap(&mut self, usage: &Usage) -> Vec<Claim> {
+        let board = self.offer.index;
+        let Some((unit, blocks)) = self.offer.blocks(usage) else { return Vec::new() };
+        let others = self.offer.other_blocks(&unit, blocks);
+        let claim = |other: Blocks| {
+            let (first, second) = (blocks.min(other), blocks.max(other));
+            let resource = Resource::Remap(board, unit.clone(), first, second);
+            self.builder.names.shared(resource, Group::Blocks(board, unit.clone(), blocks))
+        };
+        others.into_iter().map(claim).collect()
+    }
+
     fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
         self.rules.violated_by(self.offer.index, role, pin, usage)
     }
 
     /// The alternative, unless one of its roles has no candidate; several where roles could meet on
-    /// one contact.
+    /// one contact, or be in different remap blocks.
     fn finish(&mut self, unit: Option<&str>, claims: &[Claim], roles: Vec<MadeRole>) -> Vec<Made> {
         let board = self.offer.index;
         let mut made = Vec::new();
-        for roles in self.apart(roles) {
+        let cases = self.apart(roles).into_iter().flat_map(|roles| self.in_one_block(roles, None));
+        let cases: Vec<_> = cases.collect();
+        for roles in cases {
             let dma = unit.map(|unit| self.builder.dma(board, unit));
             let violates = self.rules.violated_by_unit(board, unit);
             let (roles, chosen) = roles.into_iter().unzip();
@@ -501,6 +519,36 @@ impl Maker<'_, '_> {
             }
         }
         apart
+    }
+
+    /// The same choices with all wires of the device in one remap block of its peripheral: a case
+    /// for each choice of sets of blocks that have one in common.
+    fn in_one_block(&self, mut roles: Vec<MadeRole>, common: Option<Blocks>) -> Vec<Vec<MadeRole>> {
+        if roles.is_empty() {
+            return vec![roles];
+        }
+        let first = roles.remove(0);
+        let blocks = |at: &Chosen| {
+            let pin = self.offer.board.table.pins.get(at.pin)?;
+            Some(self.offer.blocks(pin.usages.get(at.usage?)?)?.1)
+        };
+        let sets: BTreeSet<Option<Blocks>> = first.1.iter().map(blocks).collect();
+        let mut cases = Vec::new();
+        for set in sets {
+            let common = match (common, set) {
+                (Some(common), Some(set)) => match common.and(set) {
+                    Some(common) => Some(common),
+                    None => continue,
+                },
+                (one, other) => one.or(other),
+            };
+            let kept = keep(&first, |at| blocks(at) == set);
+            for mut others in self.in_one_block(roles.clone(), common) {
+                others.insert(0, kept.clone());
+                cases.push(others);
+            }
+        }
+        cases
     }
 }
 

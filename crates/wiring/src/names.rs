@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::BoardIndex;
@@ -23,6 +24,9 @@ pub(crate) enum Resource {
     Exti(BoardIndex, u8),
     /// A contact that several pins share.
     Pad(BoardIndex, String),
+    /// That a peripheral's signals are in the first remap blocks, or in the second: no block is in
+    /// both.
+    Remap(BoardIndex, String, Blocks, Blocks),
 }
 
 impl Resource {
@@ -35,6 +39,7 @@ impl Resource {
             Self::Address(_, unit, address) => format!("{unit} address 0x{address:02X}"),
             Self::Exti(_, line) => format!("EXTI{line}"),
             Self::Pad(_, name) => format!("contact {name}"),
+            Self::Remap(_, unit, ..) => format!("{unit} remap block"),
         }
     }
 
@@ -46,9 +51,10 @@ impl Resource {
             functions.any(|function| function.units().iter().any(|of| of.as_str() == unit))
         };
         match self {
-            Self::Unit(_, unit) | Self::BusWire(_, unit, _) | Self::Address(_, unit, _) => {
-                of_unit(unit)
-            }
+            Self::Unit(_, unit)
+            | Self::BusWire(_, unit, _)
+            | Self::Address(_, unit, _)
+            | Self::Remap(_, unit, ..) => of_unit(unit),
             Self::Signal(_, name) => match bus(name) {
                 Some(unit) => of_unit(&unit),
                 None => pin.usages.iter().any(|usage| usage.signal.name() == name),
@@ -66,7 +72,8 @@ impl Resource {
             | Self::BusWire(board, ..)
             | Self::Address(board, ..)
             | Self::Exti(board, _)
-            | Self::Pad(board, _) => *board,
+            | Self::Pad(board, _)
+            | Self::Remap(board, ..) => *board,
         }
     }
 }
@@ -106,6 +113,8 @@ pub(crate) enum Group {
     Pin(BoardIndex, String, Role, usize, usize),
     /// The devices that use a pin, for the contact that it shares with other pins.
     Pad(BoardIndex, usize),
+    /// The devices whose signals of a peripheral are in these remap blocks.
+    Blocks(BoardIndex, String, Blocks),
 }
 
 /// Numbers for things, given in the order in which they are first seen.

@@ -1,10 +1,11 @@
 //! Which pins of a board devices may have at all, and why the others may not.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, TargetProfile};
-use sensedsl_board::table::{Occupation, Pin};
+use sensedsl_board::remap::{Blocks, agree_by_pairs};
+use sensedsl_board::table::{Occupation, Pin, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
 
@@ -29,6 +30,8 @@ pub(crate) struct Offer<'a> {
     withheld: Vec<Option<Withheld>>,
     /// For each pin of the table the contact that it shares with others.
     pads: Vec<Option<String>>,
+    /// For each peripheral that remaps its signals the sets of blocks they are in.
+    remaps: BTreeMap<String, Remaps>,
 }
 
 impl<'a> Offer<'a> {
@@ -37,12 +40,26 @@ impl<'a> Offer<'a> {
             board.table.pins.iter().map(|pin| withheld(board, pin)).collect();
         let pads = shared_pads(&board.table.pins);
         keep_pads_free(board, &pads, &mut withheld);
-        Self { index, board, withheld, pads }
+        Self { index, board, withheld, pads, remaps: remaps(&board.table.pins) }
     }
 
     /// The contact of a pin where other pins are on it as well.
     pub(crate) fn shared_pad(&self, pin: usize) -> Option<&str> {
         self.pads.get(pin)?.as_deref()
+    }
+
+    /// The peripheral and the remap blocks of a usage, where its place depends on them.
+    pub(crate) fn blocks(&self, usage: &Usage) -> Option<(String, Blocks)> {
+        let unit = unit(usage)?;
+        let blocks = usage.blocks?;
+        let by_pairs = self.remaps.get(&unit)?.by_pairs;
+        Some((unit, if by_pairs { blocks } else { blocks.lowest() }))
+    }
+
+    /// The sets of blocks that other signals of the peripheral are in and that exclude these.
+    pub(crate) fn other_blocks(&self, unit: &str, blocks: Blocks) -> Vec<Blocks> {
+        let sets = self.remaps.get(unit).map(|remaps| remaps.sets.as_slice()).unwrap_or_default();
+        sets.iter().copied().filter(|other| other.and(blocks).is_none()).collect()
     }
 
     pub(crate) fn why_withheld(&self, pin: usize) -> Option<&Withheld> {
@@ -85,6 +102,39 @@ fn shared_pads(pins: &[Pin]) -> Vec<Option<String>> {
     pins.iter()
         .map(|pin| place(pin).filter(|place| count.get(place).is_some_and(|n| *n > 1)))
         .collect()
+}
+
+/// The remap blocks of a peripheral's signals.
+struct Remaps {
+    /// Each set once, ascending.
+    sets: Vec<Blocks>,
+    /// Whether devices need only agree two by two. They do on all MCUs there are; where a table
+    /// says otherwise, each signal is offered in its lowest block alone.
+    by_pairs: bool,
+}
+
+/// The peripheral of a usage.
+fn unit(usage: &Usage) -> Option<String> {
+    let unit = usage.signal.function().units().into_iter().next()?;
+    Some(unit.as_str().to_owned())
+}
+
+fn remaps(pins: &[Pin]) -> BTreeMap<String, Remaps> {
+    let mut sets: BTreeMap<String, BTreeSet<Blocks>> = BTreeMap::new();
+    for usage in pins.iter().flat_map(|pin| &pin.usages).filter(|usage| usage.blocks.is_some()) {
+        if let (Some(unit), Some(blocks)) = (unit(usage), usage.blocks) {
+            sets.entry(unit).or_default().insert(blocks);
+        }
+    }
+    let remaps = |sets: BTreeSet<Blocks>| {
+        let sets: Vec<Blocks> = sets.into_iter().collect();
+        if agree_by_pairs(&sets) {
+            return Remaps { sets, by_pairs: true };
+        }
+        let lowest: BTreeSet<Blocks> = sets.into_iter().map(Blocks::lowest).collect();
+        Remaps { sets: lowest.into_iter().collect(), by_pairs: false }
+    };
+    sets.into_iter().map(|(unit, sets)| (unit, remaps(sets))).collect()
 }
 
 /// What withholds a pin withholds all others on its contact, but those that a rule releases.

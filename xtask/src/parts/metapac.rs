@@ -58,7 +58,8 @@ fn pins(source: &str) -> Result<Pins> {
                     Some(some.trim_start_matches("Some(").trim_end_matches(')').trim().parse()?)
                 }
             };
-            pins.entry(pin).or_default().insert((usage(unit, line), alternate));
+            let blocks = remap_blocks(peripheral, &pin).unwrap_or_default();
+            pins.entry(pin).or_default().insert((usage(unit, line) + &blocks, alternate));
         }
     }
     // On families whose data sheets name an input without its sign (`IN2`), an inverted input
@@ -70,6 +71,19 @@ fn pins(source: &str) -> Result<Pins> {
         pins.entry(pin).or_default().insert((format!("ADC{units}_{line}"), None));
     }
     Ok(pins)
+}
+
+/// The remap blocks in which a peripheral has signals on a pin, as a table writes them: `#0|2`. On
+/// other families than F1 there are none.
+fn remap_blocks(peripheral: &str, pin: &str) -> Option<String> {
+    let (_, blocks) = peripheral.split_once("afio: Some(PeripheralAfio {")?;
+    let quoted = format!("\"{pin}\"");
+    let numbers = blocks.split("PeripheralAfioValue {").skip(1).filter_map(|block| {
+        let pins = between(block, "pins: &[", "]")?;
+        pins.contains(&quoted).then(|| between(block, "value: ", ","))?
+    });
+    let numbers: Vec<&str> = numbers.collect();
+    (!numbers.is_empty()).then(|| format!("#{}", numbers.join("|")))
 }
 
 /// I2S is part of a SPI unit there, and some break inputs are cut short.

@@ -1,0 +1,119 @@
+//! Remap blocks: where the peripheral, not the pin, decides on which pins its signals are.
+//!
+//! On STM32F1 a register field for each peripheral chooses one of a few blocks of pins, so all
+//! signals of the peripheral that are in use must be in one block. A usage says in which blocks of
+//! its peripheral it is: `TIM2_CH1#0|2`.
+
+use std::fmt;
+
+/// Highest number of a block.
+const LAST: u8 = 7;
+
+/// The blocks in which a signal is on a pin; never empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Blocks(u8);
+
+impl Blocks {
+    /// Reads numbers from 0 to 7 with `|` between.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let bit = |number: &str| match number.as_bytes() {
+            [digit @ b'0'..=b'7'] => Some(1_u8 << (digit - b'0')),
+            _ => None,
+        };
+        text.split('|').try_fold(0, |bits, number| Some(bits | bit(number)?)).map(Self)
+    }
+
+    /// The signal and the blocks of a usage such as `TIM2_CH1#0|2`.
+    #[must_use]
+    pub fn split(usage: &str) -> (&str, Option<Self>) {
+        match usage.split_once('#') {
+            Some((signal, blocks)) => (signal, Self::parse(blocks)),
+            None => (usage, None),
+        }
+    }
+
+    /// The blocks that are in both.
+    #[must_use]
+    pub fn and(self, other: Self) -> Option<Self> {
+        let bits = self.0 & other.0;
+        (bits != 0).then_some(Self(bits))
+    }
+
+    /// The lowest of them alone.
+    #[must_use]
+    pub fn lowest(self) -> Self {
+        Self(1 << self.first())
+    }
+
+    /// The number of the lowest.
+    #[must_use]
+    pub fn first(self) -> u8 {
+        u8::try_from(self.0.trailing_zeros()).unwrap_or(LAST).min(LAST)
+    }
+
+    fn has(self, number: u8) -> bool {
+        self.0 & (1 << number) != 0
+    }
+}
+
+/// True when sets that agree two by two always agree all together, whichever of these they are. By
+/// a theorem of Berge's it is enough to look at three blocks at a time: all sets with two of them
+/// have one in common.
+#[must_use]
+pub fn agree_by_pairs(sets: &[Blocks]) -> bool {
+    let triples = (0..=LAST).flat_map(|a| (a + 1..=LAST).map(move |b| (a, b)));
+    let mut triples = triples.flat_map(|(a, b)| (b + 1..=LAST).map(move |c| [a, b, c]));
+    triples.all(|triple| {
+        let touching = |set: &&Blocks| triple.iter().filter(|block| set.has(**block)).count() >= 2;
+        sets.iter().filter(touching).fold(u8::MAX, |common, set| common & set.0) != 0
+    })
+}
+
+impl fmt::Display for Blocks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut separator = "";
+        for number in (0..=LAST).filter(|number| self.has(*number)) {
+            write!(f, "{separator}{number}")?;
+            separator = "|";
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blocks(text: &str) -> Blocks {
+        Blocks::parse(text).unwrap()
+    }
+
+    #[test]
+    fn blocks_are_read_and_written() {
+        for text in ["0", "3", "0|2", "1|3|7"] {
+            assert_eq!(blocks(text).to_string(), text);
+        }
+        assert_eq!(blocks("2|0|2").to_string(), "0|2");
+        for text in ["", "8", "0|", "|1", "a", "01", "0,1", "-1"] {
+            assert_eq!(Blocks::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn blocks_agree() {
+        assert_eq!(blocks("0|2").and(blocks("2|3")), Some(blocks("2")));
+        assert_eq!(blocks("0|2").and(blocks("1|3")), None);
+        assert_eq!(blocks("2|3").lowest(), blocks("2"));
+        assert_eq!(blocks("2|3").first(), 2);
+    }
+
+    #[test]
+    fn pairs_are_enough_for_some_sets() {
+        let sets = |texts: &[&str]| texts.iter().map(|text| blocks(text)).collect::<Vec<_>>();
+        assert!(agree_by_pairs(&sets(&[])));
+        assert!(agree_by_pairs(&sets(&["0|2", "1|3", "0|1", "2|3"])));
+        assert!(agree_by_pairs(&sets(&["0|1", "0", "1", "3"])));
+        assert!(!agree_by_pairs(&sets(&["0|1", "1|2", "0|2"])));
+    }
+}

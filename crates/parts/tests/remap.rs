@@ -1,0 +1,181 @@
+//! Remap blocks of STM32F1: all signals of one peripheral that are in use are in one of them.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+
+use sensedsl_board::remap::{Blocks, agree_by_pairs};
+use sensedsl_board::table::{self, Table};
+use sensedsl_model::design::Design;
+use sensedsl_model::{Files, Request, resolve};
+use sensedsl_parts::{all, find};
+use sensedsl_wiring::{Solved, Wiring};
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str) -> Result<String, String> {
+        Err(io::ErrorKind::NotFound.to_string())
+    }
+}
+
+/// Devices on a part; `KIND PROPERTIES`, with `;` between the devices and `,` between properties.
+fn design(part: &str, target: &str, devices: &str) -> Design {
+    let mut text = format!("board X on {part} {{\n");
+    for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
+        let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
+        let own = match kind {
+            "i2c" => format!("address = {}; register = 0;", 0x10 + id),
+            "uart" => "start = 0x0A; length = 4;".to_owned(),
+            "pwm" => "frequency = 50 Hz;".to_owned(),
+            _ => String::new(),
+        };
+        let head = if kind == "pwm" { "actuator D{} accepts" } else { "sensor D{} returns" };
+        let head = head.replace("{}", &id.to_string());
+        let rest: String = rest.split(',').map(|one| format!("{one};")).collect();
+        let rest = if rest == ";" { String::new() } else { rest };
+        text.push_str(&format!("{head} uint16 {{ id = {id}; type = {kind}; {own} {rest} }}\n"));
+    }
+    text.push_str("}\n");
+    let request = Request { path: "x.sense", text: &text, board: None, target: Some(target) };
+    let resolved = resolve(&request, &NoFiles);
+    resolved.design.unwrap_or_else(|| panic!("{text}{:#?}", resolved.diagnostics))
+}
+
+fn feasible(part: &str, target: &str, devices: &str) -> bool {
+    let design = design(part, target, devices);
+    match Wiring::new(&design, None).solve_only(false) {
+        Solved::Wired(_) => true,
+        Solved::Infeasible(_) => false,
+        Solved::Failed(why) => panic!("{why:?}"),
+    }
+}
+
+fn count(part: &str, devices: &str) -> String {
+    format!("{:?}", Wiring::new(&design(part, "none", devices), None).count().unwrap())
+}
+
+fn table(part: &str) -> Table {
+    table::load(&find(part).unwrap().csv()).board
+}
+
+#[test]
+fn the_table_has_the_blocks() {
+    let table = table("STM32F103VBT6");
+    let blocks = |pin: &str, signal: &str| {
+        let pin = table.pins.iter().find(|row| row.name.as_str() == pin).unwrap();
+        let usage = pin.usages.iter().find(|usage| usage.signal.name() == signal).unwrap();
+        usage.blocks.map(|blocks| blocks.to_string())
+    };
+    for (pin, signal, expected) in [
+        ("PA6", "TIM3_CH1", Some("0")),
+        ("PB4", "TIM3_CH1", Some("2")),
+        ("PC6", "TIM3_CH1", Some("3")),
+        ("PB0", "TIM3_CH3", Some("0|2")),
+        ("PA0", "TIM2_CH1", Some("0|2")),
+        ("PB10", "TIM2_CH3", Some("2|3")),
+        ("PC10", "USART3_TX", Some("1")),
+        ("PD8", "USART3_TX", Some("3")),
+        ("PB8", "CAN_RX", Some("2")),
+        ("PB10", "I2C2_SCL", None),
+        ("PA0", "ADC12_IN0", None),
+    ] {
+        assert_eq!(blocks(pin, signal).as_deref(), expected, "{signal} at {pin}");
+    }
+}
+
+/// On every F1, signals that can be together two by two can be so all together; no other family
+/// has blocks.
+#[test]
+fn pairs_decide_on_all_parts() {
+    let mut sets = 0;
+    for part in all() {
+        let mut units: BTreeMap<String, BTreeSet<Blocks>> = BTreeMap::new();
+        for usage in table(&part.name()).pins.iter().flat_map(|pin| &pin.usages) {
+            let Some(blocks) = usage.blocks else { continue };
+            assert!(part.name().starts_with("STM32F1"), "{}", part.name());
+            let name = usage.signal.name();
+            let unit = name.split_once('_').map_or(name, |(unit, _)| unit);
+            units.entry(unit.to_owned()).or_default().insert(blocks);
+        }
+        for (unit, of_unit) in units {
+            let of_unit: Vec<Blocks> = of_unit.into_iter().collect();
+            assert!(agree_by_pairs(&of_unit), "{} {unit}", part.name());
+            sets += of_unit.len();
+        }
+    }
+    assert!(sets > 1_000, "{sets}");
+}
+
+#[test]
+fn a_device_has_all_its_wires_in_one_block() {
+    for target in ["none", "chibios"] {
+        let on = |devices: &str| feasible("STM32F103C8", target, devices);
+        assert!(on("encoder unit = TIM3, a = PA6, b = PA7"));
+        assert!(on("encoder unit = TIM3, a = PB4, b = PB5"));
+        assert!(!on("encoder unit = TIM3, a = PA6, b = PB5"));
+        assert!(on("uart unit = USART1, tx = PB6, rx = PB7"));
+        assert!(!on("uart unit = USART1, tx = PB6, rx = PA10"));
+        assert!(!on("i2c unit = I2C1, scl = PB6, sda = PB9"));
+        assert!(on("i2c unit = I2C1, scl = PB8, sda = PB9"));
+    }
+}
+
+#[test]
+fn devices_on_one_peripheral_agree_on_its_block() {
+    for target in ["none", "chibios"] {
+        let on = |devices: &str| feasible("STM32F103C8", target, devices);
+        // CH1 at PB4 is in the partial remap alone, in which CH3 stays where it is.
+        assert!(on("pwm unit = TIM3, pin = PB4; pwm unit = TIM3, pin = PB0"));
+        assert!(!on("pwm unit = TIM3, pin = PA6; pwm unit = TIM3, pin = PB5"));
+        // TIM2 in block 3, in block 2, and in none.
+        assert!(on("pwm unit = TIM2, pin = PA15; pwm unit = TIM2, pin = PB10"));
+        assert!(on("pwm unit = TIM2, pin = PA0; pwm unit = TIM2, pin = PB11"));
+        assert!(!on("pwm unit = TIM2, pin = PA15; pwm unit = TIM2, pin = PA1"));
+        assert!(!on("pwm unit = TIM2, pin = PA2; pwm unit = TIM2, pin = PB11"));
+        // I2C2 is on PB10 and PB11, and so is all that 48 pins bring out of USART3.
+        assert!(!on("i2c unit = I2C2; uart unit = USART3"));
+        assert!(feasible("STM32F103R8", target, "i2c unit = I2C2; uart unit = USART3"));
+    }
+}
+
+/// A signal that is in several blocks is one wiring, not one for each.
+#[test]
+fn wirings_are_counted_once() {
+    assert_eq!(count("STM32F103C8", "pwm pin = PA8"), count("STM32F407VG", "pwm pin = PD12"));
+    // TIM1_CH1 to CH4 at PA8 to PA11, all in blocks 0 and 1: two of four in order.
+    let two = count("STM32F103C8", "pwm unit = TIM1; pwm unit = TIM1");
+    assert!(two.contains("12"), "{two}");
+}
+
+/// Every two outputs of one timer: there is a wiring where they have a block in common, and only
+/// there.
+#[test]
+fn all_pairs_of_a_timer_s_outputs() {
+    let table = table("STM32F103VBT6");
+    let mut outputs: Vec<(String, String, Blocks)> = Vec::new();
+    for pin in &table.pins {
+        for usage in &pin.usages {
+            let name = usage.signal.name();
+            let plain = name.starts_with("TIM") && name[5..].starts_with("CH") && name.len() == 8;
+            if plain {
+                outputs.push((pin.name.to_string(), name.to_owned(), usage.blocks.unwrap()));
+            }
+        }
+    }
+    let mut seen = [0, 0];
+    for (at, (first, name, blocks)) in outputs.iter().enumerate() {
+        for (second, other, others) in &outputs[at + 1..] {
+            let unit = &name[..4];
+            if other[..4] != *unit || other == name || first == second {
+                continue;
+            }
+            let devices =
+                format!("pwm unit = {unit}, pin = {first}; pwm unit = {unit}, pin = {second}");
+            let agree = blocks.and(*others).is_some();
+            assert_eq!(feasible("STM32F103VB", "none", &devices), agree, "{devices}");
+            seen[usize::from(agree)] += 1;
+        }
+    }
+    assert_eq!(seen, [48, 61], "pairs that have none, that have one");
+}
