@@ -183,7 +183,13 @@ fn from_file(context: &mut Context<'_>, path: &str, at: Span) -> Option<Pins> {
         None => match context.files.read(path) {
             Ok(text) => context.sources.add(path, text),
             Err(why) => {
-                let report = e0302_table_unreadable::table_unreadable(at, path, &why);
+                let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+                let known = catalog::find(name).is_some() || sensedsl_parts::find(name).is_some();
+                let report = if known {
+                    e0302_table_unreadable::board_in_quotes(at, name)
+                } else {
+                    e0302_table_unreadable::table_unreadable(at, path, &why)
+                };
                 context.diagnostics.push(report);
                 return None;
             }

@@ -42,6 +42,11 @@ impl Terminal {
         if self.quiet { Ok(()) } else { self.result(text) }
     }
 
+    /// A line about the result, which goes with the messages: dropped when quiet.
+    pub(crate) fn aside(&self, line: &str) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { writeln!(io::stderr().lock(), "{line}") }
+    }
+
     /// How far a long work is, where somebody looks; gone when it is done.
     pub(crate) fn progress(&self, what: &str, done: usize, total: usize) {
         if self.quiet || !io::stderr().is_terminal() {

@@ -6,15 +6,14 @@ use sensedsl_board::table::Occupation;
 use sensedsl_board::{catalog, mcu};
 use sensedsl_parts::Completion;
 
-use super::table::table;
+use super::table::{INDENT, table};
 use crate::Status;
 use crate::cli::BoardsArgs;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(name) = &args.name else {
-        terminal.result(&listing(args.search.as_deref().unwrap_or_default()))?;
-        return Ok(Status::Done);
+        return list(args.search.as_deref().unwrap_or_default(), terminal);
     };
     let Some(board) = catalog::find(name) else {
         let meant = catalog::nearest_name(name);
@@ -31,8 +30,9 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
     Ok(Status::Done)
 }
 
-/// The boards with all words of `search` somewhere in what is known of them.
-fn listing(search: &str) -> String {
+/// Prints the boards with all words of `search` somewhere in what is known of them. Scripts read
+/// one board a line, name first; heads and count are for people.
+fn list(search: &str, terminal: &Terminal) -> Result<Status> {
     let search = search.to_lowercase();
     let found = |board: &catalog::Entry, row: &[String; 8]| {
         let names = board.aliases.iter().copied().chain([board.name, board.description]);
@@ -53,11 +53,16 @@ fn listing(search: &str) -> String {
         ("Link", false),
         ("Firmware", false),
     ];
+    let listing = table(heads, &rows);
+    let mut lines = listing.lines().map(|line| line.strip_prefix(INDENT).unwrap_or(line));
+    terminal.aside(lines.next().unwrap_or_default())?;
+    terminal.result(&lines.map(|line| format!("{line}\n")).collect::<String>())?;
     let count = match rows.len() {
         1 => "1 board".to_owned(),
         some => format!("{some} boards"),
     };
-    format!("{}\n{count}; `sensedsl boards NAME` prints the pins of one\n", table(heads, &rows))
+    terminal.aside(&format!("{count}; `sensedsl boards NAME` prints the pins of one"))?;
+    Ok(Status::Done)
 }
 
 fn row(board: &catalog::Entry) -> [String; 8] {

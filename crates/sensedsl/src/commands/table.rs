@@ -5,6 +5,9 @@ use std::fmt::Write as _;
 /// A column's head and whether its cells are numbers, which are aligned right.
 pub(crate) type Head = (&'static str, bool);
 
+/// What every line begins with.
+pub(crate) const INDENT: &str = "  ";
+
 /// The rows below their heads, two spaces between columns.
 pub(crate) fn table<const N: usize>(heads: [Head; N], rows: &[[String; N]]) -> String {
     let width = |column: usize| {
