@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::io;
 
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::table;
 use sensedsl_model::{Files, Request, resolve};
 use sensedsl_parts::{all, find, nearest_name, packed_bytes};
@@ -170,7 +171,15 @@ fn the_cost_is_that_of_all_ways() {
 fn by_hand(part: &str) -> Option<u32> {
     let found = find(part)?;
     let pins: Vec<_> = found.sheet.pins().collect();
-    let has = |at: usize, name: &str| pins[at].2.iter().any(|(usage, _)| usage == name);
+    let named = |at: usize, name: &str| {
+        let mut usages = pins[at].2.iter().map(|(usage, _)| Blocks::split(usage));
+        usages.find(|(usage, _)| *usage == name).map(|(_, blocks)| blocks)
+    };
+    let has = |at: usize, name: &str| named(at, name).is_some();
+    let in_one_block = |one: Option<Option<Blocks>>, other: Option<Option<Blocks>>| {
+        let both = one.flatten().zip(other.flatten());
+        both.is_none_or(|(one, other)| one.and(other).is_some())
+    };
     let cost = |at: usize| u32::try_from(pins[at].2.len()).unwrap();
     let apart = |a: usize, b: usize| a != b && (pins[a].1.is_none() || pins[a].1 != pins[b].1);
     let is_input = |at: usize| {
@@ -185,6 +194,9 @@ fn by_hand(part: &str) -> Option<u32> {
         let (scl, sda) = (format!("I2C{unit}_SCL"), format!("I2C{unit}_SDA"));
         for a in (0..pins.len()).filter(|at| has(*at, &scl)) {
             for b in (0..pins.len()).filter(|at| has(*at, &sda) && apart(a, *at)) {
+                if !in_one_block(named(a, &scl), named(b, &sda)) {
+                    continue;
+                }
                 for c in (0..pins.len()).filter(|at| is_input(*at)) {
                     if apart(a, c) && apart(b, c) {
                         let sum = cost(a) + cost(b) + cost(c);
