@@ -1,7 +1,7 @@
 //! One board: its table, its MCU, its target, its link, its rules.
 
 use sensedsl_board::catalog;
-use sensedsl_board::profile::{self, NoProfile, Target};
+use sensedsl_board::profile::{self, NoProfile, Target, TargetProfile};
 use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0202_property_twice, e0301_unknown_board, e0302_table_unreadable,
@@ -251,9 +251,10 @@ fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>)
     }
 }
 
-/// The link. Where the file says nothing it is the first that a built-in board has `wired`, else USB
-/// where the MCU has a driver for it, else a UART. A UART that the board has wired keeps its unit and
-/// its pins. Without a target there is no firmware that a link could belong to, but what is stated.
+/// The link. Where the file says nothing it is the first that a built-in board has `wired` and the
+/// target has a driver for; without any wired it is USB where the target has a driver for that, and a
+/// UART otherwise. A UART that the board has wired keeps its unit and its pins. Without a target
+/// there is no firmware that a link could belong to, but what is stated.
 fn link(
     file: FileId,
     node: &ast::Board,
@@ -261,21 +262,20 @@ fn link(
     wired: &[catalog::Link],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Link {
-    let profile = match target {
-        Some(Target::Profile(profile)) => Some(profile),
-        Some(Target::None) | None => None,
-    };
-    let first = wired.first().map(|link| link.transport);
-    let default = match (profile, first) {
-        (Some(_), Some(profile::Transport::Uart)) => Transport::Uart,
-        (Some(profile), None) if profile.usb(None).is_none() => Transport::Uart,
-        _ => Transport::Usb,
+    let default = match target {
+        Some(Target::Profile(profile)) => default_transport(profile, wired),
+        Some(Target::None) | None => Transport::Usb,
     };
     let mut link = stated_link(file, node, default, diagnostics);
     let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
+    let driven = |wired: &catalog::Link| match target {
+        Some(Target::Profile(profile)) => is_driven(profile, wired),
+        Some(Target::None) | None => true,
+    };
     let uart = wired.iter().find(|wired| {
         wired.transport == profile::Transport::Uart
             && stated.is_none_or(|stated| stated == wired.unit)
+            && driven(wired)
     });
     if link.transport == Transport::Uart
         && let Some(uart) = uart
@@ -285,6 +285,23 @@ fn link(
         link.pins.clone_from(&uart.pins);
     }
     link
+}
+
+fn default_transport(profile: &TargetProfile, wired: &[catalog::Link]) -> Transport {
+    let first = wired.iter().find(|wired| is_driven(profile, wired)).map(|link| link.transport);
+    match first {
+        Some(profile::Transport::Usb) => Transport::Usb,
+        None if wired.is_empty() && profile.usb(None).is_some() => Transport::Usb,
+        Some(profile::Transport::Uart) | None => Transport::Uart,
+    }
+}
+
+/// Whether the target has a driver for a link.
+fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
+    match wired.transport {
+        profile::Transport::Uart => profile.serials.iter().any(|unit| unit.name == wired.unit),
+        profile::Transport::Usb => profile.usb(None).is_some(),
+    }
 }
 
 /// The link as the file states it.
