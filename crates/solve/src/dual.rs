@@ -2,8 +2,8 @@
 //!
 //! Every thing that can be held once gets a price instead of a limit; then each group of alike
 //! devices, and each shared unit, chooses for itself what is cheapest, and the sum less the prices
-//! is a lower bound whatever the prices are. A subgradient ascent looks for good ones. Unlike the
-//! flow, this bound sees that a device's wires come from one alternative, that a shared unit is
+//! is a lower bound whatever the prices are; the linear program ([`crate::relax`]) finds the best.
+//! Unlike the flow, this bound sees that a device's wires come from one alternative, that a shared unit is
 //! opened as a whole and that groups exclude each other. What would cost too much at the prices
 //! found is struck from the domains. All arithmetic is in integers, so the bound is exact.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
@@ -13,19 +13,15 @@ use crate::state::{Dead, State};
 use crate::terms::Terms;
 use crate::view::{Group, View, Way};
 
-/// Prices count in weights times 2^SHIFT.
-pub(crate) const SHIFT: u32 = 8;
-
 /// More than any sum of costs ([`crate::answer::Fault::TooLarge`] sees to that).
 const FAR: i64 = 1 << 54;
 
-/// Prices and the work space of the ascent.
+/// Prices, and the domains as last assessed.
 #[derive(Clone, Debug)]
 pub(crate) struct Dual {
     prices: Vec<i64>,
-    best: Vec<i64>,
-    slope: Vec<i64>,
-    drift: Vec<i64>,
+    /// The bound as last assessed, without what is paid.
+    value: i64,
     view: View,
     opening_of: Vec<usize>,
 }
@@ -34,110 +30,44 @@ impl Dual {
     pub(crate) fn new(terms: &Terms) -> Self {
         Self {
             prices: vec![0; terms.prices],
-            best: vec![0; terms.prices],
-            slope: vec![0; terms.prices],
-            drift: vec![0; terms.prices],
+            value: 0,
             view: View::default(),
             opening_of: Vec::new(),
         }
     }
 
-    pub(crate) fn save(&self) -> Vec<i64> {
-        self.prices.clone()
+    /// The greatest weight, beside what is paid, of an answer below the limit.
+    pub(crate) fn most(model: &Model, state: &State, limit: u64) -> Option<u64> {
+        let unit = model.weights.cost;
+        Some((limit - 1).checked_sub(state.paid)? / unit * unit)
     }
 
-    pub(crate) fn restore(&mut self, saved: &[i64]) {
-        self.prices.copy_from_slice(saved);
+    /// Takes other prices.
+    pub(crate) fn set(&mut self, prices: impl Iterator<Item = i64>) {
+        self.prices.iter_mut().zip(prices).for_each(|(price, new)| *price = new);
     }
 
-    /// Improves the prices for some steps and returns the bound, which counts everything.
-    pub(crate) fn ascend(
-        &mut self,
-        terms: &Terms,
-        model: &Model,
-        state: &State,
-        limit: u64,
-        steps: usize,
-    ) -> u64 {
+    /// The bound at the present prices, which counts everything.
+    pub(crate) fn assess(&mut self, terms: &Terms, model: &Model, state: &State) -> u64 {
         self.build(terms, model, state);
-        let paid = (state.paid as i64) << SHIFT;
-        let known = limit < model.most;
-        let unit = (model.weights.cost as i64) << SHIFT;
-        let mut best = i64::MIN;
-        let (mut pace, mut idle) = (256, 0);
-        self.drift.fill(0);
-        for step in 0..=steps {
-            let value = self.evaluate(terms, model) + paid;
-            if value > best {
-                // Small gains count as none: the pace is what is wrong.
-                idle = if value > best + unit / 64 { 0 } else { idle + 1 };
-                best = value;
-                self.best.copy_from_slice(&self.prices);
-            } else {
-                idle += 1;
-            }
-            if idle >= 8 {
-                (pace, idle) = (pace / 2, 0);
-                self.prices.copy_from_slice(&self.best);
-            }
-            let goal = (limit as i64) << SHIFT;
-            let target = if known { goal } else { best + best / 8 + unit };
-            if value >= goal || step == steps || pace < 4 {
-                break;
-            }
-            self.step(terms, (target - value).max(unit / 8), pace);
-        }
-        self.prices.copy_from_slice(&self.best);
-        let value = self.evaluate(terms, model) + paid;
-        value.max(0).unsigned_abs().div_ceil(1 << SHIFT)
+        self.value = self.evaluate(terms);
+        // The weight of pins, moves and rules is a multiple of the unit.
+        let unit = model.weights.cost;
+        let units = self.value.max(0).unsigned_abs().div_ceil(unit << terms.shift);
+        units * unit + state.paid
     }
 
-    /// The alternative that is cheapest for a device at the last prices.
-    pub(crate) fn cheapest(&self, model: &Model, device: usize) -> Option<usize> {
-        let group = self.view.groups.iter().find(|g| g.devices.contains(&device))?;
-        let choices = &self.view.choices[group.choices.0..group.choices.1];
-        let best = choices.iter().min_by_key(|c| c.cost)?;
-        let first = model.alts.range(group.devices[0]).start;
-        Some(best.alt - first + model.alts.range(device).start)
-    }
-
-    /// Moves the prices along the slope, with some of the last move in it.
-    fn step(&mut self, terms: &Terms, gap: i64, pace: i64) {
-        let mut norm = 0;
-        for ((drift, slope), price) in self.drift.iter_mut().zip(&self.slope).zip(&self.prices) {
-            *drift = slope * 16 + *drift * 5 / 8;
-            if *price == 0 && *drift < 0 {
-                *drift = 0;
-            }
-            norm += *drift * *drift;
-        }
-        if norm == 0 {
-            return;
-        }
-        debug_assert_eq!(terms.prices, self.prices.len());
-        for (price, drift) in self.prices.iter_mut().zip(&self.drift) {
-            if *drift != 0 {
-                let move_by = i128::from(gap) * i128::from(pace * drift) / i128::from(16 * norm);
-                *price = (*price + move_by as i64).max(0);
-            }
-        }
-    }
-
-    /// Strikes what no answer below the limit can use. Returns whether anything was struck.
+    /// Strikes what no answer below the limit can use, as last assessed. Returns whether anything was struck.
     pub(crate) fn strike(
         &mut self,
         terms: &Terms,
         model: &Model,
         state: &mut State,
-        bound: u64,
         limit: u64,
     ) -> Result<bool, Dead> {
-        if bound >= limit {
-            return Ok(false);
-        }
-        let value = self.evaluate(terms, model) + ((state.paid as i64) << SHIFT);
+        let Some(most) = Self::most(model, state, limit) else { return Ok(false) };
         // An answer of weight limit - 1 must survive.
-        let room = ((limit as i64 - 1) << SHIFT) - value;
+        let room = ((most as i64) << terms.shift) - self.value;
         let mark = state.mark();
         self.strike_groups(model, state, room)?;
         self.strike_openings(terms, model, state, room)?;
@@ -150,7 +80,7 @@ impl Dual {
             for choice in &self.view.choices[group.choices.0..group.choices.1] {
                 let over = if group.spread && !choice.once {
                     // Each way stands for itself.
-                    choice.cost - self.view.cheapest[choice.roles.0].0 - margin
+                    choice.cost - self.view.cheapest[choice.roles.0] - margin
                 } else {
                     (choice.cost - margin).max(0)
                 };
@@ -163,7 +93,7 @@ impl Dual {
                     continue;
                 }
                 for role in choice.roles.0..choice.roles.1 {
-                    let cheapest = self.view.cheapest[role].0;
+                    let cheapest = self.view.cheapest[role];
                     for way in self.ways(role) {
                         if way.id == NONE {
                             continue;
@@ -203,7 +133,7 @@ impl Dual {
                 continue;
             }
             for role in opening.roles.0..opening.roles.1 {
-                let cheapest = self.view.cheapest[role].0;
+                let cheapest = self.view.cheapest[role];
                 for way in self.ways(role) {
                     let extra = over + self.way_cost(way) - cheapest;
                     if way.id == NONE || extra <= room {
@@ -233,30 +163,16 @@ impl Dual {
         way.fixed + self.prices[way.price] + more.iter().map(|&p| self.prices[p]).sum::<i64>()
     }
 
-    /// The bound at the present prices (without what is paid); sets the slope.
-    fn evaluate(&mut self, terms: &Terms, model: &Model) -> i64 {
+    /// The bound at the present prices (without what is paid).
+    fn evaluate(&mut self, terms: &Terms) -> i64 {
         for role in 0..self.view.roles.len() {
             let (start, end) = self.view.roles[role];
-            let mut best = (FAR, NONE);
-            for index in start..end {
-                let cost = self.way_cost(&self.view.ways[index]);
-                if cost < best.0 {
-                    best = (cost, index);
-                }
-            }
-            self.view.cheapest[role] = best;
+            let costs = self.view.ways[start..end].iter().map(|way| self.way_cost(way));
+            self.view.cheapest[role] = costs.min().unwrap_or(FAR);
         }
-        for slope in &mut self.slope[..terms.first_link] {
-            *slope = -1;
-        }
-        self.slope[terms.first_link..].fill(0);
-        let mut value = -self.prices[..terms.first_link].iter().sum::<i64>();
-        for index in 0..self.view.groups.len() {
-            value += self.choose(index);
-        }
-        value += self.open(terms);
-        debug_assert_eq!(model.alt_device.len(), terms.alt_requests.len());
-        value
+        let held = self.prices[..terms.first_link].iter().sum::<i64>();
+        let groups: i64 = (0..self.view.groups.len()).map(|index| self.choose(index)).sum();
+        groups + self.open(terms) - held
     }
 
     /// A group of alike devices takes the cheapest that it can take together.
@@ -271,23 +187,22 @@ impl Dual {
             let own = &self.view.lists[choice.prices.0..choice.prices.1];
             let own: i64 = own.iter().map(|&p| self.prices[p]).sum();
             let roles = &self.view.cheapest[choice.roles.0..choice.roles.1];
-            let cost = own + roles.iter().map(|r| r.0).sum::<i64>();
+            let cost = own + roles.iter().sum::<i64>();
             self.view.choices[c].cost = cost;
             if spread && !choice.once {
                 let (first, last) = self.view.roles[choice.roles.0];
                 for way in first..last {
-                    order.push((own + self.way_cost(&self.view.ways[way]), c, way));
+                    order.push((own + self.way_cost(&self.view.ways[way]), c));
                 }
             } else {
-                order.push((cost, c, NONE));
+                order.push((cost, c));
             }
         }
         let mut value = 0;
         let mut margin = FAR;
         if number == 1 {
-            if let Some(&(cost, c, way)) = order.iter().min() {
+            if let Some(&(cost, ..)) = order.iter().min() {
                 (value, margin) = (cost, cost);
-                self.take(c, way, 1);
             }
         } else {
             if order.len() > number {
@@ -296,12 +211,11 @@ impl Dual {
             }
             order.sort_unstable();
             let mut left = number;
-            for &(cost, c, way) in &order {
+            for &(cost, c) in &order {
                 let choice = self.view.choices[c];
                 let times = if spread || choice.once { 1 } else { left };
                 value += cost * times as i64;
                 margin = cost;
-                self.take(c, way, times as i64);
                 left -= times;
                 if left == 0 {
                     break;
@@ -317,29 +231,6 @@ impl Dual {
         value
     }
 
-    /// Books what a choice uses.
-    fn take(&mut self, c: usize, way: usize, times: i64) {
-        let choice = self.view.choices[c];
-        for &price in &self.view.lists[choice.prices.0..choice.prices.1] {
-            self.slope[price] += times;
-        }
-        for role in choice.roles.0..choice.roles.1 {
-            let way = if way == NONE { self.view.cheapest[role].1 } else { way };
-            self.use_way(way, times);
-        }
-    }
-
-    fn use_way(&mut self, way: usize, times: i64) {
-        if way == NONE {
-            return;
-        }
-        let way = self.view.ways[way];
-        self.slope[way.price] += times;
-        for &price in &self.view.lists[way.more.0..way.more.1] {
-            self.slope[price] += times;
-        }
-    }
-
     /// Facilities open where that pays, and as many as their families need.
     fn open(&mut self, terms: &Terms) -> i64 {
         for index in 0..self.view.openings.len() {
@@ -348,7 +239,7 @@ impl Dual {
             let facility = &terms.facilities[facility];
             let mut cost = facility.resource.map_or(0, |r| self.prices[r]);
             cost -= facility.links.iter().map(|&(l, times)| self.prices[l] * times).sum::<i64>();
-            cost += self.view.cheapest[roles.0..roles.1].iter().map(|r| r.0).sum::<i64>();
+            cost += self.view.cheapest[roles.0..roles.1].iter().sum::<i64>();
             let opening = &mut self.view.openings[index];
             opening.cost = cost;
             opening.open = opening.forced || cost < 0;
@@ -376,25 +267,7 @@ impl Dual {
                 }
             }
         }
-        let mut value = 0;
-        for index in 0..self.view.openings.len() {
-            if !self.view.openings[index].open {
-                continue;
-            }
-            let roles = self.view.openings[index].roles;
-            let facility = &terms.facilities[self.view.openings[index].facility];
-            value += self.view.openings[index].cost;
-            if let Some(resource) = facility.resource {
-                self.slope[resource] += 1;
-            }
-            for &(link, times) in &facility.links {
-                self.slope[link] -= times;
-            }
-            for role in roles.0..roles.1 {
-                self.use_way(self.view.cheapest[role].1, 1);
-            }
-        }
-        value
+        self.view.openings.iter().filter(|o| o.open).map(|o| o.cost).sum()
     }
 
     /// Brings the living domains into the view.
@@ -431,11 +304,11 @@ impl Dual {
         for (index, facility) in terms.facilities.iter().enumerate() {
             if facility.alts.iter().any(|&alt| state.alt_on(alt)) {
                 self.opening_of[index] = self.view.openings.len();
-                self.view.add_opening(model, state, index, facility);
+                self.view.add_opening(terms, model, state, index, facility);
             }
         }
         self.view.cheapest.clear();
-        self.view.cheapest.resize(self.view.roles.len(), (0, NONE));
+        self.view.cheapest.resize(self.view.roles.len(), 0);
         self.view.margin.clear();
         self.view.margin.resize(self.view.groups.len(), 0);
     }

@@ -1,7 +1,9 @@
 //! Branch and bound: domains in, the cheapest complete choice below a limit out.
 //!
 //! Each node propagates, bounds by the flow, and tries to read a wiring off the flow. Where that
-//! fails, the choice at fault is branched on: taken, or taken away from the device and all its
+//! fails, it bounds by prices, tries the wiring that the linear program comes nearest to
+//! ([`crate::guide`]), and branches: on what the program leaves open, or on the choice at fault. It
+//! is taken, or taken away from the device and all its
 //! interchangeable siblings at once, which is what breaks their symmetry.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
@@ -11,6 +13,7 @@ use crate::flow::{Flow, Saved};
 use crate::model::Model;
 use crate::problem::{Problem, StreamId};
 use crate::read::Scratch;
+use crate::relax::Relaxation;
 use crate::state::{Dead, State, Toll};
 use crate::terms::Terms;
 
@@ -33,22 +36,29 @@ pub(crate) struct Engine<'a> {
     pub(crate) state: State,
     pub(crate) flow: Flow,
     /// Only answers below this are looked for.
-    limit: u64,
+    pub(crate) limit: u64,
     /// Whether the first one is enough.
     first: bool,
-    best: Option<(u64, Choices)>,
+    pub(crate) best: Option<(u64, Choices)>,
     /// Only answers above this are looked for.
-    floor: Option<u64>,
+    pub(crate) floor: Option<u64>,
     pub(crate) nodes: u64,
     stop: Option<&'a dyn Fn() -> bool>,
     pub(crate) stopped: bool,
     pub(crate) scratch: Scratch,
     /// The second bound, made when the flow is not enough.
-    dual: Option<Box<(Terms, Dual)>>,
+    pub(crate) prices: Option<Box<Prices>>,
     /// Nodes until which any answer will do, so that there is a limit to bound against.
     dive: u64,
     /// Nodes when the present search began.
     begun: u64,
+}
+
+/// What the price bound needs.
+pub(crate) struct Prices {
+    pub(crate) terms: Terms,
+    dual: Dual,
+    pub(crate) relaxation: Relaxation,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
@@ -57,18 +67,17 @@ pub(crate) struct Parked {
     flow: Flow,
     nodes: u64,
     scratch: Scratch,
-    dual: Option<Box<(Terms, Dual)>>,
+    prices: Option<Box<Prices>>,
 }
 
 /// How long the search looks for a first answer by the flow alone.
-const DIVE: u64 = 300;
+const DIVE: u64 = 10;
 
 /// Nodes of a mere question that are spent on the flow alone.
 const PATIENCE: u64 = 3;
 
-/// Steps of the price ascent at the root and at other nodes.
-const ROOT_STEPS: usize = 250;
-const NODE_STEPS: usize = 30;
+/// Steps of the simplex method at one node.
+const LP_STEPS: usize = 5_000;
 
 impl<'a> Engine<'a> {
     /// # Errors
@@ -91,19 +100,19 @@ impl<'a> Engine<'a> {
             stop,
             stopped: false,
             scratch: Scratch::new(problem.resources as usize, model.pins),
-            dual: None,
+            prices: None,
             dive: 0,
             begun: 0,
         })
     }
 
     pub(crate) fn park(self) -> Parked {
-        let Self { state, flow, nodes, scratch, dual, .. } = self;
-        Parked { state, flow, nodes, scratch, dual }
+        let Self { state, flow, nodes, scratch, prices, .. } = self;
+        Parked { state, flow, nodes, scratch, prices }
     }
 
     pub(crate) fn unpark(problem: &'a Problem, model: &'a Model, parked: Parked) -> Self {
-        let Parked { state, flow, nodes, scratch, dual } = parked;
+        let Parked { state, flow, nodes, scratch, prices } = parked;
         Self {
             problem,
             model,
@@ -117,7 +126,7 @@ impl<'a> Engine<'a> {
             stop: None,
             stopped: false,
             scratch,
-            dual,
+            prices,
             dive: 0,
             begun: 0,
         }
@@ -132,7 +141,7 @@ impl<'a> Engine<'a> {
         let saved = self.flow.save();
         self.begun = self.nodes;
         if limit == u64::MAX {
-            self.dive = self.nodes + DIVE;
+            self.dive = self.nodes + self.model.devices as u64 + DIVE;
             self.node(0);
             self.dive = 0;
             self.back(mark, &saved);
@@ -169,7 +178,6 @@ impl<'a> Engine<'a> {
 
     /// Searches below the current domains; leaves them smaller.
     fn node(&mut self, depth: usize) {
-        let mut fresh = true;
         loop {
             self.nodes += 1;
             if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
@@ -187,19 +195,21 @@ impl<'a> Engine<'a> {
                 return;
             }
             let Some(mut branch) = self.try_wiring(bound) else { return };
-            if self.dive == 0 && (!self.first || self.nodes > self.begun + PATIENCE) {
-                let steps =
-                    match (depth == 0 && (!self.first || self.limit == self.model.most), fresh) {
-                        (true, true) => ROOT_STEPS,
-                        (true, false) => ROOT_STEPS / 4,
-                        (false, _) => NODE_STEPS,
-                    };
-                fresh = false;
-                match self.price(steps) {
+            if self.prices_now() {
+                match self.price() {
                     Err(Dead) => return,
                     Ok(true) => continue,
-                    Ok(false) => branch = self.guided(branch),
+                    Ok(false) => {}
                 }
+                let limit = self.limit;
+                self.round();
+                if self.limit < limit {
+                    if self.first || depth > 0 {
+                        return;
+                    }
+                    continue;
+                }
+                branch = self.guided(branch);
             }
             let limit = self.limit;
             let refused = self.follow(branch, depth);
@@ -211,6 +221,12 @@ impl<'a> Engine<'a> {
                 return;
             }
         }
+    }
+
+    /// Whether it is time for the second bound.
+    fn prices_now(&self) -> bool {
+        self.dive == 0
+            && (!self.first || self.prices.is_some() || self.nodes > self.begun + PATIENCE)
     }
 
     /// Reads a wiring off the flow and keeps it if it is better; what to branch on, if anything.
@@ -237,7 +253,6 @@ impl<'a> Engine<'a> {
     fn follow(&mut self, branch: Branch, depth: usize) -> Result<(), Dead> {
         let mark = self.state.mark();
         let saved = self.flow.save();
-        let prices = self.dual.as_ref().map(|dual| dual.1.save());
         let limit = self.limit;
         if self.take(branch).is_ok() {
             self.node(depth + 1);
@@ -246,43 +261,36 @@ impl<'a> Engine<'a> {
             return Ok(());
         }
         self.back(mark, &saved);
-        if let (Some(dual), Some(prices)) = (&mut self.dual, prices) {
-            dual.1.restore(&prices);
-        }
         if self.limit < limit && !self.first { Ok(()) } else { self.refuse(branch) }
-    }
-
-    /// The same branching with the alternative that the prices favour.
-    fn guided(&self, branch: Branch) -> Branch {
-        let (Branch::Alt(alt), Some(dual)) = (branch, &self.dual) else { return branch };
-        let cheapest = dual.1.cheapest(self.model, self.model.alt_device[alt]);
-        Branch::Alt(cheapest.filter(|a| self.state.alt_on(*a)).unwrap_or(alt))
     }
 
     /// Strikes all that cannot be in an answer below the limit, for good.
     pub(crate) fn narrow(&mut self, limit: u64) -> Result<(), Dead> {
         self.limit = limit;
         self.settle()?;
-        while self.dual.is_some() && !self.stopped && self.price(ROOT_STEPS / 4)? {
+        while self.prices.is_some() && !self.stopped && self.price()? {
             self.settle()?;
         }
         Ok(())
     }
 
     /// Bounds by prices; whether they narrowed the domains.
-    fn price(&mut self, steps: usize) -> Result<bool, Dead> {
+    fn price(&mut self) -> Result<bool, Dead> {
         let (problem, model) = (self.problem, self.model);
-        let pair = self.dual.get_or_insert_with(|| {
+        let prices = self.prices.get_or_insert_with(|| {
             let terms = Terms::new(problem, model);
             let dual = Dual::new(&terms);
-            Box::new((terms, dual))
+            let relaxation = Relaxation::new(&terms, model, &self.state);
+            Box::new(Prices { terms, dual, relaxation })
         });
-        let (terms, dual) = &mut **pair;
-        let bound = dual.ascend(terms, model, &self.state, self.limit, steps);
+        let Prices { terms, dual, relaxation } = &mut **prices;
+        let most = Dual::most(model, &self.state, self.limit).ok_or(Dead)?;
+        relaxation.run(terms, model, &self.state, dual, (most, LP_STEPS));
+        let bound = dual.assess(terms, model, &self.state);
         if bound >= self.limit {
             return Err(Dead);
         }
-        dual.strike(terms, model, &mut self.state, bound, self.limit)
+        dual.strike(terms, model, &mut self.state, self.limit)
     }
 
     fn take(&mut self, branch: Branch) -> Result<(), Dead> {

@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Terms {
     pub(crate) prices: usize,
+    /// Prices count in weights times 2^shift.
+    pub(crate) shift: u32,
     /// From here on prices are links: they bind a use to the opening of a facility.
     pub(crate) first_link: usize,
     pub(crate) first_stream: usize,
@@ -89,9 +91,18 @@ impl Terms {
             terms.facilities[facility].links.push((link, alike.max(1) as i64));
         }
         terms.prices = first_link + links.len();
+        terms.shift = terms.find_shift(model);
         terms.find_requests(problem, model);
         terms.find_families(model);
         terms
+    }
+
+    /// As fine as it can be while all prices, none above the greatest weight, still add up.
+    fn find_shift(&self, model: &Model) -> u32 {
+        let times: i64 = self.facilities.iter().flat_map(|f| &f.links).map(|l| l.1).sum();
+        let terms = self.prices as u64 + times.unsigned_abs() + model.devices as u64;
+        let bits = (64 - model.most.leading_zeros()) + (64 - terms.leading_zeros());
+        61_u32.saturating_sub(bits).min(16)
     }
 
     /// Makes the facilities and tells those of each alternative.

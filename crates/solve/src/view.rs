@@ -1,7 +1,6 @@
 //! The domains of one node in a form that is quick to price, over and over.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::dual::SHIFT;
 use crate::model::{Kind, Model, NONE};
 use crate::state::State;
 use crate::terms::{Facility, Terms};
@@ -57,21 +56,21 @@ pub(crate) struct View {
     pub(crate) lists: Vec<usize>,
     pub(crate) openings: Vec<Opening>,
     /// Cheapest way of each role at the present prices.
-    pub(crate) cheapest: Vec<(i64, usize)>,
+    pub(crate) cheapest: Vec<i64>,
     /// Dearest choice that some device of the group takes.
     pub(crate) margin: Vec<i64>,
-    pub(crate) order: Vec<(i64, usize, usize)>,
+    pub(crate) order: Vec<(i64, usize)>,
 }
 
 impl View {
-    pub(crate) fn add_way(&mut self, model: &Model, more: &[usize], id: usize) {
+    pub(crate) fn add_way(&mut self, terms: &Terms, model: &Model, more: &[usize], id: usize) {
         let start = self.lists.len();
         self.lists.extend_from_slice(more);
         let c = model.cand(id);
         self.ways.push(Way {
             id,
             price: c.pin,
-            fixed: ((c.extra + model.pin_weight[c.pin]) as i64) << SHIFT,
+            fixed: ((c.extra + model.pin_weight[c.pin]) as i64) << terms.shift,
             more: (start, self.lists.len()),
         });
     }
@@ -97,7 +96,7 @@ impl View {
             }
             let start = self.ways.len();
             for id in state.cands(model, role) {
-                self.add_way(model, terms.cand_prices.at(id), id);
+                self.add_way(terms, model, terms.cand_prices.at(id), id);
             }
             self.roles.push((start, self.ways.len()));
         }
@@ -113,6 +112,7 @@ impl View {
 
     pub(crate) fn add_opening(
         &mut self,
+        terms: &Terms,
         model: &Model,
         state: &State,
         index: usize,
@@ -128,7 +128,7 @@ impl View {
                 let c = model.cand(id);
                 let here = decided.is_none_or(|&alt| model.role_alt[c.role] == alt);
                 if here && state.cand_on(model, id) && seen.insert((c.pin, c.signal, c.holder)) {
-                    self.add_way(model, &[], id);
+                    self.add_way(terms, model, &[], id);
                 }
             }
             self.roles.push((start, self.ways.len()));

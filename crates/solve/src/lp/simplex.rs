@@ -1,0 +1,534 @@
+//! The dual simplex method for variables with bounds: a basis that prices in, a better one out.
+//!
+//! Minimises `cost x` where `matrix x` lies within the bounds of the rows and `x` within its own.
+//! Each row has a slack variable, numbered after the columns, that equals the row. The basis
+//! outlives changes of bounds, so a node of a search starts where its parent ended. Steepest edge
+//! pricing, a ratio test that flips bounds on its way, and slightly perturbed costs keep the
+//! number of steps low.
+#![expect(clippy::indexing_slicing, reason = "variables and rows are those of the matrix")]
+
+use super::factor::{Factor, NONE};
+use super::matrix::Matrix;
+
+/// How far outside its bounds a value may lie.
+const FEASIBLE: f64 = 1e-7;
+/// Smaller entries are no pivots.
+const PIVOT: f64 = 1e-7;
+/// Exchanges before the basis is decomposed anew.
+const UPDATES: usize = 60;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Status {
+    /// The prices are the best.
+    Optimal,
+    /// The value has reached the cutoff.
+    Cutoff,
+    /// No more steps were allowed, or numbers went astray.
+    Unfinished,
+}
+
+/// A linear program and its basis.
+#[derive(Clone, Debug)]
+pub(crate) struct Simplex {
+    matrix: Matrix,
+    cost: Vec<f64>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    /// Variable that is basic in a row.
+    basic: Vec<usize>,
+    /// Row in which a variable is basic, or none.
+    place: Vec<usize>,
+    value: Vec<f64>,
+    /// Reduced costs.
+    reduced: Vec<f64>,
+    /// Steepest edge weights, by variable.
+    edge: Vec<f64>,
+    factor: Factor,
+    ready: bool,
+    // Work space.
+    rho: Vec<f64>,
+    column: Vec<f64>,
+    tau: Vec<f64>,
+    alpha: Vec<f64>,
+    touched: Vec<usize>,
+    listed: Vec<bool>,
+    candidates: Vec<(f64, f64, usize)>,
+    nonzeros: Vec<usize>,
+}
+
+impl Simplex {
+    /// A program with the slacks as basis. All bounds of columns are finite; each row has at least
+    /// one finite bound.
+    pub(crate) fn new(matrix: Matrix, cost: Vec<f64>, lower: Vec<f64>, upper: Vec<f64>) -> Self {
+        let (rows, columns) = (matrix.rows(), matrix.columns());
+        let mut place = vec![NONE; columns + rows];
+        (0..rows).for_each(|row| place[columns + row] = row);
+        Self {
+            cost,
+            lower,
+            upper,
+            basic: (columns..columns + rows).collect(),
+            place,
+            value: vec![0.0; columns + rows],
+            reduced: vec![0.0; columns + rows],
+            edge: vec![1.0; columns + rows],
+            factor: Factor::default(),
+            ready: false,
+            rho: vec![0.0; rows],
+            column: vec![0.0; rows],
+            tau: vec![0.0; rows],
+            alpha: vec![0.0; columns + rows],
+            touched: Vec::new(),
+            listed: vec![false; columns + rows],
+            candidates: Vec::new(),
+            nonzeros: Vec::new(),
+            matrix,
+        }
+    }
+
+    pub(crate) fn bound(&mut self, column: usize, lower: f64, upper: f64) {
+        self.lower[column] = lower;
+        self.upper[column] = upper;
+    }
+
+    pub(crate) fn value(&self, column: usize) -> f64 {
+        self.value[column]
+    }
+
+    /// What one more unit of a row's bound would cost (at most 0) or save.
+    pub(crate) fn price(&self, row: usize) -> f64 {
+        self.reduced[self.matrix.columns() + row]
+    }
+
+    /// Runs until the prices are the best, the value reaches `cutoff` or so many steps are done.
+    pub(crate) fn solve(&mut self, cutoff: f64, steps: usize) -> Status {
+        self.place_nonbasic();
+        if self.ready {
+            self.compute_values();
+        } else {
+            self.rebuild();
+        }
+        let mut anew = false;
+        for step in 0..steps {
+            if anew || self.factor.updates() >= UPDATES || self.factor.worn() {
+                self.rebuild();
+                anew = false;
+            }
+            if step % 8 == 0 && self.objective() >= cutoff {
+                return Status::Cutoff;
+            }
+            let Some((row, over)) = self.leaving() else {
+                if self.factor.updates() == 0 {
+                    return Status::Optimal;
+                }
+                self.rebuild();
+                if self.leaving().is_none() {
+                    return Status::Optimal;
+                }
+                continue;
+            };
+            self.price_row(row);
+            match self.entering(over) {
+                Entering::None(slope) => {
+                    if self.factor.updates() > 0 {
+                        anew = true;
+                        continue;
+                    }
+                    // The value grows without end along this ray.
+                    let far = ((cutoff - self.objective()).max(0.0) + 1.0) / slope * 1.01;
+                    self.move_prices(row, over, far.min(1e12));
+                    self.ready = false;
+                    return Status::Cutoff;
+                }
+                Entering::Variable(variable, flips) => {
+                    self.flip(flips);
+                    if !self.exchange(row, variable) {
+                        if self.factor.updates() == 0 {
+                            return Status::Unfinished;
+                        }
+                        anew = true;
+                    }
+                }
+            }
+        }
+        Status::Unfinished
+    }
+
+    /// Puts nonbasic variables on the bound that their reduced cost asks for.
+    fn place_nonbasic(&mut self) {
+        for variable in 0..self.value.len() {
+            if self.place[variable] == NONE {
+                let reduced = self.reduced[variable];
+                let (lower, upper) = (self.lower[variable], self.upper[variable]);
+                let up = if lower == f64::NEG_INFINITY {
+                    true
+                } else if upper == f64::INFINITY {
+                    false
+                } else if reduced.abs() < 1e-12 {
+                    self.value[variable] >= upper
+                } else {
+                    reduced < 0.0
+                };
+                self.value[variable] = if up { upper } else { lower };
+            }
+        }
+    }
+
+    /// Decomposes the basis and computes everything from it.
+    fn rebuild(&mut self) {
+        self.factor.decompose(&self.matrix, &mut self.basic);
+        for (row, &variable) in self.basic.iter().enumerate() {
+            if self.place[variable] == NONE {
+                self.edge[variable] = 1.0;
+            }
+            self.place[variable] = row;
+        }
+        for variable in 0..self.place.len() {
+            let row = self.place[variable];
+            if row != NONE && self.basic[row] != variable {
+                self.place[variable] = NONE;
+            }
+        }
+        self.compute_reduced();
+        self.place_nonbasic();
+        self.compute_values();
+        self.ready = true;
+    }
+
+    fn compute_reduced(&mut self) {
+        let columns = self.matrix.columns();
+        let mut y = std::mem::take(&mut self.rho);
+        for (row, &variable) in self.basic.iter().enumerate() {
+            y[row] = if variable < columns { self.cost[variable] } else { 0.0 };
+        }
+        self.factor.backward(&mut y);
+        for column in 0..columns {
+            self.reduced[column] = if self.place[column] == NONE {
+                let sum: f64 = self.matrix.column(column).iter().map(|&(r, a)| a * y[r]).sum();
+                self.cost[column] - sum
+            } else {
+                0.0
+            };
+        }
+        for (slack, &price) in (columns..).zip(&y) {
+            self.reduced[slack] = if self.place[slack] == NONE { price } else { 0.0 };
+        }
+        // A slack with one bound cannot follow a wrong sign.
+        for slack in columns..self.reduced.len() {
+            let wrong = (self.lower[slack] == f64::NEG_INFINITY && self.reduced[slack] > 0.0)
+                || (self.upper[slack] == f64::INFINITY && self.reduced[slack] < 0.0);
+            if wrong {
+                self.reduced[slack] = 0.0;
+            }
+        }
+        self.rho = y;
+    }
+
+    fn compute_values(&mut self) {
+        let columns = self.matrix.columns();
+        let mut v = std::mem::take(&mut self.column);
+        v.fill(0.0);
+        for column in 0..columns {
+            let value = self.value[column];
+            if self.place[column] == NONE && value != 0.0 {
+                self.matrix.column(column).iter().for_each(|&(r, a)| v[r] -= a * value);
+            }
+        }
+        for (row, sum) in v.iter_mut().enumerate() {
+            if self.place[columns + row] == NONE {
+                *sum += self.value[columns + row];
+            }
+        }
+        self.factor.forward(&mut v);
+        for (row, &variable) in self.basic.iter().enumerate() {
+            self.value[variable] = v[row];
+        }
+        self.column = v;
+    }
+
+    /// The value that the present prices prove.
+    fn objective(&self) -> f64 {
+        let terms = self.reduced.iter().zip(&self.value).filter(|(d, _)| **d != 0.0);
+        terms.map(|(d, x)| d * x).sum()
+    }
+
+    /// The row whose variable lies farthest outside its bounds, and by how much above.
+    fn leaving(&self) -> Option<(usize, f64)> {
+        let mut best = (0.0, NONE, 0.0);
+        for (row, &variable) in self.basic.iter().enumerate() {
+            let value = self.value[variable];
+            let over = if value > self.upper[variable] + FEASIBLE {
+                value - self.upper[variable]
+            } else if value < self.lower[variable] - FEASIBLE {
+                value - self.lower[variable]
+            } else {
+                continue;
+            };
+            let score = over * over / self.edge[variable];
+            if score > best.0 {
+                best = (score, row, over);
+            }
+        }
+        (best.1 != NONE).then_some((best.1, best.2))
+    }
+
+    /// Computes a row of the inverse and of the table.
+    fn price_row(&mut self, row: usize) {
+        for variable in self.touched.drain(..) {
+            self.alpha[variable] = 0.0;
+            self.listed[variable] = false;
+        }
+        self.rho.fill(0.0);
+        self.rho[row] = 1.0;
+        self.factor.backward(&mut self.rho);
+        let columns = self.matrix.columns();
+        for (row, &rho) in self.rho.iter().enumerate() {
+            if rho.abs() < 1e-13 {
+                continue;
+            }
+            for &(column, a) in self.matrix.row(row) {
+                if self.place[column] == NONE {
+                    if !self.listed[column] {
+                        self.listed[column] = true;
+                        self.touched.push(column);
+                    }
+                    self.alpha[column] += a * rho;
+                }
+            }
+            if self.place[columns + row] == NONE {
+                self.touched.push(columns + row);
+                self.alpha[columns + row] = -rho;
+            }
+        }
+    }
+
+    /// The variable that stops the price move, beyond those that only change their bound.
+    fn entering(&mut self, over: f64) -> Entering {
+        let sign = over.signum();
+        self.candidates.clear();
+        for &variable in &self.touched {
+            let alpha = sign * self.alpha[variable];
+            if alpha.abs() < PIVOT || self.lower[variable] == self.upper[variable] {
+                continue;
+            }
+            let reduced = self.reduced[variable];
+            let low = self.value[variable] <= self.lower[variable];
+            if low && alpha > 0.0 || !low && alpha < 0.0 {
+                self.candidates.push(((reduced / alpha).max(0.0), alpha.abs(), variable));
+            }
+        }
+        self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+        let mut slope = over.abs();
+        let mut end = None;
+        for (index, &(_, alpha, variable)) in self.candidates.iter().enumerate() {
+            slope -= alpha * (self.upper[variable] - self.lower[variable]);
+            if slope <= FEASIBLE {
+                end = Some(index);
+                break;
+            }
+        }
+        let Some(end) = end else { return Entering::None(slope.max(FEASIBLE)) };
+        // Of those that stop it at nearly the same place, the largest pivot.
+        let limit = self.candidates[end].0 + 1e-9;
+        let mut best = end;
+        for (index, candidate) in self.candidates.iter().enumerate().skip(end + 1) {
+            if candidate.0 > limit {
+                break;
+            }
+            if candidate.1 > self.candidates[best].1 {
+                best = index;
+            }
+        }
+        let variable = self.candidates[best].2;
+        Entering::Variable(variable, end)
+    }
+
+    /// Moves the first candidates to their other bounds.
+    fn flip(&mut self, number: usize) {
+        if number == 0 {
+            return;
+        }
+        let columns = self.matrix.columns();
+        let mut v = std::mem::take(&mut self.tau);
+        v.fill(0.0);
+        for &(_, _, variable) in &self.candidates[..number] {
+            let (lower, upper) = (self.lower[variable], self.upper[variable]);
+            let to = if self.value[variable] <= lower { upper } else { lower };
+            let by = to - self.value[variable];
+            self.value[variable] = to;
+            if variable < columns {
+                self.matrix.column(variable).iter().for_each(|&(r, a)| v[r] -= a * by);
+            } else {
+                v[variable - columns] += by;
+            }
+        }
+        self.factor.forward(&mut v);
+        for (row, &by) in v.iter().enumerate() {
+            if by != 0.0 {
+                self.value[self.basic[row]] += by;
+            }
+        }
+        self.tau = v;
+    }
+
+    fn move_prices(&mut self, row: usize, over: f64, by: f64) {
+        let leaving = self.basic[row];
+        let step = by * over.signum();
+        for &variable in &self.touched {
+            self.reduced[variable] -= step * self.alpha[variable];
+        }
+        self.reduced[leaving] = -step;
+    }
+
+    /// Exchanges the variable of a row; false when the pivot is not to be trusted.
+    fn exchange(&mut self, row: usize, entering: usize) -> bool {
+        let columns = self.matrix.columns();
+        let leaving = self.basic[row];
+        self.column.fill(0.0);
+        if entering < columns {
+            self.matrix.column(entering).iter().for_each(|&(r, a)| self.column[r] = a);
+        } else {
+            self.column[entering - columns] = -1.0;
+        }
+        self.factor.forward(&mut self.column);
+        let pivot = self.column[row];
+        if pivot.abs() < PIVOT || (pivot - self.alpha[entering]).abs() > 1e-6 * (1.0 + pivot.abs())
+        {
+            return false;
+        }
+        // Flips may have carried the value to its bound: the sign of its price says to which.
+        let value = self.value[leaving];
+        let above = value > self.upper[leaving];
+        let below = value < self.lower[leaving];
+        let low = below || !above && self.reduced[entering] / pivot <= 0.0;
+        let target = if low { self.lower[leaving] } else { self.upper[leaving] };
+        let step = self.reduced[entering] / pivot;
+        let by = (value - target) / pivot;
+        self.tau.copy_from_slice(&self.rho);
+        let weight: f64 = self.rho.iter().map(|r| r * r).sum();
+        self.factor.forward(&mut self.tau);
+        self.nonzeros.clear();
+        for r in 0..self.column.len() {
+            let a = self.column[r];
+            if a.abs() < 1e-13 {
+                continue;
+            }
+            self.nonzeros.push(r);
+            let variable = self.basic[r];
+            self.value[variable] -= by * a;
+            if r != row {
+                let ratio = a / pivot;
+                let edge = self.edge[variable] - 2.0 * ratio * self.tau[r] + ratio * ratio * weight;
+                self.edge[variable] = edge.max(1e-4);
+            }
+        }
+        self.value[entering] += by;
+        self.value[leaving] = target;
+        for &variable in &self.touched {
+            self.reduced[variable] -= step * self.alpha[variable];
+        }
+        self.reduced[entering] = 0.0;
+        self.reduced[leaving] = -step;
+        self.edge[entering] = (weight / (pivot * pivot)).max(1e-4);
+        self.factor.exchange(row, &self.column, &self.nonzeros);
+        self.basic[row] = entering;
+        self.place[entering] = row;
+        self.place[leaving] = NONE;
+        true
+    }
+}
+
+enum Entering {
+    /// Nothing stops the move; the value grows by so much for each unit.
+    None(f64),
+    /// The variable, and how many of the candidates before it change their bound.
+    Variable(usize, usize),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small generator of its own (splitmix64), for numbers below `limit`.
+    fn below(state: &mut u64, limit: u64) -> u64 {
+        *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (*state ^ (*state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        ((z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB) >> 20) % limit
+    }
+
+    /// Choices that share things which are there once: the shape of the programs to come.
+    fn program(seed: u64) -> Simplex {
+        let mut state = seed;
+        let (groups, things) =
+            (2 + below(&mut state, 8) as usize, 3 + below(&mut state, 9) as usize);
+        let mut matrix = Matrix::default();
+        let mut cost = Vec::new();
+        for group in 0..groups {
+            for _ in 0..1 + below(&mut state, 6) {
+                let mut entries = vec![(things + group, 1.0)];
+                for _ in 0..1 + below(&mut state, 3) {
+                    entries.push((below(&mut state, things as u64) as usize, 1.0));
+                }
+                matrix.add(&entries);
+                cost.push(below(&mut state, 9) as f64);
+            }
+        }
+        matrix.finish(things + groups);
+        let columns = cost.len();
+        let mut lower = vec![0.0; columns];
+        let mut upper = vec![1.0; columns];
+        lower.extend((0..things).map(|_| f64::NEG_INFINITY).chain((0..groups).map(|_| 1.0)));
+        upper.extend((0..things + groups).map(|_| 1.0));
+        Simplex::new(matrix, cost, lower, upper)
+    }
+
+    /// Values within bounds whose cost is what the prices prove: neither can be improved.
+    fn assert_optimal(simplex: &Simplex) {
+        let columns = simplex.matrix.columns();
+        for variable in 0..simplex.value.len() {
+            let value = simplex.value[variable];
+            assert!(value > simplex.lower[variable] - 1e-5, "{value}");
+            assert!(value < simplex.upper[variable] + 1e-5, "{value}");
+        }
+        for row in 0..simplex.matrix.rows() {
+            let sum: f64 = simplex.matrix.row(row).iter().map(|&(c, a)| a * simplex.value[c]).sum();
+            assert!((sum - simplex.value[columns + row]).abs() < 1e-5);
+        }
+        let cost: f64 = simplex.cost.iter().zip(&simplex.value).map(|(c, x)| c * x).sum();
+        assert!((cost - simplex.objective()).abs() < 1e-4, "{cost} {}", simplex.objective());
+    }
+
+    #[test]
+    fn prices_prove_the_values() {
+        let mut solved = 0;
+        for seed in 0..2_000 {
+            let mut simplex = program(seed);
+            if simplex.solve(1e6, 10_000) == Status::Optimal {
+                assert_optimal(&simplex);
+                solved += 1;
+            }
+        }
+        assert!(solved > 500, "{solved}");
+    }
+
+    #[test]
+    fn bounds_change_and_come_back() {
+        for seed in 0..500 {
+            let mut simplex = program(seed);
+            if simplex.solve(1e6, 10_000) != Status::Optimal {
+                continue;
+            }
+            let before = simplex.objective();
+            let column = (seed as usize * 7) % simplex.cost.len();
+            simplex.bound(column, 0.0, 0.0);
+            if simplex.solve(1e6, 10_000) == Status::Optimal {
+                assert_optimal(&simplex);
+                assert!(simplex.objective() > before - 1e-4);
+            }
+            simplex.bound(column, 0.0, 1.0);
+            assert_eq!(simplex.solve(1e6, 10_000), Status::Optimal);
+            assert!((simplex.objective() - before).abs() < 1e-4);
+        }
+    }
+}

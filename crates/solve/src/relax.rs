@@ -1,0 +1,125 @@
+//! The linear relaxation: what the price bound prices, as a linear program whose row prices are
+//! the best prices there are.
+//!
+//! Terms and domains in, prices and the number of devices at each alternative out. The program is
+//! made once; a node changes bounds of columns, and the basis of the node before is the start.
+//! Nothing here needs to be exact (see [`crate::lp`]): [`crate::dual`] judges the prices.
+#![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
+
+use crate::dual::Dual;
+use crate::lp::Status;
+use crate::model::{Kind, Model, NONE};
+use crate::program::{MERGED, Program};
+use crate::state::State;
+use crate::terms::Terms;
+
+/// The program, and the bounds of its columns at the present node.
+#[derive(Clone, Debug)]
+pub(crate) struct Relaxation {
+    program: Program,
+    most: Vec<f64>,
+    least: Vec<f64>,
+}
+
+impl Relaxation {
+    /// The program of what the domains allow now.
+    pub(crate) fn new(terms: &Terms, model: &Model, state: &State) -> Self {
+        let program = Program::new(terms, model, state);
+        let columns = program.columns;
+        Self { program, most: vec![0.0; columns], least: vec![0.0; columns] }
+    }
+
+    /// Brings the bounds up to date; false when the program lacks something that is possible now.
+    fn update(&mut self, terms: &Terms, model: &Model, state: &State) -> bool {
+        let Program { alt_column, cand_column, opening, loose, ceiling, .. } = &self.program;
+        self.most.fill(0.0);
+        self.least.fill(0.0);
+        for device in 0..model.devices {
+            let class = model.alts.range(model.class[device]).start;
+            let first = model.alts.range(device).start;
+            let decided = state.decided(device);
+            for alt in state.alts(model, device) {
+                match alt_column[class + alt - first] {
+                    NONE => return false,
+                    MERGED => {}
+                    column => {
+                        self.most[column] += 1.0;
+                        self.least[column] += f64::from(u8::from(decided == Some(alt)));
+                    }
+                }
+                for role in model.roles.range(alt).filter(|_| decided == Some(alt)) {
+                    if let Some(&column) = state.pinned(role).map(|id| &cand_column[id])
+                        && column < MERGED
+                    {
+                        let wire = matches!(model.role_kind[role], Kind::Wire(_));
+                        self.least[column] = if wire { 1.0 } else { self.least[column] + 1.0 };
+                    }
+                }
+                for id in model.roles.range(alt).flat_map(|role| state.cands(model, role)) {
+                    match cand_column[id] {
+                        NONE => return false,
+                        MERGED => {}
+                        column => self.most[column] = ceiling[column],
+                    }
+                }
+            }
+        }
+        for (index, &column) in opening.iter().enumerate().filter(|o| *o.1 != NONE) {
+            let alts = &terms.facilities[index].alts;
+            let forced = |a: &usize| state.decided(model.alt_device[*a]) == Some(*a);
+            self.most[column] = f64::from(u8::from(alts.iter().any(|&a| state.alt_on(a))));
+            self.least[column] = f64::from(u8::from(alts.iter().any(forced)));
+        }
+        loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
+        // All of them may: no limit.
+        for &column in alt_column.iter().filter(|c| **c < MERGED) {
+            if self.most[column] * 2.0 == ceiling[column] {
+                self.most[column] = ceiling[column];
+            }
+        }
+        for (column, (least, most)) in self.least.iter().zip(&self.most).enumerate() {
+            self.program.simplex.bound(column, *least, *most);
+        }
+        true
+    }
+
+    /// Solves under the present domains and hands the prices on. A value that is certainly above
+    /// `cutoff` (a weight) is enough.
+    pub(crate) fn run(
+        &mut self,
+        terms: &Terms,
+        model: &Model,
+        state: &State,
+        dual: &mut Dual,
+        (cutoff, steps): (u64, usize),
+    ) -> Status {
+        if !self.update(terms, model, state) {
+            *self = Self::new(terms, model, state);
+            self.update(terms, model, state);
+        }
+        let unit = model.weights.cost as f64;
+        let status = self.program.simplex.solve(cutoff as f64 / unit + 0.03, steps);
+        let scale = -unit * (1_u64 << terms.shift) as f64;
+        let most = (model.most << terms.shift) as f64;
+        let price = |&row: &usize| match row {
+            NONE => 0,
+            row => (self.program.simplex.price(row) * scale).round().clamp(0.0, most) as i64,
+        };
+        dual.set(self.program.price_row.iter().map(price));
+        status
+    }
+
+    /// How far a facility is open.
+    pub(crate) fn opened(&self, facility: usize) -> f64 {
+        let column = self.program.opening[facility];
+        if column == NONE { 0.0 } else { self.program.simplex.value(column) }
+    }
+
+    /// How many devices that are alike take this alternative.
+    pub(crate) fn value(&self, model: &Model, alt: usize) -> f64 {
+        let device = model.alt_device[alt];
+        let offset = alt - model.alts.range(device).start;
+        let columns = self.program.counted.at(model.alts.range(model.class[device]).start + offset);
+        columns.iter().map(|&column| self.program.simplex.value(column)).sum()
+    }
+}
