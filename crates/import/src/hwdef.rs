@@ -7,7 +7,6 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::{FileId, Span};
@@ -175,24 +174,27 @@ impl Reader<'_> {
         self.wires.insert(pin.clone(), Wire { pin, label, using, pull, span });
     }
 
-    /// The input of a converter at a pin, as the table of a built-in board with a like MCU says.
+    /// The input of a converter at a pin, as parts of the MCU's line have it, or of its family.
     fn converter_input(&self, pin: &PinName, unit: &str) -> Option<String> {
         const FAMILY: usize = "STM32F4".len();
-        let family = self.mcu.as_deref()?.get(..FAMILY)?;
+        let mcu = self.mcu.as_deref()?;
         let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
-        let boards = catalog::all().iter().filter(|board| board.mcu.starts_with(family));
-        for board in boards {
-            let table = board.table();
-            let usages = table.pin(pin).map(|pin| pin.usages.as_slice()).unwrap_or_default();
-            for usage in usages {
-                if let Function::Adc { units, channel } = usage.signal.function()
-                    && units.contains(&unit)
-                {
-                    return Some(format!("ADC{unit}_IN{channel}"));
-                }
+        let input = |(signal, _): &(String, Option<u8>)| match Signal::parse(signal).0.function() {
+            Function::Adc { units, channel } if units.contains(&unit) => {
+                Some(format!("ADC{unit}_IN{channel}"))
             }
-        }
-        None
+            _ => None,
+        };
+        // A line is named with letters that stand for any: STM32F405xx.
+        let line = mcu.trim_end_matches(['x', 'X']);
+        [line, mcu.get(..FAMILY)?].into_iter().find_map(|start| {
+            let parts = sensedsl_parts::all().filter(|part| part.base().starts_with(start));
+            parts.into_iter().find_map(|part| {
+                let sheet = sensedsl_parts::Sheet::of(part);
+                let (_, usages) = sheet.pin(pin)?;
+                usages.iter().find_map(input)
+            })
+        })
     }
 
     /// The sensors that hang on an I2C bus at a known address.

@@ -133,7 +133,7 @@ fn columns_of_alternate_functions_are_numbered() {
 
 const HWDEF: &str = "\
 # a board of our own\ninclude common.inc\nI2C_ORDER I2C2 I2C1\n\
-PA2 BATT_SENS ADC1 SCALE(2)\nPB6 I2C1_SCL I2C1\nPB7 I2C1_SDA I2C1\n\
+PA2 BATT_SENS ADC1 SCALE(2)\nPC0 AIR_SENS ADC3\nPB6 I2C1_SCL I2C1\nPB7 I2C1_SDA I2C1\n\
 PA5 SPI1_SCK SPI1\nPA6 SPI1_MISO SPI1\nPA7 SPI1_MOSI SPI1\nPC4 GYRO_CS CS\n\
 SPIDEV gyro SPI1 DEVID1 GYRO_CS MODE3 1*MHZ 8*MHZ\nBARO XYZ I2C:1:0x77\n\
 PA8 TIM1_CH1 TIM1 PWM(1) GPIO(50)\nPC7 TIM8_CH2 TIM8 RCININT PULLDOWN\nPD2 LED0 OUTPUT HIGH # blue\n\
@@ -160,6 +160,7 @@ fn a_hwdef_becomes_devices() {
     assert!(says(&made, "W0804", &["PC1"]), "{:?}", said(&made));
     let table = made.table.unwrap();
     assert!(table.contains("# mcu = STM32F405XX\n") && table.contains("ADC1_IN2"), "{table}");
+    assert!(table.contains("ADC3_IN10"), "{table}");
     assert!(table.contains("PA11,,OTG_FS_DM,"), "{table}");
     let alone = with("hwdef.dat", HWDEF.as_bytes(), None, &[]);
     assert!(says(&alone, "E0801", &["common.inc"]) && alone.program.is_none());
