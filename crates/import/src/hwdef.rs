@@ -179,11 +179,10 @@ impl Reader<'_> {
         const FAMILY: usize = "STM32F4".len();
         let mcu = self.mcu.as_deref()?;
         let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
-        let input = |(signal, _): &(String, Option<u8>)| match Signal::parse(signal).0.function() {
-            Function::Adc { units, channel } if units.contains(&unit) => {
-                Some(format!("ADC{unit}_IN{channel}"))
-            }
-            _ => None,
+        let input = |(signal, _): &(String, Option<u8>)| {
+            let (signal, _) = Signal::parse(signal);
+            let Function::Adc { units, channel } = signal.function() else { return None };
+            units.contains(&unit).then(|| format!("ADC{unit}_IN{channel}"))
         };
         // A line is named with letters that stand for any: STM32F405xx.
         let line = mcu.trim_end_matches(['x', 'X']);
