@@ -232,12 +232,13 @@ fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>)
             None
         }
         Err(NoProfile::UnknownMcu { covered, .. }) => {
-            let why =
-                format!("there is no target profile for {mcu}, only for {}", covered.join(", "));
+            let covered = covered.join(", ");
             if asked.is_none() {
-                context.diagnostics.push(h0702_target_none::target_none(at, &shown, &why));
+                let hint = h0702_target_none::no_profile(at, &shown, mcu, &covered);
+                context.diagnostics.push(hint);
                 return Some(Target::None);
             }
+            let why = format!("there is no target profile for {mcu}, only for {covered}");
             let report = e0504_no_firmware_target::no_firmware_target(at, &shown, &why);
             context.diagnostics.push(report);
             None

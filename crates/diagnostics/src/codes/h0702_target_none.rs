@@ -1,4 +1,4 @@
-//! H0702: the MCU of the table is not known.
+//! H0702: nothing is known of what firmware can do on the board.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,11 +8,12 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "H0702",
     severity: Severity::Hint,
-    title: "the MCU of the table is not known",
-    explanation: r#"Nothing says which MCU the table describes, so only the pins are looked at: timers, DMA streams,
-interrupt lines and drivers are not.
+    title: "only the pins are looked at",
+    explanation: r#"Nothing says which MCU the table describes, or there is no target profile for its family. So only the pins
+are looked at: timers, DMA streams, interrupt lines and drivers are not, there is no link, and no firmware can be generated.
 
-Way out: begin the table with a line such as `# mcu = STM32F407VGT6`.
+Way out: begin the table with a line such as `# mcu = STM32F407VGT6`, or take a board of a family with a profile
+(`sensedsl boards` tells which have firmware). `--target none` says that the pins are all that matters.
 "#,
 };
 
@@ -23,4 +24,14 @@ const CODE: Code = Code(&INFO);
 pub fn target_none(span: Span, table: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("only the pins of {table} are looked at: {why}"))
         .help("begin the table with a line such as `# mcu = STM32F407VGT6`")
+}
+
+/// There is no target profile for the MCU; `covered` are the starts of those there are.
+#[must_use]
+pub fn no_profile(span: Span, table: &str, mcu: &str, covered: &str) -> Diagnostic {
+    let message =
+        format!("only the pins of {table} are looked at: there is no target profile for {mcu}");
+    Diagnostic::new(CODE, span, message).help(format!(
+        "there are profiles for {covered}; `--target none` says that the pins are all that matters"
+    ))
 }
