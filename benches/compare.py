@@ -7,7 +7,7 @@
 
 Each line of the input is a problem with our answer and our time: proof, least objective and
 tie-break included, best of up to five runs. The others are asked for the least objective alone,
-building their model not counted; one thread each. Every answer is compared with ours: a
+building their model not counted, best of up to three runs; one thread each. Every answer is compared with ours: a
 disagreement ends the program with status 1.
 """
 
@@ -19,6 +19,8 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 
 LIMIT_S = 20.0
+# Best of so many runs, where one is as quick as that.
+RUNS, QUICK_S = 3, 0.2
 
 
 class Model:
@@ -63,7 +65,7 @@ class Model:
         own = {}
         for role in roles:
             wires = []
-            for pin, holder, claims, violates in role:
+            for pin, holder, _, claims, violates in role:
                 y = self.var()
                 wires.append(y)
                 own.setdefault(pin, []).append(y)
@@ -199,9 +201,7 @@ def highs(model):
     return ("infeasible" if infeasible else "stopped"), None, spent
 
 
-def clingo(model):
-    import clingo as asp
-
+def asp_rules(model):
     def literal(var, factor):
         return f"x({var})" if factor > 0 else f"not x({var})"
 
@@ -214,6 +214,13 @@ def clingo(model):
             rules.append(f":- #sum {{ {body} }} < {least + shift}.")
         if most is not None:
             rules.append(f":- #sum {{ {body} }} > {most + shift}.")
+    return rules
+
+
+def clingo(model):
+    import clingo as asp
+
+    rules = asp_rules(model)
     rules += [f"#minimize {{ {factor},{var}: x({var}) }}." for var, factor in model.cost.items()]
     control = asp.Control(["--opt-mode=opt", "1"], logger=lambda *_: None)
     control.add("base", [], "\n".join(rules))
@@ -241,6 +248,9 @@ def measured(line, peers):
     times, wrong = {}, []
     for name, peer, process in peers:
         status, weight, spent = process.submit(peer, model).result()
+        for _ in range(RUNS - 1):
+            if spent < QUICK_S:
+                spent = min(spent, process.submit(peer, model).result()[2])
         times[name] = None if status == "stopped" else spent * 1e6
         known = "stopped" not in (status, line["status"])
         if known and (status, weight) != (line["status"], ours):

@@ -5,3 +5,4 @@
 pub mod board;
 pub mod brute;
 pub mod generate;
+pub mod json;
