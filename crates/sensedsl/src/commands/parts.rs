@@ -219,6 +219,8 @@ fn solve(request: &Request<'_>, board: &str) -> Fit {
     match Wiring::new(design, None).solve_only(false) {
         Solved::Wired(wiring) => Fit::Wired { violated: wiring.violated, cost: wiring.cost },
         Solved::Infeasible(_) => Fit::Not,
+        // The best wiring leaves the converters without a stream: nothing to build, and no fault.
+        Solved::Failed(why) if why.code.name() == "E0506" => Fit::Not,
         Solved::Failed(_) => Fit::Failed,
     }
 }
