@@ -42,6 +42,9 @@ pub(crate) fn infer(project: &Project, log: &mut Log) -> Vec<Device> {
     for (unit, wires) in &units {
         maker.unit(unit, wires);
     }
+    for wire in &project.wires {
+        maker.unused_select(wire, &units);
+    }
     maker.devices
 }
 
@@ -223,6 +226,22 @@ impl<'a> Maker<'a, '_> {
         }
     }
 
+    /// Reports a chip select whose bus is not known, or is not there.
+    fn unused_select(&mut self, wire: &Wire, units: &Units<'_>) {
+        let (pin, what) = match &wire.using {
+            Using::Select(None) => {
+                (&wire.pin, "no device says that it is selected by it".to_owned())
+            }
+            Using::Select(Some(unit)) if !units.contains_key(unit) => {
+                (&wire.pin, format!("no pin is used for {unit}"))
+            }
+            _ => return,
+        };
+        let label = wire.label.as_deref().unwrap_or("a chip select");
+        let what = format!("{label} at {pin} is left out: {what}");
+        self.log.dropped(wire.span, "", &what);
+    }
+
     fn uart(&mut self, unit: &str, mut plan: Plan<'_>, wires: &BTreeMap<&'static str, &'a Wire>) {
         if !wires.contains_key("tx") {
             plan.properties.push("tx = none;".into());
@@ -242,7 +261,17 @@ impl<'a> Maker<'a, '_> {
             let address = "address = 0x00; // which?";
             return self.left_open(unit, plan, address, "the addresses of I2C devices are");
         }
+        let mut first: BTreeMap<u8, &str> = BTreeMap::new();
         for device in known {
+            // Firmware that looks for several chips at an address finds one of them.
+            if let Some(first) = first.get(&device.address) {
+                let (name, address) = (&device.name, device.address);
+                let what =
+                    format!("{name} at 0x{address:02X} of {unit}, where {first} may be instead");
+                self.log.dropped(device.span, "", &what);
+                continue;
+            }
+            first.insert(device.address, &device.name);
             let mut properties = plan.properties.clone();
             properties.push(format!("address = 0x{:02X};", device.address));
             self.push(Plan {

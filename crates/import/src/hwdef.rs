@@ -103,8 +103,8 @@ impl Reader<'_> {
             return;
         }
         let Some(bytes) = (self.source.beside)(&path) else {
-            let why = format!("the file `{path}` that it includes is not there");
-            log.unreadable(span, self.source.name, &why);
+            let what = format!("`{path}` is not beside the file: what it says of pins is missing");
+            log.dropped(span, "", &what);
             return;
         };
         let (file, text) = log.text(&path, &bytes);
@@ -212,7 +212,7 @@ impl Reader<'_> {
                 match (unit, address) {
                     (Some(unit), Some(address)) => {
                         let (name, unit) = (name.clone(), unit.clone());
-                        found.push(Addressed { name, unit, address });
+                        found.push(Addressed { name, unit, address, span: *span });
                     }
                     _ => {
                         let what =

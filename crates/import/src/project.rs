@@ -67,6 +67,7 @@ pub(crate) struct Addressed {
     pub(crate) unit: String,
     /// Seven bits.
     pub(crate) address: u8,
+    pub(crate) span: Span,
 }
 
 impl Using {

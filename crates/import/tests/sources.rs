@@ -163,9 +163,31 @@ fn a_hwdef_becomes_devices() {
     assert!(table.contains("ADC3_IN10"), "{table}");
     assert!(table.contains("PA11,,OTG_FS_DM,"), "{table}");
     let alone = with("hwdef.dat", HWDEF.as_bytes(), None, &[]);
-    assert!(says(&alone, "E0801", &["common.inc"]) && alone.program.is_none());
+    assert!(says(&alone, "W0804", &["common.inc"]) && says(&alone, "E0801", &["`MCU`"]));
+    assert!(alone.program.is_none());
     let round = [("common.inc", "include common.inc\nMCU STM32F4xx STM32F405xx\n")];
     assert!(says(&with("hwdef.dat", HWDEF.as_bytes(), None, &round), "W0804", &["too deep"]));
+}
+
+/// Of chips that the firmware looks for at one address one is wired, and a select needs a bus.
+#[test]
+fn what_a_hwdef_leaves_open_is_reported() {
+    let hwdef = "MCU STM32H7xx STM32H743xx\ninclude ../no/pins.inc\nI2C_ORDER I2C1\n\
+                 PB6 I2C1_SCL I2C1\nPB7 I2C1_SDA I2C1\nBARO DPS310 I2C:0:0x76\n\
+                 BARO BMP280 I2C:0:0x76\nPC0 FLASH_CS CS\nPC2 OSD_CS CS\nPC1 SENSE ADC1\n\
+                 SPIDEV flash SPI3 DEVID1 FLASH_CS MODE3 1*MHZ 8*MHZ\n";
+    let made = imported(hwdef.as_bytes());
+    for words in [
+        &["`../no/pins.inc`"][..],
+        &["BMP280 at 0x76 of I2C1", "DPS310"],
+        &["flash at PC0", "SPI3"],
+        &["OSD_CS at PC2"],
+    ] {
+        assert!(says(&made, "W0804", words), "{words:?}: {:?}", said(&made));
+    }
+    let program = made.program.unwrap();
+    assert!(program.contains("sensor DPS310 ") && !program.contains("BMP280"), "{program}");
+    assert!(made.table.unwrap().contains("ADC1_IN11"));
 }
 
 #[test]

@@ -222,7 +222,7 @@ pub(crate) struct PartsArgs {
     /// The file; - is the standard input
     #[arg(conflicts_with_all = ["list", "table"])]
     pub(crate) file: Option<PathBuf>,
-    /// List the parts instead, or those with this text in their number or package
+    /// List the parts instead, or those with these words in their numbers or package
     #[arg(long, value_name = "SEARCH", num_args = 0..=1)]
     pub(crate) list: Option<Option<String>>,
     /// Print the table of a part as CSV instead

@@ -9,6 +9,9 @@ use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
 /// that is no text of ours at all has thousands.
 const SHOWN_MAX: usize = 100;
 
+/// Signs of a progress bar.
+const BAR_WIDTH: usize = 40;
+
 /// The two streams and how much is said.
 pub(crate) struct Terminal {
     quiet: bool,
@@ -55,7 +58,8 @@ impl Terminal {
         let text = if done >= total {
             "\r\x1b[K".to_owned()
         } else {
-            format!("\r{done} of {total} {what}")
+            let filled = "#".repeat(BAR_WIDTH * done / total);
+            format!("\r[{filled:.<BAR_WIDTH$}] {done} of {total} {what}")
         };
         // There is nowhere to report that reporting failed.
         let _ = io::stderr().lock().write_all(text.as_bytes());

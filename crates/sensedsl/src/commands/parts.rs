@@ -90,16 +90,25 @@ fn fits(
 
 fn listing(args: &PartsArgs, search: &str) -> String {
     let search = search.to_uppercase();
+    let words: Vec<&str> = search.split_whitespace().collect();
     let rows = parts(args).filter_map(|part| {
         let package = part.package().unwrap_or("-");
         let numbers: Vec<String> = part.numbers().collect();
-        let found = numbers.iter().any(|number| number.contains(&search))
-            || package.to_uppercase().contains(&search);
+        let text = format!("{} {}", numbers.join(" "), package.to_uppercase());
+        let found = words.iter().all(|word| text.contains(word));
         let others = numbers.get(1..).unwrap_or_default().join(" ");
         found.then(|| [part.name(), package.to_owned(), others])
     });
     let rows: Vec<[String; 3]> = rows.collect();
-    table([("Part", false), ("Package", false), ("Also", false)], &rows)
+    let count = match rows.len() {
+        1 => "1 part".to_owned(),
+        some => format!("{some} parts"),
+    };
+    let heads = [("Part", false), ("Package", false), ("Also", false)];
+    format!(
+        "{}\n{count}; `sensedsl parts --table PART` prints the pins of one\n",
+        table(heads, &rows)
+    )
 }
 
 fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
@@ -110,6 +119,9 @@ fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Statu
     // suit, does not matter here.
     let resolved = resolve(&request, &Disk);
     let carriers = carriers(args);
+    if carriers.is_empty() {
+        bail!("no part and no board fits the filters");
+    }
     if resolved.design.is_none() {
         let board = carriers.first().map(|(carrier, _)| carrier.name.as_str());
         if resolve(&Request { board, ..request }, &Disk).design.is_none() {
@@ -188,7 +200,7 @@ fn solve_all(
         first.entry(key).or_insert(index);
     }
     let questions: Vec<usize> = first.values().copied().collect();
-    let next = AtomicUsize::new(0);
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = || {
         let mut answers: Vec<(usize, Fit)> = Vec::new();
         loop {
@@ -197,7 +209,8 @@ fn solve_all(
             if let Some((carrier, _)) = carriers.get(*index) {
                 answers.push((*index, solve(request, &carrier.name)));
             }
-            terminal.progress("parts", at + 1, questions.len());
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            terminal.progress("parts", done, questions.len());
         }
     };
     let cores = thread::available_parallelism().map_or(1, usize::from);
@@ -206,6 +219,8 @@ fn solve_all(
         // A worker that panicked leaves its parts unanswered, which counts as failed.
         workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
     });
+    // Whoever was overtaken by the last one has drawn the bar again.
+    terminal.progress("parts", questions.len(), questions.len());
     let answer = |(_, key): &(Carrier, String)| {
         let index = first.get(key.as_str())?;
         answers.get(index).copied()

@@ -1,0 +1,88 @@
+//! `sensedsl parts`: which parts and boards can carry a file, what they cost, and the lists.
+
+use sensedsl_tests::{Scratch, design, sensedsl};
+use serde_json::Value;
+
+/// The lines that `parts` prints for a file.
+fn carriers(file: &str, arguments: &[&str]) -> Vec<Value> {
+    let call = sensedsl(["parts", "--format", "json"]).arg(file);
+    let ran = arguments.iter().fold(call, |call, argument| call.arg(argument)).run().exits(0);
+    assert_eq!(ran.stderr, "", "a bar is for terminals");
+    ran.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn word<'a>(line: &'a Value, key: &str) -> &'a str {
+    line[key].as_str().unwrap_or_default()
+}
+
+#[test]
+fn carriers_are_ranked_and_cost_what_solve_says() {
+    let file = "examples/fig2.sense";
+    for target in ["none", "chibios"] {
+        let lines = carriers(file, &["--family", "STM32F40", "--target", target]);
+        let costs: Vec<u64> = lines.iter().map(|line| line["cost"].as_u64().unwrap()).collect();
+        assert!(costs.is_sorted() && costs.len() > 20, "{costs:?}");
+        let boards = lines.iter().filter(|line| !line["board"].is_null());
+        let parts = lines.iter().filter(|line| line["board"].is_null());
+        assert!(boards.clone().any(|line| word(line, "board") == "STM32F407G-DISC1"));
+        let some = boards.map(|line| (word(line, "board"), line)).take(3);
+        for (name, line) in some.chain(parts.map(|line| (word(line, "part"), line)).step_by(9)) {
+            assert_eq!(line["status"], "optimal");
+            let solve =
+                sensedsl(["solve", "-q", "--format", "json", "--target", target, "--board"]);
+            let solved = solve.arg(name).arg(file).run().exits(0).json();
+            assert_eq!(solved["cost"], line["cost"], "{name} for {target}");
+        }
+    }
+}
+
+#[test]
+fn filters_leave_what_they_say() {
+    let lines = carriers(
+        "examples/fig2.sense",
+        &["--family", "g0", "--package", "LQFP", "--max-pins", "48"],
+    );
+    assert!(lines.len() > 10);
+    for line in &lines {
+        assert!(word(line, "part").starts_with("STM32G0"), "{line}");
+        assert!(["LQFP32", "LQFP48"].contains(&word(line, "package")), "{line}");
+    }
+    let none = sensedsl(["parts", "examples/fig2.sense", "--family", "Z80"]).run().exits(2);
+    assert!(none.stderr.contains("no part and no board fits the filters"), "{}", none.stderr);
+}
+
+#[test]
+fn parts_that_cannot_carry_the_devices_are_left_out() {
+    let scratch = Scratch::new("parts");
+    let can = design("X", &["can: bitrate = 500 kHz; frame = 1;", "digital: pin = PA11;"]);
+    let file = scratch.write("can.sense", can).display().to_string();
+    let lines = carriers(&file, &["--family", "STM32F103", "--target", "none"]);
+    assert!(lines.iter().any(|line| word(line, "part").starts_with("STM32F103C8")));
+    // The 36 contacts have CAN on PA11 and PA12 alone.
+    assert!(!lines.iter().any(|line| word(line, "part").starts_with("STM32F103T")));
+    let many = design("X", &["dac"; 3]);
+    let file = scratch.write("many.sense", many);
+    let none =
+        sensedsl(["parts", "--family", "STM32F103", "--target", "none"]).arg(file).run().exits(1);
+    assert!(none.stdout.contains("\n0 of "), "{}", none.stdout);
+}
+
+/// What is wrong with the file is told once, not once for each part.
+#[test]
+fn a_mistake_in_the_file_is_told() {
+    let wrong = "board X {\n    sensor A returns uint16 { id = 1; type = analgo; }\n}\n";
+    let ran = sensedsl(["parts", "-"]).stdin(wrong).run().exits(1);
+    assert!(ran.stdout.is_empty() && ran.stderr.matches("analgo").count() <= 3, "{}", ran.stderr);
+}
+
+#[test]
+fn lists_can_be_searched() {
+    let list = sensedsl(["parts", "--list", "g031j6 so8n"]).run().exits(0).stdout;
+    assert!(list.contains("STM32G031J6M6") && list.contains("\n1 part;"), "{list}");
+    let all = sensedsl(["parts", "--list"]).run().exits(0).stdout;
+    assert!(all.lines().count() > 2_000);
+    let table = sensedsl(["parts", "--table", "stm32g031j6m6"]).run().exits(0).stdout;
+    assert!(table.starts_with("# mcu = STM32G031J6M6\n# package = SO8N\nPin,"), "{table}");
+    let slip = sensedsl(["parts", "--table", "STM32F407VGT66"]).run().exits(2);
+    assert!(slip.stderr.contains("did you mean STM32F407VGT6?"), "{}", slip.stderr);
+}
