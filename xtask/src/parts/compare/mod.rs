@@ -2,7 +2,8 @@
 //! folder holds.
 //!
 //! Both sides become sets of facts by part number: which pin carries which usage of the peripherals
-//! that device kinds ask for, with its alternate function, and which contact each pin is on. A
+//! that device kinds ask for, with its alternate function or its remap
+//! blocks, and which contact each pin is on. A
 //! difference has to fall into a class that `crates/parts/data/differences.md` explains, no class
 //! may grow, and the usages have to agree in at least 99.5 % of all.
 
@@ -118,10 +119,9 @@ fn compare(chip: &Chip, number: &str, tally: &mut Tally) -> Result<()> {
     for ((pin, usage), theirs) in &st.usages {
         match (theirs, own.usages.get(&(pin.clone(), usage.clone()))) {
             (_, None) => differ(Side::St, pin, usage),
-            // Where ST's data lack the number there is nothing to compare.
-            (Some(theirs), Some(ours)) if Some(*theirs) != *ours => {
-                let ours = ours.map_or_else(|| "-".to_owned(), |ours| ours.to_string());
-                differ(Side::Both, pin, &format!("{usage}@{theirs}/{ours}"));
+            // Where ST's data do not tell it there is nothing to compare.
+            (theirs, Some(ours)) if theirs.is_known() && theirs != ours => {
+                differ(Side::Both, pin, &format!("{usage} {theirs} {ours}"));
             }
             _ => tally.same += 1,
         }

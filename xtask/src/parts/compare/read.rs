@@ -2,11 +2,13 @@
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, ensure};
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::Function;
 use sensedsl_board::table;
 use sensedsl_import::{Format, Importer, Source};
@@ -24,11 +26,34 @@ pub(crate) struct Chip {
     pub(crate) facts: Facts,
 }
 
+/// The alternate function of a usage, or its remap blocks; neither where it has none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Route {
+    alternate: Option<u8>,
+    blocks: Option<Blocks>,
+}
+
+impl Route {
+    pub(crate) fn is_known(&self) -> bool {
+        self.alternate.is_some() || self.blocks.is_some()
+    }
+}
+
+impl fmt::Display for Route {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.alternate, self.blocks) {
+            (Some(alternate), _) => write!(f, "@{alternate}"),
+            (None, Some(blocks)) => write!(f, "#{blocks}"),
+            (None, None) => write!(f, "-"),
+        }
+    }
+}
+
 /// What a table says.
 #[derive(Default)]
 pub(crate) struct Facts {
-    /// By pin and usage of one unit: the alternate function, where it has one.
-    pub(crate) usages: BTreeMap<(String, String), Option<u8>>,
+    /// By pin and usage of one unit: how the pin is switched to it.
+    pub(crate) usages: BTreeMap<(String, String), Route>,
     /// By pin: its contact.
     pub(crate) positions: BTreeMap<String, String>,
 }
@@ -111,7 +136,8 @@ pub(crate) fn facts(csv: &str) -> Result<Facts> {
         }
         for usage in &pin.usages {
             for one in single(usage.signal.function(), usage.signal.name()) {
-                facts.usages.insert((name.clone(), one), usage.alternate);
+                let route = Route { alternate: usage.alternate, blocks: usage.blocks };
+                facts.usages.insert((name.clone(), one), route);
             }
         }
     }
