@@ -228,17 +228,14 @@ impl<'a> Maker<'a, '_> {
 
     /// Reports a chip select whose bus is not known, or is not there.
     fn unused_select(&mut self, wire: &Wire, units: &Units<'_>) {
-        let (pin, what) = match &wire.using {
-            Using::Select(None) => {
-                (&wire.pin, "no device says that it is selected by it".to_owned())
-            }
-            Using::Select(Some(unit)) if !units.contains_key(unit) => {
-                (&wire.pin, format!("no pin is used for {unit}"))
-            }
-            _ => return,
+        let Using::Select(unit) = &wire.using else { return };
+        let what = match unit {
+            None => "no device says that it is selected by it".to_owned(),
+            Some(unit) if !units.contains_key(unit) => format!("no pin is used for {unit}"),
+            Some(_) => return,
         };
         let label = wire.label.as_deref().unwrap_or("a chip select");
-        let what = format!("{label} at {pin} is left out: {what}");
+        let what = format!("{label} at {} is left out: {what}", wire.pin);
         self.log.dropped(wire.span, "", &what);
     }
 
