@@ -1,9 +1,11 @@
 //! Developer tasks: `cargo xtask TASK`.
 //!
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
-//! corpus' list, tables that are embedded. `parts` writes the table of known parts, or compares it.
+//! corpus' list, tables that are embedded. `parts` writes the table of known parts, or compares it;
+//! `profiles` compares the target profiles with a tree of ChibiOS.
 
 mod parts;
+mod profiles;
 
 use std::io::Write as _;
 use std::process::{Command, ExitCode};
@@ -26,7 +28,8 @@ fn run() -> Result<()> {
     match arguments.split_first() {
         Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "parts" => parts::run(rest),
-        _ => bail!("tasks: bless, parts [--check | --compare FOLDER]"),
+        Some((task, rest)) if task == "profiles" => profiles::run(rest),
+        _ => bail!("tasks: bless, parts [--check | --compare FOLDER], profiles --check"),
     }
 }
 

@@ -116,6 +116,12 @@ pub(crate) const BOARDS: &[Entry] = &[
 pub(crate) const TARGETS: &[Target] = &[
     Target {
         target: "chibios-21.11",
+        family: "STM32F0",
+        parts: &["STM32F030?4", "STM32F030?6", "STM32F030?8", "STM32F030?C", "STM32F031", "STM32F038", "STM32F042", "STM32F048", "STM32F051", "STM32F058", "STM32F070?6", "STM32F070?B", "STM32F071", "STM32F072", "STM32F078", "STM32F091", "STM32F098"],
+        text: include_str!("../../../targets/chibios-21.11/stm32f0.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
         family: "STM32F1",
         parts: &["STM32F100?4", "STM32F100?6", "STM32F100?8", "STM32F100?B", "STM32F101?4", "STM32F101?6", "STM32F102?4", "STM32F102?6", "STM32F103?4", "STM32F103?6", "STM32F101?8", "STM32F101?B", "STM32F102?8", "STM32F102?B", "STM32F103?8", "STM32F103?B", "STM32F101?C", "STM32F101?D", "STM32F101?E", "STM32F103?C", "STM32F103?D", "STM32F103?E", "STM32F101?F", "STM32F101?G", "STM32F103?F", "STM32F103?G", "STM32F105", "STM32F107"],
         text: include_str!("../../../targets/chibios-21.11/stm32f1.toml"),
@@ -131,5 +137,41 @@ pub(crate) const TARGETS: &[Target] = &[
         family: "STM32F4",
         parts: &["STM32F401", "STM32F405", "STM32F407", "STM32F415", "STM32F417", "STM32F410", "STM32F411", "STM32F412", "STM32F413", "STM32F427", "STM32F429", "STM32F437", "STM32F439", "STM32F446", "STM32F469", "STM32F479"],
         text: include_str!("../../../targets/chibios-21.11/stm32f4.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32F7",
+        parts: &["STM32F722", "STM32F723", "STM32F732", "STM32F733", "STM32F745", "STM32F746", "STM32F756", "STM32F765", "STM32F767", "STM32F769", "STM32F777", "STM32F779"],
+        text: include_str!("../../../targets/chibios-21.11/stm32f7.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32G0",
+        parts: &["STM32G031", "STM32G041", "STM32G070", "STM32G071", "STM32G081", "STM32G0B0", "STM32G0B1", "STM32G0C1"],
+        text: include_str!("../../../targets/chibios-21.11/stm32g0.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32G4",
+        parts: &["STM32G431", "STM32G441", "STM32G471", "STM32G473", "STM32G474", "STM32G483", "STM32G484", "STM32G491"],
+        text: include_str!("../../../targets/chibios-21.11/stm32g4.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32H7",
+        parts: &["STM32H723", "STM32H725", "STM32H730", "STM32H733", "STM32H735", "STM32H743", "STM32H753", "STM32H745", "STM32H755", "STM32H747", "STM32H757", "STM32H750", "STM32H7A3", "STM32H7B3"],
+        text: include_str!("../../../targets/chibios-21.11/stm32h7.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32L4",
+        parts: &["STM32L422", "STM32L431", "STM32L432", "STM32L433", "STM32L443", "STM32L452", "STM32L475", "STM32L476", "STM32L486", "STM32L496", "STM32L4A6"],
+        text: include_str!("../../../targets/chibios-21.11/stm32l4.toml"),
+    },
+    Target {
+        target: "chibios-21.11",
+        family: "STM32L4",
+        parts: &["STM32L4P5", "STM32L4Q5", "STM32L4R5", "STM32L4R7", "STM32L4R9", "STM32L4S5", "STM32L4S7", "STM32L4S9"],
+        text: include_str!("../../../targets/chibios-21.11/stm32l4plus.toml"),
     },
 ];

@@ -78,9 +78,19 @@ impl<'a> Offer<'a> {
         on_bus && !released(self.board, pin)
     }
 
-    /// True when a rule keeps the peripheral instance free.
+    /// True when a rule keeps the peripheral instance free, or it cannot work beside the link.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
         self.board.reserved.iter().any(|reserved| reserved.value == unit)
+            || self.excluded_by_link(unit)
+    }
+
+    /// True when the MCU's USB device is the link and lets the peripheral instance not work.
+    pub(crate) fn excluded_by_link(&self, unit: &str) -> bool {
+        let profile = self.board.profile();
+        let usb = profile.filter(|_| self.board.link.transport == Transport::Usb);
+        let excludes = usb.and_then(|profile| profile.usb(None)).map(|usb| usb.excludes.as_slice());
+        let unit = profile.and_then(|profile| profile.unit(unit));
+        unit.is_some_and(|unit| excludes.unwrap_or_default().contains(&unit.name))
     }
 }
 

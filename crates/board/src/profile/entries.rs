@@ -15,6 +15,18 @@ use crate::pin::PinName;
 pub(crate) trait Entry {
     fn name(&self) -> &str;
     fn lines(&self) -> &[String];
+    /// The streams that can serve its requests.
+    fn streams(&self) -> Vec<&Streams>;
+    /// The multiplexers through which it has its streams.
+    fn multiplexers(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        for streams in self.streams() {
+            if let Streams::Behind(name) = streams {
+                names.push(name.as_str());
+            }
+        }
+        names
+    }
 }
 
 /// The streams that can serve a request.
@@ -197,6 +209,8 @@ pub(crate) struct UnitRules {
     /// Options that name streams; none where the driver always takes the first.
     rx: Option<String>,
     tx: Option<String>,
+    /// The option of a unit that has one stream for both.
+    dma: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -213,6 +227,7 @@ pub(crate) struct UnitEntry {
     exceptions: Vec<Exception>,
     rx: Option<Streams>,
     tx: Option<Streams>,
+    dma: Option<Streams>,
     rx_option: Option<String>,
     tx_option: Option<String>,
     #[serde(default)]
@@ -228,6 +243,7 @@ impl UnitEntry {
         let requests = [
             request(format!("{name}_RX"), name, rx_option, self.rx, served),
             request(format!("{name}_TX"), name, tx_option, self.tx, served),
+            request(name.clone(), name, rules.dma.as_deref(), self.dma, served),
         ];
         Unit {
             driver: rule(self.driver, &rules.driver),
@@ -346,7 +362,7 @@ impl<'de> Deserialize<'de> for Cycles {
 }
 
 macro_rules! entries {
-    ($($entry:ty),*) => {
+    ($($entry:ty: [$($streams:ident),*];)*) => {
         $(impl Entry for $entry {
             fn name(&self) -> &str {
                 &self.name
@@ -354,7 +370,16 @@ macro_rules! entries {
             fn lines(&self) -> &[String] {
                 &self.lines
             }
+            fn streams(&self) -> Vec<&Streams> {
+                Vec::new().into_iter()$(.chain(&self.$streams))*.collect()
+            }
         })*
     };
 }
-entries!(TimerEntry, AdcEntry, UnitEntry, DacEntry, UsbEntry);
+entries! {
+    TimerEntry: [];
+    AdcEntry: [dma];
+    UnitEntry: [rx, tx, dma];
+    DacEntry: [];
+    UsbEntry: [];
+}

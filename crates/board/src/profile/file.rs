@@ -74,7 +74,7 @@ impl Line {
     }
 
     /// True when an entry is for the line.
-    fn wants(&self, entry: &impl Entry) -> bool {
+    fn wants(&self, entry: &(impl Entry + ?Sized)) -> bool {
         self.has(entry.name()) && self.fits(entry.lines())
     }
 
@@ -238,9 +238,26 @@ impl File {
                 problems.push(format!("{name} ({}): no line has it", lines.join(" ")));
             }
         }
+        for line in &self.line {
+            let named = self.multiplexers().filter(|(entry, _)| line.wants(*entry));
+            for (_, mux) in named {
+                let has = |known: &&Multiplexer| known.name == mux && line.fits(&known.lines);
+                if self.multiplexer.iter().filter(has).count() != 1 {
+                    problems.push(format!("{}: there is no one multiplexer {mux}", line.name));
+                }
+            }
+        }
         let empty = self.sources().filter(|source| source.is_empty());
         problems.extend(empty.map(|_| "a group has no source".to_owned()));
         problems
+    }
+
+    /// The units that have their streams through a multiplexer, with its name.
+    fn multiplexers(&self) -> impl Iterator<Item = (&dyn Entry, &str)> {
+        let adcs = self.adcs.units.iter().map(|unit| unit as &dyn Entry);
+        let buses = self.i2cs.units.iter().chain(&self.spis.units);
+        let all = adcs.chain(buses.map(|unit| unit as &dyn Entry));
+        all.flat_map(|unit| unit.multiplexers().into_iter().map(move |name| (unit, name)))
     }
 
     fn sources(&self) -> impl Iterator<Item = &str> {

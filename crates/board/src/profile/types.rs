@@ -100,7 +100,8 @@ pub struct Drivers {
     pub dac: String,
     /// DMA.
     pub dma: String,
-    /// Pin interrupts.
+    /// Pin interrupts; empty where they belong to the pins.
+    #[serde(default)]
     pub exti: String,
     /// Pins.
     pub gpio: String,
