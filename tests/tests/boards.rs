@@ -249,6 +249,23 @@ fn a_board_that_the_system_does_not_know_says_so() {
     }
 }
 
+/// A profile may be for drivers that there are no templates for: the wiring is found, and no file
+/// is written.
+#[test]
+fn drivers_without_templates_are_told() {
+    for (name, driver) in [("NUCLEO-F103RB", "STM32F1xx"), ("NUCLEO-G474RE", "ADCv3")] {
+        let scratch = Scratch::new("no-template");
+        let file = scratch.write("fig2.sense", fig2_on(catalog::find(name).unwrap()));
+        let (file, out) = (file.display().to_string(), scratch.path().join("out"));
+        let out = out.display().to_string();
+        let _ = sensedsl(["solve", "-q", &file]).run().exits(0);
+        let ran = sensedsl(["generate", &file, "-o", &out]).run().exits(1);
+        let told = ran.stderr.contains("E0504") && ran.stderr.contains(driver);
+        assert!(told, "{name}: {}", ran.stderr);
+        assert!(!Path::new(&out).exists());
+    }
+}
+
 #[test]
 fn the_printed_table_is_whole() {
     let scratch = Scratch::new("printed");
