@@ -3,7 +3,7 @@
 
     python3 -m venv build/venv && build/venv/bin/pip install ortools highspy clingo
     cargo run --release -p sensedsl-solve --example instances > build/instances.jsonl
-    build/venv/bin/python3 benches/compare.py build/instances.jsonl > docs/benchmarks.md
+    build/venv/bin/python3 benches/compare.py build/instances.jsonl > build/benchmarks.md
 
 Each line of the input is a problem with our answer and our time: proof, least objective and
 tie-break included, best of up to five runs. The others are asked for the least objective alone,

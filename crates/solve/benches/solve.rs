@@ -93,3 +93,15 @@ fn eight_short_of_timers(bencher: Bencher<'_, '_>, devices: u64) {
 fn eight_of_two_boards(bencher: Bencher<'_, '_>, devices: u64) {
     solve_all(bencher, &family(2, devices, Mix::General));
 }
+
+/// The problem of `benches/naive.pl`: pins and signals alone.
+#[divan::bench(args = [(2, 1, 1), (3, 1, 3), (4, 1, 3)])]
+fn as_naive_prolog(bencher: Bencher<'_, '_>, (analog, i2c, icu): (u32, u32, u32)) {
+    let mut builder = Builder::new(Target::None, &[(TABLE_1, false)]);
+    (0..analog).for_each(|_| builder.device(&Kind::Analog, &[0]));
+    for address in 0..i2c {
+        builder.device(&Kind::I2c { address, exclusive: false }, &[0]);
+    }
+    (0..icu).for_each(|_| builder.device(&Kind::Icu, &[0]));
+    solve_all(bencher, &[builder.problem]);
+}
