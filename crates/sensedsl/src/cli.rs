@@ -126,6 +126,10 @@ pub(crate) struct SolveArgs {
     /// Stop after that time with the best wiring so far and a bound for what may be missed
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["all", "limit", "count"])]
     pub(crate) timeout: Option<f64>,
+    /// Write a certificate beside the answer, for sensedsl-verify: that the wiring is valid and none
+    /// is better, or that there is none
+    #[arg(long, value_name = "FILE", value_parser = file, conflicts_with_all = ["any", "all", "limit", "count"])]
+    pub(crate) proof: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -314,6 +318,11 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The folder for one page a command
     pub(crate) dir: Option<PathBuf>,
+}
+
+/// A file proper: the answer goes to the standard output already.
+fn file(text: &str) -> Result<PathBuf, String> {
+    if text == "-" { Err("the name of a file".into()) } else { Ok(text.into()) }
 }
 
 /// A time that a clock can be set to.

@@ -13,7 +13,7 @@ use sensedsl_solve::problem::{
 
 use crate::alternatives::{Wanted, alternatives};
 use crate::keep::Keep;
-use crate::names::{Names, Resource};
+use crate::names::{Group, Names, Resource};
 use crate::offer::Offer;
 
 /// Name of a wire that needs no signal.
@@ -52,6 +52,7 @@ pub(crate) struct Formulation<'a> {
     /// For each device of the problem what its alternatives mean.
     pub(crate) meanings: Vec<Vec<Meaning>>,
     pub(crate) resources: Vec<Resource>,
+    pub(crate) groups: Vec<Group>,
     /// For each DMA stream its board and spelling.
     pub(crate) streams: Vec<(BoardIndex, String)>,
     /// For each pin of the problem its board and index in the table.
@@ -183,7 +184,7 @@ pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulat
     });
     let boards = design.boards.iter().map(|board| solver::Board { spare: board.spare });
     let Builder { names, dma, streams, rules, .. } = builder;
-    let resources = names.resources();
+    let (resources, groups) = names.all();
     let problem = Problem {
         pins: solver_pins.collect(),
         boards: boards.collect(),
@@ -193,7 +194,7 @@ pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulat
         resources: u32::try_from(resources.len()).unwrap_or(u32::MAX),
         streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
     };
-    Formulation { problem, offers, askers, meanings, resources, streams, pins }
+    Formulation { problem, offers, askers, meanings, resources, groups, streams, pins }
 }
 
 /// Marks the candidates that are not where the device's wire was.

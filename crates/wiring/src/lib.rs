@@ -4,6 +4,7 @@ mod alternatives;
 pub mod assignment;
 mod blame;
 mod capacity;
+pub mod certificate;
 mod checks;
 mod conflict;
 mod converters;
@@ -62,6 +63,16 @@ pub enum Solved {
     Failed(Box<Diagnostic>),
 }
 
+/// An answer with its proof.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proved {
+    /// The answer.
+    pub solved: Solved,
+    /// The text of its certificate, or the report that none was found; none where there is no
+    /// answer to be proved.
+    pub certificate: Option<Result<String, Box<Diagnostic>>>,
+}
+
 impl<'a> Wiring<'a> {
     /// Puts the problem of a design, to be solved with as few moved wires as possible where an
     /// earlier wiring is given.
@@ -105,9 +116,30 @@ impl<'a> Wiring<'a> {
         }
     }
 
+    /// As [`Self::solve`], with the certificate that proves the answer; its absence has its reason.
+    #[must_use]
+    pub fn solve_with_proof(&self, stop: Option<&dyn Fn() -> bool>) -> Proved {
+        let outcome = self.search(&Search { any: false, stop });
+        let certificate = self.certificate(&outcome, stop);
+        let solved = self.named(outcome).unwrap_or_else(|conflict| {
+            Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
+        });
+        // What cannot be built is no wiring, whatever was proved of its pins.
+        let buildable = !matches!(solved, Solved::Failed(_));
+        Proved { solved, certificate: certificate.filter(|_| buildable) }
+    }
+
     fn ask(&self, search: &Search<'_>) -> Result<Solved, Conflict> {
+        self.named(self.search(search))
+    }
+
+    fn search(&self, search: &Search<'_>) -> Result<Outcome, Fault> {
         let options = Options { any: search.any, stop: search.stop };
-        match solver::solve(&self.formulation.problem, &options) {
+        solver::solve(&self.formulation.problem, &options)
+    }
+
+    fn named(&self, outcome: Result<Outcome, Fault>) -> Result<Solved, Conflict> {
+        match outcome {
             Ok(Outcome::Solved(answer)) => Ok(self.read(&answer)),
             Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
                 let mut solved = self.read(&answer);

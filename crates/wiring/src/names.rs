@@ -102,7 +102,8 @@ pub(crate) fn list(names: &[&str], and: &str) -> String {
     }
 }
 
-/// On whose behalf several devices hold something together.
+/// On whose behalf several devices hold something together; pins and usages by their places in the
+/// board's table.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Group {
     /// The devices of a bus that agree on a setting (0 where there is none to agree on).
@@ -150,7 +151,10 @@ impl Names {
         Claim { resource: self.resource(resource), holder: self.group(group) }
     }
 
-    pub(crate) fn resources(self) -> Vec<Resource> {
-        self.resources
+    /// All resources and all groups, each in the order of their numbers.
+    pub(crate) fn all(self) -> (Vec<Resource>, Vec<Group>) {
+        let mut groups: Vec<(Group, u32)> = self.group_ids.into_iter().collect();
+        groups.sort_by_key(|(_, id)| *id);
+        (self.resources, groups.into_iter().map(|(group, _)| group).collect())
     }
 }

@@ -64,6 +64,7 @@ codes! {
     e0316_pin_not_available,
     e0401_no_wiring,
     e0402_solver_disagrees,
+    e0403_no_certificate,
     e0404_out_of_time,
     e0405_too_many_moves,
     e0501_no_generator,

@@ -9,7 +9,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
-use sensedsl_wiring::{Keep, Search, Solved, Wiring};
+use sensedsl_wiring::{Keep, Proved, Search, Solved, Wiring};
 
 use crate::Status;
 use crate::cli::On;
@@ -42,19 +42,46 @@ pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
 /// What one search gave, with everything there is to say.
 pub(crate) struct Answer {
     pub(crate) solved: Option<Solved>,
+    /// The text that proves it, or why there is none; where one was asked for.
+    pub(crate) certificate: Option<Result<String, Box<Diagnostic>>>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
 /// Solves a design unless single devices are hopeless already, and collects all diagnostics.
 pub(crate) fn solve(
     design: &Design,
-    mut diagnostics: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
     search: &Search<'_>,
 ) -> Answer {
+    answer(design, diagnostics, keep, |wiring| {
+        Proved { solved: wiring.solve(search), certificate: None }
+    })
+}
+
+/// As [`solve`], with a certificate.
+pub(crate) fn prove(
+    design: &Design,
+    diagnostics: Vec<Diagnostic>,
+    keep: Option<&Keep>,
+    stop: Option<&dyn Fn() -> bool>,
+) -> Answer {
+    answer(design, diagnostics, keep, |wiring| wiring.solve_with_proof(stop))
+}
+
+fn answer(
+    design: &Design,
+    mut diagnostics: Vec<Diagnostic>,
+    keep: Option<&Keep>,
+    ask: impl FnOnce(&Wiring<'_>) -> Proved,
+) -> Answer {
     let wiring = Wiring::new(design, keep);
     diagnostics.extend(wiring.check());
-    let solved = if has_errors(&diagnostics) { None } else { Some(wiring.solve(search)) };
+    let proved = (!has_errors(&diagnostics)).then(|| ask(&wiring));
+    let (solved, certificate) = match proved {
+        Some(Proved { solved, certificate }) => (Some(solved), certificate),
+        None => (None, None),
+    };
     match &solved {
         Some(Solved::Wired(assignment)) => diagnostics.extend(wiring.warnings(assignment)),
         Some(Solved::Infeasible(conflict)) => diagnostics.push(conflict.diagnostic(design)),
@@ -63,7 +90,7 @@ pub(crate) fn solve(
     }
     apply_allows(design, &mut diagnostics);
     sort(&mut diagnostics);
-    Answer { solved, diagnostics }
+    Answer { solved, certificate, diagnostics }
 }
 
 /// How a command ends whose diagnostics are these: a wrong input is told from a wrong call, such as

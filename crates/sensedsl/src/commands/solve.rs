@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
@@ -10,9 +10,10 @@ use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
-use super::input;
+use super::input::{self, Answer};
 use crate::Status;
 use crate::cli::{SolveArgs, SolveFormat};
+use crate::files::write_whole;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -24,14 +25,20 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     if args.format == SolveFormat::Prolog {
+        ensure!(args.proof.is_none(), "--format prolog asks for the problem alone: no --proof");
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
         return Ok(Status::Done);
     }
     let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let search = Search { any: args.any, stop: deadline.is_some().then_some(&late) };
-    let mut answer = input::solve(design, resolved.diagnostics, keep.as_ref(), &search);
+    let stop: Option<&dyn Fn() -> bool> = deadline.is_some().then_some(&late);
+    let mut answer = if args.proof.is_some() {
+        input::prove(design, resolved.diagnostics, keep.as_ref(), stop)
+    } else {
+        let search = Search { any: args.any, stop };
+        input::solve(design, resolved.diagnostics, keep.as_ref(), &search)
+    };
     if let (Some(Solved::Wired(wiring)), Some(most)) = (&answer.solved, args.max_moves)
         && wiring.moved > most
     {
@@ -40,6 +47,26 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         answer.diagnostics.push(report);
     }
     terminal.diagnostics(&answer.diagnostics, &sources)?;
+    let status = print_answer(args, terminal, design, &answer, keep.as_ref(), &sources)?;
+    match (&args.proof, answer.certificate) {
+        (Some(path), Some(Ok(text))) => write_whole(path, text.as_bytes())?,
+        (Some(_), Some(Err(report))) => {
+            terminal.diagnostics(&[*report], &sources)?;
+            return Ok(Status::Wrong);
+        }
+        (Some(_), None) | (None, _) => {}
+    }
+    Ok(status)
+}
+
+fn print_answer(
+    args: &SolveArgs,
+    terminal: &mut Terminal,
+    design: &Design,
+    answer: &Answer,
+    keep: Option<&Keep>,
+    sources: &SourceMap,
+) -> Result<Status> {
     match &answer.solved {
         _ if input::has_errors(&answer.diagnostics) => {
             if let Some(Solved::Infeasible(conflict)) = &answer.solved
@@ -54,10 +81,10 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
             Ok(Status::Wrong)
         }
         Some(Solved::Wired(best)) if args.count => {
-            count(args, terminal, design, best, keep.as_ref(), &sources)
+            count(args, terminal, design, best, keep, sources)
         }
         Some(Solved::Wired(_)) if args.all || args.limit.is_some() => {
-            several(args, terminal, design, keep.as_ref(), &sources)
+            several(args, terminal, design, keep, sources)
         }
         Some(Solved::Wired(best)) => {
             terminal.result(&printed(args, terminal, design, best))?;

@@ -1,0 +1,281 @@
+//! The certificate as it stands in the file. Everything is called by name.
+//!
+//! All numbers have 32 bits, so that no sum of products of three of them overflows the 128 bits in
+//! which they are added up. Unknown fields and names given twice are refused.
+
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Deref;
+
+/// Name and version of the format.
+pub const NAME: &str = "SenseDSL certificate 1";
+
+/// Things by name, no name twice.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Map<T>(BTreeMap<String, T>);
+
+impl<T> Deref for Map<T> {
+    type Target = BTreeMap<String, T>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<'a, T> IntoIterator for &'a Map<T> {
+    type Item = (&'a String, &'a T);
+    type IntoIter = std::collections::btree_map::Iter<'a, String, T>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Map<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Names<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Names<T> {
+            type Value = Map<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Map<T>, A::Error> {
+                let mut map = BTreeMap::new();
+                while let Some((name, one)) = entries.next_entry::<String, T>()? {
+                    if map.contains_key(&name) {
+                        return Err(Error::custom(format_args!("{name:?} stands there twice")));
+                    }
+                    map.insert(name, one);
+                }
+                Ok(Map(map))
+            }
+        }
+        deserializer.deserialize_map(Names(PhantomData))
+    }
+}
+
+/// A whole certificate.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// [`NAME`].
+    pub format: String,
+    /// What was asked.
+    pub problem: Problem,
+    /// The claim; none claims that there is no wiring.
+    pub answer: Option<Answer>,
+    /// At most one for each part of the objective, or one of existence.
+    pub proofs: Vec<Proof>,
+}
+
+/// What was asked.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Problem {
+    /// Boards; true for a spare one, which counts when a device is on it.
+    pub boards: Map<bool>,
+    /// Pins, each with the cost of using it.
+    pub pins: Map<u32>,
+    /// Peripherals that need DMA streams: for each request the streams that can serve it.
+    pub dma: Map<Vec<BTreeSet<String>>>,
+    /// Devices; each takes one of its alternatives.
+    pub devices: Map<Map<Alternative>>,
+}
+
+/// One way to connect a device.
+#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Alternative {
+    /// Where it is.
+    pub board: String,
+    /// Resources taken, each with its holder: [`OWN`], or what several devices take it for.
+    pub claims: Map<String>,
+    /// Soft rules violated.
+    pub violates: BTreeSet<String>,
+    /// Peripherals whose DMA requests have to be served.
+    pub dma: BTreeSet<String>,
+    /// The wires; each takes one of its candidates.
+    pub roles: Map<Map<Candidate>>,
+}
+
+/// One way to connect a wire.
+#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Candidate {
+    /// The pin.
+    pub pin: String,
+    /// [`OWN`], or what several devices hold the pin for.
+    pub holder: String,
+    /// The pin's function; devices that hold a pin together agree on it.
+    pub signal: String,
+    /// Further resources taken, each with its holder.
+    pub claims: Map<String>,
+    /// Soft rules violated.
+    pub violates: BTreeSet<String>,
+    /// Whether the wire differs from the wiring that was to be kept.
+    pub moved: bool,
+}
+
+/// The holder of what a device has for itself.
+pub const OWN: &str = "own";
+
+/// The claim: this wiring, with this objective, is the best.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// What it costs.
+    pub objective: Objective,
+    /// What each device takes.
+    pub wiring: Map<Choice>,
+    /// For each peripheral in use the streams of its requests.
+    pub streams: Map<Vec<String>>,
+}
+
+/// What a device takes.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// The alternative.
+    pub takes: String,
+    /// For each of its roles the candidate.
+    pub wires: Map<String>,
+}
+
+/// The objective, or the weights of its parts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Objective {
+    /// Pins whose wires moved.
+    pub moved: u32,
+    /// Soft rules violated.
+    pub violated: u32,
+    /// Sum of the costs of the pins used.
+    pub cost: u32,
+    /// Spare boards used.
+    pub spares: u32,
+}
+
+impl Objective {
+    /// The parts, the most important first.
+    pub(crate) const fn parts(self) -> [u32; 4] {
+        [self.moved, self.violated, self.cost, self.spares]
+    }
+
+    /// The sum of the parts, each times its weight.
+    pub(crate) fn weigh(self, objective: Self) -> i128 {
+        let pairs = self.parts().into_iter().zip(objective.parts());
+        pairs.map(|(weight, part)| i128::from(weight) * i128::from(part)).sum()
+    }
+}
+
+impl fmt::Display for Objective {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { moved, violated, cost, spares } = self;
+        write!(f, "moved {moved}, violated {violated}, cost {cost}, spares {spares}")
+    }
+}
+
+/// What a proof is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the fields of Objective, and whether there is a wiring at all")]
+pub enum Part {
+    Moved,
+    Violated,
+    Cost,
+    Spares,
+    Existence,
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Moved => "moved",
+            Self::Violated => "violated",
+            Self::Cost => "cost",
+            Self::Spares => "spares",
+            Self::Existence => "existence",
+        })
+    }
+}
+
+impl Part {
+    /// In the order of [`Objective::parts`].
+    pub(crate) const OF_OBJECTIVE: [Self; 4] =
+        [Self::Moved, Self::Violated, Self::Cost, Self::Spares];
+}
+
+/// A proof that all wirings weigh more than some limit.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Proof {
+    /// What follows from it.
+    pub of: Part,
+    /// What each part of the objective weighs.
+    pub weights: Objective,
+    /// The case distinction: a tree, its root first. Children are named by their place here.
+    pub nodes: Vec<Node>,
+}
+
+/// A case: distinguished further, or a leaf.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Node {
+    /// By what a device takes: in each case one of the alternatives named.
+    Device {
+        /// The device.
+        device: String,
+        /// The cases.
+        cases: Vec<Case>,
+    },
+    /// By where a wire goes, of a device that has one alternative left.
+    Role {
+        /// The device.
+        device: String,
+        /// The wire.
+        role: String,
+        /// The cases.
+        cases: Vec<Case>,
+    },
+    /// By whether a soft rule is violated.
+    Rule {
+        /// The rule.
+        rule: String,
+        /// The case that it is kept: what violates it is gone.
+        kept: usize,
+        /// The case that it is violated: its weight is paid, once.
+        violated: usize,
+    },
+    /// Not distinguished further.
+    Leaf(Leaf),
+}
+
+/// One case of several.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What can still be taken.
+    pub keep: BTreeSet<String>,
+    /// The node of this case.
+    pub then: usize,
+}
+
+/// Tolls that show what all wirings of a case weigh; see the module `leaf`.
+///
+/// The outer key is the kind of a thing: `pin`, `moved` (the move of the wire on that pin),
+/// `resource`, `rule`, `spare` (that board), `dma` (that peripheral), for prices also `stream`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Leaf {
+    /// How many units of toll a unit of weight is.
+    pub scale: u32,
+    /// Kind, thing: what a device pays that uses it for itself; otherwise it pays its weight.
+    pub prices: Map<Map<u32>>,
+    /// Kind, thing, device: what that device pays that uses it with others; otherwise nothing.
+    pub tolls: Map<Map<Map<u32>>>,
+}

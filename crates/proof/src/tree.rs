@@ -1,0 +1,167 @@
+//! Whether a case distinction leaves nothing out and all its leaves weigh enough.
+//!
+//! Devices whose alternatives are the same in every respect can change places in any wiring and
+//! nothing else changes. So it is enough to look at the wirings in which such *alike* devices, in
+//! the order of their names, take alternatives in the order of their names.
+
+use crate::format::{Alternative, Candidate, Case, Map, Node, Problem, Proof};
+use crate::{Refuted, ensure, known, leaf};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// What can still be taken in a case.
+#[derive(Clone)]
+pub(crate) struct Open<'a> {
+    /// For each device its alternatives.
+    pub(crate) devices: BTreeMap<&'a str, BTreeMap<&'a str, OpenAlternative<'a>>>,
+    /// Rules that are violated for sure, and paid.
+    pub(crate) violated: BTreeSet<&'a str>,
+}
+
+/// An alternative with the candidates that are left for its roles.
+#[derive(Clone)]
+pub(crate) struct OpenAlternative<'a> {
+    pub(crate) of: &'a Alternative,
+    pub(crate) roles: BTreeMap<&'a str, BTreeMap<&'a str, &'a Candidate>>,
+}
+
+/// By what a case differs from the one above.
+enum Step<'a> {
+    Nothing,
+    /// The device takes one of these alternatives.
+    Takes(&'a str, &'a BTreeSet<String>),
+    /// The wire of the device takes one of these candidates.
+    Wires(&'a str, &'a str, &'a BTreeSet<String>),
+    Kept(&'a str),
+    Violated(&'a str),
+}
+
+fn named<T>(map: &Map<T>) -> impl Iterator<Item = (&str, &T)> {
+    map.iter().map(|(name, one)| (name.as_str(), one))
+}
+
+impl<'a> Open<'a> {
+    /// Everything.
+    fn new(problem: &'a Problem) -> Self {
+        let open = |of: &'a Alternative| {
+            let roles = named(&of.roles).map(|(name, all)| (name, named(all).collect()));
+            OpenAlternative { of, roles: roles.collect() }
+        };
+        let devices = named(&problem.devices)
+            .map(|(name, all)| (name, named(all).map(|(name, of)| (name, open(of))).collect()));
+        Self { devices: devices.collect(), violated: BTreeSet::new() }
+    }
+
+    fn step(&mut self, step: &Step<'a>) {
+        match step {
+            Step::Nothing => {}
+            Step::Takes(device, these) => {
+                self.devices.entry(device).or_default().retain(|name, _| these.contains(*name));
+            }
+            Step::Wires(device, role, these) => {
+                let of_device = self.devices.entry(device).or_default().values_mut();
+                for left in of_device.filter_map(|one| one.roles.get_mut(role)) {
+                    left.retain(|name, _| these.contains(*name));
+                }
+            }
+            Step::Kept(rule) => self.keep_rule(rule),
+            Step::Violated(rule) => {
+                self.violated.insert(rule);
+            }
+        }
+    }
+
+    /// Takes away all that violates the rule.
+    fn keep_rule(&mut self, rule: &str) {
+        for alternatives in self.devices.values_mut() {
+            alternatives.retain(|_, one| !one.of.violates.contains(rule));
+            let roles = alternatives.values_mut().flat_map(|one| one.roles.values_mut());
+            for candidates in roles {
+                candidates.retain(|_, one| !one.violates.contains(rule));
+            }
+        }
+    }
+
+    /// Takes away what would be out of order among alike devices.
+    fn sort(&mut self, alike: &[&'a str]) {
+        let mut least = None;
+        for device in alike {
+            let left = self.devices.entry(device).or_default();
+            left.retain(|name, _| Some(*name) >= least);
+            least = left.keys().next().copied().or(least);
+        }
+        let mut most = None;
+        for device in alike.iter().rev() {
+            let left = self.devices.entry(device).or_default();
+            left.retain(|name, _| most.is_none_or(|most| *name <= most));
+            most = left.keys().next_back().copied().or(most);
+        }
+    }
+}
+
+/// Devices that can change places, in groups, each in the order of names.
+fn alike(problem: &Problem) -> Vec<Vec<&str>> {
+    let mut groups: Vec<(&Map<Alternative>, Vec<&str>)> = Vec::new();
+    for (name, device) in named(&problem.devices) {
+        match groups.iter_mut().find(|(same, _)| *same == device) {
+            Some((_, group)) => group.push(name),
+            None => groups.push((device, vec![name])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// Checks that all wirings weigh more than `limit`.
+pub(crate) fn check(problem: &Problem, proof: &Proof, limit: i128) -> Result<(), Refuted> {
+    let alike = alike(problem);
+    // A node is taken out when it is reached, so a second way to it, or a circle, is found.
+    let mut nodes: Vec<Option<&Node>> = proof.nodes.iter().map(Some).collect();
+    let mut cases = vec![(0, Rc::new(Open::new(problem)), Step::Nothing)];
+    while let Some((at, above, step)) = cases.pop() {
+        let node = nodes.get_mut(at).and_then(Option::take);
+        let node = node.ok_or_else(|| Refuted(format!("node {at} is not there, or not new")))?;
+        let mut open = Rc::unwrap_or_clone(above);
+        open.step(&step);
+        alike.iter().for_each(|group| open.sort(group));
+        let open = Rc::new(open);
+        match node {
+            Node::Device { device, cases: parts } => {
+                covered(at, parts, known(&open.devices, "device", device)?)?;
+                for Case { keep, then } in parts {
+                    cases.push((*then, Rc::clone(&open), Step::Takes(device, keep)));
+                }
+            }
+            Node::Role { device, role, cases: parts } => {
+                let all = only(&open, device).and_then(|one| one.roles.get(role.as_str()));
+                let all = all.ok_or_else(|| Refuted(format!("node {at} has no such role")))?;
+                covered(at, parts, all)?;
+                for Case { keep, then } in parts {
+                    cases.push((*then, Rc::clone(&open), Step::Wires(device, role, keep)));
+                }
+            }
+            Node::Rule { rule, kept, violated } => {
+                cases.push((*kept, Rc::clone(&open), Step::Kept(rule)));
+                cases.push((*violated, open, Step::Violated(rule)));
+            }
+            Node::Leaf(leaf) => {
+                let weight = leaf::bound(problem, &open, proof.weights, leaf)?;
+                let least = limit * i128::from(leaf.scale);
+                let enough = weight.is_none_or(|weight| weight > least);
+                ensure(enough, || format!("leaf {at} does not show what it has to"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The one alternative that a device has left.
+fn only<'o, 'a>(open: &'o Open<'a>, device: &str) -> Option<&'o OpenAlternative<'a>> {
+    let mut left = open.devices.get(device)?.values();
+    left.next().filter(|_| left.next().is_none())
+}
+
+/// Checks that each choice is left in one of the cases.
+fn covered<T>(at: usize, cases: &[Case], all: &BTreeMap<&str, T>) -> Result<(), Refuted> {
+    let missing = all.keys().find(|name| !cases.iter().any(|case| case.keep.contains(**name)));
+    missing.map_or(Ok(()), |name| Err(Refuted(format!("node {at} leaves out {name}"))))
+}

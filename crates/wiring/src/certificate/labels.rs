@@ -1,0 +1,248 @@
+//! The names of everything in a certificate.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_model::design::{BoardIndex, Design, Wish, WishFor};
+use sensedsl_solve::problem::Problem;
+
+use crate::formulate::{Asker, Formulation, GPIO, wanted};
+use crate::names::{Group, Resource};
+use crate::read_back;
+
+/// Names of an alternative and its roles.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AlternativeLabels {
+    /// Its name, unique in the device.
+    pub name: String,
+    /// The names of its roles, unique in the alternative.
+    pub roles: Vec<String>,
+}
+
+/// A name for each number of a problem; those of one kind differ.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Labels {
+    /// Boards.
+    pub boards: Vec<String>,
+    /// Pins.
+    pub pins: Vec<String>,
+    /// Devices.
+    pub devices: Vec<String>,
+    /// For each device its alternatives.
+    pub alternatives: Vec<Vec<AlternativeLabels>>,
+    /// Signals by their rank.
+    pub signals: BTreeMap<u32, String>,
+    /// Resources.
+    pub resources: Vec<String>,
+    /// Groups of holders.
+    pub groups: Vec<String>,
+    /// Soft rules.
+    pub rules: Vec<String>,
+    /// DMA users.
+    pub dma: Vec<String>,
+    /// DMA streams.
+    pub streams: Vec<String>,
+}
+
+impl Labels {
+    /// The names that the design and its tables give.
+    pub(crate) fn of(design: &Design, formulation: &Formulation<'_>) -> Self {
+        let names = Namer { design, formulation };
+        let problem = &formulation.problem;
+        let boards = design.boards.iter().map(|board| board.name.value.clone());
+        let devices = formulation.askers.iter().map(|asker| names.device(*asker));
+        let pins = formulation.pins.iter().map(|(board, pin)| {
+            let pin = names.pin(*board, *pin).map(|pin| pin.name.to_string());
+            names.on(*board, &pin.unwrap_or_default())
+        });
+        let resources = formulation.resources.iter().map(|one| names.resource(one));
+        let streams = formulation.streams.iter().map(|(board, stream)| {
+            names.on(*board, &format!("DMA{}", stream.replace(',', "_stream")))
+        });
+        Self {
+            boards: distinct(boards),
+            pins: distinct(pins),
+            devices: distinct(devices),
+            alternatives: names.alternatives(),
+            signals: names.signals(),
+            resources: distinct(resources),
+            groups: distinct(formulation.groups.iter().map(|group| names.group(group))),
+            rules: names.rules(problem.rules as usize),
+            dma: names.dma_users(problem.dma.len()),
+            streams: distinct(streams),
+        }
+    }
+}
+
+impl Labels {
+    /// Those of some devices alone.
+    pub(super) fn with_devices(&self, devices: &[usize]) -> Self {
+        let mut labels = self.clone();
+        labels.devices = pick(&self.devices, devices);
+        labels.alternatives = pick(&self.alternatives, devices);
+        labels
+    }
+}
+
+/// Those at the given places.
+pub(super) fn pick<T: Clone>(all: &[T], places: &[usize]) -> Vec<T> {
+    places.iter().filter_map(|place| all.get(*place)).cloned().collect()
+}
+
+/// Numbers those names that stand before already.
+fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    let mut distinct = Vec::new();
+    for name in names {
+        let mut candidate = name.clone();
+        for number in 2_u32.. {
+            if seen.insert(candidate.clone()) {
+                break;
+            }
+            candidate = format!("{name} ({number})");
+        }
+        distinct.push(candidate);
+    }
+    distinct
+}
+
+struct Namer<'a> {
+    design: &'a Design,
+    formulation: &'a Formulation<'a>,
+}
+
+impl Namer<'_> {
+    /// With the board in front where there are several.
+    fn on(&self, board: BoardIndex, name: &str) -> String {
+        let board = self.design.board(board).filter(|_| self.design.boards.len() > 1);
+        board.map_or(name.to_owned(), |board| format!("{}.{name}", board.name.value))
+    }
+
+    fn pin(&self, board: BoardIndex, pin: usize) -> Option<&sensedsl_board::table::Pin> {
+        self.design.board(board)?.table.pins.get(pin)
+    }
+
+    fn device(&self, asker: Asker) -> String {
+        let board = |board| self.design.board(board).map_or("", |board| &board.name.value);
+        match asker {
+            Asker::Device(device) => {
+                self.design.device(device).map_or(String::new(), |one| one.name.value.clone())
+            }
+            Asker::Link(of) => format!("link of {}", board(of)),
+        }
+    }
+
+    fn resource(&self, resource: &Resource) -> String {
+        // A bus has a wire of the name of a signal, and several devices claim one or the other.
+        let kind = if matches!(resource, Resource::Signal(..)) {
+            "signal "
+        } else if matches!(resource, Resource::BusWire(..)) {
+            "wire "
+        } else {
+            ""
+        };
+        let name = format!("{kind}{}", resource.name());
+        self.on(resource.board(), &name)
+    }
+
+    fn group(&self, group: &Group) -> String {
+        let (Group::Bus(board, ..)
+        | Group::Frequency(board, ..)
+        | Group::Pin(board, ..)
+        | Group::Pad(board, ..)) = group;
+        let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
+        let name = match group {
+            Group::Bus(_, unit, 0) => format!("bus {unit}"),
+            Group::Bus(_, unit, setting) => format!("bus {unit} at {setting}"),
+            Group::Frequency(_, timer, frequency_hz) => format!("{timer} at {frequency_hz} Hz"),
+            Group::Pin(_, unit, role, at, _) => {
+                format!("{} of {unit} on {}", role.name(), pin(*at).unwrap_or_default())
+            }
+            Group::Pad(_, at) => pin(*at).unwrap_or_default(),
+        };
+        self.on(*board, &name)
+    }
+
+    fn alternatives(&self) -> Vec<Vec<AlternativeLabels>> {
+        let of_device = |(asker, meanings): (&Asker, &Vec<_>)| {
+            let roles: Vec<String> = read_back::roles(self.design, *asker)
+                .iter()
+                .map(|role| role.name().to_owned())
+                .collect();
+            let names = meanings.iter().map(|meaning: &crate::formulate::Meaning| {
+                self.on(meaning.board, meaning.unit.as_deref().unwrap_or("any pin"))
+            });
+            let names = distinct(names).into_iter();
+            names.map(|name| AlternativeLabels { name, roles: roles.clone() }).collect()
+        };
+        self.formulation.askers.iter().zip(&self.formulation.meanings).map(of_device).collect()
+    }
+
+    fn signals(&self) -> BTreeMap<u32, String> {
+        let mut names = BTreeMap::new();
+        for (device, meanings) in
+            self.formulation.problem.devices.iter().zip(&self.formulation.meanings)
+        {
+            for (alternative, meaning) in device.alternatives.iter().zip(meanings) {
+                for (role, chosen) in alternative.roles.iter().zip(&meaning.roles) {
+                    for (candidate, at) in role.candidates.iter().zip(chosen) {
+                        let pin = self.pin(meaning.board, at.pin);
+                        let usage = pin.zip(at.usage).and_then(|(pin, at)| pin.usages.get(at));
+                        let name = usage.map_or(GPIO, |usage| usage.signal.name());
+                        names.entry(candidate.signal.0).or_insert_with(|| name.to_owned());
+                    }
+                }
+            }
+        }
+        names
+    }
+
+    /// In the order in which the rules were numbered: for each device its own, then its boards'.
+    fn rules(&self, count: usize) -> Vec<String> {
+        let mut names = Vec::new();
+        for asker in &self.formulation.askers {
+            let (own, boards): (&[Wish], _) = match asker {
+                Asker::Device(index) => match self.design.device(*index) {
+                    Some(device) => (&device.wishes, wanted(self.design, device).boards),
+                    None => (&[], Vec::new()),
+                },
+                Asker::Link(board) => (&[], vec![*board]),
+            };
+            let boards = boards.iter().filter_map(|board| self.design.board(*board));
+            let of_boards = boards.flat_map(|board| &board.wishes);
+            let all = own.iter().chain(of_boards);
+            names.extend(all.map(|wish| format!("{} ({})", describe(wish), self.device(*asker))));
+        }
+        if names.len() != count {
+            names = (1..=count).map(|number| format!("rule {number}")).collect();
+        }
+        distinct(names.into_iter())
+    }
+
+    fn dma_users(&self, count: usize) -> Vec<String> {
+        let mut names: Vec<String> = (1..=count).map(|number| format!("user {number}")).collect();
+        let devices = self.formulation.problem.devices.iter().zip(&self.formulation.meanings);
+        for (device, meanings) in devices {
+            for (alternative, meaning) in device.alternatives.iter().zip(meanings) {
+                for user in &alternative.dma {
+                    if let (Some(name), Some(unit)) =
+                        (names.get_mut(user.0 as usize), meaning.unit.as_ref())
+                    {
+                        *name = self.on(meaning.board, unit);
+                    }
+                }
+            }
+        }
+        distinct(names.into_iter())
+    }
+}
+
+fn describe(wish: &Wish) -> String {
+    let verb = if wish.prefer { "prefer" } else { "avoid" };
+    match &wish.what {
+        WishFor::Pin(Some(role), pin) => format!("{verb} {} = {pin}", role.name()),
+        WishFor::Pin(None, pin) => format!("{verb} pin = {pin}"),
+        WishFor::Unit(unit) => format!("{verb} unit = {unit}"),
+        WishFor::Side(side) => format!("{verb} side = {side}"),
+        WishFor::Header(header) => format!("{verb} header = {header}"),
+    }
+}

@@ -1,0 +1,177 @@
+//! Certificates: an answer with data from which a small program of its own (crate `proof`) sees
+//! that the wiring is valid and that none is better, or that there is none.
+//!
+//! Nothing of the solver's search goes in: the proof is found anew, knowing the answer. It is a
+//! case distinction whose leaves are tolls that every device pays for what it uses; crate `proof`
+//! says why they bound the objective. `docs/proofs.md` describes the text.
+
+mod ascent;
+mod case;
+mod labels;
+mod model;
+mod tree;
+mod write;
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0403_no_certificate;
+use sensedsl_solve::problem::{DeviceId, Problem};
+use sensedsl_solve::{Answer, Fault, Objective, Outcome};
+
+pub use labels::{AlternativeLabels, Labels};
+
+use crate::Wiring;
+use case::Weighed;
+use model::Model;
+use tree::{Effort, GivenUp};
+use write::{Proof, Writer};
+
+/// Tolls that may be looked up for one certificate: some ten seconds.
+const WORK_MAX: u64 = 1_000_000_000;
+
+/// What a certificate is to prove.
+#[derive(Clone, Copy, Debug)]
+pub enum Claim<'a> {
+    /// This answer is valid and none is better.
+    Best(&'a Answer),
+    /// There is no answer: these devices alone have none.
+    NoWiring(&'a [DeviceId]),
+}
+
+/// Why there is no certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncertified {
+    /// None was found within the effort.
+    GivenUp,
+    /// The caller's stop came before one was found.
+    Stopped,
+    /// The costs are too large to be weighed.
+    TooLarge,
+}
+
+/// The certificate of a claim that the solver has proved by its own search.
+///
+/// The numbers of the claim and the labels must be those of the problem.
+///
+/// # Errors
+/// [`Uncertified`]; this says nothing about the claim.
+pub fn certify(
+    problem: &Problem,
+    labels: &Labels,
+    claim: Claim<'_>,
+    stop: Option<&dyn Fn() -> bool>,
+) -> Result<String, Uncertified> {
+    let mut effort = Effort { work: WORK_MAX, stop };
+    let writer = Writer { problem, labels };
+    let (answer, proofs) = match claim {
+        Claim::Best(answer) => {
+            let tasks = tasks(&answer.objective).ok_or(Uncertified::TooLarge)?;
+            (Some(answer), prove(&writer, &tasks, &mut effort)?)
+        }
+        Claim::NoWiring(devices) => {
+            let devices: Vec<usize> = devices.iter().map(|device| device.0 as usize).collect();
+            let mut part = problem.clone();
+            part.devices = labels::pick(&problem.devices, &devices);
+            let writer = Writer { problem: &part, labels: &labels.with_devices(&devices) };
+            let task = Task { of: "existence", weights: Objective::default(), limit: 0, most: 1 };
+            (None, prove(&writer, &[task], &mut effort)?)
+        }
+    };
+    Ok(writer.certificate(answer, &proofs))
+}
+
+/// The texts of the proofs.
+fn prove(
+    writer: &Writer<'_>,
+    tasks: &[Task],
+    effort: &mut Effort<'_>,
+) -> Result<Vec<String>, Uncertified> {
+    let model = Model::new(writer.problem, writer.labels);
+    let mut proofs = Vec::new();
+    for Task { of, weights, limit, most } in tasks {
+        let weighed = Weighed::new(writer.problem, &model, *weights);
+        let nodes = tree::prove(&weighed, (*limit, *most as f64), effort);
+        let nodes = nodes.map_err(|GivenUp { stopped }| {
+            if stopped { Uncertified::Stopped } else { Uncertified::GivenUp }
+        })?;
+        proofs.push(writer.proof(&Proof { of, weighed: &weighed, nodes }));
+    }
+    Ok(proofs)
+}
+
+/// A proof to be found.
+struct Task {
+    of: &'static str,
+    weights: Objective,
+    /// All wirings are to weigh more.
+    limit: i64,
+    /// What can be shown at most.
+    most: i64,
+}
+
+/// For each part that is not 0 a proof that no wiring is lower in it while the parts before are
+/// equal. These weigh just so much that nothing is won by giving one up.
+fn tasks(objective: &Objective) -> Option<Vec<Task>> {
+    const NAMES: [&str; 4] = ["moved", "violated", "cost", "spares"];
+    let Objective { moved, violated, cost, spares } = *objective;
+    let parts = [moved, violated, cost, spares];
+    let mut tasks = Vec::new();
+    for (place, of) in NAMES.into_iter().enumerate() {
+        if parts.get(place) == Some(&0) {
+            continue;
+        }
+        let mut weights = [0_u32; 4];
+        // What the parts from here on weigh together.
+        let mut together = 0_u32;
+        for (at, (weight, part)) in weights.iter_mut().zip(parts).enumerate().take(place + 1).rev()
+        {
+            *weight = if at == place { 1 } else { together };
+            together = together.checked_add(weight.checked_mul(part)?)?;
+        }
+        let [moved, violated, cost, spares] = weights;
+        let weights = Objective { moved, violated, cost, spares };
+        let most = i64::from(together);
+        tasks.push(Task { of, weights, limit: most - 1, most });
+    }
+    // Sums of weights times the scale of a leaf stay below 63 bits.
+    tasks.iter().all(|task| task.most < 1 << 31).then_some(tasks)
+}
+
+impl Wiring<'_> {
+    /// The certificate of what the solver found; none where it failed.
+    pub(crate) fn certificate(
+        &self,
+        outcome: &Result<Outcome, Fault>,
+        stop: Option<&dyn Fn() -> bool>,
+    ) -> Option<Result<String, Box<Diagnostic>>> {
+        let claim = match outcome {
+            Ok(Outcome::Solved(answer)) => Claim::Best(answer),
+            Ok(Outcome::Infeasible(conflict)) => Claim::NoWiring(&conflict.devices),
+            Ok(Outcome::Stopped { .. }) => {
+                return Some(Err(self.uncertified(Uncertified::Stopped)));
+            }
+            Err(_) => return None,
+        };
+        let labels = Labels::of(self.design, &self.formulation);
+        let text = match certify(&self.formulation.problem, &labels, claim, stop) {
+            Ok(text) => text,
+            Err(why) => return Some(Err(self.uncertified(why))),
+        };
+        // What is handed out has been verified.
+        let certificate = sensedsl_proof::read(&text).map_err(|error| error.0);
+        let verified = certificate
+            .and_then(|one| sensedsl_proof::verify(&one).map_err(|refuted| refuted.0));
+        Some(match verified {
+            Ok(_) => Ok(text),
+            Err(why) => Err(Box::new(self.disagrees(&why))),
+        })
+    }
+
+    fn uncertified(&self, why: Uncertified) -> Box<Diagnostic> {
+        let why = match why {
+            Uncertified::GivenUp => "none was found within the effort that is allowed for it",
+            Uncertified::Stopped => "time ran out before the proof was complete",
+            Uncertified::TooLarge => "the costs are too large",
+        };
+        Box::new(e0403_no_certificate::no_certificate(self.place(), why))
+    }
+}

@@ -1,0 +1,249 @@
+//! The certificate as text: the problem in names, the answer, the proofs.
+#![expect(clippy::indexing_slicing, reason = "labels are there for all numbers, which are checked")]
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Problem, Role, RuleId};
+use sensedsl_solve::{Answer, Objective};
+use serde_json::{Map, Value, json};
+
+use super::ascent::Closing;
+use super::case::Weighed;
+use super::labels::Labels;
+use super::model::{Thing, holders};
+use super::tree::Node;
+
+/// A proof on its way to the text.
+pub(super) struct Proof<'a> {
+    pub(super) of: &'static str,
+    pub(super) weighed: &'a Weighed<'a>,
+    pub(super) nodes: Vec<Node>,
+}
+
+pub(super) struct Writer<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) labels: &'a Labels,
+}
+
+/// An object of named values.
+fn object(entries: impl IntoIterator<Item = (String, Value)>) -> Value {
+    Value::Object(entries.into_iter().collect())
+}
+
+/// One entry a line.
+fn lines(entries: impl IntoIterator<Item = (String, Value)>) -> String {
+    let entries = entries.into_iter().map(|(name, value)| format!("{}: {value}", json!(name)));
+    format!("{{\n{}\n}}", entries.collect::<Vec<_>>().join(",\n"))
+}
+
+impl Writer<'_> {
+    /// The whole text.
+    pub(super) fn certificate(&self, answer: Option<&Answer>, proofs: &[String]) -> String {
+        let Self { problem, labels } = self;
+        let boards = labels.boards.iter().zip(&problem.boards);
+        let boards = object(boards.map(|(name, board)| (name.clone(), board.spare.into())));
+        let pins = labels.pins.iter().zip(&problem.pins);
+        let pins = object(pins.map(|(name, pin)| (name.clone(), pin.cost.into())));
+        let dma = labels.dma.iter().zip(&problem.dma).map(|(name, user)| {
+            let streams = user.requests.iter().map(|request| {
+                request.streams.iter().map(|one| self.stream(one.0)).collect::<Vec<_>>()
+            });
+            (name.clone(), streams.collect())
+        });
+        let devices = labels.devices.iter().enumerate();
+        let devices = lines(devices.map(|(d, name)| (name.clone(), self.device(d))));
+        let mut text = format!("{{\n\"format\": {},\n", json!("SenseDSL certificate 1"));
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "\"problem\": {{\n\"boards\": {boards},\n\"pins\": {pins},\n\"dma\": {},\n\
+             \"devices\": {devices}\n}},\n\"answer\": ",
+            object(dma)
+        );
+        match answer {
+            Some(answer) => self.answer(&mut text, answer),
+            None => text.push_str("null"),
+        }
+        let _ = writeln!(text, ",\n\"proofs\": [{}]\n}}", proofs.join(",\n"));
+        text
+    }
+
+    fn stream(&self, stream: u32) -> &str {
+        &self.labels.streams[stream as usize]
+    }
+
+    fn device(&self, d: usize) -> Value {
+        let all = self.problem.devices[d].alternatives.iter().enumerate();
+        object(
+            all.map(|(a, one)| (self.labels.alternatives[d][a].name.clone(), self.way(d, a, one))),
+        )
+    }
+
+    fn way(&self, d: usize, a: usize, alternative: &Alternative) -> Value {
+        let names = &self.labels.alternatives[d][a].roles;
+        let roles = names.iter().zip(&alternative.roles);
+        let roles = roles.map(|(name, role)| (name.clone(), self.role(role)));
+        let dma: BTreeSet<_> =
+            alternative.dma.iter().map(|one| &self.labels.dma[one.0 as usize]).collect();
+        json!({
+            "board": self.labels.boards[alternative.board.0 as usize],
+            "claims": self.claims(&alternative.claims),
+            "violates": self.violates(&alternative.violates),
+            "dma": dma,
+            "roles": object(roles),
+        })
+    }
+
+    fn role(&self, role: &Role) -> Value {
+        object(role.candidates.iter().map(|one| {
+            let value = json!({
+                "pin": self.labels.pins[one.pin.0 as usize],
+                "holder": self.holder(one.holder),
+                "signal": self.labels.signals[&one.signal.0],
+                "claims": self.claims(&one.claims),
+                "violates": self.violates(&one.violates),
+                "moved": one.moved,
+            });
+            (self.candidate(one), value)
+        }))
+    }
+
+    /// The name of a candidate in its role.
+    fn candidate(&self, candidate: &Candidate) -> String {
+        let pin = &self.labels.pins[candidate.pin.0 as usize];
+        format!("{pin} {}", self.labels.signals[&candidate.signal.0])
+    }
+
+    fn claims(&self, claims: &[Claim]) -> Value {
+        object(holders(claims).into_iter().map(|(resource, by)| {
+            (self.labels.resources[resource as usize].clone(), self.holder(by).into())
+        }))
+    }
+
+    fn holder(&self, holder: Holder) -> &str {
+        match holder {
+            Holder::Own => "own",
+            Holder::Group(group) => &self.labels.groups[group as usize],
+        }
+    }
+
+    fn violates(&self, rules: &[RuleId]) -> Value {
+        let rules: BTreeSet<_> =
+            rules.iter().map(|rule| &self.labels.rules[rule.0 as usize]).collect();
+        json!(rules)
+    }
+
+    fn answer(&self, text: &mut String, answer: &Answer) {
+        let wiring = answer.choices.iter().enumerate().map(|(d, choice)| {
+            let alternative = &self.problem.devices[d].alternatives[choice.alternative];
+            let labels = &self.labels.alternatives[d][choice.alternative];
+            let wires = labels.roles.iter().zip(&alternative.roles).zip(&choice.candidates);
+            let wires = wires.map(|((name, role), candidate)| {
+                (name.clone(), self.candidate(&role.candidates[*candidate]).into())
+            });
+            let takes = json!({ "takes": labels.name, "wires": object(wires) });
+            (self.labels.devices[d].clone(), takes)
+        });
+        let streams = answer.dma.iter().map(|(user, streams)| {
+            let streams: Vec<_> = streams.iter().map(|one| self.stream(one.0)).collect();
+            (self.labels.dma[user.0 as usize].clone(), json!(streams))
+        });
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "{{\n\"objective\": {},\n\"wiring\": {},\n\"streams\": {}\n}}",
+            objective(&answer.objective),
+            lines(wiring),
+            object(streams)
+        );
+    }
+
+    /// The text of a proof about the writer's problem.
+    pub(super) fn proof(&self, proof: &Proof<'_>) -> String {
+        let Proof { of, weighed, nodes } = proof;
+        let nodes: Vec<String> =
+            nodes.iter().map(|node| self.node(weighed, node).to_string()).collect();
+        let weights = objective(&weighed.weights);
+        let of = json!(of);
+        format!("{{\"of\": {of}, \"weights\": {weights}, \"nodes\": [\n{}\n]}}", nodes.join(",\n"))
+    }
+
+    fn node(&self, weighed: &Weighed<'_>, node: &Node) -> Value {
+        let cases = |cases: &[(Vec<usize>, usize)], name: &dyn Fn(usize) -> String| -> Value {
+            let case = |(keep, then): &(Vec<usize>, usize)| {
+                let keep: Vec<String> = keep.iter().map(|one| name(*one)).collect();
+                json!({ "keep": keep, "then": then })
+            };
+            cases.iter().map(case).collect()
+        };
+        match node {
+            Node::Device { device, cases: parts } => {
+                let name = |a: usize| self.labels.alternatives[*device][a].name.clone();
+                let device = &self.labels.devices[*device];
+                json!({ "device": { "device": device, "cases": cases(parts, &name) } })
+            }
+            Node::Role { device, alternative, role, cases: parts } => {
+                let of = &self.problem.devices[*device].alternatives[*alternative].roles[*role];
+                let name = |c: usize| self.candidate(&of.candidates[c]);
+                let role = &self.labels.alternatives[*device][*alternative].roles[*role];
+                let device = &self.labels.devices[*device];
+                let cases = cases(parts, &name);
+                json!({ "role": { "device": device, "role": role, "cases": cases } })
+            }
+            Node::Rule { rule, kept, violated } => {
+                let rule = &self.labels.rules[*rule];
+                json!({ "rule": { "rule": rule, "kept": kept, "violated": violated } })
+            }
+            Node::Leaf(None) => json!({ "leaf": { "scale": 1, "prices": {}, "tolls": {} } }),
+            Node::Leaf(Some(closing)) => json!({ "leaf": self.leaf(weighed, closing) }),
+        }
+    }
+
+    fn leaf(&self, weighed: &Weighed<'_>, closing: &Closing) -> Value {
+        let Closing { scale, tolls, used } = closing;
+        let mut prices = Map::new();
+        for (thing, rent) in tolls.rents.iter().enumerate().filter(|(_, rent)| **rent > 0) {
+            let (kind, name) = self.thing(weighed.model.things[thing]);
+            let price = weighed.of_things[thing] as i64 * scale + rent;
+            put(&mut prices, kind)[name] = price.into();
+        }
+        for (stream, price) in tolls.streams.iter().enumerate().filter(|(_, price)| **price > 0) {
+            put(&mut prices, "stream")[&self.labels.streams[stream]] = (*price).into();
+        }
+        let mut all = Map::new();
+        for share in used.iter().filter(|share| tolls.shares[**share] > 0) {
+            let (thing, device) = weighed.model.shares[*share];
+            let (kind, name) = self.thing(weighed.model.things[thing]);
+            let of_thing = &mut put(&mut all, kind)[name];
+            if of_thing.is_null() {
+                *of_thing = json!({});
+            }
+            of_thing[&self.labels.devices[device]] = tolls.shares[*share].into();
+        }
+        json!({ "scale": scale, "prices": prices, "tolls": all })
+    }
+
+    /// Kind and name.
+    fn thing(&self, thing: Thing) -> (&'static str, &str) {
+        let Labels { boards, pins, resources, rules, dma, .. } = self.labels;
+        match thing {
+            Thing::Pin(pin) => ("pin", &pins[pin]),
+            Thing::Moved(pin) => ("moved", &pins[pin]),
+            Thing::Resource(resource) => ("resource", &resources[resource]),
+            Thing::Rule(rule) => ("rule", &rules[rule]),
+            Thing::Spare(board) => ("spare", &boards[board]),
+            Thing::Dma(user) => ("dma", &dma[user]),
+        }
+    }
+}
+
+fn put<'m>(map: &'m mut Map<String, Value>, kind: &str) -> &'m mut Value {
+    map.entry(kind).or_insert_with(|| json!({}))
+}
+
+fn objective(objective: &Objective) -> Value {
+    let Objective { moved, violated, cost, spares } = objective;
+    json!({ "moved": moved, "violated": violated, "cost": cost, "spares": spares })
+}
+
