@@ -49,12 +49,20 @@ pub fn read(path: &Path) -> String {
 pub fn binary() -> &'static Path {
     static BINARY: OnceLock<Option<PathBuf>> = OnceLock::new();
     let given = || std::env::var_os("SENSEDSL_BIN").map(PathBuf::from);
-    let found = BINARY.get_or_init(|| given().or_else(built));
+    let found = BINARY.get_or_init(|| given().or_else(|| built("sensedsl")));
     found.as_deref().unwrap_or_else(|| panic!("there is no binary to test"))
 }
 
-/// Builds the binary with the profile and into the folder of this test.
-fn built() -> Option<PathBuf> {
+/// The program that verifies certificates.
+#[must_use]
+pub fn verifier() -> &'static Path {
+    static BINARY: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let found = BINARY.get_or_init(|| built("sensedsl-proof"));
+    found.as_deref().unwrap_or_else(|| panic!("there is no verifier to test"))
+}
+
+/// Builds the binary of a package with the profile and into the folder of this test.
+fn built(package: &str) -> Option<PathBuf> {
     let test = std::env::current_exe().unwrap();
     // A test lies in TARGET/PROFILE/deps. Cargo marks TARGET (CACHEDIR.TAG) only where it made it.
     let target = test.ancestors().nth(3);
@@ -62,7 +70,7 @@ fn built() -> Option<PathBuf> {
     let release = test.components().any(|part| part.as_os_str() == "release");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.current_dir(root()).args(["build", "--quiet", "--package", "sensedsl"]);
+    command.current_dir(root()).args(["build", "--quiet", "--package", package]);
     command.args(["--profile", if release { "release" } else { "test" }]);
     command.args(["--message-format", "json-render-diagnostics", "--target-dir"]).arg(target);
     let output = command.stderr(Stdio::inherit()).output().unwrap();

@@ -1,10 +1,19 @@
-#![allow(clippy::unwrap_used)]
+//! Certificates of random problems: they are verified, and what passes after a change is true.
+#![allow(missing_docs, reason = "tests need none")]
+
 #[path = "../../solve/tests/support/mod.rs"]
 mod support;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proptest::prelude::*;
+use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
+use sensedsl_proof::{Verified, read, verify};
 use sensedsl_wiring::certificate::{AlternativeLabels, Claim, Labels, certify};
-use sensedsl_wiring::solver::{Options, Outcome, problem::{Problem, Holder}, solve};
-use std::time::Instant;
-use support::generate::{self, Mix};
+use sensedsl_wiring::solver::problem::{Holder, Problem, RuleId};
+use sensedsl_wiring::solver::{Options, Outcome, solve};
+use serde_json::Value;
+use support::generate::{self, Mix, Rng};
 
 /// Names made of numbers alone.
 fn numbered(problem: &Problem) -> Labels {
@@ -13,8 +22,9 @@ fn numbered(problem: &Problem) -> Labels {
     };
     let alternatives = problem.devices.iter().map(|device| {
         let names = list("way", device.alternatives.len()).into_iter();
-        let all = names.zip(&device.alternatives).map(|(name, alternative)| {
-            AlternativeLabels { name, roles: list("wire", alternative.roles.len()) }
+        let all = names.zip(&device.alternatives).map(|(name, alternative)| AlternativeLabels {
+            name,
+            roles: list("wire", alternative.roles.len()),
         });
         all.collect()
     });
@@ -41,73 +51,230 @@ fn numbered(problem: &Problem) -> Labels {
     }
 }
 
-#[test]
-#[ignore]
-fn measure() {
-    let only = std::env::var("FAMILY").ok();
-    for (name, boards, pins, mix, dma) in [
-        ("g50", 1, 50, Mix::General, false),
-        ("g100", 1, 100, Mix::General, false),
-        ("t100", 1, 100, Mix::Timers, false),
-        ("d100", 1, 100, Mix::Dma, true),
-        ("t50", 1, 50, Mix::Timers, false),
-        ("2x82", 2, 82, Mix::General, false),
-        ("3x82", 3, 82, Mix::General, false),
-    ] {
-        if only.as_ref().is_some_and(|o| o != name) { continue; }
-        for n in [8, 12, 16, 24] {
-            let mut times = vec![];
-            let mut failed = 0;
-            let mut inf = 0;
-            let mut bytes = 0;
-            let mut ver = 0.0;
-            let mut leaves = vec![];
-            for seed in 0..10u64 {
-                let tables: Vec<String> = (0..boards).map(|b| generate::table(seed + 1 + b * 77, pins)).collect();
-                let tables: Vec<(&str, bool)> = tables.iter().map(|t| (t.as_str(), false)).collect();
-                let b = generate::problem(seed, &tables, n, mix, dma);
-                let (p, l) = (&b.problem, numbered(&b.problem));
-                let deadline = Instant::now();
-                let stop = || deadline.elapsed().as_secs_f64() > 20.0;
-                let out = solve(p, &Options { any: false, stop: Some(&stop) }).unwrap();
-                let c = match &out {
-                    Outcome::Solved(a) => Claim::Best(a),
-                    Outcome::Infeasible(c) => {
-                        inf += 1;
-                        Claim::NoWiring(&c.devices)
-                    }
-                    _ => { println!("  {name} {n} {seed} unsolved"); continue; }
+/// A random problem: one or two boards, the second perhaps a spare one, some rules, some wires
+/// that were elsewhere before.
+fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
+    let mut rng = Rng(seed);
+    let boards = 1 + rng.below(2);
+    let tables: Vec<String> =
+        (0..boards).map(|board| generate::table(seed + 77 * board, pins)).collect();
+    let spare = rng.below(2) == 0;
+    let tables: Vec<(&str, bool)> =
+        tables.iter().enumerate().map(|(at, table)| (table.as_str(), at > 0 && spare)).collect();
+    let mix = [Mix::General, Mix::Dma, Mix::Timers][rng.below(3) as usize];
+    let mut problem = generate::problem(seed, &tables, devices, mix, mix == Mix::Dma).problem;
+    problem.rules = rng.below(4) as u32;
+    let (rules, keep) = (problem.rules, rng.below(3) == 0);
+    let all = problem.devices.iter_mut().flat_map(|device| &mut device.alternatives);
+    for candidate in all.flat_map(|one| &mut one.roles).flat_map(|role| &mut role.candidates) {
+        // What devices share they violate and move together, so it goes by the pin.
+        let mut of_pin = Rng(seed ^ (u64::from(candidate.pin.0) << 8));
+        if rules > 0 && of_pin.below(3) == 0 {
+            candidate.violates = vec![RuleId(of_pin.below(u64::from(rules)) as u32)];
+        }
+        candidate.moved = keep && of_pin.below(2) == 0;
+    }
+    problem
+}
+
+/// The certificate of what the solver finds, and whether there is a wiring.
+fn certificate(problem: &Problem) -> (String, Option<Objective>) {
+    let labels = numbered(problem);
+    match solve(problem, &Options::default()).expect("a proper problem") {
+        Outcome::Solved(answer) => {
+            let text = certify(problem, &labels, Claim::Best(&answer), None).expect("a proof");
+            let sensedsl_wiring::solver::Objective { moved, violated, cost, spares } =
+                answer.objective;
+            (text, Some(Objective { moved, violated, cost, spares }))
+        }
+        Outcome::Infeasible(conflict) => {
+            let claim = Claim::NoWiring(&conflict.devices);
+            (certify(problem, &labels, claim, None).expect("a proof"), None)
+        }
+        Outcome::Stopped { .. } => unreachable!("nobody stopped it"),
+    }
+}
+
+/// Moved wires, rules violated, cost, spare boards.
+type Parts = (u32, u32, u64, u32);
+
+/// All wirings of a certificate's problem, tried out one by one; the best objective. None where
+/// there are too many.
+struct Brute<'a> {
+    certificate: &'a Certificate,
+    left: u32,
+    best: Option<Parts>,
+}
+
+/// What devices hold: by kind and name the device and the behalf.
+type Held<'a> = BTreeMap<(&'a str, &'a str), Vec<(&'a str, String)>>;
+
+#[derive(Clone, Default)]
+struct Used<'a> {
+    held: Held<'a>,
+    moved: BTreeSet<&'a str>,
+    rules: BTreeSet<&'a str>,
+    boards: BTreeSet<&'a str>,
+    dma: BTreeSet<&'a str>,
+}
+
+impl<'a> Used<'a> {
+    fn hold(&mut self, thing: (&'a str, &'a str), device: &'a str, behalf: String) -> bool {
+        let holders = self.held.entry(thing).or_default();
+        let fits = |(other, of): &(&str, String)| {
+            *other == device || (*of == behalf && !behalf.starts_with("own"))
+        };
+        let fits = holders.iter().all(fits);
+        holders.push((device, behalf));
+        fits
+    }
+
+    fn take(&mut self, device: &'a str, way: &'a Alternative, wires: &[&'a Candidate]) -> bool {
+        self.boards.insert(&way.board);
+        self.dma.extend(way.dma.iter().map(String::as_str));
+        self.rules.extend(way.violates.iter().map(String::as_str));
+        let mut fits = true;
+        let mut pins = BTreeSet::new();
+        for wire in wires {
+            fits &= pins.insert(&wire.pin);
+            let behalf = format!("{} {}", wire.holder, wire.signal);
+            let behalf = if wire.holder == "own" { "own".into() } else { behalf };
+            fits &= self.hold(("pin", &wire.pin), device, behalf);
+            self.rules.extend(wire.violates.iter().map(String::as_str));
+            self.moved.extend(wire.moved.then_some(wire.pin.as_str()));
+        }
+        let claims = way.claims.iter().chain(wires.iter().flat_map(|wire| wire.claims.iter()));
+        for (resource, holder) in claims {
+            fits &= self.hold(("resource", resource), device, holder.clone());
+        }
+        fits
+    }
+}
+
+impl<'a> Brute<'a> {
+    fn best(certificate: &'a Certificate) -> Option<Option<Parts>> {
+        let mut brute = Self { certificate, left: 30_000, best: None };
+        brute.next(&certificate.problem.devices.keys().collect::<Vec<_>>(), &Used::default());
+        (brute.left > 0).then_some(brute.best)
+    }
+
+    fn next(&mut self, devices: &[&'a String], used: &Used<'a>) {
+        let problem = &self.certificate.problem;
+        let Some((device, rest)) = devices.split_first() else {
+            let requests: Vec<_> = used.dma.iter().flat_map(|user| &problem.dma[*user]).collect();
+            if serve(&requests, &mut BTreeSet::new()) {
+                let pins = used.held.keys().filter(|(kind, _)| *kind == "pin");
+                let cost = pins.map(|(_, pin)| u64::from(problem.pins[*pin])).sum();
+                let spares = used.boards.iter().filter(|board| problem.boards[**board]).count();
+                let (moved, violated) = (used.moved.len() as u32, used.rules.len() as u32);
+                let objective = (moved, violated, cost, spares as u32);
+                self.best = Some(self.best.map_or(objective, |best| best.min(objective)));
+            }
+            return;
+        };
+        for way in problem.devices[*device].values() {
+            let mut wirings: Vec<Vec<&Candidate>> = vec![Vec::new()];
+            for role in way.roles.values() {
+                let longer = |wires: &Vec<&'a Candidate>| {
+                    let wires = wires.clone();
+                    let add = move |one| wires.iter().copied().chain([one]).collect();
+                    role.values().map(add).collect::<Vec<Vec<_>>>()
                 };
-                let t = Instant::now();
-                let stop = || t.elapsed().as_secs_f64() > 10.0;
-                match certify(p, &l, c, Some(&stop)) {
-                    Ok(text) => {
-                        times.push(t.elapsed().as_secs_f64() * 1e3);
-                        bytes = bytes.max(text.len());
-                        leaves.push(text.matches("\"leaf\"").count());
-                        let t = Instant::now();
-                        sensedsl_proof::verify(&sensedsl_proof::read(&text).unwrap()).unwrap();
-                        ver = f64::max(ver, t.elapsed().as_secs_f64() * 1e3);
-                    }
-                    Err(e) => {
-                        failed += 1;
-                        println!(
-                            "  {name} {n} {seed} {e:?} {:?} {:.0}ms",
-                            match c { Claim::Best(a) => format!("{:?}", a.objective), Claim::NoWiring(d) => format!("{d:?}") },
-                            t.elapsed().as_secs_f64() * 1e3
-                        );
-                    }
+                wirings = wirings.iter().flat_map(longer).take(self.left as usize).collect();
+            }
+            for wires in wirings {
+                self.left = self.left.saturating_sub(1);
+                let mut used = used.clone();
+                if self.left > 0 && used.take(device, way, &wires) {
+                    self.next(rest, &used);
                 }
             }
-            times.sort_by(f64::total_cmp);
-            leaves.sort();
-            println!(
-                "{name:5} n={n:2} failed {failed} inf {inf} median {:.1} max {:.0} ms, leaves {} max {}, bytes {bytes} verify max {ver:.0} ms",
-                times.get(times.len() / 2).unwrap_or(&0.),
-                times.last().unwrap_or(&0.),
-                leaves.get(leaves.len() / 2).unwrap_or(&0),
-                leaves.last().unwrap_or(&0)
-            );
+        }
+    }
+}
+
+fn serve<'a>(requests: &[&'a BTreeSet<String>], taken: &mut BTreeSet<&'a str>) -> bool {
+    let Some((request, rest)) = requests.split_first() else { return true };
+    for stream in *request {
+        if taken.insert(stream) {
+            if serve(rest, taken) {
+                return true;
+            }
+            taken.remove(stream.as_str());
+        }
+    }
+    false
+}
+
+/// Changes one place of a text of JSON: a number, a flag, a name, or an entry that goes.
+fn mutate(value: &mut Value, rng: &mut Rng) {
+    match value {
+        Value::Object(map) if !map.is_empty() => {
+            let at = rng.below(map.len() as u64) as usize;
+            let key = map.keys().nth(at).cloned().expect("in range");
+            if rng.below(12) == 0 {
+                map.remove(&key);
+            } else {
+                mutate(&mut map[&key], rng);
+            }
+        }
+        Value::Array(list) if !list.is_empty() => {
+            let at = rng.below(list.len() as u64) as usize;
+            if rng.below(12) == 0 {
+                list.remove(at);
+            } else {
+                mutate(&mut list[at], rng);
+            }
+        }
+        Value::Number(number) => {
+            let old = number.as_u64().unwrap_or(0);
+            let new = [old.saturating_sub(1), old + 1, 0, u64::from(u32::MAX), u64::MAX];
+            *value = new[rng.below(5) as usize].into();
+        }
+        Value::Bool(flag) => *flag = !*flag,
+        Value::String(text) => {
+            let number = rng.below(9).to_string();
+            *text = if rng.below(4) == 0 {
+                "own".into()
+            } else {
+                format!("{}{number}", text.trim_end_matches(|c: char| c.is_ascii_digit()))
+            };
+        }
+        Value::Null | Value::Object(_) | Value::Array(_) => *value = Value::from(1),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn certificates_of_random_problems_are_verified(seed in 0_u64..1 << 40, devices in 1_u64..11) {
+        let problem = problem(seed, 40 + seed % 60, devices);
+        let (text, objective) = certificate(&problem);
+        let expected = objective.map_or(Verified::NoWiring, Verified::Best);
+        prop_assert_eq!(verify(&read(&text).expect("readable")), Ok(expected));
+    }
+
+    #[test]
+    fn what_passes_after_a_change_is_true(seed in 0_u64..1 << 40, devices in 1_u64..4) {
+        let (text, _) = certificate(&problem(seed, 26, devices));
+        let value: Value = serde_json::from_str(&text).expect("JSON");
+        let mut rng = Rng(seed);
+        for _ in 0..40 {
+            let mut value = value.clone();
+            // The proof and the answer are small beside the problem.
+            let part = ["problem", "answer", "proofs"][rng.below(3) as usize];
+            mutate(&mut value[part], &mut rng);
+            let Ok(certificate) = read(&value.to_string()) else { continue };
+            let Ok(verified) = verify(&certificate) else { continue };
+            let Some(best) = Brute::best(&certificate) else { continue };
+            let claimed = match verified {
+                Verified::Best(Objective { moved, violated, cost, spares }) => {
+                    Some((moved, violated, u64::from(cost), spares))
+                }
+                Verified::NoWiring => None,
+            };
+            prop_assert_eq!(claimed, best, "{}", value);
         }
     }
 }

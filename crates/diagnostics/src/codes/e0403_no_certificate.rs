@@ -10,18 +10,20 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "no certificate was found",
     explanation: r#"`solve --proof` looks for a proof that a separate checker can follow, independently of the search that
-found the wiring. For some large requests, with several boards above all, there is none within the effort
-that is allowed for it. This says nothing against the wiring; no file was written.
+found the answer. For some requests that only just fit a board, or only just do not, there is none within the effort
+that is allowed for it; or `--timeout` came first. This says nothing against the answer, which is printed as
+always; no certificate was written.
 
-Way out: solve without `--proof`, allow more time where `--timeout` is given, or bind devices to boards.
+Way out: solve without `--proof`, give `--timeout` more seconds, or fix some pins, units or boards: the fewer
+choices are left, the shorter is the proof.
 "#,
 };
 
 const CODE: Code = Code(&INFO);
 
-/// Why there is none.
+/// `span` is the board; `why` there is none.
 #[must_use]
 pub fn no_certificate(span: Span, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no certificate: {why}"))
-        .help("`solve` without `--proof` gives the wiring, proved by its own search")
+        .help("`solve` without `--proof` gives the answer with the proof of its own search alone; fixed pins and units make proofs shorter")
 }

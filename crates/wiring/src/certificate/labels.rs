@@ -132,15 +132,14 @@ impl Namer<'_> {
     }
 
     fn resource(&self, resource: &Resource) -> String {
-        // A bus has a wire of the name of a signal, and several devices claim one or the other.
-        let kind = if matches!(resource, Resource::Signal(..)) {
-            "signal "
-        } else if matches!(resource, Resource::BusWire(..)) {
-            "wire "
-        } else {
-            ""
+        let name = match resource {
+            Resource::BusWire(_, unit, role) => format!("{} of {unit}", role.name()),
+            // Several devices of a bus would claim the bus by that name otherwise.
+            Resource::Signal(_, signal) => format!("signal {signal}"),
+            Resource::Unit(..) | Resource::Address(..) | Resource::Exti(..) | Resource::Pad(..) => {
+                resource.name()
+            }
         };
-        let name = format!("{kind}{}", resource.name());
         self.on(resource.board(), &name)
     }
 

@@ -1,4 +1,4 @@
-//! The case distinction: climb, and where that does not close a case, divide it.
+//! The case distinction: climb in a case, and where that does not close it, divide it.
 #![expect(clippy::indexing_slicing, reason = "all indices come from the model")]
 
 use super::ascent::{Ascent, Closing, Habits, ascend, first_tolls};
@@ -167,7 +167,9 @@ impl Prover<'_, '_> {
                 if !part.closed() {
                     let bound = part.ascent.as_ref().map_or(0.0, |ascent| ascent.bound);
                     let gap = (self.target - above.bound).max(1e-9);
-                    left += (-4.0 * ((bound - above.bound) / gap).clamp(0.0, 1.0)).exp();
+                    // What is left of the gap, its halves counting far less than the half.
+                    let open = (1.0 - (bound - above.bound) / gap).clamp(0.0, 1.0);
+                    left += open * open * open + 0.02;
                 }
                 parts.push(part);
             }

@@ -1,0 +1,130 @@
+//! A certificate small enough to be read, and what is refused of it.
+#![allow(missing_docs, reason = "tests need none")]
+
+use sensedsl_proof::format::Objective;
+use sensedsl_proof::{Verified, read, verify};
+
+/// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
+/// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least.
+const TWO_OF_THREE: &str = r#"{
+"format": "SenseDSL certificate 1",
+"problem": {
+  "boards": {"B": false},
+  "pins": {"PA1": 1, "PA2": 2, "PA3": 5},
+  "dma": {},
+  "devices": {
+    "Left": {"any": {"board": "B", "claims": {}, "violates": [], "dma": [], "roles": {"in": {
+      "PA1": {"pin": "PA1", "holder": "own", "signal": "A1", "claims": {}, "violates": [], "moved": false},
+      "PA2": {"pin": "PA2", "holder": "own", "signal": "A2", "claims": {}, "violates": [], "moved": false},
+      "PA3": {"pin": "PA3", "holder": "own", "signal": "A3", "claims": {}, "violates": [], "moved": false}}}}},
+    "Right": {"any": {"board": "B", "claims": {}, "violates": [], "dma": [], "roles": {"in": {
+      "PA1": {"pin": "PA1", "holder": "own", "signal": "A1", "claims": {}, "violates": [], "moved": false},
+      "PA2": {"pin": "PA2", "holder": "own", "signal": "A2", "claims": {}, "violates": [], "moved": false},
+      "PA3": {"pin": "PA3", "holder": "own", "signal": "A3", "claims": {}, "violates": [], "moved": false}}}}}
+  }
+},
+"answer": {
+  "objective": {"moved": 0, "violated": 0, "cost": 3, "spares": 0},
+  "wiring": {
+    "Left": {"takes": "any", "wires": {"in": "PA1"}},
+    "Right": {"takes": "any", "wires": {"in": "PA2"}}
+  },
+  "streams": {}
+},
+"proofs": [{"of": "cost", "weights": {"moved": 3, "violated": 3, "cost": 1, "spares": 0}, "nodes": [
+  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}
+]}]
+}"#;
+
+/// Three cases, none of which is needed for the bound.
+const SPLIT: &str = r#"{"device": {"device": "Left", "cases": [{"keep": ["any"], "then": 1}]}},
+  {"role": {"device": "Right", "role": "in", "cases": [
+    {"keep": ["PA1", "PA2"], "then": 3}, {"keep": ["PA3"], "then": 2}]}},
+  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}},
+  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
+const LEAF: &str = r#"{"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
+
+fn verified(text: &str) -> Result<Verified, String> {
+    verify(&read(text).expect("a certificate")).map_err(|refuted| refuted.0)
+}
+
+#[track_caller]
+fn changed(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from}");
+    text.replace(from, to)
+}
+
+#[test]
+fn a_proof_is_verified() {
+    let objective = Objective { moved: 0, violated: 0, cost: 3, spares: 0 };
+    assert_eq!(verified(TWO_OF_THREE), Ok(Verified::Best(objective)));
+    assert_eq!(verified(&changed(TWO_OF_THREE, LEAF, SPLIT)), Ok(Verified::Best(objective)));
+}
+
+#[test]
+fn no_wiring_is_verified() {
+    let (problem, _) = TWO_OF_THREE.split_once("\"answer\"").expect("two parts");
+    let one_pin = problem.lines().filter(|line| !line.contains("\"PA1\": {\"pin\""));
+    let one_pin: String = one_pin.collect();
+    let one_pin = one_pin.replace("\"PA3\": {\"pin\": \"PA3\"", "\"PA3\": {\"pin\": \"PA2\"");
+    let rest = r#""answer": null, "proofs": [{"of": "existence",
+        "weights": {"moved": 0, "violated": 0, "cost": 0, "spares": 0},
+        "nodes": [{"leaf": {"scale": 1, "prices": {"pin": {"PA2": 1}}, "tolls": {}}}]}]}"#;
+    assert_eq!(verified(&format!("{one_pin}{rest}")), Ok(Verified::NoWiring));
+    assert!(verified(&format!("{problem}{rest}")).is_err(), "there are wirings");
+}
+
+#[test]
+fn what_is_not_proved_is_refused() {
+    let split = changed(TWO_OF_THREE, LEAF, SPLIT);
+    for (text, from, to, why) in [
+        (TWO_OF_THREE, "\"cost\": 3,", "\"cost\": 2,", "the wiring has"),
+        (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{\"in\": \"PA1\"}", "held twice"),
+        (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{\"in\": \"PA3\"}", "the wiring has"),
+        (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{\"in\": \"PA4\"}", "not wired"),
+        (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{}", "not wired"),
+        (TWO_OF_THREE, "\"streams\": {}", "\"streams\": {\"I2C1\": []}", "streams"),
+        (TWO_OF_THREE, "{\"pin\": {\"PA1\": 2}}", "{\"pin\": {\"PA1\": 1}}", "does not show"),
+        (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 0", "scale"),
+        (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 2", "does not show"),
+        (TWO_OF_THREE, "\"of\": \"cost\"", "\"of\": \"violated\"", "no proof of cost"),
+        (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 0, \"spares\": 0", "no weight"),
+        (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 1, \"spares\": 1", "later parts"),
+        (TWO_OF_THREE, "\"board\": \"B\"", "\"board\": \"C\"", "no board"),
+        (TWO_OF_THREE, "\"PA3\": 5", "\"PA4\": 5", "no pin"),
+        (TWO_OF_THREE, LEAF, "", "not there"),
+        (&split, "{\"keep\": [\"PA3\"], \"then\": 2}", "", "leaves out"),
+        (&split, ", \"PA2\"]", "]", "leaves out"),
+        (&split, "\"then\": 2", "\"then\": 3", "not new"),
+        (&split, "\"then\": 2", "\"then\": 0", "not new"),
+        (&split, "\"then\": 2", "\"then\": 9", "not there"),
+        (&split, "\"device\": \"Left\"", "\"device\": \"Middle\"", "no device"),
+        (&split, "\"role\": \"in\"", "\"role\": \"out\"", "no such role"),
+    ] {
+        let text = changed(text, from, to).replace(", ]", "]").replace(",  ]", "]");
+        let text = text.replace("\"then\": 3}, ]", "\"then\": 3}]");
+        let said = verified(&text).expect_err(from);
+        assert!(said.contains(why), "{from} to {to}: {said}");
+    }
+}
+
+#[test]
+fn what_is_no_certificate_is_told_from_a_wrong_one() {
+    for (from, to) in [
+        ("certificate 1", "certificate 2"),
+        ("\"boards\"", "\"board\""),
+        ("\"PA3\": 5", "\"PA3\": -5"),
+        ("\"PA3\": 5", "\"PA3\": 5.0"),
+        ("\"PA3\": 5", "\"PA3\": 4294967296"),
+        ("\"PA3\": 5", "\"PA3\": 5, \"PA1\": 1"),
+        ("\"moved\": false", "\"moved\": 0"),
+        ("\"scale\": 1", "\"scale\": 1, \"hint\": 1"),
+        ("{\"leaf\"", "{\"twig\""),
+    ] {
+        assert!(read(&changed(TWO_OF_THREE, from, to)).is_err(), "{from} to {to}");
+    }
+    for end in (0..TWO_OF_THREE.len()).step_by(7) {
+        assert!(read(&TWO_OF_THREE[..end]).is_err());
+    }
+    assert!(read(&"[".repeat(1 << 16)).is_err());
+}
