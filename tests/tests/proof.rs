@@ -44,7 +44,8 @@ fn the_examples_are_proved_on_both_boards() {
 #[test]
 fn that_there_is_no_wiring_is_proved() {
     let bus = "i2c: address = 0x10; exclusive = true; register = 0; length = 2;";
-    let cases = [design(BOARD, &["analog"; 10]), design(BOARD, &[bus; 4]), design(BOARD, &["icu"; 9])];
+    let cases =
+        [design(BOARD, &["analog"; 10]), design(BOARD, &[bus; 4]), design(BOARD, &["icu"; 9])];
     for file in &cases {
         let said = proved(&["-"], file, 1);
         assert!(said.contains("there is no wiring"), "{said}");
@@ -91,7 +92,10 @@ fn moved_wires_are_proved_to_be_needed() {
 fn changed_certificates_are_refused_and_other_files_are_unusable() {
     let scratch = Scratch::new("proof-changed");
     let certificate = scratch.join("fig2.json");
-    sensedsl(["solve", "-q", "examples/fig2.sense", "--proof"]).arg(&certificate).run().exits(0);
+    let _ = sensedsl(["solve", "-q", "examples/fig2.sense", "--proof"])
+        .arg(&certificate)
+        .run()
+        .exits(0);
     let text = read(&certificate);
     for (from, to, status) in [
         ("\"cost\":5,", "\"cost\":4,", 1),

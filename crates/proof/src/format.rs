@@ -3,8 +3,8 @@
 //! All numbers have 32 bits, so that no sum of products of three of them overflows the 128 bits in
 //! which they are added up. Unknown fields and names given twice are refused.
 
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::marker::PhantomData;

@@ -82,6 +82,13 @@ impl<'a> Open<'a> {
         }
     }
 
+    /// Takes away what cannot be taken for want of a candidate.
+    fn prune(&mut self) {
+        for alternatives in self.devices.values_mut() {
+            alternatives.retain(|_, one| one.roles.values().all(|left| !left.is_empty()));
+        }
+    }
+
     /// Takes away what would be out of order among alike devices.
     fn sort(&mut self, alike: &[&'a str]) {
         let mut least = None;
@@ -122,6 +129,7 @@ pub(crate) fn check(problem: &Problem, proof: &Proof, limit: i128) -> Result<(),
         let node = node.ok_or_else(|| Refuted(format!("node {at} is not there, or not new")))?;
         let mut open = Rc::unwrap_or_clone(above);
         open.step(&step);
+        open.prune();
         alike.iter().for_each(|group| open.sort(group));
         let open = Rc::new(open);
         match node {

@@ -54,8 +54,9 @@ pub(crate) fn solve(
     keep: Option<&Keep>,
     search: &Search<'_>,
 ) -> Answer {
-    answer(design, diagnostics, keep, |wiring| {
-        Proved { solved: wiring.solve(search), certificate: None }
+    answer(design, diagnostics, keep, |wiring| Proved {
+        solved: wiring.solve(search),
+        certificate: None,
     })
 }
 

@@ -33,8 +33,14 @@ impl Open {
         }
     }
 
-    /// Takes away what would be out of order among alike devices.
-    pub(super) fn sort(&mut self, model: &Model) {
+    /// Takes away what cannot be taken for want of a candidate, then what would be out of order
+    /// among alike devices, as the verifier does.
+    pub(super) fn settle(&mut self, model: &Model) {
+        for (left, roles) in self.alternatives.iter_mut().zip(&self.candidates) {
+            for (left, roles) in left.iter_mut().zip(roles) {
+                *left &= roles.iter().all(|role| role.contains(&true));
+            }
+        }
         for group in &model.alike {
             let mut least = 0;
             for &device in group {
@@ -114,7 +120,7 @@ impl Case {
             let mut left = Vec::new();
             for a in 0..model.devices[d].len() {
                 if open.alternatives[d][a] {
-                    left.extend(case.alternative(model, open, (d, a)));
+                    left.push(case.alternative(model, open, (d, a)));
                 }
             }
             case.devices.push(left);
@@ -126,13 +132,11 @@ impl Case {
         case
     }
 
-    /// None where a role has no candidate left.
-    fn alternative(&mut self, model: &Model, open: &Open, (d, a): (usize, usize)) -> Option<Left> {
+    fn alternative(&mut self, model: &Model, open: &Open, (d, a): (usize, usize)) -> Left {
         let uses = &model.devices[d][a];
         let masks = &open.candidates[d][a];
-        // Its tolls would be harmless, but the verifier reads the roles in order and so do we.
+        // The verifier reads the roles in the order of names, and so do we.
         let all = uses.roles.iter().zip(masks);
-        let dead = all.clone().any(|(_, mask)| !mask.contains(&true));
         let mut before = BTreeSet::new();
         let mut places = Vec::new();
         let fixed = std::slice::from_ref(&uses.fixed);
@@ -169,7 +173,7 @@ impl Case {
             before.extend(here);
             places.push(first..self.choices.len());
         }
-        (!dead).then_some(Left { alternative: a, places })
+        Left { alternative: a, places }
     }
 
     /// Whether some device has nothing left.

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_model::design::{BoardIndex, Design, Wish, WishFor};
-use sensedsl_solve::problem::Problem;
 
 use crate::formulate::{Asker, Formulation, GPIO, wanted};
 use crate::names::{Group, Resource};
@@ -136,6 +135,7 @@ impl Namer<'_> {
             Resource::BusWire(_, unit, role) => format!("{} of {unit}", role.name()),
             // Several devices of a bus would claim the bus by that name otherwise.
             Resource::Signal(_, signal) => format!("signal {signal}"),
+            Resource::Remap(_, unit, one, other) => format!("remap of {unit}, {one} or {other}"),
             Resource::Unit(..) | Resource::Address(..) | Resource::Exti(..) | Resource::Pad(..) => {
                 resource.name()
             }
@@ -147,7 +147,8 @@ impl Namer<'_> {
         let (Group::Bus(board, ..)
         | Group::Frequency(board, ..)
         | Group::Pin(board, ..)
-        | Group::Pad(board, ..)) = group;
+        | Group::Pad(board, ..)
+        | Group::Blocks(board, ..)) = group;
         let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
         let name = match group {
             Group::Bus(_, unit, 0) => format!("bus {unit}"),
@@ -157,6 +158,7 @@ impl Namer<'_> {
                 format!("{} of {unit} on {}", role.name(), pin(*at).unwrap_or_default())
             }
             Group::Pad(_, at) => pin(*at).unwrap_or_default(),
+            Group::Blocks(_, unit, blocks) => format!("{unit} in {blocks}"),
         };
         self.on(*board, &name)
     }

@@ -90,9 +90,12 @@ fn prove(
     for Task { of, weights, limit, most } in tasks {
         let weighed = Weighed::new(writer.problem, &model, *weights);
         let nodes = tree::prove(&weighed, (*limit, *most as f64), effort);
-        let nodes = nodes.map_err(|GivenUp { stopped }| {
-            if stopped { Uncertified::Stopped } else { Uncertified::GivenUp }
-        })?;
+        let nodes =
+            nodes.map_err(
+                |GivenUp { stopped }| {
+                    if stopped { Uncertified::Stopped } else { Uncertified::GivenUp }
+                },
+            )?;
         proofs.push(writer.proof(&Proof { of, weighed: &weighed, nodes }));
     }
     Ok(proofs)
@@ -158,8 +161,8 @@ impl Wiring<'_> {
         };
         // What is handed out has been verified.
         let certificate = sensedsl_proof::read(&text).map_err(|error| error.0);
-        let verified = certificate
-            .and_then(|one| sensedsl_proof::verify(&one).map_err(|refuted| refuted.0));
+        let verified =
+            certificate.and_then(|one| sensedsl_proof::verify(&one).map_err(|refuted| refuted.0));
         Some(match verified {
             Ok(_) => Ok(text),
             Err(why) => Err(Box::new(self.disagrees(&why))),

@@ -66,7 +66,7 @@ pub(super) fn prove(
     let start = first_tolls(weighed);
     let mut prover = Prover { weighed, classes, limit, target, nodes: Vec::new(), effort };
     let mut open = Open::new(model);
-    open.sort(model);
+    open.settle(model);
     prover.node(&open, &start, STEPS_FIRST)?;
     Ok(prover.nodes)
 }
@@ -186,7 +186,7 @@ impl Prover<'_, '_> {
 
     fn parts(&self, open: &Open, branch: &Branch) -> Vec<Open> {
         let mut parts = self.divided(open, branch);
-        parts.iter_mut().for_each(|part| part.sort(self.weighed.model));
+        parts.iter_mut().for_each(|part| part.settle(self.weighed.model));
         parts
     }
 

@@ -246,4 +246,3 @@ fn objective(objective: &Objective) -> Value {
     let Objective { moved, violated, cost, spares } = objective;
     json!({ "moved": moved, "violated": violated, "cost": cost, "spares": spares })
 }
-
