@@ -1,0 +1,135 @@
+//! What `solve --proof` writes, `sensedsl-verify` accepts; what was changed, it refuses.
+
+use std::path::Path;
+use std::process::Command;
+
+use sensedsl_tests::{Scratch, design, read, sensedsl, verifier};
+
+const BOARD: &str = "STM32F4DiscoveryBoard";
+
+/// Exit status and words of the verifier.
+fn verify(certificate: &Path) -> (i32, String) {
+    let output = Command::new(verifier()).arg(certificate).output().unwrap();
+    let said = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
+}
+
+/// Solves with a certificate and verifies that; what the verifier said.
+#[track_caller]
+fn proved(arguments: &[&str], stdin: &str, status: i32) -> String {
+    let scratch = Scratch::new("proof");
+    let certificate = scratch.join("certificate.json");
+    let call = sensedsl(["solve", "-q"]).arg("--proof").arg(&certificate);
+    let ran = arguments.iter().fold(call, |call, argument| call.arg(argument)).stdin(stdin).run();
+    assert_eq!(ran.status, status, "{arguments:?}\n{stdin}\n{}", ran.stderr);
+    let (status, said) = verify(&certificate);
+    assert_eq!(status, 0, "{arguments:?}\n{stdin}\n{said}");
+    said
+}
+
+#[test]
+fn the_examples_are_proved_on_both_boards() {
+    for file in ["examples/fig2.sense", "examples/miniature_car.sense"] {
+        for board in [BOARD, "STM32F407G-DISC1"] {
+            for target in ["chibios", "none"] {
+                let said = proved(&[file, "--board", board, "--target", target], "", 0);
+                assert!(said.contains("none is better"), "{said}");
+            }
+        }
+    }
+    let said = proved(&["examples/fig2.sense"], "", 0);
+    assert!(said.contains("moved 0, violated 0, cost 5, spares 0"), "{said}");
+}
+
+#[test]
+fn that_there_is_no_wiring_is_proved() {
+    let bus = "i2c: address = 0x10; exclusive = true; register = 0; length = 2;";
+    let cases =
+        [design(BOARD, &["analog"; 10]), design(BOARD, &[bus; 4]), design(BOARD, &["icu"; 9])];
+    for file in &cases {
+        let said = proved(&["-"], file, 1);
+        assert!(said.contains("there is no wiring"), "{said}");
+    }
+}
+
+#[test]
+fn buses_frequencies_wishes_and_boards_are_proved() {
+    let mixed = design(
+        BOARD,
+        &[
+            "i2c: address = 0x10; register = 0; length = 2; prefer unit = I2C1;",
+            "i2c: address = 0x11; register = 0; length = 2; avoid unit = I2C1;",
+            "i2c: address = 0x11; register = 0; length = 2;",
+            "pwm: frequency = 50 Hz; prefer pin = PB8;",
+            "pwm: frequency = 50 Hz; prefer pin = PB8;",
+            "pwm: frequency = 400 Hz;",
+            "icu: avoid pin = PB4;",
+            "analog: prefer pin = PA3;",
+        ],
+    );
+    let said = proved(&["-"], &mixed, 0);
+    assert!(!said.contains("violated 0"), "the wishes contradict each other: {said}");
+    let devices: String = (1..=12)
+        .map(|id| format!("sensor S{id} returns uint16 {{ id = {id}; type = analog; }}\n"))
+        .collect();
+    let spare = format!("board A on {BOARD} {{ }}\nspare board B on {BOARD} {{ }}\n{devices}");
+    let said = proved(&["-"], &spare, 0);
+    assert!(said.contains("spares 1"), "{said}");
+}
+
+#[test]
+fn moved_wires_are_proved_to_be_needed() {
+    let scratch = Scratch::new("proof-moved");
+    let before = design(BOARD, &["analog", "icu"]);
+    let answer = sensedsl(["solve", "-q", "--format", "json", "-"]).stdin(before).run().exits(0);
+    let keep = scratch.write("before.json", answer.stdout);
+    let after = design(BOARD, &["analog: pin = PC1;", "icu: avoid unit = TIM3;"]);
+    let said = proved(&["-", "--keep", &keep.display().to_string()], &after, 0);
+    assert!(said.contains("moved 1, violated 1"), "{said}");
+}
+
+#[test]
+fn changed_certificates_are_refused_and_other_files_are_unusable() {
+    let scratch = Scratch::new("proof-changed");
+    let certificate = scratch.join("fig2.json");
+    let _ = sensedsl(["solve", "-q", "examples/fig2.sense", "--proof"])
+        .arg(&certificate)
+        .run()
+        .exits(0);
+    let text = read(&certificate);
+    for (from, to, status) in [
+        ("\"cost\":5,", "\"cost\":4,", 1),
+        ("\"in\":\"PB0 ADC12_IN8\"", "\"in\":\"PB1 ADC12_IN9\"", 1),
+        ("\"PB0\":1", "\"PB0\":2", 1),
+        ("certificate 1", "certificate 2", 2),
+        ("\"boards\"", "\"bords\"", 2),
+        ("\"PA1\":3", "\"PA1\":-3", 2),
+        ("\"PA1\":3", "\"PA1\":3,\"PA1\":3", 2),
+    ] {
+        let changed = text.replace(from, to);
+        assert_ne!(changed, text, "{from}");
+        let (got, said) = verify(&scratch.write("changed.json", &changed));
+        assert_eq!(got, status, "{from} to {to}: {said}");
+        assert!(!said.is_empty());
+    }
+    assert_eq!(verify(&scratch.join("not there")).0, 2);
+    assert_eq!(verify(&scratch.write("text", "no certificate")).0, 2);
+    assert_eq!(verify(&scratch.write("half", text.get(..text.len() / 2).unwrap())).0, 2);
+}
+
+#[test]
+fn without_a_proof_there_is_an_answer_or_a_word() {
+    let scratch = Scratch::new("proof-none");
+    let path = scratch.join("none.json");
+    let late = ["solve", "examples/fig2.sense", "--timeout", "0", "--proof"];
+    let ran = sensedsl(late).arg(&path).run();
+    assert_eq!(ran.status, 1);
+    assert!(ran.stderr.contains("E0403") || ran.stderr.contains("E0404"), "{}", ran.stderr);
+    assert!(!path.exists());
+    for more in [["--any"].as_slice(), &["--all"], &["--count"], &["--format", "prolog"]] {
+        let call = sensedsl(["solve", "examples/fig2.sense", "--proof"]).arg(&path);
+        let ran = more.iter().fold(call, |call, argument| call.arg(argument)).run();
+        assert_eq!((ran.status, path.exists()), (2, false), "{more:?}");
+    }
+    assert_eq!(sensedsl(["solve", "examples/fig2.sense", "--proof", "-"]).run().status, 2);
+}
