@@ -1,5 +1,6 @@
 //! A certificate small enough to be read, and what is refused of it.
 #![allow(missing_docs, reason = "tests need none")]
+#![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
 use sensedsl_proof::format::Objective;
 use sensedsl_proof::{Verified, read, verify};

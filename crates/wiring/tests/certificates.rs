@@ -1,5 +1,6 @@
 //! Certificates of random problems: they are verified, and what passes after a change is true.
 #![allow(missing_docs, reason = "tests need none")]
+#![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
 #[path = "../../solve/tests/support/mod.rs"]
 mod support;
