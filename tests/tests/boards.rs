@@ -124,14 +124,9 @@ fn joinable_pins_are_pins_of_a_bus() {
 }
 
 /// What Fig. 2 asks for. The timers of the AVR parts have no capture input, so a turning wheel is a
-/// servo there; the segments of one board's display leave too few pins; and where I2C3 would be
-/// cheapest, it has the only stream of the converter, which is dealt out after the wiring.
+/// servo there; the segments of one board's display leave too few pins.
 fn fig2_on(entry: &Entry) -> String {
-    let rule = match entry.name {
-        "STM32L-DISCOVERY" => "release LCD;",
-        "NUCLEO-F303RE" | "NUCLEO-F303ZE" => "reserve I2C3;",
-        _ => "",
-    };
+    let rule = if entry.name == "STM32L-DISCOVERY" { "release LCD;" } else { "" };
     let wheel = if entry.mcu.starts_with("ATMEGA") {
         "actuator Wheel accepts uint16 { id = 20; type = pwm; }"
     } else {

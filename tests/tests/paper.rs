@@ -179,7 +179,7 @@ fn ten_analog_sensors_fight_for_nine_pins() {
     let ran = solve(&design("STM32F4DiscoveryBoard", &["analog"; 10]), &[]).exits(1);
     let answer = ran.json();
     assert_eq!(answer["status"], "infeasible");
-    assert_eq!(keys(&answer["conflict"]), ["devices", "resources", "repairs"]);
+    assert_eq!(keys(&answer["conflict"]), ["devices", "resources", "repairs", "rules", "places"]);
     let all: Vec<String> = (1..=10).map(|number| format!("D{number}")).collect();
     assert_eq!(names(&answer["conflict"]["devices"]), all);
     let pins = ["PA1", "PA2", "PA3", "PB0", "PB1", "PC1", "PC2", "PC4", "PC5"];

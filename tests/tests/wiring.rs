@@ -126,6 +126,23 @@ fn a_conflict_names_the_rules_it_needs_and_what_helps() {
     assert_eq!(repairs[..2], ["run D1 at 60 Hz", "run D2 at 50 Hz"]);
 }
 
+/// On the F303, I2C3 takes the only stream of ADC1.
+#[test]
+fn converters_and_buses_share_the_streams() {
+    let rows = "# mcu = STM32F303RET6\nPin,ADC,I2C,Other\nPA0,UNITS_IN1,-,-\n\
+                PA8,-,I2C3_SCL@3,-\nPC9,-,I2C3_SDA@8,-\nPB6,-,I2C1_SCL@4,X\nPB7,-,I2C1_SDA@4,X\n";
+    let text = design("t", &["analog", "i2c: address = 0x20;"]);
+    let text = text.replacen('{', "{ link { transport = usb; }", 1);
+    let units = |converters: &str| {
+        let (_table, path) = table(&rows.replace("UNITS", converters));
+        let answer = solve(text.clone(), &["--board", &path]).exits(0).json();
+        let devices = answer["boards"][0]["devices"].as_array().unwrap().clone();
+        devices.iter().map(|one| one["unit"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(units("ADC12"), ["ADC2", "I2C3"], "another converter before another bus");
+    assert_eq!(units("ADC1"), ["ADC1", "I2C1"], "another bus where there is no other converter");
+}
+
 #[test]
 fn the_link_keeps_its_pins() {
     let text = |link: &str| {

@@ -13,7 +13,7 @@ use sensedsl_model::kind::Role;
 
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::Assignment;
-use crate::formulate::{Builder, Formulation, wanted};
+use crate::formulate::{Builder, Converters, Formulation, wanted};
 use crate::offer::{Offer, Withheld};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
@@ -174,7 +174,7 @@ fn relaxed(
 ) -> Vec<crate::formulate::Meaning> {
     let mut wanted = wanted(design, device);
     relax(&mut wanted);
-    let mut builder = Builder::new(design);
+    let mut builder = Builder::new(design, Converters::Later);
     let boards: Vec<BoardIndex> = offers.iter().map(|offer| offer.index).collect();
     wanted.boards.retain(|board| boards.contains(board));
     let fresh: Vec<Offer<'_>> =

@@ -2,7 +2,8 @@
 //!
 //! Devices of one class (cycle time and priority) share one conversion group, so they want one
 //! unit: the lowest that serves all of them; where none does, the unit that serves most of those
-//! that are left, again and again.
+//! that are left, again and again. Where the units found so find no DMA streams beside the other
+//! peripherals, fewer units are tried.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,29 +12,67 @@ use sensedsl_model::design::{Board, Design, DeviceIndex, Wish, WishFor};
 use sensedsl_model::kind::Kind;
 
 use crate::assignment::DeviceWiring;
+use crate::formulate::Converters;
 
 /// An analog device and the converters that can sample it.
 type Input = (DeviceIndex, BTreeSet<u8>);
 
-/// The converter of each analog device on the board.
+/// The converter of each analog device on the board, such that `streams_suffice` for the choice;
+/// none where no choice will do. Wishes for converters are given up when the problem has counted
+/// them so.
 pub(crate) fn choose(
     design: &Design,
     board: &Board,
     wirings: &[DeviceWiring],
-) -> BTreeMap<DeviceIndex, String> {
-    let mut classes: BTreeMap<(u32, i8), Vec<Input>> = BTreeMap::new();
+    when: Converters,
+    streams_suffice: impl Fn(&Choice) -> bool,
+) -> Option<Choice> {
+    let with = |wishes| best(&classes(design, board, wirings, wishes), &streams_suffice);
+    with(true).or_else(|| if when == Converters::Now { with(false) } else { None })
+}
+
+fn best(classes: &Classes, streams_suffice: impl Fn(&Choice) -> bool) -> Option<Choice> {
+    let inputs = || classes.values().flatten();
+    let all: BTreeSet<u8> = inputs().flat_map(|(_, units)| units).copied().collect();
+    // At most five converters in any MCU: all subsets, the whole first.
+    subsets(&all).find_map(|allowed| {
+        let serves = |(_, units): &Input| units.is_empty() || !units.is_disjoint(&allowed);
+        let choice = inputs().all(serves).then(|| choice(classes, &allowed))?;
+        streams_suffice(&choice).then_some(choice)
+    })
+}
+
+/// The converter of each analog device.
+pub(crate) type Choice = BTreeMap<DeviceIndex, String>;
+
+/// Analog devices by cycle time and priority.
+type Classes = BTreeMap<(u32, i8), Vec<Input>>;
+
+/// `wishes` leaves only the converters that meet most of them.
+fn classes(design: &Design, board: &Board, wirings: &[DeviceWiring], wishes: bool) -> Classes {
+    let mut classes = Classes::new();
     for wiring in wirings {
         let Some(device) = design.device(wiring.device) else { continue };
         if !matches!(device.kind, Kind::Analog(_)) {
             continue;
         }
         let fixed = device.placement.unit.as_ref().map(|unit| unit.value.as_str());
-        let units = wished(units(board, wiring, fixed), &device.wishes, &board.wishes);
+        let mut units = units(board, wiring, fixed);
+        if wishes {
+            units = wished(units, &device.wishes, &board.wishes);
+        }
         let class = (device.delay_ms, device.prio);
         classes.entry(class).or_default().push((wiring.device, units));
     }
-    let mut chosen = BTreeMap::new();
-    for mut left in classes.into_values() {
+    classes
+}
+
+/// For each class as few of the allowed units as will do.
+fn choice(classes: &Classes, allowed: &BTreeSet<u8>) -> Choice {
+    let mut chosen = Choice::new();
+    for class in classes.values() {
+        let restricted = |(device, units): &Input| (*device, units & allowed);
+        let mut left: Vec<Input> = class.iter().map(restricted).collect();
         while let Some(unit) = best_unit(&left) {
             let (served, rest): (Vec<_>, Vec<_>) =
                 left.into_iter().partition(|(_, units)| units.contains(&unit));
@@ -43,6 +82,20 @@ pub(crate) fn choose(
     }
     chosen
 }
+
+/// The set, then its subsets from the larger to the smaller, in the order of what is kept.
+fn subsets(all: &BTreeSet<u8>) -> impl Iterator<Item = BTreeSet<u8>> {
+    let members: Vec<u8> = all.iter().copied().collect();
+    let mut masks: Vec<u32> = (0..1_u32 << members.len().min(SUBSET_MAX)).collect();
+    masks.sort_by_key(|mask| (std::cmp::Reverse(mask.count_ones()), *mask));
+    masks.into_iter().map(move |mask| {
+        let kept = members.iter().enumerate().filter(|(at, _)| mask >> at & 1 == 1);
+        kept.map(|(_, unit)| *unit).collect()
+    })
+}
+
+/// More converters than any MCU has.
+const SUBSET_MAX: usize = 10;
 
 /// The units that can sample a device's input.
 fn units(board: &Board, wiring: &DeviceWiring, fixed: Option<&str>) -> BTreeSet<u8> {

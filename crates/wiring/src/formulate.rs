@@ -57,6 +57,17 @@ pub(crate) struct Formulation<'a> {
     pub(crate) streams: Vec<(BoardIndex, String)>,
     /// For each pin of the problem its board and index in the table.
     pub(crate) pins: Vec<(BoardIndex, usize)>,
+    /// When converters are chosen.
+    pub(crate) converters: Converters,
+}
+
+/// When the converter of an analog device is chosen, where there are several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Converters {
+    /// After the wiring: it is no wire, and a wiring is one answer whatever converters sample it.
+    Later,
+    /// With the wiring: where streams are so scarce that not every wiring leaves them any.
+    Now,
 }
 
 /// What making alternatives needs beside the device.
@@ -73,10 +84,11 @@ pub(crate) struct Builder<'a> {
     /// The wishes for each soft rule.
     rules: u32,
     pub(crate) design: &'a Design,
+    pub(crate) converters: Converters,
 }
 
 impl<'a> Builder<'a> {
-    pub(crate) fn new(design: &'a Design) -> Self {
+    pub(crate) fn new(design: &'a Design, converters: Converters) -> Self {
         Self {
             names: Names::default(),
             first_pins: pins(design).1,
@@ -87,6 +99,7 @@ impl<'a> Builder<'a> {
             streams: Vec::new(),
             rules: 0,
             design,
+            converters,
         }
     }
 
@@ -147,7 +160,11 @@ impl<'a> Builder<'a> {
 }
 
 /// Makes the solver's problem of a design.
-pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulation<'a> {
+pub(crate) fn formulate<'a>(
+    design: &'a Design,
+    keep: Option<&Keep>,
+    converters: Converters,
+) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
         .boards
         .iter()
@@ -156,7 +173,7 @@ pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulat
         .collect();
     let pins = pins(design).0;
     let links = links(design);
-    let mut builder = Builder::new(design);
+    let mut builder = Builder::new(design, converters);
     let mut askers = Vec::new();
     let mut devices = Vec::new();
     let mut meanings = Vec::new();
@@ -194,7 +211,7 @@ pub(crate) fn formulate<'a>(design: &'a Design, keep: Option<&Keep>) -> Formulat
         resources: u32::try_from(resources.len()).unwrap_or(u32::MAX),
         streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
     };
-    Formulation { problem, offers, askers, meanings, resources, groups, streams, pins }
+    Formulation { problem, offers, askers, meanings, resources, groups, streams, pins, converters }
 }
 
 /// Marks the candidates that are not where the device's wire was.

@@ -27,7 +27,7 @@ use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
 use assignment::{Assignment, Bound};
-use formulate::{Formulation, formulate};
+use formulate::{Converters, Formulation, formulate};
 
 pub use blame::Rule;
 pub use capacity::{Capacity, capacity};
@@ -49,6 +49,7 @@ pub struct Search<'a> {
 /// The pin problem of a design, ready to be asked.
 pub struct Wiring<'a> {
     design: &'a Design,
+    keep: Option<Keep>,
     formulation: Formulation<'a>,
 }
 
@@ -78,7 +79,19 @@ impl<'a> Wiring<'a> {
     /// earlier wiring is given.
     #[must_use]
     pub fn new(design: &'a Design, keep: Option<&Keep>) -> Self {
-        Self { design, formulation: formulate(design, keep) }
+        Self::put(design, keep, Converters::Later)
+    }
+
+    fn put(design: &'a Design, keep: Option<&Keep>, converters: Converters) -> Self {
+        let formulation = formulate(design, keep, converters);
+        Self { design, keep: keep.cloned(), formulation }
+    }
+
+    /// The same problem with the converters in it, for when the best wiring leaves them no DMA
+    /// streams; none where they are in it already.
+    fn with_converters(&self) -> Option<Self> {
+        let later = self.formulation.converters == Converters::Later;
+        later.then(|| Self::put(self.design, self.keep.as_ref(), Converters::Now))
     }
 
     /// What is wrong with the placement of single devices, and rules that do nothing. When there is
@@ -100,7 +113,11 @@ impl<'a> Wiring<'a> {
     #[must_use]
     pub fn solve(&self, search: &Search<'_>) -> Solved {
         match self.ask(search) {
-            Ok(solved) => solved,
+            Ok(Some(solved)) => solved,
+            Ok(None) => match self.with_converters() {
+                Some(wiring) => wiring.solve(search),
+                None => self.no_streams(),
+            },
             Err(conflict) => {
                 Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
             }
@@ -111,7 +128,11 @@ impl<'a> Wiring<'a> {
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
         match self.ask(&Search { any, stop: None }) {
-            Ok(solved) => solved,
+            Ok(Some(solved)) => solved,
+            Ok(None) => match self.with_converters() {
+                Some(wiring) => wiring.solve_only(any),
+                None => self.no_streams(),
+            },
             Err(conflict) => Solved::Infeasible(conflict::named(&self.formulation, &conflict)),
         }
     }
@@ -121,15 +142,23 @@ impl<'a> Wiring<'a> {
     pub fn solve_with_proof(&self, stop: Option<&dyn Fn() -> bool>) -> Proved {
         let outcome = self.search(&Search { any: false, stop });
         let certificate = self.certificate(&outcome, stop);
-        let solved = self.named(outcome).unwrap_or_else(|conflict| {
-            Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
-        });
+        let solved = match self.named(outcome) {
+            Ok(Some(solved)) => solved,
+            Ok(None) => match self.with_converters() {
+                Some(wiring) => return wiring.solve_with_proof(stop),
+                None => self.no_streams(),
+            },
+            Err(conflict) => {
+                Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
+            }
+        };
         // What cannot be built is no wiring, whatever was proved of its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
         Proved { solved, certificate: certificate.filter(|_| buildable) }
     }
 
-    fn ask(&self, search: &Search<'_>) -> Result<Solved, Conflict> {
+    /// Ok(None) is said of a wiring whose converters find no streams.
+    fn ask(&self, search: &Search<'_>) -> Result<Option<Solved>, Conflict> {
         self.named(self.search(search))
     }
 
@@ -138,12 +167,12 @@ impl<'a> Wiring<'a> {
         solver::solve(&self.formulation.problem, &options)
     }
 
-    fn named(&self, outcome: Result<Outcome, Fault>) -> Result<Solved, Conflict> {
+    fn named(&self, outcome: Result<Outcome, Fault>) -> Result<Option<Solved>, Conflict> {
         match outcome {
             Ok(Outcome::Solved(answer)) => Ok(self.read(&answer)),
             Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
                 let mut solved = self.read(&answer);
-                if let Solved::Wired(wiring) = &mut solved {
+                if let Some(Solved::Wired(wiring)) = &mut solved {
                     let Objective { moved, violated, cost, .. } = bound;
                     wiring.bound = Some(Bound { moved, violated, cost });
                 }
@@ -151,9 +180,10 @@ impl<'a> Wiring<'a> {
             }
             Ok(Outcome::Infeasible(conflict)) => Err(conflict),
             Ok(Outcome::Stopped { answer: None, .. }) => {
-                Ok(Solved::Failed(Box::new(e0404_out_of_time::out_of_time(self.place()))))
+                let report = e0404_out_of_time::out_of_time(self.place());
+                Ok(Some(Solved::Failed(Box::new(report))))
             }
-            Err(fault) => Ok(Solved::Failed(Box::new(self.fault(&fault)))),
+            Err(fault) => Ok(Some(Solved::Failed(Box::new(self.fault(&fault))))),
         }
     }
 
@@ -163,12 +193,12 @@ impl<'a> Wiring<'a> {
         why::why(self.design, &self.formulation, wiring, device)
     }
 
-    /// All wirings, best first.
+    /// All wirings, best first, but for those that leave the converters no streams.
     pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
         let answers: Answers<'_> = solver::enumerate(&self.formulation.problem);
-        answers.map(|answer| match answer {
+        answers.filter_map(|answer| match answer {
             Ok(answer) => self.read(&answer),
-            Err(fault) => Solved::Failed(Box::new(self.fault(&fault))),
+            Err(fault) => Some(Solved::Failed(Box::new(self.fault(&fault)))),
         })
     }
 
@@ -186,15 +216,17 @@ impl<'a> Wiring<'a> {
         prolog::program(self.design, &self.formulation)
     }
 
-    fn read(&self, answer: &solver::Answer) -> Solved {
-        match read_back::read_back(self.design, &self.formulation, answer) {
-            Some(assignment) => Solved::Wired(Box::new(assignment)),
-            None => Solved::Failed(Box::new(e0506_hardware_limit::hardware_limit(
-                self.place(),
-                "the converters find no DMA stream beside the other peripherals",
-                "fix another `unit` for one of the analog devices, or take another bus",
-            ))),
-        }
+    fn read(&self, answer: &solver::Answer) -> Option<Solved> {
+        let assignment = read_back::read_back(self.design, &self.formulation, answer)?;
+        Some(Solved::Wired(Box::new(assignment)))
+    }
+
+    fn no_streams(&self) -> Solved {
+        Solved::Failed(Box::new(e0506_hardware_limit::hardware_limit(
+            self.place(),
+            "the converters find no DMA stream beside the other peripherals",
+            "fix another `unit` for one of the analog devices, or take another bus",
+        )))
     }
 
     fn place(&self) -> Span {

@@ -1,15 +1,15 @@
 //! From the solver's answer to names: wires, peripheral instances, DMA streams.
 
-use std::collections::BTreeMap;
-
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_solve::{Answer, Optimality};
 
-use crate::assignment::{Assignment, BoardAssignment, DeviceWiring, LinkWiring, Status, Wire};
-use crate::converters;
-use crate::formulate::{Asker, Formulation};
+use crate::assignment::{
+    Assignment, BoardAssignment, DeviceWiring, DmaAssignment, LinkWiring, Status, Wire,
+};
+use crate::converters::{self, Choice};
+use crate::formulate::{Asker, Converters, Formulation};
 use crate::streams;
 
 /// The answer in names. None when a board's DMA requests, those of its converters included, cannot
@@ -38,7 +38,8 @@ pub(crate) fn read_back(
         let wires = wires.map(|(role, at)| Wire { role, pin: at.pin, usage: at.usage }).collect();
         match asker {
             Asker::Device(device) => {
-                let unit = meaning.unit.clone();
+                // Which converter it is in the end is up to `converters`.
+                let unit = meaning.unit.clone().filter(|_| !is_analog(design, *device));
                 board.devices.push(DeviceWiring { device: *device, unit, wires });
             }
             Asker::Link(_) => {
@@ -49,9 +50,9 @@ pub(crate) fn read_back(
     }
     for assignment in &mut boards {
         let Some(board) = design.board(assignment.board) else { continue };
-        name_units(design, board, &mut assignment.devices);
+        name_channels(design, board, &mut assignment.devices);
+        assignment.dma = name_converters(design, board, assignment, formulation.converters)?;
         assignment.cost = cost(board, assignment);
-        assignment.dma = streams::serve(board, assignment)?;
     }
     Some(Assignment {
         status: match answer.optimality {
@@ -77,21 +78,42 @@ pub(crate) fn roles(design: &Design, asker: Asker) -> Vec<Role> {
     }
 }
 
-/// Fills in the instances that were not chosen as such: converters, and timers of the pure model.
-fn name_units(design: &Design, board: &Board, wirings: &mut [DeviceWiring]) {
-    let adcs: BTreeMap<DeviceIndex, String> = converters::choose(design, board, wirings);
+/// Fills in the instances of single channels: timers of the pure model, outputs of a converter.
+fn name_channels(design: &Design, board: &Board, wirings: &mut [DeviceWiring]) {
     for wiring in wirings.iter_mut().filter(|wiring| wiring.unit.is_none()) {
-        let analog = design
-            .device(wiring.device)
-            .is_some_and(|device| matches!(device.kind, Kind::Analog(_)));
-        wiring.unit = if analog {
-            adcs.get(&wiring.device).cloned()
-        } else {
+        if !is_analog(design, wiring.device) {
             let signal = wiring.wires.first().and_then(|wire| wire.usage(board));
             let units = signal.map(|usage| usage.signal.function().units()).unwrap_or_default();
-            units.first().map(ToString::to_string)
-        };
+            wiring.unit = units.first().map(ToString::to_string);
+        }
     }
+}
+
+/// Fills in the converters, and deals out the streams of all that is in use. None where no choice
+/// of converters leaves each its stream.
+fn name_converters(
+    design: &Design,
+    board: &Board,
+    assignment: &mut BoardAssignment,
+    when: Converters,
+) -> Option<Vec<DmaAssignment>> {
+    let others = assignment.devices.iter().filter_map(|wiring| wiring.unit.as_deref());
+    let others: Vec<&str> = others.collect();
+    let served = |choice: &Choice| {
+        let all = others.iter().copied().chain(choice.values().map(String::as_str));
+        streams::serve(board, all.collect())
+    };
+    let suffice = |choice: &Choice| served(choice).is_some();
+    let choice = converters::choose(design, board, &assignment.devices, when, suffice)?;
+    let dma = served(&choice);
+    for wiring in assignment.devices.iter_mut().filter(|wiring| is_analog(design, wiring.device)) {
+        wiring.unit = choice.get(&wiring.device).cloned();
+    }
+    dma
+}
+
+fn is_analog(design: &Design, device: DeviceIndex) -> bool {
+    design.device(device).is_some_and(|device| matches!(device.kind, Kind::Analog(_)))
 }
 
 /// Usages of all pins that the board's devices and its link use, each pin once.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::natural;
 use sensedsl_model::design::Board;
 
-use crate::assignment::{BoardAssignment, DmaAssignment};
+use crate::assignment::DmaAssignment;
 
 /// One request and the streams that can serve it.
 struct Request {
@@ -14,12 +14,10 @@ struct Request {
     streams: Vec<String>,
 }
 
-/// A stream of its own for each request, the first of its list wherever that leaves one for all
-/// others; none when there are not enough.
-pub(crate) fn serve(board: &Board, assignment: &BoardAssignment) -> Option<Vec<DmaAssignment>> {
+/// A stream of its own for each request of the units in use, the first of its list wherever that
+/// leaves one for all others; none when there are not enough.
+pub(crate) fn serve(board: &Board, mut units: Vec<&str>) -> Option<Vec<DmaAssignment>> {
     let Some(profile) = board.profile() else { return Some(Vec::new()) };
-    let units = assignment.devices.iter().filter_map(|wiring| wiring.unit.as_deref());
-    let mut units: Vec<&str> = units.collect();
     units.sort_by(|a, b| natural(a, b));
     units.dedup();
     let requests: Vec<Request> = units

@@ -115,8 +115,8 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
         "count": null,
         "boards": [],
         "conflict": {
-            "devices": devices, "resources": resources, "places": places(design, conflict),
-            "rules": rules, "repairs": repairs,
+            "devices": devices, "resources": resources, "repairs": repairs,
+            "rules": rules, "places": places(design, conflict),
         },
     })
 }

@@ -1,0 +1,153 @@
+//! The pins that one wire of a device may have, and what each of them claims.
+
+use sensedsl_board::remap::Blocks;
+use sensedsl_board::table::{Pin, Usage};
+use sensedsl_model::kind::{Kind, Role};
+use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, RuleId};
+
+use super::{Maker, Wanted};
+use crate::formulate::{Chosen, GPIO};
+use crate::names::{Group, Resource};
+
+impl Maker<'_, '_> {
+    /// The candidates of one role. `bus` is set for a wire that devices share.
+    pub(super) fn role(
+        &mut self,
+        role: Role,
+        need: &Need<'_>,
+        bus: Option<(&str, &Group)>,
+    ) -> (SolverRole, Vec<Chosen>) {
+        let mut made: Vec<(Candidate, Chosen)> = Vec::new();
+        let (offer, wanted) = (self.offer, self.wanted);
+        for (index, pin) in offer.pins().filter(|(_, pin)| pin_fits(wanted, role, pin)) {
+            match need {
+                Need::Usage(serves) => {
+                    for (at, usage) in pin.usages.iter().enumerate() {
+                        if serves(usage) && (!offer.bus_only(pin) || joins_buses(self.wanted.kind))
+                        {
+                            made.push(self.with_signal(role, (index, pin), (at, usage), bus));
+                        }
+                    }
+                }
+                Need::Gpio | Need::Interrupt => {
+                    if !offer.bus_only(pin) {
+                        let interrupt = matches!(need, Need::Interrupt);
+                        made.push(self.bare(role, index, pin, interrupt));
+                    }
+                }
+            }
+        }
+        made.sort_by_key(|(candidate, _)| (candidate.pin, candidate.signal));
+        let (candidates, chosen) = made.into_iter().unzip();
+        (SolverRole { candidates }, chosen)
+    }
+
+    pub(super) fn with_signal(
+        &mut self,
+        role: Role,
+        (index, pin): (usize, &Pin),
+        (at, usage): (usize, &Usage),
+        bus: Option<(&str, &Group)>,
+    ) -> (Candidate, Chosen) {
+        let board = self.offer.index;
+        let (holder, claim) = match bus {
+            Some((unit, group)) => {
+                let wire = Resource::BusWire(board, unit.to_owned(), role);
+                let on = Group::Pin(board, unit.to_owned(), role, index, at);
+                let holder = self.builder.names.group(group.clone());
+                (holder, self.builder.names.shared(wire, on))
+            }
+            None => {
+                let signal = Resource::Signal(board, usage.signal.name().to_owned());
+                (Holder::Own, self.builder.names.own(signal))
+            }
+        };
+        let mut claims = vec![claim];
+        claims.extend(self.pad(index));
+        claims.extend(self.remap(usage));
+        let candidate = Candidate {
+            pin: self.builder.pin(board, index),
+            holder,
+            signal: self.builder.signal(usage.signal.name()),
+            claims,
+            violates: self.violates(role, pin, Some(usage)),
+            moved: false,
+        };
+        (candidate, Chosen { pin: index, usage: Some(at) })
+    }
+
+    pub(super) fn bare(
+        &mut self,
+        role: Role,
+        index: usize,
+        pin: &Pin,
+        interrupt: bool,
+    ) -> (Candidate, Chosen) {
+        let board = self.offer.index;
+        let line = self.profile().and_then(|profile| profile.exti_group(&pin.name));
+        let mut claims = Vec::new();
+        if let Some(line) = line.filter(|_| interrupt) {
+            claims.push(self.builder.names.own(Resource::Exti(board, line)));
+        }
+        claims.extend(self.pad(index));
+        let candidate = Candidate {
+            pin: self.builder.pin(board, index),
+            holder: Holder::Own,
+            signal: self.builder.signal(GPIO),
+            claims,
+            violates: self.violates(role, pin, None),
+            moved: false,
+        };
+        (candidate, Chosen { pin: index, usage: None })
+    }
+
+    /// The claim of a contact that the pin shares with others: one of them is in use.
+    pub(super) fn pad(&mut self, pin: usize) -> Option<Claim> {
+        let board = self.offer.index;
+        let pad = Resource::Pad(board, self.offer.shared_pad(pin)?.to_owned());
+        Some(self.builder.names.shared(pad, Group::Pad(board, pin)))
+    }
+
+    /// The claims of a usage that is on its pin in some remap blocks of its peripheral alone: no
+    /// other may be where no such block is.
+    pub(super) fn remap(&mut self, usage: &Usage) -> Vec<Claim> {
+        let board = self.offer.index;
+        let Some((unit, blocks)) = self.offer.blocks(usage) else { return Vec::new() };
+        let others = self.offer.other_blocks(&unit, blocks);
+        let claim = |other: Blocks| {
+            let (first, second) = (blocks.min(other), blocks.max(other));
+            let resource = Resource::Remap(board, unit.clone(), first, second);
+            self.builder.names.shared(resource, Group::Blocks(board, unit.clone(), blocks))
+        };
+        others.into_iter().map(claim).collect()
+    }
+
+    pub(super) fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
+        self.rules.violated_by(self.offer.index, role, pin, usage)
+    }
+}
+
+/// What a role needs of a pin.
+pub(super) enum Need<'n> {
+    /// A usage for which the function holds.
+    Usage(&'n dyn Fn(&Usage) -> bool),
+    /// Nothing: any pin.
+    Gpio,
+    /// Any pin, and the interrupt line of its number.
+    Interrupt,
+}
+
+/// Whether the pin is where the device is bound to be.
+pub(super) fn pin_fits(wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
+    let same = |wanted: Option<&str>, has: Option<&str>| {
+        wanted.is_none_or(|wanted| has.is_some_and(|has| has.eq_ignore_ascii_case(wanted)))
+    };
+    wanted.fixed(role).is_none_or(|fixed| *fixed == pin.name)
+        && same(wanted.side, pin.side.as_deref())
+        && same(wanted.header, pin.header.as_deref())
+}
+
+/// A pin on an on-board bus is for devices that join the bus.
+pub(super) fn joins_buses(kind: &Kind) -> bool {
+    matches!(kind, Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_))
+}
