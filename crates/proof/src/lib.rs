@@ -1,6 +1,6 @@
 //! Verifies certificates: that a wiring is valid and no better one exists, or that there is none.
 //!
-//! A certificate is one JSON text ([`format`]) with the whole problem in names, the answer, and
+//! A certificate is one JSON text ([`mod@format`]) with the whole problem in names, the answer, and
 //! proofs. This crate reads nothing else, shares no code with the solver and does not search:
 //! 1. `wiring` goes through the rules for the one wiring given and adds up what it costs;
 //! 2. `tree` walks each proof's case distinction and sees that no case is left out;

@@ -4,6 +4,7 @@ use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::table::Occupation;
 use sensedsl_board::{catalog, mcu};
+use sensedsl_codegen::firmware::chibios;
 use sensedsl_parts::Completion;
 
 use super::table::{INDENT, table};
@@ -78,11 +79,11 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         Transport::Usb => "USB",
     });
     let links: Vec<&str> = links.collect();
-    // Firmware takes a profile of the MCU's family and the tree's folders for the board.
+    // Firmware takes a profile of the MCU's family, templates for its drivers, and the tree's
+    // folders for the board.
+    let in_tree = facts.as_ref().is_some_and(|facts| facts.chibios.is_some());
     let firmware = match profile::find(profile::DEFAULT, board.mcu) {
-        Ok(Target::Profile(profile)) if facts.as_ref().is_some_and(|f| f.chibios.is_some()) => {
-            profile.name
-        }
+        Ok(Target::Profile(profile)) if in_tree && chibios::has_templates(&profile) => profile.name,
         _ => "-".to_owned(),
     };
     let or_dash = |text: &str| if text.is_empty() { "-" } else { text }.to_owned();

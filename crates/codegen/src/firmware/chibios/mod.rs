@@ -19,5 +19,5 @@ mod schema;
 mod settings;
 mod tasks;
 
-pub use plan::{FirmwarePlan, plan};
+pub use plan::{FirmwarePlan, has_templates, plan};
 pub use render::render;

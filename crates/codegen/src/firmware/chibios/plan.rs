@@ -1,5 +1,6 @@
 //! All decisions about the firmware of all boards, ready to be printed.
 
+use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
 use sensedsl_model::design::{Board, Design};
@@ -89,7 +90,13 @@ fn plan_board(
             return None;
         }
     };
-    diagnostics.extend(unsupported_drivers(&context));
+    if let Some((what, found, wanted)) = unsupported_driver(context.profile) {
+        let why = format!("its {what} driver is {found}, code is made for {wanted} only");
+        let name = &board.name;
+        let report = e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why);
+        diagnostics.push(report);
+        return None;
+    }
     let mut pads = Vec::new();
     let link = link::plan(&context, &mut pads, diagnostics)?;
     let analog = analog::plan(&context, &mut pads, diagnostics);
@@ -118,13 +125,17 @@ fn plan_board(
     })
 }
 
-/// A profile may be for newer drivers than the templates know.
-fn unsupported_drivers(context: &Context<'_>) -> Option<Diagnostic> {
-    let drivers = &context.profile.drivers;
+/// Whether the templates are written for the drivers of the MCU.
+#[must_use]
+pub fn has_templates(profile: &TargetProfile) -> bool {
+    unsupported_driver(profile).is_none()
+}
+
+/// A driver that the templates do not know: what it is for, its version, the version they know.
+fn unsupported_driver(profile: &TargetProfile) -> Option<(&'static str, &str, &'static str)> {
+    let drivers = &profile.drivers;
     let found = [&drivers.adc, &drivers.i2c, &drivers.gpio, &drivers.timer];
-    let ((what, wanted), found) =
-        DRIVERS.iter().zip(found).find(|((_, wanted), found)| wanted != &found.as_str())?;
-    let why = format!("its {what} driver is {found}, code is made for {wanted} only");
-    let name = &context.board.name;
-    Some(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why))
+    let mut pairs = DRIVERS.iter().zip(found);
+    let ((what, wanted), found) = pairs.find(|((_, wanted), found)| wanted != &found.as_str())?;
+    Some((what, found, wanted))
 }
