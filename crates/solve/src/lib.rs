@@ -34,4 +34,4 @@ pub use count::count;
 pub use enumerate::{Answers, enumerate};
 
 pub use problem::Problem;
-pub use solve::{Options, solve};
+pub use solve::{Options, feasible, solve};

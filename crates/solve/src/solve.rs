@@ -54,11 +54,12 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     finish(problem, &model, &least, Optimality::Proved).map(Outcome::Solved)
 }
 
-/// Whether there is an answer at all; `None` when stopped before that is known.
-pub(crate) fn feasible(
-    problem: &Problem,
-    stop: Option<&dyn Fn() -> bool>,
-) -> Result<Option<bool>, Fault> {
+/// Whether there is an answer at all; `None` when stopped before that is known. Quicker than
+/// [`solve`] where there is none, which would be explained.
+///
+/// # Errors
+/// [`Fault`] when the problem is no proper problem.
+pub fn feasible(problem: &Problem, stop: Option<&dyn Fn() -> bool>) -> Result<Option<bool>, Fault> {
     let model = Model::new(problem)?;
     let Ok(mut engine) = Engine::new(problem, &model, stop) else { return Ok(Some(false)) };
     let found = engine.search(u64::MAX, true).is_some();

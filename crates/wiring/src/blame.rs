@@ -163,7 +163,8 @@ impl Rule {
 }
 
 fn is_hopeless(design: &Design) -> bool {
-    matches!(Wiring::new(design, None).solve_only(true), Solved::Infeasible(_))
+    let wiring = Wiring::new(design, None);
+    wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_))
 }
 
 /// All rules of a design, those first that are blamed last: what nobody wrote before what the file

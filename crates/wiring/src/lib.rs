@@ -124,6 +124,11 @@ impl<'a> Wiring<'a> {
         }
     }
 
+    /// Whether there is certainly no wiring; why is not asked, which saves most of the time.
+    fn is_impossible(&self) -> bool {
+        solver::feasible(&self.formulation.problem, None) == Ok(Some(false))
+    }
+
     /// As [`Self::solve`], without looking for repairs.
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {

@@ -156,7 +156,11 @@ pub(crate) fn find(design: &Design, devices: &[DeviceIndex]) -> Vec<Repaired> {
 
 fn tried(design: &Design, repair: Repair) -> Option<Repaired> {
     let changed = repair.applied(design);
-    match Wiring::new(&changed, None).solve_only(false) {
+    let wiring = Wiring::new(&changed, None);
+    if wiring.is_impossible() {
+        return None;
+    }
+    match wiring.solve_only(false) {
         Solved::Wired(wiring) => Some(Repaired { repair, cost: wiring.cost }),
         Solved::Infeasible(_) | Solved::Failed(_) => None,
     }
