@@ -172,6 +172,20 @@ impl Cutter<'_> {
     }
 }
 
+/// What a cell says: no blanks around it, no characters that nobody sees, quotes undone.
+#[must_use]
+pub fn content(raw: &str, quoted: bool) -> String {
+    let blank = |c: char| c.is_whitespace() || is_zero_width(c);
+    let seen = raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c));
+    let text: String = seen.map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
+    if quoted { text.replace("\"\"", "\"") } else { text }
+}
+
+/// Characters without width that spreadsheets and web pages leave in a text.
+pub(crate) fn is_zero_width(c: char) -> bool {
+    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use sensedsl_diagnostics::nearest;
 
-use crate::cells::{self, Cell, Sheet};
+use crate::cells::{self, Cell, Sheet, is_zero_width};
 use crate::finding::{Finding, FindingKind};
 use crate::mcu;
 use crate::pin::PinName;
@@ -84,12 +84,7 @@ impl Loader<'_> {
         let end = cell.range.end - (raw.len() - raw.trim_end_matches(blank).len());
         // A cell of blanks alone has nothing to point at.
         let range = if start < end { start..end } else { cell.range.clone() };
-        let mut text = String::new();
-        for c in raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c)) {
-            text.push(if c.is_whitespace() { ' ' } else { c });
-        }
-        let text = if cell.quoted { text.replace("\"\"", "\"") } else { text };
-        Word { text, range }
+        Word { text: cells::content(raw, cell.quoted), range }
     }
 
     /// The content, or nothing for an empty cell or a dash.
@@ -410,11 +405,6 @@ fn alternate_number(text: &str) -> Option<u8> {
     let digits = text.strip_prefix("AF").unwrap_or(text);
     let plain = digits.bytes().all(|b| b.is_ascii_digit());
     digits.parse().ok().filter(|number| plain && *number < 16)
-}
-
-/// Characters without width that spreadsheets and web pages leave in a text.
-fn is_zero_width(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}')
 }
 
 /// Reads ` key = value`; a comment of another shape is a comment.

@@ -7,6 +7,7 @@ use std::ops::Range;
 use sensedsl_board::cells::{self, Cell};
 use sensedsl_board::finding::FindingKind;
 use sensedsl_board::pin::PinName;
+use sensedsl_board::remap::Blocks;
 use sensedsl_board::table::{self, Occupation, Onboard, Role};
 use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_model::table_diagnostic;
@@ -113,8 +114,7 @@ fn line_starts(text: &str) -> Vec<usize> {
 }
 
 fn content_of(text: &str, cell: &Cell) -> String {
-    let raw = text.get(cell.range.clone()).unwrap_or_default().trim();
-    if cell.quoted { raw.replace("\"\"", "\"") } else { raw.to_owned() }
+    cells::content(text.get(cell.range.clone()).unwrap_or_default(), cell.quoted)
 }
 
 fn find_head(text: &str, rows: &[Vec<Cell>]) -> Option<Head> {
@@ -322,7 +322,7 @@ impl Reader<'_> {
                 let value = self.content(cell);
                 let names = value.split(|c: char| c.is_whitespace() || c == '/' || c == ',');
                 for name in names.filter(|name| !is_empty(name)) {
-                    row.usages.push(self.usage(name, alternate, cell, log));
+                    row.usages.extend(self.usage(name, alternate, cell, log));
                 }
             }
             rows.push(row);
@@ -365,7 +365,7 @@ impl Reader<'_> {
                 for name in value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ',')) {
                     if !is_empty(name) && name != "EVENTOUT" {
                         let number = numbers.get(&at).copied();
-                        row.usages.push(self.usage(name, number, cell, log));
+                        row.usages.extend(self.usage(name, number, cell, log));
                     }
                 }
             }
@@ -374,15 +374,21 @@ impl Reader<'_> {
         self.finish(head, rows, log)
     }
 
-    /// A signal, and what is odd about it.
+    /// A signal, and what is odd about it; none where only its number is there.
     fn usage(
         &self,
         name: &str,
         alternate: Option<u8>,
         cell: &Cell,
         log: &mut Log,
-    ) -> (String, Option<u8>) {
+    ) -> Option<(String, Option<u8>)> {
+        let whole = name;
         let (name, own) = name.split_once('@').map_or((name, None), |(n, own)| (n, Some(own)));
+        if is_empty(Blocks::split(name).0) {
+            let what = format!("`{whole}` names no signal and is left out");
+            log.dropped(self.span(cell), &self.place(cell), &what);
+            return None;
+        }
         let own = own.and_then(|own| own.parse().ok()).filter(|own| *own < 16);
         let (_, malformed) = sensedsl_board::signal::Signal::parse(name);
         if let Some(malformed) = malformed {
@@ -392,7 +398,7 @@ impl Reader<'_> {
             let what = format!("`{name}` looks like a signal and is none{meant}");
             log.doubtful(self.span(cell), &self.place(cell), &what);
         }
-        (name.to_owned(), own.or(alternate))
+        Some((name.to_owned(), own.or(alternate)))
     }
 
     fn number(&self, cell: &Cell, log: &mut Log) -> Option<u8> {
