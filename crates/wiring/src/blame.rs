@@ -74,15 +74,14 @@ impl Rule {
     }
 
     fn lift(&self, design: &mut Design) {
-        let board = |on: &BoardIndex| on.0;
         match self {
             Self::Target(on) => {
-                if let Some(board) = design.boards.get_mut(board(on)) {
+                if let Some(board) = design.boards.get_mut(on.0) {
                     board.target = Target::None;
                 }
             }
             Self::Part(on, part) => {
-                let pins = design.boards.get_mut(board(on)).map(|board| &mut board.table.pins);
+                let pins = design.boards.get_mut(on.0).map(|board| &mut board.table.pins);
                 for pin in pins.into_iter().flatten() {
                     if pin.onboard.as_ref().is_some_and(|onboard| onboard.part == *part) {
                         pin.onboard = None;
@@ -90,7 +89,7 @@ impl Rule {
                 }
             }
             Self::Reserve(on, name, span) => {
-                if let Some(board) = design.boards.get_mut(board(on)) {
+                if let Some(board) = design.boards.get_mut(on.0) {
                     board.reserved.retain(|rule| rule.value != *name || rule.span != *span);
                 }
             }
@@ -130,20 +129,20 @@ pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
     let all = in_force(&left);
     let mut free = left.clone();
     all.iter().for_each(|rule| rule.lift(&mut free));
-    if !is_hopeless(&free) {
-        let mut needed = Vec::new();
-        for rule in &all {
-            let mut without = left.clone();
-            rule.lift(&mut without);
-            if is_hopeless(&without) {
-                left = without;
-            } else {
-                needed.push(rule.clone());
-            }
-        }
-        return needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect();
+    if is_hopeless(&free) {
+        return Vec::new();
     }
-    Vec::new()
+    let mut needed = Vec::new();
+    for rule in all {
+        let mut without = left.clone();
+        rule.lift(&mut without);
+        if is_hopeless(&without) {
+            left = without;
+        } else {
+            needed.push(rule);
+        }
+    }
+    needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect()
 }
 
 impl Rule {
