@@ -60,6 +60,8 @@ pub struct Conflict {
     pub resources: Vec<ResourceId>,
     /// Streams they fight for. In order.
     pub streams: Vec<StreamId>,
+    /// False when the search was stopped before the devices were known to be a minimal set.
+    pub minimal: bool,
 }
 
 /// Result of a search for one answer.

@@ -22,6 +22,7 @@ mod program;
 mod read;
 mod relax;
 mod search;
+mod sharing;
 mod solve;
 mod state;
 mod terms;

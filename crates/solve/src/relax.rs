@@ -100,7 +100,7 @@ impl Relaxation {
         let unit = model.weights.cost as f64;
         let status = self.program.simplex.solve(cutoff as f64 / unit + 0.03, steps);
         let scale = -unit * (1_u64 << terms.shift) as f64;
-        let most = (model.most << terms.shift) as f64;
+        let most = terms.dearest(model) as f64;
         let price = |&row: &usize| match row {
             NONE => 0,
             row => (self.program.simplex.price(row) * scale).round().clamp(0.0, most) as i64,

@@ -14,6 +14,7 @@ use crate::model::Model;
 use crate::problem::{Problem, StreamId};
 use crate::read::Scratch;
 use crate::relax::Relaxation;
+use crate::solve::{Effort, Stop};
 use crate::state::{Dead, State, Toll};
 use crate::terms::Terms;
 
@@ -43,7 +44,8 @@ pub(crate) struct Engine<'a> {
     /// Only answers above this are looked for.
     pub(crate) floor: Option<u64>,
     pub(crate) nodes: u64,
-    stop: Option<&'a dyn Fn() -> bool>,
+    stop: Stop<'a>,
+    pub(crate) effort: Effort,
     pub(crate) stopped: bool,
     pub(crate) scratch: Scratch,
     /// The second bound, made when the flow is not enough.
@@ -85,7 +87,7 @@ impl<'a> Engine<'a> {
     pub(crate) fn new(
         problem: &'a Problem,
         model: &'a Model,
-        stop: Option<&'a dyn Fn() -> bool>,
+        stop: Stop<'a>,
     ) -> Result<Self, Dead> {
         Ok(Self {
             problem,
@@ -98,6 +100,7 @@ impl<'a> Engine<'a> {
             floor: None,
             nodes: 0,
             stop,
+            effort: Effort::Any,
             stopped: false,
             scratch: Scratch::new(problem.resources as usize, model.pins),
             prices: None,
@@ -124,6 +127,7 @@ impl<'a> Engine<'a> {
             floor: None,
             nodes,
             stop: None,
+            effort: Effort::Any,
             stopped: false,
             scratch,
             prices,
@@ -183,7 +187,7 @@ impl<'a> Engine<'a> {
             if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
                 return;
             }
-            self.stopped |= self.stop.is_some_and(|stop| stop());
+            self.stopped |= self.effort.is_spent(self.nodes) || self.stop.is_some_and(|stop| stop());
             if self.stopped || self.settle().is_err() {
                 return;
             }

@@ -19,6 +19,24 @@ pub struct Options<'a> {
     pub stop: Option<&'a dyn Fn() -> bool>,
 }
 
+/// Asked between the steps of a search; true ends it.
+pub(crate) type Stop<'a> = Option<&'a dyn Fn() -> bool>;
+
+/// How long a question is worth asking.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// So many nodes of the search.
+    Nodes(u64),
+    /// Until it is answered.
+    Any,
+}
+
+impl Effort {
+    pub(crate) fn is_spent(self, nodes: u64) -> bool {
+        matches!(self, Self::Nodes(most) if nodes > most)
+    }
+}
+
 /// Finds the best answer, proved and unique, or a minimal conflict.
 ///
 /// # Errors
@@ -60,8 +78,18 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
 /// # Errors
 /// [`Fault`] when the problem is no proper problem.
 pub fn feasible(problem: &Problem, stop: Option<&dyn Fn() -> bool>) -> Result<Option<bool>, Fault> {
+    feasible_within(problem, Effort::Any, stop)
+}
+
+/// As [`feasible`]; `None` also when it is not known within the effort.
+pub(crate) fn feasible_within(
+    problem: &Problem,
+    effort: Effort,
+    stop: Stop<'_>,
+) -> Result<Option<bool>, Fault> {
     let model = Model::new(problem)?;
     let Ok(mut engine) = Engine::new(problem, &model, stop) else { return Ok(Some(false)) };
+    engine.effort = effort;
     let found = engine.search(u64::MAX, true).is_some();
     Ok(if engine.stopped { None } else { Some(found) })
 }

@@ -8,6 +8,10 @@ use crate::model::{Kind, Model, NONE, Rows};
 use crate::problem::Problem;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A price may be so many powers of two above the greatest weight: where there is no answer, the
+/// price of one thing can pay for many.
+const DEARER: u32 = 4;
+
 /// What never changes: who is tied to which price.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Terms {
@@ -97,12 +101,17 @@ impl Terms {
         terms
     }
 
-    /// As fine as it can be while all prices, none above the greatest weight, still add up.
+    /// As fine as it can be while all prices, none above [`Self::dearest`], still add up.
     fn find_shift(&self, model: &Model) -> u32 {
         let times: i64 = self.facilities.iter().flat_map(|f| &f.links).map(|l| l.1).sum();
         let terms = self.prices as u64 + times.unsigned_abs() + model.devices as u64;
         let bits = (64 - model.most.leading_zeros()) + (64 - terms.leading_zeros());
-        61_u32.saturating_sub(bits).min(16)
+        61_u32.saturating_sub(bits + DEARER).min(16)
+    }
+
+    /// The greatest price that counts.
+    pub(crate) fn dearest(&self, model: &Model) -> u64 {
+        model.most << (self.shift + DEARER)
     }
 
     /// Makes the facilities and tells those of each alternative.
