@@ -10,8 +10,8 @@ use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
 use crate::sharing::Things;
 use crate::solve::{Effort, Stop, feasible_within};
 
-/// Nodes of the search after which a proof is no longer quick.
-const QUICK: u64 = 100;
+/// Nodes of the search, beside three for each device, after which a proof is no longer quick.
+const QUICK: u64 = 50;
 
 /// Nodes that are spent on whether a thing has a part in the conflict of the devices found.
 const PATIENT: u64 = 1_000;
@@ -30,7 +30,8 @@ pub(crate) fn explain(
     seed: Option<Vec<usize>>,
     stop: Stop<'_>,
 ) -> Result<Outcome, Fault> {
-    let mut search = Explanation { stop, effort: Effort::Nodes(QUICK), complete: true };
+    let quick = QUICK + 3 * problem.devices.len() as u64;
+    let mut search = Explanation { stop, effort: Effort::Nodes(quick), complete: true };
     let all: Vec<usize> = (0..problem.devices.len()).collect();
     let mut kept = match seed {
         Some(seed) if search.infeasible(&only(problem, &seed))? => seed,

@@ -187,7 +187,8 @@ impl<'a> Engine<'a> {
             if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
                 return;
             }
-            self.stopped |= self.effort.is_spent(self.nodes) || self.stop.is_some_and(|stop| stop());
+            self.stopped |=
+                self.effort.is_spent(self.nodes) || self.stop.is_some_and(|stop| stop());
             if self.stopped || self.settle().is_err() {
                 return;
             }

@@ -19,8 +19,7 @@ impl Things {
     /// All of them that the problem names.
     pub(crate) fn of(self, problem: &Problem) -> BTreeSet<u32> {
         let alternatives = || problem.devices.iter().flat_map(|d| &d.alternatives);
-        let candidates =
-            || alternatives().flat_map(|a| &a.roles).flat_map(|role| &role.candidates);
+        let candidates = || alternatives().flat_map(|a| &a.roles).flat_map(|role| &role.candidates);
         match self {
             Self::Streams => {
                 let requests = problem.dma.iter().flat_map(|u| &u.requests);

@@ -64,22 +64,19 @@ impl Terms {
                 own.map(|r| terms.price_of(model, r, &of_alt, alt, &mut links)).collect()
             };
             let mut own = price_all(model.alt_claims.at(alt));
-            let linked = own.iter().any(|p| *p >= first_link);
             let mut of_cands = Vec::new();
             for role in model.roles.range(alt) {
                 for id in model.cands.range(role) {
                     of_cands.push(price_all(model.cand_claims.at(id)));
                 }
             }
-            // Links of single candidates (channels) do not bind the device as a whole.
+            // Links of channels do not bind alike devices together.
             for &facility in &of_alt[alt] {
                 terms.alt_facilities.add(facility);
-                if !(linked && of_alt[alt].len() == 1) {
-                    let class = model.class[model.alt_device[alt]];
-                    let key = (usize::MAX - class, facility);
-                    let next = first_link + links.len();
-                    own.insert(*links.entry(key).or_insert(next));
-                }
+                let class = model.class[model.alt_device[alt]];
+                let key = (usize::MAX - class, facility);
+                let next = first_link + links.len();
+                own.insert(*links.entry(key).or_insert(next));
             }
             own.into_iter().for_each(|p| terms.alt_prices.add(p));
             terms.alt_prices.close();
