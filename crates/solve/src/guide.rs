@@ -1,11 +1,23 @@
 //! What the linear program suggests: its values in, a wiring to try or a branch out.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::search::{Branch, Engine, Prices};
+use crate::search::{Branch, Engine};
 use crate::state::Dead;
 
 /// Values nearer to a whole number count as whole.
 const WHOLE: f64 = 0.01;
+
+/// Questions that are tried at one node before one is asked.
+const PROBES: usize = 8;
+
+/// A question that was tried so often is known.
+const RELIABLE: u32 = 4;
+
+/// Steps of the simplex method for each try.
+const PROBE_STEPS: usize = 100;
+
+/// A gain that is as good as none.
+const LITTLE: f64 = 1e-3;
 
 impl Engine<'_> {
     /// Gives each device the alternative that the linear program gives it as a whole, and reads
@@ -57,50 +69,140 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// What to branch on by the values of the linear program; `fallback` where they do not tell.
-    pub(crate) fn guided(&self, fallback: Branch) -> Branch {
-        let (Branch::Alt(alt), Some(prices)) = (fallback, &self.prices) else { return fallback };
-        let whole =
-            || self.likeliest(prices, self.state.alts(self.model, self.model.alt_device[alt]));
-        let branch = self.partly_open(prices).or_else(|| self.divided(prices)).or_else(whole);
-        branch.map_or(fallback, Branch::Alt)
+    /// What to branch on by the values of the linear program, `fallback` where they do not tell;
+    /// nothing when one side of a branch is dead and the other one is taken.
+    pub(crate) fn guided(&mut self, fallback: Branch) -> Result<Option<Branch>, Dead> {
+        let Branch::Alt(alt) = fallback else { return Ok(Some(fallback)) };
+        let open = self.open_questions();
+        if open.is_empty() {
+            let alts = self.state.alts(self.model, self.model.alt_device[alt]);
+            let likeliest = self.likeliest(alts).map(Branch::Alt);
+            return Ok(Some(likeliest.unwrap_or(fallback)));
+        }
+        self.strongest(&open)
+    }
+
+    /// The question whose answers, both of them, raise the bound most. Little is known of new
+    /// questions, so both sides of those are bounded here.
+    fn strongest(&mut self, open: &[Question]) -> Result<Option<Branch>, Dead> {
+        let now = self.prices.as_ref().map_or(0.0, |prices| prices.relaxation.worth())
+            + self.state.paid as f64 / self.model.weights.cost as f64;
+        let mut best = (f64::NEG_INFINITY, None);
+        let mut probes = 0;
+        for question in open {
+            let Some(prices) = &self.prices else { break };
+            let mut gains = prices.history.expected(question);
+            if !prices.history.is_known(question) && probes < PROBES {
+                probes += 1;
+                let sides = [true, false].map(|side| self.probe(question.branch, side));
+                gains = match sides {
+                    [Err(Dead), Err(Dead)] => return Err(Dead),
+                    [Err(Dead), Ok(_)] => return self.refuse(question.branch).map(|()| None),
+                    [Ok(_), Err(Dead)] => return self.take(question.branch).map(|()| None),
+                    [Ok(taken), Ok(refused)] => [taken - now, refused - now].map(|g| g.max(0.0)),
+                };
+                if let Some(prices) = &mut self.prices {
+                    prices.history.note(question, gains);
+                }
+            }
+            let score = gains[0].max(LITTLE) * gains[1].max(LITTLE);
+            if score > best.0 {
+                best = (score, Some(question.branch));
+            }
+        }
+        Ok(best.1)
+    }
+
+    /// The bound on one side of a branch.
+    fn probe(&mut self, branch: Branch, side: bool) -> Result<f64, Dead> {
+        let mark = self.state.mark();
+        let saved = self.flow.save();
+        let went = if side { self.take(branch) } else { self.refuse(branch) };
+        let bound = went.and_then(|()| self.settle()).and_then(|()| {
+            if self.bound() >= self.limit { Err(Dead) } else { self.bound_by_prices(PROBE_STEPS) }
+        });
+        self.back(mark, &saved);
+        bound
     }
 
     /// The alternative with the greatest value.
-    fn likeliest(&self, prices: &Prices, alts: impl Iterator<Item = usize>) -> Option<usize> {
+    fn likeliest(&self, alts: impl Iterator<Item = usize>) -> Option<usize> {
+        let prices = self.prices.as_ref()?;
         let valued = alts.map(|alt| (prices.relaxation.value(self.model, alt), alt));
         valued.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|(_, alt)| alt)
     }
 
-    /// Somebody goes to the facility that is opened most but not wholly, or nobody does.
-    fn partly_open(&self, prices: &Prices) -> Option<usize> {
-        let mut best = (WHOLE, None);
-        for (index, facility) in prices.terms.facilities.iter().enumerate() {
-            let part = prices.relaxation.opened(index);
-            if part > best.0 && part < 1.0 - WHOLE {
-                let open = |alt: &usize| {
-                    self.state.alt_on(*alt)
-                        && self.state.decided(self.model.alt_device[*alt]).is_none()
-                };
-                let alts = facility.alts.iter().copied().filter(open);
-                best = self.likeliest(prices, alts).map_or(best, |alt| (part, Some(alt)));
+    /// What the linear program leaves in parts, the most even first.
+    fn open_questions(&self) -> Vec<Question> {
+        let (model, mut open) = (self.model, Vec::new());
+        let Some(prices) = &self.prices else { return open };
+        let mut add = |branch, key, value: f64| {
+            let part = value - (value + WHOLE).floor();
+            if part > WHOLE {
+                open.push(Question { branch, key, part });
             }
+        };
+        let facilities = prices.terms.facilities.len();
+        for facility in 0..facilities {
+            add(Branch::Facility(facility), facility, prices.relaxation.opened(facility));
         }
-        best.1
-    }
-
-    /// The alternative that is nearest to one more whole device.
-    fn divided(&self, prices: &Prices) -> Option<usize> {
-        let mut best = (WHOLE, None);
-        for device in (0..self.model.devices).filter(|&d| self.state.device_left(d) > 1) {
-            for alt in self.state.alts(self.model, device) {
-                let value = prices.relaxation.value(self.model, alt);
-                let part = value - (value + WHOLE).floor();
-                if part > best.0 {
-                    best = (part, Some(alt));
+        let mut seen = vec![false; model.alt_device.len()];
+        for device in (0..model.devices).filter(|&d| self.state.device_left(d) > 1) {
+            for alt in self.state.alts(model, device) {
+                let offset = alt - model.alts.range(device).start;
+                let of_class = model.alts.range(model.class[device]).start + offset;
+                if !std::mem::replace(&mut seen[of_class], true) {
+                    let value = prices.relaxation.value(model, alt);
+                    add(Branch::Alt(alt), facilities + of_class, value);
                 }
             }
         }
-        best.1
+        let even = |q: &Question| (q.part - 0.5).abs();
+        open.sort_by(|a, b| even(a).total_cmp(&even(b)).then(a.key.cmp(&b.key)));
+        open
+    }
+}
+
+/// Something that the linear program leaves in parts.
+#[derive(Clone, Copy, Debug)]
+struct Question {
+    branch: Branch,
+    /// Its place in the history.
+    key: usize,
+    /// How much of it there is beyond a whole number.
+    part: f64,
+}
+
+/// How much earlier answers to a question have raised the bound, for each whole that was missing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    known: Vec<[(f64, u32); 2]>,
+}
+
+impl History {
+    fn missing(question: &Question) -> [f64; 2] {
+        [1.0 - question.part, question.part]
+    }
+
+    fn note(&mut self, question: &Question, gains: [f64; 2]) {
+        if self.known.len() <= question.key {
+            self.known.resize(question.key + 1, [(0.0, 0); 2]);
+        }
+        let sides = self.known[question.key].iter_mut().zip(gains).zip(Self::missing(question));
+        for (((sum, number), gain), missing) in sides {
+            *sum += gain / missing;
+            *number += 1;
+        }
+    }
+
+    fn is_known(&self, question: &Question) -> bool {
+        self.known.get(question.key).is_some_and(|sides| sides[0].1 >= RELIABLE)
+    }
+
+    fn expected(&self, question: &Question) -> [f64; 2] {
+        let Some(sides) = self.known.get(question.key) else { return [0.0; 2] };
+        let [taken, refused] = sides.map(|(sum, number)| sum / f64::from(number.max(1)));
+        let [to_one, to_none] = Self::missing(question);
+        [taken * to_one, refused * to_none]
     }
 }

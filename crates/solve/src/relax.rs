@@ -66,9 +66,10 @@ impl Relaxation {
         }
         for (index, &column) in opening.iter().enumerate().filter(|o| *o.1 != NONE) {
             let alts = &terms.facilities[index].alts;
-            let forced = |a: &usize| state.decided(model.alt_device[*a]) == Some(*a);
+            let used = |a: &usize| state.decided(model.alt_device[*a]) == Some(*a);
+            let forced = state.opened.contains(&index) || alts.iter().any(used);
             self.most[column] = f64::from(u8::from(alts.iter().any(|&a| state.alt_on(a))));
-            self.least[column] = f64::from(u8::from(alts.iter().any(forced)));
+            self.least[column] = f64::from(u8::from(forced));
         }
         loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
         // All of them may: no limit.
@@ -107,6 +108,11 @@ impl Relaxation {
         };
         dual.set(self.program.price_row.iter().map(price));
         status
+    }
+
+    /// The value of the program in units of cost, as far as its prices prove it.
+    pub(crate) fn worth(&self) -> f64 {
+        self.program.simplex.objective()
     }
 
     /// How far a facility is open.

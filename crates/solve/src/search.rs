@@ -10,6 +10,7 @@
 use crate::dma::Matching;
 use crate::dual::Dual;
 use crate::flow::{Flow, Saved};
+use crate::guide::History;
 use crate::model::Model;
 use crate::problem::{Problem, StreamId};
 use crate::read::Scratch;
@@ -28,6 +29,8 @@ pub(crate) enum Branch {
     Cand(usize),
     Rule(usize),
     Board(usize),
+    /// Somebody uses the facility, or nobody.
+    Facility(usize),
 }
 
 /// The search and all its state.
@@ -61,6 +64,7 @@ pub(crate) struct Prices {
     pub(crate) terms: Terms,
     dual: Dual,
     pub(crate) relaxation: Relaxation,
+    pub(crate) history: History,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
@@ -214,7 +218,11 @@ impl<'a> Engine<'a> {
                     }
                     continue;
                 }
-                branch = self.guided(branch);
+                match self.guided(branch) {
+                    Err(Dead) => return,
+                    Ok(None) => continue,
+                    Ok(Some(guided)) => branch = guided,
+                }
             }
             let limit = self.limit;
             let refused = self.follow(branch, depth);
@@ -281,33 +289,49 @@ impl<'a> Engine<'a> {
 
     /// Bounds by prices; whether they narrowed the domains.
     fn price(&mut self) -> Result<bool, Dead> {
+        self.bound_by_prices(LP_STEPS)?;
+        let (model, limit) = (self.model, self.limit);
+        let Some(prices) = &mut self.prices else { return Ok(false) };
+        prices.dual.strike(&prices.terms, model, &mut self.state, limit)
+    }
+
+    /// The bound by the best prices that so many steps find, as the linear program sees it.
+    pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Dead> {
         let (problem, model) = (self.problem, self.model);
         let prices = self.prices.get_or_insert_with(|| {
             let terms = Terms::new(problem, model);
             let dual = Dual::new(&terms);
             let relaxation = Relaxation::new(&terms, model, &self.state);
-            Box::new(Prices { terms, dual, relaxation })
+            let history = History::default();
+            Box::new(Prices { terms, dual, relaxation, history })
         });
-        let Prices { terms, dual, relaxation } = &mut **prices;
-        let most = Dual::most(model, &self.state, self.limit).ok_or(Dead)?;
-        relaxation.run(terms, model, &self.state, dual, (most, LP_STEPS));
-        let bound = dual.assess(terms, model, &self.state);
-        if bound >= self.limit {
+        let Prices { terms, dual, relaxation, .. } = &mut **prices;
+        let unused = |f: &usize| terms.facilities[*f].alts.iter().all(|&a| !self.state.alt_on(a));
+        if self.state.opened.iter().any(unused) {
             return Err(Dead);
         }
-        dual.strike(terms, model, &mut self.state, self.limit)
+        let most = Dual::most(model, &self.state, self.limit).ok_or(Dead)?;
+        relaxation.run(terms, model, &self.state, dual, (most, steps));
+        if dual.assess(terms, model, &self.state) >= self.limit {
+            return Err(Dead);
+        }
+        Ok(relaxation.worth() + self.state.paid as f64 / model.weights.cost as f64)
     }
 
-    fn take(&mut self, branch: Branch) -> Result<(), Dead> {
+    pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Dead> {
         match branch {
             Branch::Alt(alt) => self.state.decide(self.model, alt),
             Branch::Cand(id) => self.state.pin(self.model, id),
             Branch::Rule(rule) => self.state.close_rule(self.model, rule),
             Branch::Board(board) => self.state.close_board(self.model, board),
+            Branch::Facility(facility) => {
+                self.state.open(facility);
+                Ok(())
+            }
         }
     }
 
-    fn refuse(&mut self, branch: Branch) -> Result<(), Dead> {
+    pub(crate) fn refuse(&mut self, branch: Branch) -> Result<(), Dead> {
         let model = self.model;
         match branch {
             Branch::Alt(alt) => {
@@ -328,6 +352,11 @@ impl<'a> Engine<'a> {
             }
             Branch::Rule(rule) => self.state.pay_rule(model, rule),
             Branch::Board(board) => self.state.pay_board(model, board),
+            Branch::Facility(facility) => {
+                let Some(prices) = &self.prices else { return Ok(()) };
+                let alts = &prices.terms.facilities[facility].alts;
+                alts.iter().try_for_each(|&alt| self.state.kill_alt(model, alt))
+            }
         }
     }
 

@@ -23,6 +23,8 @@ enum Event {
     Cand(usize),
     Rule(usize, Toll),
     Board(usize, Toll),
+    /// The last of `opened`.
+    Opened,
 }
 
 /// Nothing is left for some device or role.
@@ -43,6 +45,8 @@ pub(crate) struct State {
     pub(crate) board: Vec<Toll>,
     /// Weight of the rules and spare boards that are certain.
     pub(crate) paid: u64,
+    /// Facilities (see [`crate::terms`]) that somebody must use.
+    pub(crate) opened: Vec<usize>,
     trail: Vec<Event>,
     decided: Vec<usize>,
     pinned: Vec<usize>,
@@ -62,6 +66,7 @@ impl State {
             rule: vec![Toll::Open; model.rule_users.len()],
             board: vec![Toll::Open; model.spare.len()],
             paid: 0,
+            opened: Vec::new(),
             trail: Vec::new(),
             decided: Vec::new(),
             pinned: Vec::new(),
@@ -174,6 +179,9 @@ impl State {
                         self.paid -= 1;
                     }
                     self.board[board] = old;
+                }
+                Some(Event::Opened) => {
+                    self.opened.pop();
                 }
                 None => {}
             }
@@ -303,6 +311,12 @@ impl State {
             self.kill_alt(model, alt)?;
         }
         Ok(())
+    }
+
+    /// Only answers in which somebody uses the facility are looked for.
+    pub(crate) fn open(&mut self, facility: usize) {
+        self.trail.push(Event::Opened);
+        self.opened.push(facility);
     }
 
     /// Follows every decision to its end.

@@ -137,7 +137,7 @@ impl View {
         self.openings.push(Opening {
             facility: index,
             roles: (roles, self.roles.len()),
-            forced: decided.is_some(),
+            forced: decided.is_some() || state.opened.contains(&index),
             cost: 0,
             open: false,
             spares: 0,

@@ -248,7 +248,7 @@ impl Simplex {
     }
 
     /// The value that the present prices prove.
-    fn objective(&self) -> f64 {
+    pub(crate) fn objective(&self) -> f64 {
         let terms = self.reduced.iter().zip(&self.value).filter(|(d, _)| **d != 0.0);
         terms.map(|(d, x)| d * x).sum()
     }
