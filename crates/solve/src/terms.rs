@@ -179,33 +179,26 @@ impl Terms {
     ) -> usize {
         // Outputs of one channel at several frequencies: one link for each facility.
         let users = model.resource_users.at(resource);
-        let facility = of_alt[alt]
-            .iter()
-            .copied()
-            .find(|_| users.iter().all(|u| u.holder == 0 && of_alt[model.user_alt(u)].len() == 1));
-        match facility.filter(|f| self.same_resource(model, resource, *f, of_alt)) {
-            Some(facility) => {
+        let own = |f: &usize| {
+            users
+                .iter()
+                .all(|u| u.holder == 0 && self.excludes(model, *f, model.user_alt(u), of_alt))
+        };
+        match of_alt[alt].as_slice() {
+            [facility] if own(facility) => {
                 let next = self.first_link + links.len();
-                *links.entry((resource, facility)).or_insert(next)
+                *links.entry((resource, *facility)).or_insert(next)
             }
-            None => model.pins + resource,
+            _ => model.pins + resource,
         }
     }
 
-    /// Whether all facilities within which the resource is claimed exclude each other.
-    fn same_resource(
-        &self,
-        model: &Model,
-        resource: usize,
-        facility: usize,
-        of_alt: &[Vec<usize>],
-    ) -> bool {
-        let occupied = self.facilities[facility].resource;
-        model.resource_users.at(resource).iter().all(|user| {
-            of_alt[model.user_alt(user)].iter().all(|f| {
-                *f == facility || (occupied.is_some() && self.facilities[*f].resource == occupied)
-            })
-        })
+    /// Whether who takes the alternative is within the facility or shuts it.
+    fn excludes(&self, model: &Model, facility: usize, alt: usize, of_alt: &[Vec<usize>]) -> bool {
+        match self.facilities[facility].resource {
+            Some(price) => model.alt_claims.at(alt).iter().any(|c| model.pins + c.0 == price),
+            None => of_alt[alt] == [facility],
+        }
     }
 
     fn find_requests(&mut self, problem: &Problem, model: &Model) {
