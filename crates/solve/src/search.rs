@@ -65,6 +65,8 @@ pub(crate) struct Prices {
     dual: Dual,
     pub(crate) relaxation: Relaxation,
     pub(crate) history: History,
+    /// The bound as last assessed.
+    bound: u64,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
@@ -218,11 +220,14 @@ impl<'a> Engine<'a> {
                     }
                     continue;
                 }
-                match self.guided(branch) {
+                branch = match self
+                    .deciding_board()
+                    .map_or_else(|| self.guided(branch), |board| Ok(Some(board)))
+                {
                     Err(Dead) => return,
                     Ok(None) => continue,
-                    Ok(Some(guided)) => branch = guided,
-                }
+                    Ok(Some(guided)) => guided,
+                };
             }
             let limit = self.limit;
             let refused = self.follow(branch, depth);
@@ -303,16 +308,17 @@ impl<'a> Engine<'a> {
             let dual = Dual::new(&terms);
             let relaxation = Relaxation::new(&terms, model, &self.state);
             let history = History::default();
-            Box::new(Prices { terms, dual, relaxation, history })
+            Box::new(Prices { terms, dual, relaxation, history, bound: 0 })
         });
-        let Prices { terms, dual, relaxation, .. } = &mut **prices;
+        let Prices { terms, dual, relaxation, bound, .. } = &mut **prices;
         let unused = |f: &usize| terms.facilities[*f].alts.iter().all(|&a| !self.state.alt_on(a));
         if self.state.opened.iter().any(unused) {
             return Err(Dead);
         }
         let most = Dual::most(model, &self.state, self.limit).ok_or(Dead)?;
         relaxation.run(terms, model, &self.state, dual, (most, steps));
-        if dual.assess(terms, model, &self.state) >= self.limit {
+        *bound = dual.assess(terms, model, &self.state);
+        if *bound >= self.limit {
             return Err(Dead);
         }
         Ok(relaxation.worth() + self.state.paid as f64 / model.weights.cost as f64)
@@ -429,6 +435,15 @@ impl<'a> Engine<'a> {
             }
         }
         None
+    }
+
+    /// A spare board to do without, where nothing but their number can be better.
+    fn deciding_board(&self) -> Option<Branch> {
+        let unit = self.model.weights.cost;
+        let bound = self.prices.as_ref()?.bound;
+        let open = |b: &usize| self.model.spare[*b] && self.state.board[*b] == Toll::Open;
+        let tight = (self.limit - 1) / unit == bound / unit;
+        (0..self.model.spare.len()).find(open).filter(|_| tight).map(Branch::Board)
     }
 
     /// Any open choice.
