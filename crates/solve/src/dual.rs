@@ -263,7 +263,7 @@ impl Dual {
             }
             for &member in family.members.iter().filter(|_| dearest > 0) {
                 if let Some(opening) = self.view.openings.get_mut(self.opening_of[member]) {
-                    opening.spares = dearest;
+                    opening.spares = opening.spares.max(dearest);
                 }
             }
         }

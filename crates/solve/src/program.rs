@@ -65,8 +65,8 @@ struct Builder<'a> {
     ceiling: Vec<f64>,
     /// Of the columns now made.
     present: f64,
-    /// Row of a facility's family.
-    family_row: Vec<usize>,
+    /// Rows of a facility's families.
+    family_rows: Vec<Vec<usize>>,
 }
 
 impl Program {
@@ -87,7 +87,7 @@ impl Program {
             loose: Vec::new(),
             ceiling: Vec::new(),
             present: 2.0,
-            family_row: vec![NONE; terms.facilities.len()],
+            family_rows: vec![Vec::new(); terms.facilities.len()],
         };
         builder.families();
         for device in (0..model.devices).filter(|&d| model.class[d] == d) {
@@ -251,8 +251,7 @@ impl Builder<'_> {
         if !facility.alts.iter().any(|&alt| self.state.alt_on(alt)) {
             return;
         }
-        let row = self.family_row[index];
-        let mut entries: Entries = if row == NONE { Vec::new() } else { vec![(row, 1.0)] };
+        let mut entries: Entries = self.family_rows[index].iter().map(|&row| (row, 1.0)).collect();
         entries.extend(facility.resource.map(|price| self.priced(price, 1.0)));
         let links = facility.links.iter();
         entries.extend(links.map(|&(link, times)| self.priced(link, -(times as f64))));
@@ -277,9 +276,9 @@ impl Builder<'_> {
     /// So many of some facilities must be open.
     fn families(&mut self) {
         let terms = self.terms;
-        for family in terms.families.iter().filter(|f| f.need > 0) {
+        for family in &terms.families {
             let row = self.row(family.need as f64, f64::INFINITY);
-            family.members.iter().for_each(|&member| self.family_row[member] = row);
+            family.members.iter().for_each(|&member| self.family_rows[member].push(row));
         }
     }
 

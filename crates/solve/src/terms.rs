@@ -269,10 +269,38 @@ impl Terms {
             }
         }
         for (number, devices) in devices {
-            let members: Vec<usize> =
-                (0..self.facilities.len()).filter(|f| family[*f] == number).collect();
-            let most = members.iter().map(|&f| self.capacity(model, f)).max().unwrap_or(1).max(1);
-            self.families.push(Family { need: devices.len().div_ceil(most), members });
+            let of_family = (0..self.facilities.len()).filter(|f| family[*f] == number);
+            let room = of_family.map(|f| (self.capacity(model, f).max(1), f)).collect();
+            self.add_families(devices.len(), room);
+        }
+    }
+
+    /// Where the small facilities have no room for all, so many of the greater ones must be open:
+    /// a family for each size from which on there are more of them, each within the next.
+    fn add_families(&mut self, devices: usize, mut room: Vec<(usize, usize)>) {
+        room.sort_by_key(|&(room, facility)| (std::cmp::Reverse(room), facility));
+        let mut last = 0;
+        for number in 1..=room.len() {
+            let (great, small) = room.split_at(number);
+            let same = |(one, other): (&(usize, usize), &(usize, usize))| one.0 == other.0;
+            if great.last().zip(small.first()).is_some_and(same) {
+                continue;
+            }
+            let small = small.iter().fold(0_usize, |sum, s| sum.saturating_add(s.0));
+            let mut left = devices.saturating_sub(small);
+            let mut need = 0;
+            for (room, _) in great {
+                if left == 0 {
+                    break;
+                }
+                left = left.saturating_sub(*room);
+                need += 1;
+            }
+            if need > last {
+                last = need;
+                let members = great.iter().map(|g| g.1).collect();
+                self.families.push(Family { members, need });
+            }
         }
     }
 
