@@ -57,6 +57,8 @@ pub(crate) struct Engine<'a> {
     dive: u64,
     /// Nodes when the present search began.
     begun: u64,
+    /// No answer of the present search is below this.
+    pub(crate) proved: u64,
 }
 
 /// What the price bound needs.
@@ -112,6 +114,7 @@ impl<'a> Engine<'a> {
             prices: None,
             dive: 0,
             begun: 0,
+            proved: 0,
         })
     }
 
@@ -139,6 +142,7 @@ impl<'a> Engine<'a> {
             prices,
             dive: 0,
             begun: 0,
+            proved: 0,
         }
     }
 
@@ -156,11 +160,50 @@ impl<'a> Engine<'a> {
             self.dive = 0;
             self.back(mark, &saved);
         }
-        if !(first && self.best.is_some()) {
+        if first {
+            if self.best.is_none() {
+                self.node(0);
+            }
+        } else if let Ok(bound) = self.root() {
+            self.back(mark, &saved);
+            self.climb(bound);
+        }
+        self.back(mark, &saved);
+        self.best.take()
+    }
+
+    /// The bound of the whole search.
+    fn root(&mut self) -> Result<u64, Dead> {
+        self.settle()?;
+        if self.bound() >= self.limit {
+            return Err(Dead);
+        }
+        self.price()?;
+        let bound = self.prices.as_ref().map_or(0, |prices| prices.bound);
+        Ok(bound.max(self.bound()).max(self.floor.map_or(0, |floor| floor + 1)))
+    }
+
+    /// Looks for answers little above the bound first, then farther and farther up: what would be
+    /// too dear is struck early, and no search goes on long below a bad answer.
+    fn climb(&mut self, bound: u64) {
+        let mark = self.state.mark();
+        let saved = self.flow.save();
+        let most = self.limit;
+        let mut step = self.model.weights.cost;
+        self.proved = bound;
+        while self.proved < most && !self.stopped {
+            let goal = bound.saturating_add(step).min(most);
+            self.limit = goal;
             self.node(0);
             self.back(mark, &saved);
+            if self.limit < goal {
+                break;
+            }
+            if !self.stopped {
+                self.proved = goal;
+            }
+            step = step.saturating_mul(2);
         }
-        self.best.take()
     }
 
     /// The cheapest choice that costs more than `floor`.

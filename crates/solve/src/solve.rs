@@ -52,7 +52,8 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
-    let stopped = |answer| Outcome::Stopped { answer, bound: model.weights.unpack(bound) };
+    let proved = model.weights.unpack(engine.proved.max(bound));
+    let stopped = |answer| Outcome::Stopped { answer, bound: proved };
     let Some((weight, choices)) = found else {
         if engine.stopped {
             return Ok(stopped(None));
