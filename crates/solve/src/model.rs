@@ -358,20 +358,24 @@ impl Model {
     }
 
     fn find_private_users(&mut self, problem: &Problem) {
-        let mut common: Vec<Option<BTreeSet<usize>>> = vec![None; problem.dma.len()];
+        // Of each user: the device if there is one only, and what all who use it claim alone.
+        let mut users: Vec<Option<(usize, BTreeSet<usize>)>> = vec![None; problem.dma.len()];
         for alt in 0..self.alt_device.len() {
+            let own = self.alt_claims.at(alt).iter().filter(|c| c.1 == 0).map(|c| c.0);
             for &user in self.alt_dma.at(alt) {
-                let own: BTreeSet<usize> =
-                    self.alt_claims.at(alt).iter().filter(|c| c.1 == 0).map(|c| c.0).collect();
-                let entry = &mut common[user];
-                *entry = Some(match entry.take() {
-                    Some(old) => old.intersection(&own).copied().collect(),
-                    None => own,
+                users[user] = Some(match users[user].take() {
+                    None => (self.alt_device[alt], own.clone().collect()),
+                    Some((device, common)) => (
+                        if device == self.alt_device[alt] { device } else { NONE },
+                        common.into_iter().filter(|&r| own.clone().any(|o| o == r)).collect(),
+                    ),
                 });
             }
         }
-        let private = |c: &Option<BTreeSet<usize>>| c.as_ref().is_some_and(|s| !s.is_empty());
-        self.user_private = common.iter().map(private).collect();
+        let private = |user: Option<(usize, BTreeSet<usize>)>| {
+            user.is_some_and(|(device, common)| device != NONE || !common.is_empty())
+        };
+        self.user_private = users.into_iter().map(private).collect();
     }
 
     fn find_most(&self) -> u64 {
