@@ -9,7 +9,7 @@
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
 use crate::model::{Kind, Model, NONE};
-use crate::state::{Dead, State};
+use crate::state::{Dead, State, Toll};
 use crate::terms::Terms;
 use crate::view::{Group, View, Way};
 
@@ -36,10 +36,16 @@ impl Dual {
         }
     }
 
-    /// The greatest weight, beside what is paid, of an answer below the limit.
-    pub(crate) fn most(model: &Model, state: &State, limit: u64) -> Option<u64> {
+    /// The greatest weight, beside what is paid and no penalty, of an answer below the limit.
+    pub(crate) fn most(terms: &Terms, model: &Model, state: &State, limit: u64) -> Option<u64> {
         let unit = model.weights.cost;
-        Some((limit - 1).checked_sub(state.paid)? / unit * unit)
+        Some((limit - 1).checked_sub(Self::beside(terms, model, state))? / unit * unit)
+    }
+
+    /// What is paid, but for the penalties.
+    fn beside(terms: &Terms, model: &Model, state: &State) -> u64 {
+        let paid = terms.penalties.iter().filter(|p| state.rule[p.rule] == Toll::Paid).count();
+        state.paid - paid as u64 * model.weights.rule
     }
 
     /// Takes other prices.
@@ -50,11 +56,11 @@ impl Dual {
     /// The bound at the present prices, which counts everything.
     pub(crate) fn assess(&mut self, terms: &Terms, model: &Model, state: &State) -> u64 {
         self.build(terms, model, state);
-        self.value = self.evaluate(terms);
+        self.value = self.evaluate(terms) + self.pay(terms, model, state);
         // The weight of pins, moves and rules is a multiple of the unit.
         let unit = model.weights.cost;
         let units = self.value.max(0).unsigned_abs().div_ceil(unit << terms.shift);
-        units * unit + state.paid
+        units * unit + Self::beside(terms, model, state)
     }
 
     /// Strikes what no answer below the limit can use, as last assessed. Returns whether anything was struck.
@@ -65,12 +71,13 @@ impl Dual {
         state: &mut State,
         limit: u64,
     ) -> Result<bool, Dead> {
-        let Some(most) = Self::most(model, state, limit) else { return Ok(false) };
+        let Some(most) = Self::most(terms, model, state, limit) else { return Ok(false) };
         // An answer of weight limit - 1 must survive.
         let room = ((most as i64) << terms.shift) - self.value;
         let mark = state.mark();
         self.strike_groups(model, state, room)?;
         self.strike_openings(terms, model, state, room)?;
+        self.strike_penalties(terms, model, state, room)?;
         Ok(state.mark() > mark)
     }
 
@@ -153,6 +160,27 @@ impl Dual {
         Ok(())
     }
 
+    /// Rules that would cost too much are kept, those that save too much are paid.
+    fn strike_penalties(
+        &self,
+        terms: &Terms,
+        model: &Model,
+        state: &mut State,
+        room: i64,
+    ) -> Result<(), Dead> {
+        for (penalty, &cost) in terms.penalties.iter().zip(&self.view.penalties) {
+            if state.rule[penalty.rule] != Toll::Open {
+                continue;
+            }
+            if cost > room {
+                state.close_rule(model, penalty.rule)?;
+            } else if -cost > room {
+                state.pay_rule(model, penalty.rule)?;
+            }
+        }
+        Ok(())
+    }
+
     fn ways(&self, role: usize) -> &[Way] {
         let (start, end) = self.view.roles[role];
         &self.view.ways[start..end]
@@ -173,6 +201,24 @@ impl Dual {
         let held = self.prices[..terms.first_link].iter().sum::<i64>();
         let groups: i64 = (0..self.view.groups.len()).map(|index| self.choose(index)).sum();
         groups + self.open(terms) - held
+    }
+
+    /// Rules are violated where that pays, and where it is certain.
+    fn pay(&mut self, terms: &Terms, model: &Model, state: &State) -> i64 {
+        let weight = (model.weights.rule as i64) << terms.shift;
+        self.view.penalties.clear();
+        let mut sum = 0;
+        for penalty in &terms.penalties {
+            let linked = penalty.links.iter().map(|&(l, times)| self.prices[l] * times);
+            let cost = weight - linked.sum::<i64>();
+            self.view.penalties.push(cost);
+            sum += match state.rule[penalty.rule] {
+                Toll::Open => cost.min(0),
+                Toll::Paid => cost,
+                Toll::Closed => 0,
+            };
+        }
+        sum
     }
 
     /// A group of alike devices takes the cheapest that it can take together.

@@ -2,7 +2,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::search::{Branch, Engine};
-use crate::state::Dead;
+use crate::state::{Dead, Toll};
 
 /// Values nearer to a whole number count as whole.
 const WHOLE: f64 = 0.01;
@@ -85,8 +85,7 @@ impl Engine<'_> {
     /// The question whose answers, both of them, raise the bound most. Little is known of new
     /// questions, so both sides of those are bounded here.
     fn strongest(&mut self, open: &[Question]) -> Result<Option<Branch>, Dead> {
-        let now = self.prices.as_ref().map_or(0.0, |prices| prices.relaxation.worth())
-            + self.state.paid as f64 / self.model.weights.cost as f64;
+        let now = self.prices.as_ref().map_or(0.0, |prices| prices.relaxation.worth());
         let mut best = (f64::NEG_INFINITY, None);
         let mut probes = 0;
         for question in open {
@@ -145,6 +144,17 @@ impl Engine<'_> {
         let facilities = prices.terms.facilities.len();
         for facility in 0..facilities {
             add(Branch::Facility(facility), facility, prices.relaxation.opened(facility));
+        }
+        let after = facilities + model.alt_device.len();
+        for (index, penalty) in prices.terms.penalties.iter().enumerate() {
+            if self.state.rule[penalty.rule] == Toll::Open {
+                // Taken is the side without it.
+                add(
+                    Branch::Rule(penalty.rule),
+                    after + index,
+                    1.0 - prices.relaxation.violated(index),
+                );
+            }
         }
         let mut seen = vec![false; model.alt_device.len()];
         for device in (0..model.devices).filter(|&d| self.state.device_left(d) > 1) {

@@ -32,6 +32,8 @@ pub(crate) struct Program {
     pub(crate) cand_column: Vec<usize>,
     /// Column of each facility.
     pub(crate) opening: Vec<usize>,
+    /// Column of each penalty.
+    pub(crate) penalty: Vec<usize>,
     /// The most that each column may be while it lives. The exact bound knows of few of these
     /// limits; the others are never reached, so that no price hides in them.
     pub(crate) ceiling: Vec<f64>,
@@ -96,7 +98,8 @@ impl Program {
         for facility in 0..terms.facilities.len() {
             builder.facility(facility);
         }
-        builder.finish()
+        let penalty = (0..terms.penalties.len()).map(|p| builder.penalty(p)).collect();
+        builder.finish(penalty)
     }
 }
 
@@ -273,6 +276,16 @@ impl Builder<'_> {
         self.opening[index] = column;
     }
 
+    /// The column of a rule, which whoever violates it is linked to.
+    fn penalty(&mut self, index: usize) -> usize {
+        let terms = self.terms;
+        let links = terms.penalties[index].links.iter();
+        let entries: Entries =
+            links.map(|&(link, times)| self.priced(link, -(times as f64))).collect();
+        self.present = 1.0;
+        self.column(self.model.weights.rule, &entries)
+    }
+
     /// So many of some facilities must be open.
     fn families(&mut self) {
         let terms = self.terms;
@@ -282,7 +295,7 @@ impl Builder<'_> {
         }
     }
 
-    fn finish(mut self) -> Program {
+    fn finish(mut self, penalty: Vec<usize>) -> Program {
         self.matrix.finish(self.bounds.len());
         let columns = self.matrix.columns();
         let mut counted = Rows::default();
@@ -300,6 +313,7 @@ impl Builder<'_> {
             counted,
             cand_column: self.cand_column,
             opening: self.opening,
+            penalty,
             loose: self.loose,
             ceiling: self.ceiling,
         }

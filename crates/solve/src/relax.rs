@@ -10,7 +10,7 @@ use crate::dual::Dual;
 use crate::lp::Status;
 use crate::model::{Kind, Model, NONE};
 use crate::program::{MERGED, Program};
-use crate::state::State;
+use crate::state::{State, Toll};
 use crate::terms::Terms;
 
 /// The program, and the bounds of its columns at the present node.
@@ -31,7 +31,8 @@ impl Relaxation {
 
     /// Brings the bounds up to date; false when the program lacks something that is possible now.
     fn update(&mut self, terms: &Terms, model: &Model, state: &State) -> bool {
-        let Program { alt_column, cand_column, opening, loose, ceiling, .. } = &self.program;
+        let Program { alt_column, cand_column, opening, penalty, loose, ceiling, .. } =
+            &self.program;
         self.most.fill(0.0);
         self.least.fill(0.0);
         for device in 0..model.devices {
@@ -70,6 +71,11 @@ impl Relaxation {
             let forced = state.opened.contains(&index) || alts.iter().any(used);
             self.most[column] = f64::from(u8::from(alts.iter().any(|&a| state.alt_on(a))));
             self.least[column] = f64::from(u8::from(forced));
+        }
+        for (&column, penalty) in penalty.iter().zip(&terms.penalties) {
+            let toll = state.rule[penalty.rule];
+            self.most[column] = f64::from(u8::from(toll != Toll::Closed));
+            self.least[column] = f64::from(u8::from(toll == Toll::Paid));
         }
         loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
         // All of them may: no limit.
@@ -119,6 +125,11 @@ impl Relaxation {
     pub(crate) fn opened(&self, facility: usize) -> f64 {
         let column = self.program.opening[facility];
         if column == NONE { 0.0 } else { self.program.simplex.value(column) }
+    }
+
+    /// How far a rule is violated.
+    pub(crate) fn violated(&self, penalty: usize) -> f64 {
+        self.program.simplex.value(self.program.penalty[penalty])
     }
 
     /// How many devices that are alike take this alternative.

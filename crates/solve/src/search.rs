@@ -358,13 +358,13 @@ impl<'a> Engine<'a> {
         if self.state.opened.iter().any(unused) {
             return Err(Dead);
         }
-        let most = Dual::most(model, &self.state, self.limit).ok_or(Dead)?;
+        let most = Dual::most(terms, model, &self.state, self.limit).ok_or(Dead)?;
         relaxation.run(terms, model, &self.state, dual, (most, steps));
         *bound = dual.assess(terms, model, &self.state);
         if *bound >= self.limit {
             return Err(Dead);
         }
-        Ok(relaxation.worth() + self.state.paid as f64 / model.weights.cost as f64)
+        Ok(relaxation.worth())
     }
 
     pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Dead> {

@@ -30,6 +30,41 @@ pub(crate) struct Terms {
     pub(crate) facilities: Vec<Facility>,
     /// Facilities of which so many must be open together.
     pub(crate) families: Vec<Family>,
+    /// Soft rules that more than one wire can violate.
+    pub(crate) penalties: Vec<Penalty>,
+}
+
+/// A soft rule that is paid for once, by all who violate it together.
+#[derive(Clone, Debug)]
+pub(crate) struct Penalty {
+    pub(crate) rule: usize,
+    /// Price and how many links have it.
+    pub(crate) links: Vec<(usize, i64)>,
+}
+
+/// The prices of links, numbered as they are found.
+struct Links {
+    next: usize,
+    /// By the facility, and the resource or (from above) the class of devices.
+    of_facility: BTreeMap<(usize, usize), usize>,
+    /// By the rule, the class of devices, and the role's position or none.
+    of_rule: BTreeMap<(usize, usize, usize), usize>,
+}
+
+impl Links {
+    fn facility(&mut self, tied: usize, facility: usize) -> usize {
+        let next = self.next;
+        let link = *self.of_facility.entry((tied, facility)).or_insert(next);
+        self.next += usize::from(link == next);
+        link
+    }
+
+    fn rule(&mut self, rule: usize, class: usize, position: usize) -> usize {
+        let next = self.next;
+        let link = *self.of_rule.entry((rule, class, position)).or_insert(next);
+        self.next += usize::from(link == next);
+        link
+    }
 }
 
 /// Something that is opened for all who use it together: a bus, a timer at one frequency.
@@ -57,7 +92,8 @@ impl Terms {
         let mut terms = Self { first_link, first_stream, ..Self::default() };
         let odd = odd_resources(problem, model);
         let of_alt = terms.find_facilities(model, &odd);
-        let mut links: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        let mut links =
+            Links { next: first_link, of_facility: BTreeMap::new(), of_rule: BTreeMap::new() };
         for alt in 0..model.alt_device.len() {
             let mut price_all = |claims: &[(usize, usize)]| -> BTreeSet<usize> {
                 let own = claims.iter().filter(|c| c.1 == 0 && !odd[c.0]).map(|c| c.0);
@@ -70,13 +106,12 @@ impl Terms {
                     of_cands.push(price_all(model.cand_claims.at(id)));
                 }
             }
+            add_penalties(model, alt, &mut links, &mut own, &mut of_cands);
             // Links of channels do not bind alike devices together.
             for &facility in &of_alt[alt] {
                 terms.alt_facilities.add(facility);
                 let class = model.class[model.alt_device[alt]];
-                let key = (usize::MAX - class, facility);
-                let next = first_link + links.len();
-                own.insert(*links.entry(key).or_insert(next));
+                own.insert(links.facility(usize::MAX - class, facility));
             }
             own.into_iter().for_each(|p| terms.alt_prices.add(p));
             terms.alt_prices.close();
@@ -86,12 +121,19 @@ impl Terms {
                 terms.cand_prices.close();
             }
         }
-        for (&(of, facility), &link) in &links {
-            // Alike devices have one price together, but each its own link.
-            let alike = model.class.iter().filter(|c| usize::MAX - **c == of).count();
-            terms.facilities[facility].links.push((link, alike.max(1) as i64));
+        // Alike devices have one price together, but each its own link.
+        let alike =
+            |class: usize| model.class.iter().filter(|c| **c == class).count().max(1) as i64;
+        for (&(tied, facility), &link) in &links.of_facility {
+            terms.facilities[facility].links.push((link, alike(usize::MAX - tied)));
         }
-        terms.prices = first_link + links.len();
+        let mut penalties: BTreeMap<usize, Vec<(usize, i64)>> = BTreeMap::new();
+        for (&(rule, class, _), &link) in &links.of_rule {
+            penalties.entry(rule).or_default().push((link, alike(class)));
+        }
+        let penalty = |(rule, links)| Penalty { rule, links };
+        terms.penalties = penalties.into_iter().map(penalty).collect();
+        terms.prices = links.next;
         terms.shift = terms.find_shift(model);
         terms.find_requests(problem, model);
         terms.find_families(model);
@@ -100,7 +142,9 @@ impl Terms {
 
     /// As fine as it can be while all prices, none above [`Self::dearest`], still add up.
     fn find_shift(&self, model: &Model) -> u32 {
-        let times: i64 = self.facilities.iter().flat_map(|f| &f.links).map(|l| l.1).sum();
+        let of_facilities = self.facilities.iter().flat_map(|f| &f.links);
+        let links = of_facilities.chain(self.penalties.iter().flat_map(|p| &p.links));
+        let times: i64 = links.map(|l| l.1).sum();
         let terms = self.prices as u64 + times.unsigned_abs() + model.devices as u64;
         let bits = (64 - model.most.leading_zeros()) + (64 - terms.leading_zeros());
         61_u32.saturating_sub(bits + DEARER).min(16)
@@ -175,7 +219,7 @@ impl Terms {
         resource: usize,
         of_alt: &[Vec<usize>],
         alt: usize,
-        links: &mut BTreeMap<(usize, usize), usize>,
+        links: &mut Links,
     ) -> usize {
         // Outputs of one channel at several frequencies: one link for each facility.
         let users = model.resource_users.at(resource);
@@ -185,10 +229,7 @@ impl Terms {
                 .all(|u| u.holder == 0 && self.excludes(model, *f, model.user_alt(u), of_alt))
         };
         match of_alt[alt].as_slice() {
-            [facility] if own(facility) => {
-                let next = self.first_link + links.len();
-                *links.entry((resource, *facility)).or_insert(next)
-            }
+            [facility] if own(facility) => links.facility(resource, *facility),
             _ => model.pins + resource,
         }
     }
@@ -331,6 +372,44 @@ impl Terms {
         let links = links.map(|set| set.iter().map(|l| l.1 as usize).sum());
         let pins = pins.map(|set| set.len());
         [links, pins].into_iter().flatten().min().unwrap_or(usize::MAX)
+    }
+}
+
+/// Ties an alternative and its candidates to the rules that they violate. A shared wire has no
+/// prices of its own; it counts where all its candidates violate a rule.
+fn add_penalties(
+    model: &Model,
+    alt: usize,
+    links: &mut Links,
+    own: &mut BTreeSet<usize>,
+    of_cands: &mut [BTreeSet<usize>],
+) {
+    let class = model.class[model.alt_device[alt]];
+    let general = |rules: &[usize]| -> Vec<usize> {
+        rules.iter().copied().filter(|&rule| !model.rule_local[rule]).collect()
+    };
+    for rule in general(model.alt_rules.at(alt)) {
+        own.insert(links.rule(rule, class, NONE));
+    }
+    let mut place = 0;
+    for (position, role) in model.roles.range(alt).enumerate() {
+        let mut cands = model.cands.range(role);
+        if model.role_kind[role] == Kind::Own {
+            for id in cands {
+                for rule in general(model.cand_rules.at(id)) {
+                    of_cands[place].insert(links.rule(rule, class, position));
+                }
+                place += 1;
+            }
+            continue;
+        }
+        place += cands.len();
+        let first = cands.next().map_or(Vec::new(), |id| general(model.cand_rules.at(id)));
+        for rule in first {
+            if cands.clone().all(|id| model.cand_rules.at(id).contains(&rule)) {
+                own.insert(links.rule(rule, class, NONE));
+            }
+        }
     }
 }
 

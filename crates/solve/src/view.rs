@@ -57,6 +57,8 @@ pub(crate) struct View {
     pub(crate) openings: Vec<Opening>,
     /// Cheapest way of each role at the present prices.
     pub(crate) cheapest: Vec<i64>,
+    /// What violating each rule costs at the present prices.
+    pub(crate) penalties: Vec<i64>,
     /// Dearest choice that some device of the group takes.
     pub(crate) margin: Vec<i64>,
     pub(crate) order: Vec<(i64, usize)>,
