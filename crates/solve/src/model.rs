@@ -8,67 +8,12 @@
 use crate::answer::{Choice, Fault, Objective};
 use crate::dma;
 use crate::problem::{Claim, Holder, Problem};
+use crate::proper;
+use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 
 /// No gate, no candidate, no owner.
 pub(crate) const NONE: usize = usize::MAX;
-
-/// Rows of different lengths in one vector.
-#[derive(Clone, Debug)]
-pub(crate) struct Rows<T> {
-    start: Vec<usize>,
-    pub(crate) items: Vec<T>,
-}
-
-impl<T> Default for Rows<T> {
-    fn default() -> Self {
-        Self { start: vec![0], items: Vec::new() }
-    }
-}
-
-impl<T> Rows<T> {
-    /// Ends the row that `add` filled.
-    pub(crate) fn close(&mut self) {
-        self.start.push(self.items.len());
-    }
-
-    pub(crate) fn add(&mut self, item: T) {
-        self.items.push(item);
-    }
-
-    pub(crate) fn range(&self, row: usize) -> Range<usize> {
-        self.start[row]..self.start[row + 1]
-    }
-
-    pub(crate) fn at(&self, row: usize) -> &[T] {
-        &self.items[self.range(row)]
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.start.len() - 1
-    }
-}
-
-impl<T: Copy + Default> Rows<T> {
-    /// Sorts pairs of row and item into rows, keeping the order within each row.
-    pub(crate) fn collect(rows: usize, pairs: &[(usize, T)]) -> Self {
-        let mut start = vec![0; rows + 1];
-        for (row, _) in pairs {
-            start[row + 1] += 1;
-        }
-        for row in 0..rows {
-            start[row + 1] += start[row];
-        }
-        let mut next = start.clone();
-        let mut items = vec![T::default(); pairs.len()];
-        for &(row, item) in pairs {
-            items[next[row]] = item;
-            next[row] += 1;
-        }
-        Self { start, items }
-    }
-}
 
 /// How a role holds its pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -189,11 +134,11 @@ pub(crate) fn agree(one: usize, other: usize) -> bool {
 
 impl Model {
     pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
-        validate(problem)?;
+        proper::validate(problem)?;
         let mut model = Self {
             devices: problem.devices.len(),
             pins: problem.pins.len(),
-            weights: weights(problem)?,
+            weights: proper::weights(problem)?,
             spare: problem.boards.iter().map(|b| b.spare).collect(),
             dma_matters: !dma::all_fit(problem),
             ..Self::default()
@@ -312,30 +257,22 @@ impl Model {
         }
     }
 
+    /// Whether two devices have the same choices.
     fn same(&self, one: usize, other: usize) -> bool {
         let (a, b) = (self.alts.range(one), self.alts.range(other));
-        a.len() == b.len() && a.zip(b).all(|(a, b)| self.same_alt(a, b))
-    }
-
-    fn same_alt(&self, a: usize, b: usize) -> bool {
-        let same_cand = |x: usize, y: usize| {
-            let (c, d) = (self.cand(x), self.cand(y));
-            (c.pin, c.holder, c.signal, c.moved, c.extra)
-                == (d.pin, d.holder, d.signal, d.moved, d.extra)
-                && self.cand_claims.at(x) == self.cand_claims.at(y)
-                && self.cand_rules.at(x) == self.cand_rules.at(y)
-        };
-        let same_role = |(x, y): (usize, usize)| {
-            let (c, d) = (self.cands.range(x), self.cands.range(y));
-            c.len() == d.len() && c.zip(d).all(|(x, y)| same_cand(x, y))
-        };
-        let (p, q) = (self.roles.range(a), self.roles.range(b));
-        self.alt_board[a] == self.alt_board[b]
-            && self.alt_claims.at(a) == self.alt_claims.at(b)
-            && self.alt_rules.at(a) == self.alt_rules.at(b)
-            && self.alt_dma.at(a) == self.alt_dma.at(b)
-            && p.len() == q.len()
-            && p.zip(q).all(same_role)
+        let (p, q) = (self.roles.span(&a), self.roles.span(&b));
+        let (c, d) = (self.cands.span(&p), self.cands.span(&q));
+        let look = |c: &Cand| (c.pin, c.holder, c.signal, c.moved, c.extra);
+        let cands = || self.cands.items[c.clone()].iter().zip(&self.cands.items[d.clone()]);
+        self.roles.alike(&a, &b)
+            && self.cands.alike(&p, &q)
+            && self.alt_board[a.clone()] == self.alt_board[b.clone()]
+            && cands().all(|(c, d)| look(c) == look(d))
+            && self.alt_claims.equal(&a, &b)
+            && self.alt_rules.equal(&a, &b)
+            && self.alt_dma.equal(&a, &b)
+            && self.cand_claims.equal(&c, &d)
+            && self.cand_rules.equal(&c, &d)
     }
 
     fn find_demands(&mut self) {
@@ -448,57 +385,4 @@ fn contested(problem: &Problem) -> Vec<bool> {
         }
     }
     contested
-}
-
-fn weights(problem: &Problem) -> Result<Weights, Fault> {
-    let spares = problem.boards.iter().filter(|b| b.spare).count() as u64;
-    let total: u64 = problem.pins.iter().map(|p| u64::from(p.cost)).sum();
-    if u32::try_from(total).is_err() {
-        return Err(Fault::TooLarge);
-    }
-    let cost = spares + 1;
-    let rule = (total + 1).checked_mul(cost).ok_or(Fault::TooLarge)?;
-    let moved = rule.checked_mul(u64::from(problem.rules) + 1).ok_or(Fault::TooLarge)?;
-    let most = moved.checked_mul(problem.pins.len() as u64 + 1).ok_or(Fault::TooLarge)?;
-    // The bounds add such numbers up, some of them in fractions.
-    if most > 1 << 44 {
-        return Err(Fault::TooLarge);
-    }
-    Ok(Weights { moved, rule, cost })
-}
-
-fn validate(problem: &Problem) -> Result<(), Fault> {
-    let bad = |what| Err(Fault::Malformed(what));
-    let resource = |claims: &[Claim]| claims.iter().all(|c| c.resource.0 < problem.resources);
-    let boards = problem.boards.len();
-    if problem.pins.iter().any(|p| p.board.0 as usize >= boards) {
-        return bad("board of a pin");
-    }
-    for a in problem.devices.iter().flat_map(|d| &d.alternatives) {
-        if a.board.0 as usize >= boards {
-            return bad("board of an alternative");
-        }
-        if a.violates.iter().any(|r| r.0 >= problem.rules) {
-            return bad("rule of an alternative");
-        }
-        if a.dma.iter().any(|u| u.0 as usize >= problem.dma.len()) {
-            return bad("DMA user of an alternative");
-        }
-        if !resource(&a.claims) {
-            return bad("resource of an alternative");
-        }
-        for c in a.roles.iter().flat_map(|r| &r.candidates) {
-            if problem.pins.get(c.pin.0 as usize).is_none_or(|p| p.board != a.board) {
-                return bad("pin of a candidate");
-            }
-            if c.violates.iter().any(|r| r.0 >= problem.rules) {
-                return bad("rule of a candidate");
-            }
-            if !resource(&c.claims) {
-                return bad("resource of a candidate");
-            }
-        }
-    }
-    let mut requests = problem.dma.iter().flat_map(|u| &u.requests).flat_map(|r| &r.streams);
-    if requests.any(|s| s.0 >= problem.streams) { bad("stream of a DMA request") } else { Ok(()) }
 }

@@ -7,7 +7,8 @@
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
 use crate::lp::{Matrix, Simplex};
-use crate::model::{Kind, Model, NONE, Rows};
+use crate::model::{Kind, Model, NONE};
+use crate::rows::Rows;
 use crate::state::State;
 use crate::terms::Terms;
 use std::collections::BTreeMap;

@@ -4,8 +4,9 @@
 //! facility within which it happens.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
-use crate::model::{Kind, Model, NONE, Rows};
+use crate::model::{Kind, Model, NONE};
 use crate::problem::Problem;
+use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A price may be so many powers of two above the greatest weight: where there is no answer, the

@@ -1,8 +1,9 @@
 //! How roles hold their pins: finds shared wires, gates, and rules that only one wire can violate.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::model::{Cand, Kind, Model, NONE, Rows, User, code};
+use crate::model::{Cand, Kind, Model, NONE, User, code};
 use crate::problem::{Holder, Problem, Role};
+use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Model {
