@@ -16,11 +16,10 @@ const QUICK: u64 = 50;
 /// Nodes that are spent on whether a thing has a part in the conflict of the devices found.
 const PATIENT: u64 = 1_000;
 
-/// The search for a conflict, and whether all its questions were answered.
-struct Explanation<'a> {
+/// The questions of a search for a conflict.
+struct Questions<'a> {
     stop: Stop<'a>,
     effort: Effort,
-    complete: bool,
 }
 
 /// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is
@@ -30,91 +29,131 @@ pub(crate) fn explain(
     seed: Option<Vec<usize>>,
     stop: Stop<'_>,
 ) -> Result<Outcome, Fault> {
+    if let Some(lone) = problem.devices.iter().position(|d| d.alternatives.is_empty()) {
+        return Ok(conflict(&[lone], true, [Vec::new(), Vec::new(), Vec::new()]));
+    }
     let quick = QUICK + 3 * problem.devices.len() as u64;
-    let mut search = Explanation { stop, effort: Effort::Nodes(quick), complete: true };
-    let all: Vec<usize> = (0..problem.devices.len()).collect();
+    let mut ask = Questions { stop, effort: Effort::Nodes(quick) };
     let mut kept = match seed {
-        Some(seed) if search.infeasible(&only(problem, &seed))? => seed,
-        _ => all,
+        Some(seed) if ask.has_answer(&only(problem, &seed))? == Some(false) => seed,
+        _ => (0..problem.devices.len()).collect(),
     };
-    search.leave_out(problem, &mut kept)?;
-    search.effort = Effort::Any;
-    search.complete = true;
-    search.leave_out(problem, &mut kept)?;
-    let minimal = search.complete;
-    search.effort = Effort::Nodes(PATIENT);
-    // A reason of one kind is the best to read: one kind after another is left out as a whole
-    // first (signals are as good as pins, but pins are what people see).
-    let mut core = only(problem, &kept);
-    for things in [Things::Streams, Things::Resources, Things::Pins] {
-        let relaxed = things.share(&core, &things.of(&core));
-        if search.infeasible(&relaxed)? {
-            core = relaxed;
+    let unknown = ask.leave_out(problem, &mut kept)?;
+    ask.effort = Effort::Any;
+    let mut minimal = true;
+    for device in unknown {
+        let fewer: Vec<usize> = kept.iter().copied().filter(|&d| d != device).collect();
+        match ask.has_answer(&only(problem, &fewer))? {
+            Some(false) => kept = fewer,
+            Some(true) => {}
+            None => minimal = false,
         }
     }
-    let streams = search.contested(&mut core, Things::Streams)?;
-    let pins = search.contested(&mut core, Things::Pins)?;
-    let resources = search.contested(&mut core, Things::Resources)?;
-    // Copies made for sharing stand for nothing of the problem.
-    let streams = streams.into_iter().filter(|s| *s < problem.streams);
-    Ok(Outcome::Infeasible(Conflict {
-        devices: kept.into_iter().map(|d| DeviceId(d as u32)).collect(),
-        pins: pins.into_iter().map(PinId).collect(),
-        resources: resources.into_iter().map(ResourceId).collect(),
-        streams: streams.map(StreamId).collect(),
-        minimal,
-    }))
+    ask.effort = Effort::Nodes(PATIENT);
+    let things = ask.contested_things(only(problem, &kept))?;
+    Ok(conflict(&kept, minimal, things))
 }
 
-impl Explanation<'_> {
-    /// What is not known counts as feasible: the conflict then is valid, though perhaps not
-    /// minimal.
-    fn infeasible(&mut self, problem: &Problem) -> Result<bool, Fault> {
-        let feasible = feasible_within(problem, self.effort, self.stop)?;
-        self.complete &= feasible.is_some();
-        Ok(feasible == Some(false))
+fn conflict(
+    devices: &[usize],
+    minimal: bool,
+    [streams, resources, pins]: [Vec<u32>; 3],
+) -> Outcome {
+    Outcome::Infeasible(Conflict {
+        devices: devices.iter().map(|&d| DeviceId(d as u32)).collect(),
+        pins: pins.into_iter().map(PinId).collect(),
+        resources: resources.into_iter().map(ResourceId).collect(),
+        streams: streams.into_iter().map(StreamId).collect(),
+        minimal,
+    })
+}
+
+impl Questions<'_> {
+    /// Whether the problem has an answer; `None` when that takes more than the effort.
+    fn has_answer(&self, problem: &Problem) -> Result<Option<bool>, Fault> {
+        feasible_within(problem, self.effort, self.stop)
     }
 
     /// Leaves devices out as long as the others have no answer: many at once first, because most
-    /// have no part in it.
-    fn leave_out(&mut self, problem: &Problem, kept: &mut Vec<usize>) -> Result<(), Fault> {
-        let quick = matches!(self.effort, Effort::Nodes(_));
-        let mut chunk = if quick { kept.len().div_ceil(2) } else { 1 };
+    /// have no part in it. Returns those kept of which it is not known whether they must be.
+    fn leave_out(&self, problem: &Problem, kept: &mut Vec<usize>) -> Result<Vec<usize>, Fault> {
+        let mut unknown = Vec::new();
+        let mut chunk = kept.len().div_ceil(2);
         while chunk > 0 {
             let mut end = kept.len();
             while end > 0 {
                 let start = end.saturating_sub(chunk);
                 let mut fewer = kept.clone();
-                fewer.drain(start..end);
-                if self.infeasible(&only(problem, &fewer))? {
-                    *kept = fewer;
+                let out = fewer.drain(start..end).next();
+                match self.has_answer(&only(problem, &fewer))? {
+                    Some(false) => *kept = fewer,
+                    None if chunk == 1 => unknown.extend(out),
+                    _ => {}
                 }
                 end = start;
             }
             chunk /= 2;
         }
-        Ok(())
+        Ok(unknown)
     }
 
-    /// Shares all, then ever smaller parts, of the things as long as the conflict stays; returns
-    /// those that must be exclusive for it.
-    fn contested(&mut self, core: &mut Problem, things: Things) -> Result<Vec<u32>, Fault> {
-        let mut parts = vec![things.of(core).into_iter().collect::<Vec<u32>>()];
+    /// What must be exclusive for the conflict: streams, resources, pins. A reason of one kind is
+    /// the best to read, so one kind after another is shared as a whole first (signals are as good
+    /// as pins, but pins are what people see).
+    fn contested_things(&self, mut core: Problem) -> Result<[Vec<u32>; 3], Fault> {
+        let streams = core.streams;
+        let mut needed = [Vec::new(), Vec::new(), Vec::new()];
+        let kinds = [Things::Streams, Things::Resources, Things::Pins];
+        for (things, needed) in kinds.into_iter().zip(&mut needed) {
+            let all = things.of(&core);
+            if all.is_empty() {
+                continue;
+            }
+            let relaxed = things.share(&core, &all);
+            if self.has_answer(&relaxed)? == Some(false) {
+                core = relaxed;
+            } else {
+                needed.extend(all);
+            }
+        }
+        let [of_streams, of_resources, of_pins] = &mut needed;
+        *of_streams = self.contested(&mut core, Things::Streams, std::mem::take(of_streams))?;
+        *of_pins = self.contested(&mut core, Things::Pins, std::mem::take(of_pins))?;
+        *of_resources =
+            self.contested(&mut core, Things::Resources, std::mem::take(of_resources))?;
+        // Copies made for sharing stand for nothing of the problem.
+        of_streams.retain(|stream| *stream < streams);
+        Ok(needed)
+    }
+
+    /// Of things that cannot all be shared, shares ever smaller parts as long as the conflict
+    /// stays; returns those that must be exclusive for it.
+    fn contested(
+        &self,
+        core: &mut Problem,
+        things: Things,
+        all: Vec<u32>,
+    ) -> Result<Vec<u32>, Fault> {
+        let mut parts = vec![(all, true)];
         let mut needed = Vec::new();
-        while let Some(part) = parts.pop() {
+        while let Some((part, known)) = parts.pop() {
             if part.is_empty() {
                 continue;
             }
-            let relaxed = things.share(core, &part.iter().copied().collect());
-            if self.infeasible(&relaxed)? {
-                *core = relaxed;
-            } else if let [one] = part.as_slice() {
-                needed.push(*one);
-            } else {
-                let (left, right) = part.split_at(part.len() / 2);
-                parts.push(right.to_vec());
-                parts.push(left.to_vec());
+            if !known {
+                let relaxed = things.share(core, &part.iter().copied().collect());
+                if self.has_answer(&relaxed)? == Some(false) {
+                    *core = relaxed;
+                    continue;
+                }
             }
+            if let [one] = part.as_slice() {
+                needed.push(*one);
+                continue;
+            }
+            let (left, right) = part.split_at(part.len() / 2);
+            parts.push((right.to_vec(), false));
+            parts.push((left.to_vec(), false));
         }
         needed.sort_unstable();
         Ok(needed)
