@@ -1,7 +1,9 @@
-//! DMA streams as a bipartite matching: requests in, a stream for each out.
+//! DMA streams as a bipartite matching: requests in, a stream for each out; whether what a search
+//! has decided leaves one.
 #![expect(clippy::indexing_slicing, reason = "streams are below `Problem::streams`, as validated")]
 
 use crate::problem::{DmaUserId, Problem, StreamId};
+use crate::search::{Choices, Engine};
 use std::collections::BTreeSet;
 
 const FREE: usize = usize::MAX;
@@ -81,4 +83,53 @@ pub(crate) fn assign(
         (DmaUserId(u as u32), streams)
     };
     Some(users.iter().map(user).collect())
+}
+
+impl Engine<'_> {
+    /// Whether the streams suffice for these choices.
+    pub(crate) fn dma_fits(&self, choices: &Choices) -> bool {
+        let mut users: Vec<usize> =
+            choices.iter().flat_map(|(alt, _)| self.model.alt_dma.at(*alt)).copied().collect();
+        users.sort_unstable();
+        users.dedup();
+        let mut matching = Matching::new(self.problem.streams);
+        let mut requests = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
+        requests.all(|r| matching.add(&r.streams))
+    }
+
+    /// Whether the streams suffice for all that is certain.
+    pub(crate) fn dma_possible(&self) -> bool {
+        let model = self.model;
+        let mut users: Vec<usize> = (0..model.devices)
+            .filter_map(|d| self.state.decided(d))
+            .flat_map(|alt| model.alt_dma.at(alt).iter().copied())
+            .collect();
+        users.sort_unstable();
+        users.dedup();
+        let mut unions: Vec<Vec<StreamId>> = Vec::new();
+        for device in (0..model.devices).filter(|&d| self.state.decided(d).is_none()) {
+            self.undecided_requests(device, &mut unions);
+        }
+        let mut matching = Matching::new(self.problem.streams);
+        let certain = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
+        let mut all = certain.map(|r| r.streams.as_slice()).chain(unions.iter().map(Vec::as_slice));
+        all.all(|streams| matching.add(streams))
+    }
+
+    /// The requests of a device that needs streams of its own whatever it chooses.
+    fn undecided_requests(&self, device: usize, unions: &mut Vec<Vec<StreamId>>) {
+        let model = self.model;
+        let requests = |alt: usize| {
+            let users = model.alt_dma.at(alt).iter();
+            users.filter(|u| model.user_private[**u]).flat_map(|&u| &self.problem.dma[u].requests)
+        };
+        let least = self.state.alts(model, device).map(|a| requests(a).count()).min();
+        for position in 0..least.unwrap_or(0) {
+            let mut union = Vec::new();
+            for alt in self.state.alts(model, device) {
+                union.extend(requests(alt).nth(position).into_iter().flat_map(|r| &r.streams));
+            }
+            unions.push(union);
+        }
+    }
 }

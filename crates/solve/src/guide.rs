@@ -1,7 +1,11 @@
 //! What the linear program suggests: its values in, a wiring to try or a branch out.
+//!
+//! Of what the program leaves in parts, that is asked first which, tried both ways, raises the bound
+//! most; what earlier tries have shown is remembered.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::search::{Branch, Engine};
+use crate::branch::Branch;
+use crate::search::Engine;
 use crate::state::{Dead, Toll};
 
 /// Values nearer to a whole number count as whole.
@@ -72,6 +76,9 @@ impl Engine<'_> {
     /// What to branch on by the values of the linear program, `fallback` where they do not tell;
     /// nothing when one side of a branch is dead and the other one is taken.
     pub(crate) fn guided(&mut self, fallback: Branch) -> Result<Option<Branch>, Dead> {
+        if let Some(board) = self.deciding_board() {
+            return Ok(Some(board));
+        }
         let Branch::Alt(alt) = fallback else { return Ok(Some(fallback)) };
         let open = self.open_questions();
         if open.is_empty() {

@@ -5,6 +5,7 @@
 //! an answer without any code of the search. No answer leaves the crate unchecked.
 
 pub mod answer;
+mod branch;
 mod check;
 mod conflict;
 mod count;

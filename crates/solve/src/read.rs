@@ -2,9 +2,9 @@
 //! out.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::dma::Matching;
+use crate::branch::Branch;
 use crate::model::{Kind, NONE, agree};
-use crate::search::{Branch, Choices, Engine};
+use crate::search::{Choices, Engine};
 
 const NOBODY: usize = NONE;
 
@@ -67,16 +67,6 @@ impl Engine<'_> {
             return Err(device.map(|d| Branch::Alt(choices[d].0)));
         }
         Ok(choices)
-    }
-
-    fn dma_fits(&self, choices: &Choices) -> bool {
-        let mut users: Vec<usize> =
-            choices.iter().flat_map(|(alt, _)| self.model.alt_dma.at(*alt)).copied().collect();
-        users.sort_unstable();
-        users.dedup();
-        let mut matching = Matching::new(self.problem.streams);
-        let mut requests = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
-        requests.all(|r| matching.add(&r.streams))
     }
 
     /// A device that cannot follow the flow is to choose; if it has chosen, its opponent is.
