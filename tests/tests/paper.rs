@@ -179,7 +179,9 @@ fn ten_analog_sensors_fight_for_nine_pins() {
     let ran = solve(&design("STM32F4DiscoveryBoard", &["analog"; 10]), &[]).exits(1);
     let answer = ran.json();
     assert_eq!(answer["status"], "infeasible");
-    assert_eq!(keys(&answer["conflict"]), ["devices", "resources", "repairs", "rules", "places"]);
+    let all = ["devices", "resources", "repairs", "rules", "places", "minimal"];
+    assert_eq!(keys(&answer["conflict"]), all);
+    assert_eq!(answer["conflict"]["minimal"], true);
     let all: Vec<String> = (1..=10).map(|number| format!("D{number}")).collect();
     assert_eq!(names(&answer["conflict"]["devices"]), all);
     let pins = ["PA1", "PA2", "PA3", "PB0", "PB1", "PC1", "PC2", "PC4", "PC5"];
@@ -190,6 +192,16 @@ fn ten_analog_sensors_fight_for_nine_pins() {
     assert!(!answer["conflict"]["repairs"].as_array().unwrap().is_empty());
     let nine = solve(&design("STM32F4DiscoveryBoard", &["analog"; 9]), &[]).exits(0).json();
     assert_eq!(nine["cost"], 13);
+}
+
+#[test]
+fn a_conflict_cut_short_says_so() {
+    let text = design("STM32F4DiscoveryBoard", &["analog"; 12]);
+    let ran = solve(&text, &["--timeout", "0"]).exits(1);
+    let conflict = &ran.json()["conflict"];
+    assert_eq!(conflict["minimal"], false);
+    assert_eq!(names(&conflict["devices"]).len(), 12);
+    assert!(ran.stderr.contains("time ran out"), "{}", ran.stderr);
 }
 
 #[test]

@@ -28,6 +28,9 @@ pub struct NoWiring {
     pub rules: Vec<Rule>,
     /// What would help; each was checked by solving.
     pub repairs: Vec<Repaired>,
+    /// False when time ran out before it was known that each of the devices is needed for the
+    /// conflict; nothing is known of rules and repairs then.
+    pub minimal: bool,
 }
 
 /// Something that is fought for.
@@ -52,6 +55,9 @@ pub(crate) fn read(
     conflict: &Conflict,
 ) -> NoWiring {
     let mut named = named(formulation, conflict);
+    if !named.minimal {
+        return named;
+    }
     if named.links.is_empty() {
         named.rules = blame::rules(design, &named.devices);
     }
@@ -70,7 +76,8 @@ pub(crate) fn named(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWir
         }
     }
     let resources = resources(formulation, conflict);
-    NoWiring { devices, links, resources, rules: Vec::new(), repairs: Vec::new() }
+    let (rules, repairs) = (Vec::new(), Vec::new());
+    NoWiring { devices, links, resources, rules, repairs, minimal: conflict.minimal }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
@@ -164,6 +171,11 @@ impl NoWiring {
     }
 
     fn help(&self, design: &Design) -> String {
+        if !self.minimal {
+            return "time ran out before it was known whether all of them are needed for the \
+                    conflict: allow more of it with --timeout"
+                .to_owned();
+        }
         let dropped = self.repairs.iter().filter_map(|one| {
             let Repair::Drop(device) = one.repair else { return None };
             Some(name(design, device))

@@ -117,6 +117,7 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
         "conflict": {
             "devices": devices, "resources": resources, "repairs": repairs,
             "rules": rules, "places": places(design, conflict),
+            "minimal": conflict.minimal,
         },
     })
 }

@@ -12,7 +12,8 @@ pub const INFO: CodeInfo = CodeInfo {
     explanation: r#"The devices that the message names cannot all be connected, whatever pins are chosen, and the set is
 minimal: without any one of them the others can. The message lists the pins and resources they fight
 for; a resource is more than a pin: a whole timer, a bus, a DMA stream, an interrupt line. Marked with
-"because of this" are the rules without which it would work, a minimal set as well.
+"because of this" are the rules without which it would work, a minimal set as well. Where time ran
+out before all that was known, the message says so.
 
 Way out: one of the changes that the message proposes; each was tried by solving. Otherwise drop or
 move one of the devices, or use a kind that needs something else.
