@@ -3,15 +3,17 @@
 //! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
 //! parts that every device has, and asked at the end what nobody took.
 
+mod quantities;
+
 use std::ops::RangeInclusive;
 
 use sensedsl_diagnostics::codes::{
-    e0202_property_twice, e0206_missing_property, e0209_wrong_value, e0210_wrong_unit,
-    e0211_out_of_range, e0212_unknown_word, e0222_contradiction,
+    e0202_property_twice, e0206_missing_property, e0209_wrong_value, e0211_out_of_range,
+    e0212_unknown_word, e0222_contradiction,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::TextRange;
 use sensedsl_syntax::ast::{AstNode as _, Magnitude, Property, Sign, Value};
-use sensedsl_syntax::{TextRange, Unit};
 use sensedsl_wire::Direction;
 
 use crate::design::Spanned;
@@ -211,111 +213,6 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A time in microseconds; a bare number is milliseconds.
-    pub(crate) fn time_us(
-        &mut self,
-        name: &str,
-        range: RangeInclusive<u32>,
-    ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
-        self.whole(&field, us, range, "us")
-    }
-
-    /// A cycle time in whole milliseconds.
-    pub(crate) fn time_ms(
-        &mut self,
-        name: &str,
-        range: RangeInclusive<u32>,
-    ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
-        self.whole(&field, us / 1000.0, range, "ms")
-    }
-
-    /// A frequency in hertz; a bare number is hertz.
-    pub(crate) fn frequency_hz(
-        &mut self,
-        name: &str,
-        range: RangeInclusive<u32>,
-    ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let hz = self.quantity(&field, Unit::Hertz, &FREQUENCIES, "a frequency such as 400 kHz")?;
-        self.whole(&field, hz, range, "Hz")
-    }
-
-    /// A pace given as a frequency or as the time of one tick.
-    pub(crate) fn rate_hz(
-        &mut self,
-        name: &str,
-        range: RangeInclusive<u32>,
-        bare: Unit,
-    ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let Value::Number(number) = &field.value else {
-            self.wrong(&field, "a frequency such as 1 MHz, or the time of one tick such as 1 us");
-            return None;
-        };
-        let unit = number.unit().unwrap_or(bare);
-        let value = signed_magnitude(number)?;
-        let hz = match factor(unit) {
-            (Dimension::Time, us) => 1_000_000.0 / (value * us),
-            (Dimension::Frequency, hz) => value * hz,
-        };
-        self.whole(&field, hz, range, "Hz")
-    }
-
-    fn quantity(
-        &mut self,
-        field: &Field,
-        bare: Unit,
-        dimension: &(Dimension, &str),
-        takes: &str,
-    ) -> Option<f64> {
-        let Value::Number(number) = &field.value else {
-            self.wrong(field, takes);
-            return None;
-        };
-        let unit = number.unit().unwrap_or(bare);
-        let (found, factor) = factor(unit);
-        if found != dimension.0 {
-            self.diagnostics.push(e0210_wrong_unit::wrong_unit(
-                field.value_span,
-                &field.name,
-                unit.name(),
-                dimension.1,
-            ));
-            return None;
-        }
-        Some(signed_magnitude(number)? * factor)
-    }
-
-    fn whole(
-        &mut self,
-        field: &Field,
-        value: f64,
-        range: RangeInclusive<u32>,
-        unit: &str,
-    ) -> Option<Spanned<u32>> {
-        let least = f64::from(*range.start());
-        let most = f64::from(*range.end());
-        let rounded = value.round();
-        // Relative to the value: 0.1 s is 100,000.00000000001 us in binary, and 0.7 ms is not 1 ms.
-        let whole = (value - rounded).abs() <= 1e-6 * rounded.abs();
-        if !(rounded >= least && rounded <= most && whole) {
-            let text = format!("a whole number of {unit} from {least} to {most}");
-            self.out_of_range(field, &format!("{value} {unit}"), &text);
-            return None;
-        }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "compared with the u32 range just before"
-        )]
-        let value = rounded as u32;
-        Some(Spanned { value, span: field.value_span })
-    }
-
     /// One word out of a few.
     pub(crate) fn word<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Option<Spanned<T>> {
         let field = self.take(name)?;
@@ -421,27 +318,6 @@ impl<'a> Fields<'a> {
             "this device is none",
             "remove the line",
         ));
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Dimension {
-    Time,
-    Frequency,
-}
-
-const TIMES: (Dimension, &str) = (Dimension::Time, "us, ms or s");
-const FREQUENCIES: (Dimension, &str) = (Dimension::Frequency, "Hz, kHz or MHz");
-
-/// A unit's dimension and its factor to microseconds or hertz.
-fn factor(unit: Unit) -> (Dimension, f64) {
-    match unit {
-        Unit::Microseconds => (Dimension::Time, 1.0),
-        Unit::Milliseconds => (Dimension::Time, 1e3),
-        Unit::Seconds => (Dimension::Time, 1e6),
-        Unit::Hertz => (Dimension::Frequency, 1.0),
-        Unit::Kilohertz => (Dimension::Frequency, 1e3),
-        Unit::Megahertz => (Dimension::Frequency, 1e6),
     }
 }
 
