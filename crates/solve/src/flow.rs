@@ -226,7 +226,12 @@ impl Flow {
 
     /// Whether the demand may stay where it is.
     fn holds(&self, model: &Model, state: &State, demand: usize) -> bool {
-        let c = model.cand(self.now.arc[demand]);
+        let held = self.now.arc[demand];
+        let c = model.cand(held);
+        let straight = c.gate == NONE || self.now.gate_out[c.gate] == c.pin;
+        if straight && demand < model.demand[model.devices] && state.cand_on(model, held) {
+            return true;
+        }
         if c.gate == NONE {
             // The representative of a shared wire changes; any candidate on the pin will do.
             return self.arcs(model, demand).any(|id| {

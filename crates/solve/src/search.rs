@@ -68,7 +68,8 @@ pub(crate) struct Parked {
     prices: Option<Box<Prices>>,
 }
 
-/// How long the search looks for a first answer by the flow alone.
+/// How long the search looks for a first answer by the flow alone, beside a node for each device
+/// where any answer will do.
 const DIVE: u64 = 10;
 
 /// Nodes of a mere question that are spent on the flow alone.
@@ -143,7 +144,8 @@ impl<'a> Engine<'a> {
         let saved = self.flow.save();
         self.begun = self.nodes;
         if limit == u64::MAX {
-            self.dive = self.nodes + self.model.devices as u64 + DIVE;
+            let devices = if first { self.model.devices as u64 } else { 0 };
+            self.dive = self.nodes + devices + DIVE;
             self.node(0);
             self.dive = 0;
             self.back(mark, &saved);
