@@ -104,7 +104,7 @@ const FAMILIES: &[Family] = &[
     Family {
         name: "eight boards",
         boards: Boards::Different(&[37, 37, 51, 51, 51, 82, 82, 82]),
-        sizes: &[40, 80],
+        sizes: &[40, 80, 100],
         mix: Mix::General,
         dma: false,
     },
