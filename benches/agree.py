@@ -86,12 +86,14 @@ def feasible(problem, devices):
     few = dict(problem, devices=[problem["devices"][d] for d in devices])
     model = compare.Model(few)
     model.cost = {}
-    return compare.cp_sat(model)[0] == "optimal"
+    status = compare.cp_sat(model)[0]
+    return None if status == "stopped" else status == "optimal"
 
 
 def minimal(problem, conflict):
-    if feasible(problem, conflict):
-        return "is no conflict"
+    whole = feasible(problem, conflict)
+    if whole is not False:
+        return "is no conflict" if whole else "was not checked in time"
     for device in conflict:
         if not feasible(problem, [d for d in conflict if d != device]):
             return f"is not minimal: {device}"

@@ -88,7 +88,7 @@ impl Questions<'_> {
                 match self.has_answer(&only(problem, &fewer))? {
                     Some(false) => *kept = fewer,
                     None if chunk == 1 => unknown.extend(out),
-                    _ => {}
+                    Some(true) | None => {}
                 }
                 end = start;
             }

@@ -149,8 +149,12 @@ impl Engine<'_> {
             }
         };
         let facilities = prices.terms.facilities.len();
-        for facility in 0..facilities {
-            add(Branch::Facility(facility), facility, prices.relaxation.opened(facility));
+        for (index, facility) in prices.terms.facilities.iter().enumerate() {
+            // Only what changes the domains, whichever way it is answered.
+            let usable = facility.alts.iter().any(|&alt| self.state.alt_on(alt));
+            if usable && !self.state.opened.contains(&index) {
+                add(Branch::Facility(index), index, prices.relaxation.opened(index));
+            }
         }
         let after = facilities + model.alt_device.len();
         for (index, penalty) in prices.terms.penalties.iter().enumerate() {

@@ -4,6 +4,7 @@ use crate::answer::Fault;
 use crate::model::Weights;
 use crate::problem::{Claim, Problem};
 
+/// The weights by which an objective becomes one number; [`Fault::TooLarge`] where it does not fit.
 pub(crate) fn weights(problem: &Problem) -> Result<Weights, Fault> {
     let spares = problem.boards.iter().filter(|b| b.spare).count() as u64;
     let total: u64 = problem.pins.iter().map(|p| u64::from(p.cost)).sum();
@@ -21,6 +22,7 @@ pub(crate) fn weights(problem: &Problem) -> Result<Weights, Fault> {
     Ok(Weights { moved, rule, cost })
 }
 
+/// [`Fault::Malformed`] where the problem names what it does not have.
 pub(crate) fn validate(problem: &Problem) -> Result<(), Fault> {
     let bad = |what| Err(Fault::Malformed(what));
     let resource = |claims: &[Claim]| claims.iter().all(|c| c.resource.0 < problem.resources);

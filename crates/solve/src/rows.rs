@@ -37,9 +37,7 @@ impl<T> Rows<T> {
     pub(crate) fn len(&self) -> usize {
         self.start.len() - 1
     }
-}
 
-impl<T> Rows<T> {
     /// The items of consecutive rows.
     pub(crate) fn span(&self, rows: &Range<usize>) -> Range<usize> {
         self.start[rows.start]..self.start[rows.end]

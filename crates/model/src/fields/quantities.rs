@@ -16,8 +16,7 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        let (field, us) = self.time(name)?;
         self.whole(&field, us, range, "us")
     }
 
@@ -27,8 +26,7 @@ impl Fields<'_> {
         name: &str,
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
-        let field = self.take(name)?;
-        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        let (field, us) = self.time(name)?;
         self.whole(&field, us / 1000.0, range, "ms")
     }
 
@@ -62,6 +60,13 @@ impl Fields<'_> {
             (Dimension::Frequency, hz) => value * hz,
         };
         self.whole(&field, hz, range, "Hz")
+    }
+
+    /// A time as a field and its microseconds; a bare number is milliseconds.
+    fn time(&mut self, name: &str) -> Option<(Field, f64)> {
+        let field = self.take(name)?;
+        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        Some((field, us))
     }
 
     fn quantity(
