@@ -1,4 +1,4 @@
-//! Reading and writing files.
+//! Reading files: what the user names, and what a file names.
 #![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
 use std::fs;
@@ -44,28 +44,6 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The name under which people see a file.
-pub(crate) fn shown(path: &Path) -> String {
-    if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
-}
-
-/// Writes a file as a whole or not at all: beside it first, then in its place.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    if let Some(folder) = folder {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    }
-    let name = path.file_name().context("a file needs a name")?.to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.part"));
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // What could not be put in its place shall not stay around; if that fails too, the first
-        // error says why.
-        let _ = fs::remove_file(&beside);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
-}
-
 /// The content of a file; none when there is no such file.
 pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
     match fs::read(path) {
@@ -73,26 +51,6 @@ pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error).with_context(|| format!("cannot read {}", path.display())),
     }
-}
-
-/// Removes a file and the folders that are empty without it, up to `root`.
-pub(crate) fn remove_with_empty_folders(root: &Path, path: &Path) -> Result<()> {
-    match fs::remove_file(path) {
-        Ok(()) => {}
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => {
-            return Err(error).with_context(|| format!("cannot remove {}", path.display()));
-        }
-    }
-    let mut folder = path.parent();
-    while let Some(current) = folder.filter(|folder| *folder != root) {
-        if fs::remove_dir(current).is_err() {
-            // Not empty: something else lives there.
-            break;
-        }
-        folder = current.parent();
-    }
-    Ok(())
 }
 
 /// All files below `root`, relative to it, but for those in folders that `skip` names.
