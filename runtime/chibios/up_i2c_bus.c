@@ -1,6 +1,8 @@
 /* I2C devices: the core's scripts over a bus with finite time-outs that frees itself when it hangs. */
 #include "up_rt.h"
 
+#include <string.h>
+
 #if HAL_USE_I2C == TRUE
 
 /* A device that was cut off in the middle of a byte lets go after at most so many clocks. */
@@ -67,19 +69,21 @@ static bool bus_write(void *context, uint8_t address, const uint8_t *bytes, size
   return exchange(context, address, bytes, count, NULL, 0U);
 }
 
-/* The I2C unit of older STM32 cannot end a reading after one byte: two are read and the second is left. */
+/* The I2C unit of an STM32F1 cannot end a reading after one byte: two are read and the second is left. */
 static bool bus_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
                            size_t rx_count) {
-  uint8_t pair[2];
+#if UP_I2C_READ_BYTES_MIN > 1
+  uint8_t enough[UP_I2C_READ_BYTES_MIN];
 
-  if (rx_count != 1U) {
-    return exchange(context, address, tx, tx_count, rx, rx_count);
+  if (rx_count < sizeof enough) {
+    if (!exchange(context, address, tx, tx_count, enough, sizeof enough)) {
+      return false;
+    }
+    memcpy(rx, enough, rx_count);
+    return true;
   }
-  if (!exchange(context, address, tx, tx_count, pair, sizeof pair)) {
-    return false;
-  }
-  rx[0] = pair[0];
-  return true;
+#endif
+  return exchange(context, address, tx, tx_count, rx, rx_count);
 }
 
 void up_i2c_start(const up_i2c_port_t *port) {

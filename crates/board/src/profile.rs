@@ -15,8 +15,8 @@ use crate::registry::TARGETS;
 use file::{File, starts};
 pub use types::{
     Adc, Adcs, Cycles, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
-    Fallback, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver, Transport,
-    Tree, Unit, Usb,
+    Fallback, I2cMode, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver,
+    Transport, Tree, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
 

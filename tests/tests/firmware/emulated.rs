@@ -36,6 +36,8 @@ Pin,ADC,I2C,ICU,UART
 PB0,ADC12_IN8,-,-,-
 PB6,-,I2C1_SCL,-,-
 PB7,-,I2C1_SDA,-,-
+PB10,-,I2C2_SCL,-,-
+PB11,-,I2C2_SDA,-,-
 PB4,-,-,TIM3_CH1,-
 PA9,-,-,-,USART1_TX
 PA10,-,-,-,USART1_RX
@@ -58,8 +60,8 @@ fn schema() -> Schema {
     Schema { checksum: Checksum::Crc16, items }
 }
 
-/// Gives the application what the emulator needs.
-fn adapt(board: &Path) {
+/// Gives the application what the emulator needs, and a user's part.
+fn adapt(board: &Path, user: &str) {
     let change = |path: &str, original: &str, changed: &str| {
         let path = board.join(path);
         let text = std::fs::read_to_string(&path).unwrap();
@@ -81,7 +83,7 @@ fn adapt(board: &Path) {
     let base = "#include UP_BASE_MCUCONF";
     let clocks = "\n#undef STM32_NO_INIT\n#define STM32_NO_INIT TRUE";
     change("cfg/mcuconf.h", base, &format!("{base}{clocks}"));
-    let user = root().join("tests/firmware/emulated_user.c");
+    let user = root().join("tests/firmware").join(user);
     std::fs::copy(user, board.join("user/user.c")).unwrap();
 }
 
@@ -93,10 +95,10 @@ struct Board {
 }
 
 impl Board {
-    fn start(program: &Path) -> Self {
+    fn start(program: &Path, arguments: &[&str]) -> Self {
         let mut command = Command::new("qemu-system-arm");
         command.args(["-M", "netduinoplus2", "-display", "none", "-monitor", "none"]);
-        command.args(["-serial", "stdio", "-kernel"]).arg(program);
+        command.args(["-serial", "stdio", "-kernel"]).arg(program).args(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut emulator = command.spawn().unwrap();
         let mut stdout = emulator.stdout.take().unwrap();
@@ -145,6 +147,20 @@ impl Board {
         })
     }
 
+    /// Reports from now on, until there are `count`.
+    fn reports(&mut self, schema: &Schema, count: usize) -> Vec<Vec<(u8, Vec<Scalar>)>> {
+        self.wait(&format!("{count} reports"), |said| {
+            let mut decoder = Decoder::new(schema, Direction::Sensor);
+            let mut reports = Vec::new();
+            decoder.feed(said, |event| {
+                if let Event::Report(values) = event {
+                    reports.push(values);
+                }
+            });
+            (reports.len() >= count).then_some(reports)
+        })
+    }
+
     /// Waits until the frames in what was said contain all of `wanted`; returns all of them.
     fn events(&mut self, wanted: &[Event]) -> Vec<Event> {
         let schema = schema();
@@ -163,6 +179,16 @@ impl Drop for Board {
         let _ = self.emulator.wait();
     }
 }
+
+/// Two buses: the first hangs, the second has a register of one byte.
+const BUSES: &str = "
+board Buses on \"emulated.csv\" {
+    link { transport = uart; unit = USART1; baud = 460800; }
+    sensor Stuck returns uint8 { id = 1; type = i2c; unit = I2C1; address = 0x21; delay = 10; }
+    sensor Byte returns uint8 { id = 2; type = i2c; unit = I2C2; address = 0x22; register = 7; delay = 10; }
+    sensor Wheel returns uint32 { id = 3; type = icu; }
+}
+";
 
 /// `1 frame` of the host, with its checksum.
 fn frame(values: &[u8]) -> Vec<u8> {
@@ -188,9 +214,9 @@ fn an_application_runs_on_an_emulated_board() {
         return;
     }
     let folder = write("emulated", EMULATED).join("Emulated");
-    adapt(&folder);
+    adapt(&folder, "emulated_user.c");
     build(&tree, &folder, "development");
-    let mut board = Board::start(&folder.join("build/development/sense.elf"));
+    let mut board = Board::start(&folder.join("build/development/sense.elf"), &[]);
     board.wait("prompt", |said| said.ends_with(b"ch> ").then_some(()));
 
     assert!(board.ask("info").contains("STM32F407"));
@@ -223,4 +249,58 @@ fn an_application_runs_on_an_emulated_board() {
     // A host that knows nothing of shells asks for a hello, and gets frames.
     board.say(&frame(&[0]));
     board.events(&[hello, wheel]);
+}
+
+/// A bus that hangs busy must not starve the reporter; and a byte is read as one.
+#[test]
+fn a_bus_that_hangs_leaves_the_reports_alone() {
+    let Some(tree) = tree() else { return };
+    if !has("qemu-system-arm") {
+        return;
+    }
+    let folder = write("buses", BUSES).join("Buses");
+    adapt(&folder, "emulated_buses.c");
+    // The runtime's calls of the driver come to the user's part first.
+    let wrap = "-Wl,--wrap=i2cMasterTransmitTimeout";
+    std::fs::write(folder.join("user/user.mk"), format!("USE_LDOPT += {wrap:?}\n")).unwrap();
+    build(&tree, &folder, "production");
+    // The board's time is counted in instructions, so that a busy machine changes nothing.
+    let program = folder.join("build/production/sense.elf");
+    let mut board = Board::start(&program, &["-icount", "shift=5,sleep=off"]);
+    let item = |id, name: &str, scalar| Item {
+        id,
+        name: name.to_owned(),
+        direction: Direction::Sensor,
+        value: ValueType::scalar(scalar),
+    };
+    let items = vec![
+        item(1, "Stuck", ScalarType::Uint8),
+        item(2, "Byte", ScalarType::Uint8),
+        item(3, "Wheel", ScalarType::Uint32),
+    ];
+    let schema = Schema { checksum: Checksum::None, items };
+    let reports = board.reports(&schema, 200);
+    let values = |wanted: u8| {
+        let of_report = move |report: &Vec<(u8, Vec<Scalar>)>| {
+            let (_, values) = report.iter().find(|(id, _)| *id == wanted)?;
+            values.first().copied()
+        };
+        reports.iter().filter_map(of_report).collect::<Vec<_>>()
+    };
+    // The wheel tells the board's milliseconds, each report has one.
+    let times = values(3);
+    let (Some(Scalar::Unsigned(first)), Some(Scalar::Unsigned(last))) =
+        (times.first(), times.last())
+    else {
+        panic!("{times:?}")
+    };
+    let per_second = 1_000 * (times.len() as u64 - 1) / (last - first);
+    assert!(per_second >= 95, "{per_second} reports a second, {times:?}");
+    assert!(values(1).is_empty());
+    // The wrapper answers with how many bytes it was asked for.
+    let bytes = values(2);
+    assert!(
+        bytes.len() > 20 && bytes.iter().all(|value| *value == Scalar::Unsigned(1)),
+        "{bytes:?}"
+    );
 }

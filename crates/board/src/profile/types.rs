@@ -305,8 +305,29 @@ pub struct I2cs {
     pub speed_max_hz: u32,
     /// The shortest read the driver accepts.
     pub read_bytes_min: u8,
+    /// The option for how many milliseconds the driver holds the processor while a bus is busy,
+    /// where it does that.
+    pub busy_option: Option<String>,
+    /// How the driver makes the bus clock; empty where it is told register values.
+    #[serde(default)]
+    pub modes: Vec<I2cMode>,
     /// Where in the system's source the facts were read.
     pub source: String,
+}
+
+/// One way in which an I²C driver makes the bus clock: the unit's clock, divided by `clocks` times
+/// a whole number, with nothing left over.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct I2cMode {
+    /// The driver's word for the duty cycle.
+    pub duty: String,
+    /// The slowest and the fastest bus of this mode.
+    pub speeds_hz: [u32; 2],
+    /// Steps of the divider in one bus clock.
+    pub clocks: u32,
+    /// The least and the greatest divider.
+    pub dividers: [u32; 2],
 }
 
 /// A unit with one driver: I²C, SPI, serial, CAN.

@@ -49,6 +49,8 @@ pub struct I2c {
     pub address_span: Option<sensedsl_diagnostics::Span>,
     /// Clock of the bus while it is talked to.
     pub speed_hz: u32,
+    /// Where the clock is given.
+    pub speed_span: Option<sensedsl_diagnostics::Span>,
     /// No other device on the same bus.
     pub exclusive: bool,
     /// Bytes written to start a measurement; may be empty.
@@ -79,7 +81,8 @@ pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> I2c {
     I2c {
         address: address.as_ref().map_or(0, |address| address.value),
         address_span: address.map(|address| address.span),
-        speed_hz: speed.map_or(SPEED_DEFAULT_HZ, |speed| speed.value),
+        speed_hz: speed.as_ref().map_or(SPEED_DEFAULT_HZ, |speed| speed.value),
+        speed_span: speed.map(|speed| speed.span),
         exclusive,
         trigger: trigger.map(|bytes| bytes.value).unwrap_or_default(),
         wait_us: wait.map_or(0, |wait| wait.value),
@@ -120,6 +123,7 @@ impl I2c {
             address,
             address_span: None,
             speed_hz: SPEED_DEFAULT_HZ,
+            speed_span: None,
             exclusive: false,
             trigger: Vec::new(),
             wait_us: 0,

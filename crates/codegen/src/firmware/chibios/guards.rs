@@ -2,11 +2,9 @@
 
 use super::context::Context;
 use super::i2c::I2cPlan;
+use super::i2c_clock::BusClock;
 use super::icu::IcuPlan;
 use super::settings::SettingsPlan;
-
-/// The divider of an I2C unit's clock has 12 bits.
-const I2C_DIVIDER_MAX: u32 = 4_095;
 
 /// `_Static_assert(condition, message)`
 #[derive(Clone, Debug)]
@@ -24,9 +22,15 @@ pub(super) fn plan(
     let mut guards = Vec::new();
     streams_differ(settings, &mut guards);
     for port in &i2c.ports {
-        let (unit, speed_hz) = (&port.unit, port.speed_hz);
+        let (unit, unit_clock, BusClock { speed_hz, clocks, dividers, .. }) =
+            (&port.unit, &port.unit_clock, &port.clock);
+        let steps = format!("({clocks}U * {speed_hz}U)");
+        let (least, greatest) = (dividers.start(), dividers.end());
         guards.push(GuardPlan {
-            condition: format!("STM32_PCLK1 / (2U * {speed_hz}U) <= {I2C_DIVIDER_MAX}U"),
+            condition: format!(
+                "{unit_clock} % {steps} == 0U && {unit_clock} / {steps} >= {least}U &&\n                   \
+                 {unit_clock} / {steps} <= {greatest}U"
+            ),
             message: format!("the clock of {unit} does not divide to {speed_hz} Hz"),
         });
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::profile::Unit;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
@@ -10,12 +11,14 @@ use sensedsl_model::kind::{Kind, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Drive, PadPlan, Wired};
+use super::i2c_clock::{self, BusClock};
 use super::tasks::Cycle;
 
-/// From here on the fast mode's duty cycle is used.
-const STANDARD_MODE_MAX_HZ: u32 = 100_000;
 /// Time for a device to think, beside the bits.
 const TIMEOUT_BASE_MS: u32 = 10;
+/// Bus clocks that the end of a transfer takes: the last acknowledge, the stop condition, and the
+/// time until the next start.
+const STOP_CLOCKS: u32 = 4;
 /// Widest number the runtime takes from a device.
 const ELEMENT_BYTES_MAX: usize = 8;
 
@@ -24,6 +27,8 @@ const ELEMENT_BYTES_MAX: usize = 8;
 pub(super) struct I2cPlan {
     pub(super) ports: Vec<PortPlan>,
     pub(super) classes: Vec<ClassPlan>,
+    /// The shortest read the driver accepts.
+    pub(super) read_bytes_min: u8,
 }
 
 /// One bus.
@@ -34,9 +39,14 @@ pub(super) struct PortPlan {
     pub(super) driver: String,
     pub(super) scl: PadPlan,
     pub(super) sda: PadPlan,
-    pub(super) speed_hz: u32,
-    pub(super) duty: &'static str,
+    /// The macro of the unit's clock.
+    pub(super) unit_clock: String,
+    /// What the devices asked for, where the driver cannot make it.
+    pub(super) asked_hz: Option<u32>,
+    pub(super) clock: BusClock,
     pub(super) timeout_ms: u32,
+    /// How long the end of a transfer can take.
+    pub(super) stop_ms: u32,
 }
 
 /// What one thread does on one bus.
@@ -78,10 +88,17 @@ pub(super) fn plan(
     pads: &mut Vec<PadPlan>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> I2cPlan {
-    let mut plan = I2cPlan { ports: Vec::new(), classes: Vec::new() };
+    let read_bytes_min = context.profile.i2c.read_bytes_min;
+    let mut plan = I2cPlan { ports: Vec::new(), classes: Vec::new(), read_bytes_min };
     for (unit, bus) in buses(context, diagnostics) {
         let Some(facts) = context.profile.unit(unit.as_str()) else { continue };
-        let port = PortPlan::new(context, plan.ports.len(), &unit, facts.driver.clone(), &bus);
+        let port = match PortPlan::new(context, plan.ports.len(), facts, &bus) {
+            Ok(port) => port,
+            Err(diagnostic) => {
+                diagnostics.push(diagnostic);
+                continue;
+            }
+        };
         pads.extend([port.scl.clone(), port.sda.clone()]);
         let mut classes: BTreeMap<Cycle, Vec<ScriptPlan>> = BTreeMap::new();
         for (wired, i2c) in &bus.devices {
@@ -143,35 +160,74 @@ impl PortPlan {
     fn new(
         context: &Context<'_>,
         index: usize,
-        unit: &UnitName,
-        driver: String,
+        unit: &Unit,
         bus: &Bus<'_>,
-    ) -> Self {
-        // The slowest device sets the pace of the bus.
-        let speeds = bus.devices.iter().map(|(_, i2c)| i2c.speed_hz);
-        let speed_hz = speeds.min().unwrap_or(STANDARD_MODE_MAX_HZ);
-        let speed_hz = speed_hz.min(context.profile.i2c.speed_max_hz);
+    ) -> Result<Self, Diagnostic> {
+        let asked_hz = bus.asked_hz(context);
+        let clock = bus_clock(context, unit, bus, asked_hz)?;
         let bytes = bus.devices.iter().map(|(_, i2c)| {
             u32::from(i2c.length_bytes).max(u32::try_from(i2c.trigger.len()).unwrap_or(u32::MAX))
         });
+        let time_ms = |clocks: u32| clocks.saturating_mul(1_000).div_ceil(clock.speed_hz.max(1));
         // Two addresses and a register go with them; nine clocks a byte, twice the time is patience.
-        let clocks = bytes.max().unwrap_or(0).saturating_add(3).saturating_mul(9 * 2 * 1_000);
+        let clocks = bytes.max().unwrap_or(0).saturating_add(3).saturating_mul(9 * 2);
         let (scl, sda) = bus.pads.clone();
-        Self {
+        Ok(Self {
             index,
-            unit: unit.as_str().to_owned(),
-            driver,
+            unit: unit.name.clone(),
+            driver: unit.driver.clone(),
             scl,
             sda,
-            speed_hz,
-            duty: if speed_hz > STANDARD_MODE_MAX_HZ {
-                "FAST_DUTY_CYCLE_2"
-            } else {
-                "STD_DUTY_CYCLE"
-            },
-            timeout_ms: TIMEOUT_BASE_MS + clocks.div_ceil(speed_hz.max(1)),
-        }
+            unit_clock: unit.clock.clone().unwrap_or_default(),
+            asked_hz: (clock.speed_hz != asked_hz).then_some(asked_hz),
+            timeout_ms: TIMEOUT_BASE_MS + time_ms(clocks),
+            stop_ms: time_ms(STOP_CLOCKS),
+            clock,
+        })
     }
+}
+
+impl<'a> Bus<'a> {
+    /// The slowest device sets the pace of the bus.
+    fn slowest(&self) -> Option<&(Wired<'a>, &'a I2c)> {
+        self.devices.iter().min_by_key(|(_, i2c)| i2c.speed_hz)
+    }
+
+    fn asked_hz(&self, context: &Context<'_>) -> u32 {
+        let speed_max_hz = context.profile.i2c.speed_max_hz;
+        self.slowest().map_or(speed_max_hz, |(_, i2c)| i2c.speed_hz.min(speed_max_hz))
+    }
+}
+
+/// The clock that a bus gets; what the driver cannot make is a limit of the hardware.
+fn bus_clock(
+    context: &Context<'_>,
+    unit: &Unit,
+    bus: &Bus<'_>,
+    asked_hz: u32,
+) -> Result<BusClock, Diagnostic> {
+    let modes = &context.profile.i2c.modes;
+    let macro_name = unit.clock.as_deref().unwrap_or_default();
+    let unit_hz = context.chibios.clocks_hz.get(macro_name).copied().unwrap_or_default();
+    i2c_clock::fastest(modes, unit_hz, asked_hz).ok_or_else(|| {
+        let name = &unit.name;
+        let device = bus.slowest().map_or("", |(wired, _)| wired.device.name.value.as_str());
+        let message = format!(
+            "{name} of {device} has a clock of {unit_hz} Hz, which does not divide to {asked_hz} Hz"
+        );
+        let help = match i2c_clock::slowest_hz(modes, unit_hz) {
+            Some(slowest_hz) => {
+                format!(
+                    "use a `speed` of at least {slowest_hz} Hz, the slowest that {name} can make"
+                )
+            }
+            None => format!("the driver can make no bus clock of it: give {name} another clock"),
+        };
+        let spans =
+            bus.slowest().map(|(wired, i2c)| i2c.speed_span.unwrap_or(wired.device.kind_span));
+        let span = spans.unwrap_or(context.board.name.span);
+        e0506_hardware_limit::hardware_limit(span, &message, &help)
+    })
 }
 
 impl ClassPlan {

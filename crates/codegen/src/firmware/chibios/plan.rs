@@ -104,7 +104,7 @@ fn plan_board(
     let icus = icu::plan(&context, &mut pads, diagnostics);
     let pulses = icu::plan_pulses(&context, &mut pads);
     let tasks = tasks::plan(&analog, &i2c, &pulses);
-    let settings = settings::plan(&context, &link);
+    let settings = settings::plan(&context, &i2c, &link);
     pads.sort();
     pads.dedup();
     Some(BoardPlan {

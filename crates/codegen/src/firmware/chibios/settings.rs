@@ -7,6 +7,7 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_model::kind::Kind;
 
 use super::context::Context;
+use super::i2c::I2cPlan;
 use super::link::LinkPlan;
 
 /// All settings.
@@ -31,7 +32,7 @@ pub(super) struct Setting {
     pub(super) value: String,
 }
 
-pub(super) fn plan(context: &Context<'_>, link: &LinkPlan) -> SettingsPlan {
+pub(super) fn plan(context: &Context<'_>, i2c: &I2cPlan, link: &LinkPlan) -> SettingsPlan {
     let units = units(context);
     let kernel_timer = kernel_timer(context, &units);
     let mut mcu = Vec::new();
@@ -43,6 +44,7 @@ pub(super) fn plan(context: &Context<'_>, link: &LinkPlan) -> SettingsPlan {
         mcu.push(setting(&context.profile.kernel.option, number));
     }
     mcu.extend(used.iter().map(|switch| setting(switch, "TRUE")));
+    mcu.extend(busy(context, i2c, kernel_timer.is_none()));
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
     SettingsPlan {
@@ -105,6 +107,15 @@ fn streams(context: &Context<'_>, units: &[UnitName]) -> Vec<Setting> {
         }
     }
     settings
+}
+
+/// While a bus is busy the driver holds the processor, and nobody of its priority or a lower one runs.
+/// Between two transfers that is the time of a stop condition; all else is a bus that hangs, and will be
+/// clocked free. A tick of a millisecond is one more, for the first of them is cut short.
+fn busy(context: &Context<'_>, i2c: &I2cPlan, is_systick: bool) -> Option<Setting> {
+    let option = context.profile.i2c.busy_option.as_deref()?;
+    let stop_ms = i2c.ports.iter().map(|port| port.stop_ms).max()?;
+    Some(setting(option, &(stop_ms + u32::from(is_systick)).to_string()))
 }
 
 fn hal(context: &Context<'_>, link: &LinkPlan) -> Vec<Setting> {

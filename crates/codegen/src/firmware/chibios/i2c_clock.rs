@@ -1,0 +1,139 @@
+//! The clock of an I2C bus: what a device asks for and how the driver divides come in, the speed
+//! that the bus gets goes out.
+//!
+//! The driver divides its unit's clock by whole numbers and halts the board where something is left
+//! over. A device names the fastest clock it stands, so the bus gets the fastest that the driver can
+//! make and that is not above it.
+
+use std::ops::RangeInclusive;
+
+use sensedsl_board::profile::I2cMode;
+
+/// The clock that a bus gets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct BusClock {
+    pub(super) speed_hz: u32,
+    /// The driver's word for the duty cycle.
+    pub(super) duty: String,
+    /// Steps of the divider in one bus clock.
+    pub(super) clocks: u32,
+    pub(super) dividers: RangeInclusive<u32>,
+}
+
+/// The fastest clock up to `speed_max_hz` that a unit can make of its own.
+pub(super) fn fastest(modes: &[I2cMode], unit_hz: u32, speed_max_hz: u32) -> Option<BusClock> {
+    let mut best: Option<BusClock> = None;
+    for clock in all(modes, unit_hz).filter(|clock| clock.speed_hz <= speed_max_hz) {
+        if best.as_ref().is_none_or(|best| best.speed_hz < clock.speed_hz) {
+            best = Some(clock);
+        }
+    }
+    best
+}
+
+/// The slowest clock that a unit can make of its own.
+pub(super) fn slowest_hz(modes: &[I2cMode], unit_hz: u32) -> Option<u32> {
+    all(modes, unit_hz).map(|clock| clock.speed_hz).min()
+}
+
+/// All clocks that the driver accepts.
+fn all(modes: &[I2cMode], unit_hz: u32) -> impl Iterator<Item = BusClock> + '_ {
+    modes.iter().flat_map(move |mode| {
+        let [least, greatest] = mode.dividers;
+        (least..=greatest).filter_map(move |divider| clock(mode, unit_hz, divider))
+    })
+}
+
+fn clock(mode: &I2cMode, unit_hz: u32, divider: u32) -> Option<BusClock> {
+    let steps = mode.clocks.checked_mul(divider)?;
+    let [slowest_hz, fastest_hz] = mode.speeds_hz;
+    let speed_hz = unit_hz.checked_div(steps)?;
+    let is_whole = unit_hz.checked_rem(steps) == Some(0);
+    (is_whole && (slowest_hz..=fastest_hz).contains(&speed_hz)).then(|| BusClock {
+        speed_hz,
+        duty: mode.duty.clone(),
+        clocks: mode.clocks,
+        dividers: mode.dividers[0]..=mode.dividers[1],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use sensedsl_board::catalog;
+    use sensedsl_board::profile::{DEFAULT, Target, TargetProfile, find};
+
+    use super::*;
+
+    /// What `i2c_lld_set_clock` of I2Cv1 asserts, in its own words.
+    fn driver_accepts(pclk1: u32, clock_speed: u32, duty: &str) -> bool {
+        let divides = |clocks: u32, least: u32| {
+            let clock_div = pclk1 / (clock_speed * clocks);
+            pclk1 % (clock_speed * clocks) == 0 && (least..=0xFFF).contains(&clock_div)
+        };
+        match (clock_speed, duty) {
+            (1..=100_000, "STD_DUTY_CYCLE") => divides(2, 0x04),
+            (100_001..=400_000, "FAST_DUTY_CYCLE_2") => divides(3, 0x01),
+            (100_001..=400_000, "FAST_DUTY_CYCLE_16_9") => divides(25, 0x01),
+            _ => false,
+        }
+    }
+
+    fn profile(mcu: &str) -> TargetProfile {
+        let Ok(Target::Profile(profile)) = find(DEFAULT, mcu) else { panic!("{mcu}") };
+        *profile
+    }
+
+    /// The clocks of I2C units on the boards whose driver divides them.
+    fn unit_clocks_hz() -> BTreeSet<u32> {
+        let mut clocks_hz = BTreeSet::new();
+        for facts in catalog::all().iter().map(|entry| entry.board().unwrap()) {
+            let Some(chibios) = &facts.chibios else { continue };
+            let Ok(Target::Profile(profile)) = find(DEFAULT, &facts.mcu) else { continue };
+            if !profile.i2c.modes.is_empty() {
+                let clocks = profile.i2cs.iter().map(|unit| unit.clock.as_deref().unwrap());
+                clocks_hz.extend(clocks.map(|clock| chibios.clocks_hz[clock]));
+            }
+        }
+        clocks_hz
+    }
+
+    #[test]
+    fn every_speed_is_one_that_the_driver_accepts_or_too_slow() {
+        let modes = profile("STM32F407VG").i2c.modes;
+        let clocks_hz = unit_clocks_hz();
+        assert!(clocks_hz.len() >= 4, "{clocks_hz:?}");
+        for unit_hz in clocks_hz {
+            let slowest_hz = slowest_hz(&modes, unit_hz).unwrap();
+            for asked_hz in (1_000..=400_000).step_by(250).chain([99_999, 100_001, 399_999]) {
+                let Some(clock) = fastest(&modes, unit_hz, asked_hz) else {
+                    assert!(asked_hz < slowest_hz, "{asked_hz} of {unit_hz}");
+                    continue;
+                };
+                assert!(
+                    driver_accepts(unit_hz, clock.speed_hz, &clock.duty),
+                    "{unit_hz}: {clock:?}"
+                );
+                assert!(clock.speed_hz <= asked_hz);
+                // What can be had as asked for, is.
+                for mode in &modes {
+                    let as_asked = driver_accepts(unit_hz, asked_hz, &mode.duty);
+                    assert!(!as_asked || clock.speed_hz == asked_hz, "{asked_hz} of {unit_hz}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_discovery_board_gets_the_next_slower_clock() {
+        let modes = profile("STM32F407VG").i2c.modes;
+        let speed_hz = |asked_hz| fastest(&modes, 42_000_000, asked_hz).map(|clock| clock.speed_hz);
+        assert_eq!(speed_hz(400_000), Some(400_000));
+        assert_eq!(speed_hz(300_000), Some(280_000));
+        assert_eq!(speed_hz(100_000), Some(100_000));
+        assert_eq!(speed_hz(5_250), Some(5_250));
+        assert_eq!(speed_hz(5_249), None);
+        assert_eq!(speed_hz(1_000), None);
+    }
+}
