@@ -184,6 +184,21 @@ fn boards_stand_beside_each_other() {
     assert!(files["Rear/cfg/halconf.h"].contains("HAL_USE_ADC FALSE"));
 }
 
+/// The driver halts the board where its clock does not divide, and spins while a bus is busy.
+#[test]
+fn a_bus_gets_a_clock_that_the_driver_accepts() {
+    let text = "board STM32F4DiscoveryBoard {
+        sensor A returns uint16 { id = 1; type = i2c; address = 0x20; speed = 300 kHz; }
+    }";
+    let files = files(text);
+    let hardware = &files["STM32F4DiscoveryBoard/generated/sense_hw.c"];
+    assert!(hardware.contains("/* 300000 Hz were asked for;"), "{hardware}");
+    assert!(hardware.contains(".clock_speed = 280000U,"), "{hardware}");
+    assert!(hardware.contains("STM32_PCLK1 % (3U * 280000U) == 0U"), "{hardware}");
+    let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
+    assert!(settings.contains("#define STM32_I2C_BUSY_TIMEOUT 1\n"), "{settings}");
+}
+
 #[test]
 fn what_cannot_be_generated_is_said() {
     let analog = |properties: &str| {
@@ -197,5 +212,6 @@ fn what_cannot_be_generated_is_said() {
     assert_eq!(codes(None, &analog("analog; sampling = 481;")), ["E0506"]);
     assert_eq!(codes(None, &analog("icu; resolution = 13 kHz;")), ["E0506"]);
     assert_eq!(codes(None, &analog("i2c; address = 0x20; length = 9;")), ["E0506"]);
+    assert_eq!(codes(None, &analog("i2c; address = 0x20; speed = 5 kHz;")), ["E0506"]);
     assert_eq!(codes(Some("none"), FIG2), ["E0504"]);
 }
