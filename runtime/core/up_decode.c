@@ -10,141 +10,168 @@ typedef enum { VERDICT_INVALID, VERDICT_INCOMPLETE, VERDICT_COMPLETE } verdict_t
 #define HELLO_REQUEST_BYTES 1U
 #define CHECKSUM_BYTES 3U
 
-static const uint8_t *frame_of(const up_decoder_t *decoder) {
-  return &decoder->buffer[decoder->start];
-}
-
 static void restart(up_decoder_t *decoder) {
-  decoder->at = 0U;
-  decoder->length = 0U;
-  decoder->phase = UP_PHASE_LENGTH;
+  decoder->payload_start = 0U;
+  decoder->frame_bytes = 0U;
+  decoder->looked_at = 0U;
+  decoder->checksum_right = false;
 }
 
 bool up_decoder_init(up_decoder_t *decoder, const up_schema_t *schema, up_direction_t direction,
                      uint8_t *buffer, size_t buffer_bytes, const up_sink_t *sink) {
+  const bool fits = buffer_bytes >= up_frame_bytes_max(schema, direction);
+  uint8_t i;
+
   memset(decoder, 0, sizeof *decoder);
   decoder->schema = schema;
   decoder->sink = sink;
   decoder->direction = (uint8_t)direction;
   decoder->buffer = buffer;
   decoder->buffer_bytes = buffer_bytes;
-  decoder->payload_bytes_max = up_payload_bytes_max(schema, direction);
-  restart(decoder);
-  return buffer_bytes >= up_frame_bytes_max(schema, direction);
+  decoder->checksum_bytes = schema->checksum_crc16 ? CHECKSUM_BYTES : 0U;
+  decoder->payload_bytes_max = fits ? up_payload_bytes_max(schema, direction) : 0U;
+  for (i = 0U; i < schema->fields_count; i++) {
+    if (schema->fields[i].direction == (uint8_t)direction) {
+      decoder->field_of[schema->fields[i].id] = (uint8_t)(i + 1U);
+    }
+  }
+  return fits;
 }
 
 bool up_decoder_is_idle(const up_decoder_t *decoder) {
   return decoder->size == 0U;
 }
 
-static verdict_t step_length(up_decoder_t *decoder, uint8_t byte) {
-  const size_t checksum_bytes = decoder->schema->checksum_crc16 ? CHECKSUM_BYTES : 0U;
-  const bool is_first = decoder->at == 0U;
+static bool is_digit(uint8_t byte) {
+  return byte >= (uint8_t)'0' && byte <= (uint8_t)'9';
+}
 
-  if (byte >= (uint8_t)'0' && byte <= (uint8_t)'9' && !(is_first && byte == (uint8_t)'0')) {
-    decoder->length = decoder->length * 10U + (size_t)(byte - (uint8_t)'0');
-    return (decoder->length > decoder->payload_bytes_max) ? VERDICT_INVALID : VERDICT_INCOMPLETE;
+static verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
+  size_t length = 0U;
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    if (bytes[i] == (uint8_t)':' && length > decoder->checksum_bytes) {
+      decoder->payload_start = i + 1U;
+      decoder->at = i + 1U;
+      decoder->values_end = i + 1U + length - decoder->checksum_bytes;
+      decoder->frame_bytes = i + 1U + length + 1U;
+      memset(decoder->seen, 0, sizeof decoder->seen);
+      return VERDICT_COMPLETE;
+    }
+    length = length * 10U + (size_t)(bytes[i] - (uint8_t)'0');
+    if (!is_digit(bytes[i]) || length == 0U || length > decoder->payload_bytes_max) {
+      return VERDICT_INVALID;
+    }
   }
-  if (byte != (uint8_t)':' || is_first || decoder->length <= checksum_bytes) {
-    return VERDICT_INVALID;
-  }
-  decoder->payload_start = decoder->at + 1U;
-  decoder->values_end = decoder->payload_start + decoder->length - checksum_bytes;
-  memset(decoder->seen, 0, sizeof decoder->seen);
-  decoder->phase = UP_PHASE_ID;
   return VERDICT_INCOMPLETE;
 }
 
-/* What follows the item that ends before `end`. */
-static void after_item(up_decoder_t *decoder, size_t end) {
-  if (end < decoder->values_end) {
-    decoder->phase = UP_PHASE_ID;
-  } else {
-    decoder->phase = decoder->schema->checksum_crc16 ? UP_PHASE_CHECKSUM : UP_PHASE_COMMA;
-  }
-}
-
-/* The hello stands alone: at the payload's start, and exactly as long as its direction wants it. */
-static verdict_t step_hello_id(up_decoder_t *decoder) {
+/* The hello stands alone, and exactly as long as its direction wants it. */
+static bool is_hello(const up_decoder_t *decoder) {
   const size_t wanted_bytes = (decoder->direction == (uint8_t)UP_TO_HOST) ? HELLO_BYTES : HELLO_REQUEST_BYTES;
 
-  if (decoder->at != decoder->payload_start || decoder->values_end - decoder->payload_start != wanted_bytes) {
-    return VERDICT_INVALID;
-  }
-  decoder->item_end = decoder->values_end;
-  decoder->phase = UP_PHASE_HELLO;
-  if (wanted_bytes == 1U) {
-    after_item(decoder, decoder->item_end);
-  }
-  return VERDICT_INCOMPLETE;
+  return decoder->at == decoder->payload_start && decoder->values_end - decoder->at == wanted_bytes;
 }
 
-static verdict_t step_id(up_decoder_t *decoder, uint8_t id) {
-  const up_field_t *field;
-
-  if (id == UP_ID_HELLO) {
-    return step_hello_id(decoder);
-  }
-  field = up_schema_find(decoder->schema, id, (up_direction_t)decoder->direction);
-  if (field == NULL || up_bit_get(decoder->seen, id)) {
-    return VERDICT_INVALID;
-  }
-  up_bit_set(decoder->seen, id);
-  decoder->item_type = field->type;
-  decoder->item_end = decoder->at + 1U + up_field_bytes(field);
-  decoder->phase = UP_PHASE_VALUE;
-  return (decoder->item_end > decoder->values_end) ? VERDICT_INVALID : VERDICT_INCOMPLETE;
+static const up_field_t *field_of(const up_decoder_t *decoder, uint8_t id) {
+  return (decoder->field_of[id] == 0U) ? NULL : &decoder->schema->fields[decoder->field_of[id] - 1U];
 }
 
-static verdict_t step_value(up_decoder_t *decoder, uint8_t byte) {
-  if (decoder->phase == UP_PHASE_VALUE && decoder->item_type == UP_TYPE_BOOL && byte > 1U) {
-    return VERDICT_INVALID;
+/* The elements of the value before `end`, as many as are there. */
+static verdict_t look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t end) {
+  size_t i = decoder->at + 1U;
+
+  if (i < decoder->looked_at) {
+    i = decoder->looked_at;
   }
-  if (decoder->at + 1U == decoder->item_end) {
-    after_item(decoder, decoder->item_end);
+  for (; i < end && i < size; i++) {
+    if (bytes[i] > 1U) {
+      return VERDICT_INVALID;
+    }
   }
-  return VERDICT_INCOMPLETE;
+  decoder->looked_at = i;
+  return (i < end) ? VERDICT_INCOMPLETE : VERDICT_COMPLETE;
 }
 
-static verdict_t step_checksum(up_decoder_t *decoder, uint8_t byte) {
-  const size_t position = decoder->at - decoder->values_end;
-  uint16_t crc, sent;
+/* From identifier to identifier up to the end of the values. */
+static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
+  while (decoder->at < decoder->values_end) {
+    const up_field_t *field;
+    size_t end;
+    uint8_t id;
 
-  if (position == 0U) {
-    return (byte == UP_ID_CHECKSUM) ? VERDICT_INCOMPLETE : VERDICT_INVALID;
+    if (decoder->at >= size) {
+      return VERDICT_INCOMPLETE;
+    }
+    id = bytes[decoder->at];
+    if (id == UP_ID_HELLO) {
+      if (!is_hello(decoder)) {
+        return VERDICT_INVALID;
+      }
+      decoder->at = decoder->values_end;
+      break;
+    }
+    field = field_of(decoder, id);
+    if (field == NULL || up_bit_get(decoder->seen, id)) {
+      return VERDICT_INVALID;
+    }
+    end = decoder->at + 1U + up_field_bytes(field);
+    if (end > decoder->values_end) {
+      return VERDICT_INVALID;
+    }
+    if (field->type == UP_TYPE_BOOL) {
+      const verdict_t verdict = look_at_bools(decoder, bytes, size, end);
+      if (verdict != VERDICT_COMPLETE) {
+        return verdict;
+      }
+    }
+    up_bit_set(decoder->seen, id);
+    decoder->at = end;
   }
-  if (position == 1U) {
+  return VERDICT_COMPLETE;
+}
+
+static verdict_t compare_checksum(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
+  const size_t end = decoder->values_end;
+  uint16_t crc;
+
+  if (size < end + CHECKSUM_BYTES) {
     return VERDICT_INCOMPLETE;
   }
-  crc = up_crc16(UP_CRC16_INIT, &frame_of(decoder)[decoder->payload_start],
-                 decoder->values_end - decoder->payload_start);
-  sent = (uint16_t)(((unsigned)frame_of(decoder)[decoder->at - 1U] << 8) | byte);
-  decoder->phase = UP_PHASE_COMMA;
-  return (crc == sent) ? VERDICT_INCOMPLETE : VERDICT_INVALID;
+  crc = up_crc16(UP_CRC16_INIT, &bytes[decoder->payload_start], end - decoder->payload_start);
+  decoder->checksum_right = bytes[end + 1U] == (uint8_t)(crc >> 8) && bytes[end + 2U] == (uint8_t)crc;
+  return decoder->checksum_right ? VERDICT_COMPLETE : VERDICT_INVALID;
 }
 
-/* Takes the byte at `at` into account; the verdict is about all bytes up to it. */
-static verdict_t step(up_decoder_t *decoder) {
-  const uint8_t byte = frame_of(decoder)[decoder->at];
+/* Looks at the bytes from the candidate's first on; what was found out before is not looked at again. */
+static verdict_t look(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
+  verdict_t verdict = VERDICT_COMPLETE;
+  bool has_comma;
 
-  switch ((up_phase_t)decoder->phase) {
-  case UP_PHASE_LENGTH:
-    return step_length(decoder, byte);
-  case UP_PHASE_ID:
-    return step_id(decoder, byte);
-  case UP_PHASE_VALUE:
-  case UP_PHASE_HELLO:
-    return step_value(decoder, byte);
-  case UP_PHASE_CHECKSUM:
-    return step_checksum(decoder, byte);
-  case UP_PHASE_COMMA:
-  default:
-    return (byte == (uint8_t)',') ? VERDICT_COMPLETE : VERDICT_INVALID;
+  if (decoder->payload_start == 0U) {
+    verdict = read_length(decoder, bytes, size);
+    if (verdict != VERDICT_COMPLETE) {
+      return verdict;
+    }
   }
+  /* The cheapest first: most of what only looks like a frame ends wrong. */
+  has_comma = size >= decoder->frame_bytes;
+  if (has_comma && bytes[decoder->frame_bytes - 1U] != (uint8_t)',') {
+    return VERDICT_INVALID;
+  }
+  if (decoder->checksum_bytes != 0U && size > decoder->values_end &&
+      bytes[decoder->values_end] != UP_ID_CHECKSUM) {
+    return VERDICT_INVALID;
+  }
+  verdict = walk(decoder, bytes, size);
+  if (verdict == VERDICT_COMPLETE && decoder->checksum_bytes != 0U && !decoder->checksum_right) {
+    verdict = compare_checksum(decoder, bytes, size);
+  }
+  return (verdict == VERDICT_COMPLETE && !has_comma) ? VERDICT_INCOMPLETE : verdict;
 }
 
-static void deliver_hello(const up_decoder_t *decoder) {
-  const uint8_t *payload = &frame_of(decoder)[decoder->payload_start];
+static void deliver_hello(const up_decoder_t *decoder, const uint8_t *payload) {
   uint32_t hash = 0U;
   size_t i;
 
@@ -159,18 +186,16 @@ static void deliver_hello(const up_decoder_t *decoder) {
 }
 
 /* The frame is valid to its last byte: every identifier is known and every value is whole. */
-static void deliver(const up_decoder_t *decoder) {
+static void deliver(const up_decoder_t *decoder, const uint8_t *frame) {
   const up_sink_t *sink = decoder->sink;
-  const uint8_t *frame = frame_of(decoder);
   size_t at = decoder->payload_start;
 
   if (frame[at] == UP_ID_HELLO) {
-    deliver_hello(decoder);
+    deliver_hello(decoder, &frame[at]);
     return;
   }
   while (at < decoder->values_end) {
-    const up_field_t *field =
-        up_schema_find(decoder->schema, frame[at], (up_direction_t)decoder->direction);
+    const up_field_t *field = field_of(decoder, frame[at]);
     if (sink->on_value != NULL) {
       sink->on_value(sink->context, field, &frame[at + 1U]);
     }
@@ -181,50 +206,69 @@ static void deliver(const up_decoder_t *decoder) {
   }
 }
 
-static void drop_front(up_decoder_t *decoder, size_t bytes) {
-  decoder->start += bytes;
-  decoder->size -= bytes;
-  restart(decoder);
+/* Looks for frames that start at `at` or behind it and before `limit`. Returns where the candidate starts that
+ * lacks bytes, or where to go on. */
+static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t at, size_t limit) {
+  while (at < limit) {
+    const verdict_t verdict = look(decoder, &bytes[at], size - at);
+
+    if (verdict == VERDICT_INCOMPLETE) {
+      return at;
+    }
+    if (verdict == VERDICT_COMPLETE) {
+      deliver(decoder, &bytes[at]);
+      decoder->frames++;
+      at += decoder->frame_bytes;
+    } else {
+      do {
+        decoder->dropped_bytes++;
+        at++;
+      } while (at < limit && !is_digit(bytes[at]));
+    }
+    restart(decoder);
+  }
+  return at;
 }
 
-/* Looks at all bytes that are there; afterwards the buffer starts with a possible frame start. */
-static void drain(up_decoder_t *decoder) {
-  while (decoder->at < decoder->size) {
-    switch (step(decoder)) {
-    case VERDICT_INCOMPLETE:
-      decoder->at++;
-      break;
-    case VERDICT_INVALID:
-      decoder->dropped_bytes++;
-      drop_front(decoder, 1U);
-      break;
-    case VERDICT_COMPLETE:
-    default:
-      deliver(decoder);
-      decoder->frames++;
-      drop_front(decoder, decoder->at + 1U);
-      break;
-    }
+/* Holds some more bytes, as many as the candidate lacks at most; returns how many. While its length is read,
+ * that is one at a time. */
+static size_t hold(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
+  size_t more = (decoder->frame_bytes == 0U) ? 1U : decoder->frame_bytes - decoder->size;
+
+  if (more > size) {
+    more = size;
   }
-  if (decoder->start > 0U) {
-    memmove(decoder->buffer, frame_of(decoder), decoder->size);
+  if (decoder->start + decoder->size + more > decoder->buffer_bytes) {
+    memmove(decoder->buffer, &decoder->buffer[decoder->start], decoder->size);
     decoder->start = 0U;
   }
+  memcpy(&decoder->buffer[decoder->start + decoder->size], bytes, more);
+  decoder->size += more;
+  return more;
 }
 
 void up_decoder_feed(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
-  size_t i;
+  size_t taken = 0U; /* bytes of this call that are in the buffer, too */
 
-  for (i = 0U; i < size; i++) {
-    /* A frame never outgrows its bound, so there is always room; the guard is for a buffer that
-     * up_decoder_init() has called too small. */
-    if (decoder->size >= decoder->buffer_bytes) {
-      decoder->dropped_bytes += (uint32_t)decoder->size;
+  while (decoder->size > 0U && taken < size) {
+    size_t old_bytes, gone;
+
+    taken += hold(decoder, &bytes[taken], size - taken);
+    /* What starts in the bytes of this call is looked for there. */
+    old_bytes = (decoder->size > taken) ? decoder->size - taken : 0U;
+    gone = run(decoder, &decoder->buffer[decoder->start], decoder->size, 0U, old_bytes);
+    if (gone >= old_bytes) {
+      taken = gone - old_bytes;
       decoder->size = 0U;
-      restart(decoder);
+      decoder->start = 0U;
+      break;
     }
-    decoder->buffer[decoder->size] = bytes[i];
-    decoder->size++;
-    drain(decoder);
+    decoder->start += gone;
+    decoder->size -= gone;
+  }
+  if (decoder->size == 0U && taken < size) {
+    taken += run(decoder, &bytes[taken], size - taken, 0U, size - taken);
+    decoder->size = size - taken;
+    memcpy(decoder->buffer, &bytes[taken], decoder->size);
   }
 }

@@ -1,9 +1,18 @@
 /*
  * From a byte stream to values: any split of the stream, any garbage between frames.
  *
- * The decoder keeps the bytes from the first possible frame start on. What cannot become a valid frame of the
- * schema loses its first byte only and the rest is looked at again, so that a torn frame costs itself and never
- * the whole frame behind it. Its memory is one buffer of up_frame_bytes_max() bytes.
+ * A candidate for a frame that cannot become a valid one loses its first byte only, and the rest is looked at
+ * again: so the first valid frame is found wherever it starts. A frame that lies whole in the bytes of one call
+ * is read there; only what a call leaves unfinished is copied.
+ *
+ * Time. A candidate costs at most one step for each field of the schema, because no identifier stands twice in
+ * a payload and values are stepped over; its comma is looked at before that. At most one candidate starts at a
+ * digit, so the steps are linear in the bytes, whatever they are, and do not grow with the length of a frame.
+ * Two things do grow with it, and only for candidates that are right up to there: elements of bool arrays, and
+ * the checksum, which is compared when all else fits.
+ *
+ * Memory: one buffer of up_frame_bytes_max() bytes. With twice as many a byte is moved once on average, however
+ * often candidates fail; with one frame's the rest of it moves when a candidate fails.
  */
 #ifndef UP_DECODE_H
 #define UP_DECODE_H
@@ -20,41 +29,35 @@ typedef struct {
   void *context;
 } up_sink_t;
 
-typedef enum {
-  UP_PHASE_LENGTH,
-  UP_PHASE_ID,
-  UP_PHASE_VALUE,
-  UP_PHASE_HELLO,
-  UP_PHASE_CHECKSUM,
-  UP_PHASE_COMMA
-} up_phase_t;
-
 typedef struct {
   const up_schema_t *schema;
   const up_sink_t *sink;
-  uint8_t *buffer;
+  uint8_t *buffer; /* the first bytes of a frame whose end has not come; the candidate starts at `start` */
   size_t buffer_bytes;
+  size_t start;
+  size_t size; /* bytes behind `start` */
   size_t payload_bytes_max;
-  size_t start; /* of the possible frame in the buffer; the positions below count from here */
-  size_t size;  /* bytes behind `start` */
-  size_t at;    /* bytes looked at */
-  size_t payload_start;
-  size_t values_end; /* where the values end and the checksum or the comma starts */
-  size_t item_end;
-  size_t length; /* LEN so far */
-  uint8_t phase; /* up_phase_t */
-  uint8_t direction;
-  uint8_t item_type;
+  size_t checksum_bytes;
+  /* The candidate; all places are counted from its first byte. */
+  size_t payload_start; /* 0 as long as its length has not been read */
+  size_t values_end;    /* where the values end and the checksum or the comma starts */
+  size_t frame_bytes;
+  size_t at;        /* where the next identifier stands */
+  size_t looked_at; /* up to here the elements of bool arrays were looked at */
+  bool checksum_right;
   uint8_t seen[UP_FIELD_BITMAP_BYTES]; /* identifiers of this payload */
+  uint8_t direction;                   /* up_direction_t */
+  uint8_t field_of[256];               /* by identifier: 1 + index of the field; 0 for none */
   uint32_t frames;
   uint32_t dropped_bytes; /* bytes that were part of no delivered frame */
 } up_decoder_t;
 
-/* `buffer` holds at least up_frame_bytes_max(schema, direction) bytes; false when it does not. */
+/* `buffer` holds at least up_frame_bytes_max(schema, direction) bytes; false when it does not: then every frame
+ * is dropped. */
 bool up_decoder_init(up_decoder_t *decoder, const up_schema_t *schema, up_direction_t direction,
                      uint8_t *buffer, size_t buffer_bytes, const up_sink_t *sink);
 
-/* Takes the next bytes of the stream and hands each whole frame to the sink. */
+/* Takes the next bytes of the stream and hands each whole frame to the sink, which must not feed the decoder. */
 void up_decoder_feed(up_decoder_t *decoder, const uint8_t *bytes, size_t size);
 
 /* True when no frame has begun: what comes next is the first byte of a frame, or garbage. */

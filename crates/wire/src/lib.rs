@@ -9,11 +9,13 @@ extern crate alloc;
 mod checksum;
 mod decode;
 mod encode;
+mod frame;
 mod scalar;
 mod schema;
 
 pub use checksum::{crc16_ccitt_false, crc32_iso_hdlc};
-pub use decode::{Decoder, Event};
+pub use decode::Decoder;
 pub use encode::{EncodeError, encode_hello, encode_hello_request, encode_report};
+pub use frame::{Event, Frame, Report, Value, Values};
 pub use scalar::{Scalar, ScalarType, ValueType};
 pub use schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Item, Schema};

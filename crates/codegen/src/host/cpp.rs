@@ -47,7 +47,9 @@ impl Host for Cpp {
     fn render(&self, plan: &HostPlan) -> FileSet {
         let design = DesignView::new(plan);
         let mut files = FileSet::default();
-        for (path, text) in [runtime::LINK, runtime::SERIAL, runtime::TEXT, runtime::HANDLERS] {
+        for (path, text) in
+            runtime::LINK.into_iter().chain([runtime::SERIAL, runtime::TEXT, runtime::HANDLERS])
+        {
             files.add(path, text);
         }
         for board in &design.boards {

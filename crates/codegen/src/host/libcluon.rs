@@ -41,7 +41,7 @@ impl Host for Libcluon {
     fn render(&self, plan: &HostPlan) -> FileSet {
         let design = DesignView::new(plan);
         let mut files = FileSet::default();
-        for (path, text) in [runtime::LINK, runtime::SERIAL, runtime::TEXT] {
+        for (path, text) in runtime::LINK.into_iter().chain([runtime::SERIAL, runtime::TEXT]) {
             files.add(path, text);
         }
         for board in &design.boards {

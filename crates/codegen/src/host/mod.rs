@@ -38,11 +38,21 @@ pub fn find(name: &str) -> Option<&'static dyn Host> {
 
 /// The hand-written files that C++ hosts share.
 mod runtime {
-    /// Decoder, encoder.
-    pub(super) const LINK: (&str, &str) = (
-        "include/sensedsl/link.hpp",
-        include_str!("../../../../runtime/host/cpp/sensedsl/link.hpp"),
-    );
+    /// Tables and scalars, decoder, encoder.
+    pub(super) const LINK: [(&str, &str); 3] = [
+        (
+            "include/sensedsl/wire.hpp",
+            include_str!("../../../../runtime/host/cpp/sensedsl/wire.hpp"),
+        ),
+        (
+            "include/sensedsl/decode.hpp",
+            include_str!("../../../../runtime/host/cpp/sensedsl/decode.hpp"),
+        ),
+        (
+            "include/sensedsl/link.hpp",
+            include_str!("../../../../runtime/host/cpp/sensedsl/link.hpp"),
+        ),
+    ];
     /// Raw serial device.
     pub(super) const SERIAL: (&str, &str) = (
         "include/sensedsl/serial.hpp",

@@ -54,7 +54,7 @@ impl Host for OpenDavinci {
         let design = DesignView::new(plan);
         let messages: Vec<_> = design.messages().collect();
         let mut files = FileSet::default();
-        for (path, text) in [runtime::LINK, runtime::TEXT] {
+        for (path, text) in runtime::LINK.into_iter().chain([runtime::TEXT]) {
             files.add(path, text);
         }
         for board in &design.boards {

@@ -55,7 +55,7 @@ impl Host for OpenDavinci2014 {
         let design = DesignView::new(plan);
         let messages: Vec<_> = design.messages().collect();
         let mut files = FileSet::default();
-        for (path, text) in [runtime::LINK, runtime::TEXT] {
+        for (path, text) in runtime::LINK.into_iter().chain([runtime::TEXT]) {
             files.add(path, text);
         }
         for board in &design.boards {

@@ -1,0 +1,196 @@
+//! One place where a frame may start, and how far it has been looked at.
+
+use super::memo::Memo;
+use super::table::Table;
+use crate::checksum::crc16_ccitt_false;
+use crate::schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO};
+
+/// What the bytes at hand can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// No valid frame starts here.
+    Invalid,
+    /// A valid frame may start here; more bytes will tell.
+    Incomplete,
+    /// A valid frame.
+    Complete,
+}
+
+/// What is the same for all frames of a link in one direction.
+#[derive(Clone, Debug)]
+pub(super) struct Rules {
+    pub(super) table: Table,
+    pub(super) checksum: Checksum,
+    pub(super) payload_bytes_max: usize,
+    pub(super) hello_bytes: usize,
+}
+
+impl Rules {
+    pub(super) fn new(table: Table, checksum: Checksum, max: usize, direction: Direction) -> Self {
+        let hello_bytes = match direction {
+            Direction::Sensor => 5,
+            Direction::Actuator => 1,
+        };
+        Self { table, checksum, payload_bytes_max: max, hello_bytes }
+    }
+}
+
+/// All places are counted from the candidate's first byte.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Candidate {
+    /// 0 as long as the length has not been read.
+    pub(super) payload_start: usize,
+    /// Where the checksum or the comma stands.
+    pub(super) values_end: usize,
+    pub(super) frame_bytes: usize,
+    /// Where the next identifier stands.
+    at: usize,
+    /// Up to here values and checksum were gone through byte by byte.
+    pub(super) looked_at: usize,
+    is_checksum_right: bool,
+    /// A bit for each identifier of this payload.
+    seen: [u64; 4],
+}
+
+impl Candidate {
+    /// Looks at the bytes from the candidate's first on, and at none twice. `memo` is there when
+    /// an earlier candidate has been through the same bytes; `place` is where they stand in the
+    /// stream.
+    #[inline]
+    pub(super) fn look(
+        &mut self,
+        rules: &Rules,
+        bytes: &[u8],
+        place: u64,
+        mut memo: Option<&mut Memo>,
+    ) -> Verdict {
+        if self.payload_start == 0 {
+            match self.read_length(rules, bytes) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+            }
+        }
+        // The cheapest first: most of what only looks like a frame ends wrong.
+        let comma = bytes.get(self.frame_bytes - 1).copied();
+        if comma.is_some_and(|byte| byte != b',') {
+            return Verdict::Invalid;
+        }
+        let has_checksum = rules.checksum == Checksum::Crc16;
+        if has_checksum && bytes.get(self.values_end).is_some_and(|&id| id != ID_CHECKSUM) {
+            return Verdict::Invalid;
+        }
+        match self.walk(rules, bytes, place, memo.as_deref_mut()) {
+            Verdict::Complete => {}
+            verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+        }
+        if has_checksum && !self.is_checksum_right {
+            match self.compare_checksum(bytes, place, memo) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+            }
+        }
+        if comma.is_some() { Verdict::Complete } else { Verdict::Incomplete }
+    }
+
+    #[inline]
+    fn read_length(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
+        let mut payload_bytes = 0_usize;
+        for (index, &byte) in bytes.iter().enumerate() {
+            match byte {
+                b'0' if index == 0 => return Verdict::Invalid,
+                b'0'..=b'9' => payload_bytes = payload_bytes * 10 + usize::from(byte - b'0'),
+                b':' if index > 0 && payload_bytes > rules.checksum.size_bytes() => {
+                    self.payload_start = index + 1;
+                    self.at = self.payload_start;
+                    self.frame_bytes = self.payload_start + payload_bytes + 1;
+                    self.values_end = self.frame_bytes - 1 - rules.checksum.size_bytes();
+                    return Verdict::Complete;
+                }
+                _ => return Verdict::Invalid,
+            }
+            if payload_bytes > rules.payload_bytes_max {
+                return Verdict::Invalid;
+            }
+        }
+        Verdict::Incomplete
+    }
+
+    /// From identifier to identifier up to the end of the values.
+    #[inline]
+    fn walk(
+        &mut self,
+        rules: &Rules,
+        bytes: &[u8],
+        place: u64,
+        mut memo: Option<&mut Memo>,
+    ) -> Verdict {
+        while self.at < self.values_end {
+            let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
+            if id == ID_HELLO {
+                // It stands alone, and exactly as long as its direction wants it.
+                let is_hello = self.at == self.payload_start
+                    && self.values_end - self.payload_start == rules.hello_bytes;
+                if !is_hello {
+                    return Verdict::Invalid;
+                }
+                self.at = self.values_end;
+                break;
+            }
+            let slot = rules.table.slot(id);
+            let end = self.at + 1 + slot.value_bytes();
+            let bit = 1_u64 << (id % 64);
+            let seen = self.seen.get(usize::from(id / 64)).copied().unwrap_or_default();
+            if slot.value_bytes() == 0 || seen & bit != 0 || end > self.values_end {
+                return Verdict::Invalid;
+            }
+            if slot.is_bool() {
+                match self.look_at_bools(bytes, end, place, memo.as_deref_mut()) {
+                    Verdict::Complete => {}
+                    verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+                }
+            }
+            if let Some(word) = self.seen.get_mut(usize::from(id / 64)) {
+                *word |= bit;
+            }
+            self.at = end;
+        }
+        Verdict::Complete
+    }
+
+    /// The elements of the value before `end`, as many as are there.
+    fn look_at_bools(
+        &mut self,
+        bytes: &[u8],
+        end: usize,
+        place: u64,
+        memo: Option<&mut Memo>,
+    ) -> Verdict {
+        let from = self.looked_at.max(self.at + 1);
+        let to = end.min(bytes.len());
+        if from < to {
+            let are_bools = match memo {
+                Some(memo) => memo.all_bools(place, bytes, from, to),
+                None => bytes.get(from..to).unwrap_or_default().iter().all(|&byte| byte <= 1),
+            };
+            self.looked_at = to;
+            if !are_bools {
+                return Verdict::Invalid;
+            }
+        }
+        if to == end { Verdict::Complete } else { Verdict::Incomplete }
+    }
+
+    fn compare_checksum(&mut self, bytes: &[u8], place: u64, memo: Option<&mut Memo>) -> Verdict {
+        let sent = bytes.get(self.values_end + 1..self.values_end + 3);
+        let Some(sent) = sent else { return Verdict::Incomplete };
+        let crc = match memo {
+            Some(memo) => memo.crc16(place, bytes, self.payload_start, self.values_end),
+            None => crc16_ccitt_false(
+                bytes.get(self.payload_start..self.values_end).unwrap_or_default(),
+            ),
+        };
+        self.looked_at = self.values_end;
+        self.is_checksum_right = *sent == crc.to_be_bytes();
+        if self.is_checksum_right { Verdict::Complete } else { Verdict::Invalid }
+    }
+}

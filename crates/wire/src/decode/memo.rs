@@ -1,0 +1,89 @@
+//! What is known of every window of the stream once it has been gone through: its checksum, and
+//! whether all of it are bools.
+//!
+//! Candidates for a frame overlap where one stands in the payload of another. Each would go through
+//! the same bytes again; with sums over everything since one place, a window costs the same
+//! whatever its length. It needs memory for one frame, and only after a candidate has failed.
+
+use alloc::vec::Vec;
+
+use crate::checksum::{crc16_product, crc16_step};
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    /// The CRC's register of the bytes before this place, from a start of 0.
+    crc: u16,
+    /// How many bytes before this place are 0 or 1 without a gap.
+    bools: u32,
+}
+
+/// Sums by place in the stream.
+#[derive(Clone, Debug)]
+pub(super) struct Memo {
+    frame_bytes_max: usize,
+    /// A ring, so that nothing moves when the stream goes on; longer than a frame.
+    sums: Vec<Sums>,
+    /// By a number of bytes: what that many zero bytes multiply a register by.
+    powers: Vec<u16>,
+    /// Place behind the last byte that is in the sums.
+    frontier: u64,
+}
+
+impl Memo {
+    pub(super) fn new(frame_bytes_max: usize) -> Self {
+        Self { frame_bytes_max, sums: Vec::new(), powers: Vec::new(), frontier: 0 }
+    }
+
+    /// The CRC of `frame[from..to]`, where `frame` starts at `place`. Asked with places that never
+    /// go back, each byte is gone through once.
+    pub(super) fn crc16(&mut self, place: u64, frame: &[u8], from: usize, to: usize) -> u16 {
+        self.extend(place, frame, to);
+        // A CRC is linear: a start of 0xFFFF and what stood before the window shift through it.
+        let before = self.at(place, from).crc ^ 0xFFFF;
+        let power = self.powers.get(to - from).copied().unwrap_or_default();
+        self.at(place, to).crc ^ crc16_product(before, power)
+    }
+
+    /// Whether all of `frame[from..to]` is 0 or 1.
+    pub(super) fn all_bools(&mut self, place: u64, frame: &[u8], from: usize, to: usize) -> bool {
+        self.extend(place, frame, to);
+        self.at(place, to).bools as usize >= to - from
+    }
+
+    fn at(&self, place: u64, index: usize) -> Sums {
+        let ring = place.wrapping_add(index as u64) as usize & (self.sums.len().wrapping_sub(1));
+        self.sums.get(ring).copied().unwrap_or_default()
+    }
+
+    fn put(&mut self, place: u64, sums: Sums) {
+        let ring = place as usize & (self.sums.len().wrapping_sub(1));
+        if let Some(slot) = self.sums.get_mut(ring) {
+            *slot = sums;
+        }
+    }
+
+    fn extend(&mut self, place: u64, frame: &[u8], to: usize) {
+        if self.sums.is_empty() {
+            self.sums =
+                alloc::vec![Sums::default(); (self.frame_bytes_max + 1).next_power_of_two()];
+            let powers = (0..=self.frame_bytes_max).scan(1, |power, _| {
+                let this = *power;
+                *power = crc16_step(this, 0);
+                Some(this)
+            });
+            self.powers = powers.collect();
+        }
+        if self.frontier < place {
+            self.frontier = place;
+            self.put(place, Sums::default());
+        }
+        let known = (self.frontier - place) as usize;
+        let mut sums = self.at(place, known);
+        for &byte in frame.get(known..to).unwrap_or_default() {
+            sums.crc = crc16_step(sums.crc, byte);
+            sums.bools = if byte <= 1 { sums.bools.saturating_add(1) } else { 0 };
+            self.frontier += 1;
+            self.put(self.frontier, sums);
+        }
+    }
+}

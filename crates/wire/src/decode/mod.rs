@@ -1,0 +1,170 @@
+//! Bytes to frames: any split of the stream, any garbage between frames.
+//!
+//! A candidate for a frame that cannot become a valid one loses its first byte only, and the rest
+//! is looked at again: so the first valid frame is found wherever it starts. A frame that lies
+//! whole in the bytes of one call is read there; only what a call leaves unfinished is copied.
+//!
+//! The time is linear in the bytes, whatever they are and however long a frame may be. A candidate
+//! costs at most one step for each identifier of the schema (none stands twice in a payload): its
+//! comma is looked at first, values are stepped over, and where checksums or arrays of bools were
+//! gone through for a candidate that failed, `memo` answers for the others in constant time.
+
+mod candidate;
+mod memo;
+mod table;
+
+use alloc::vec::Vec;
+
+use self::candidate::{Candidate, Rules, Verdict};
+use self::memo::Memo;
+pub(crate) use self::table::Table;
+use crate::frame::{Event, Frame, Report};
+use crate::schema::{Direction, ID_HELLO, Schema};
+
+/// Decoder of one direction of one link.
+#[derive(Clone, Debug)]
+pub struct Decoder<'a> {
+    schema: &'a Schema,
+    rules: Rules,
+    /// The first bytes of a frame whose end has not come; the candidate starts at `start`.
+    held: Vec<u8>,
+    start: usize,
+    candidate: Candidate,
+    /// Where the candidate stands in the stream.
+    place: u64,
+    /// Up to here a candidate that failed was gone through byte by byte.
+    spent: u64,
+    memo: Memo,
+    frames: u64,
+    dropped_bytes: u64,
+}
+
+impl<'a> Decoder<'a> {
+    /// A decoder for what travels in `direction`.
+    #[must_use]
+    pub fn new(schema: &'a Schema, direction: Direction) -> Self {
+        let max = schema.payload_bytes_max(direction);
+        let table = Table::new(schema, direction);
+        Self {
+            schema,
+            rules: Rules::new(table, schema.checksum, max, direction),
+            held: Vec::new(),
+            start: 0,
+            candidate: Candidate::default(),
+            place: 0,
+            spent: 0,
+            memo: Memo::new(schema.frame_bytes_max(direction)),
+            frames: 0,
+            dropped_bytes: 0,
+        }
+    }
+
+    /// Takes the next bytes of the stream and hands each whole frame to `on_event`, with values of
+    /// its own.
+    pub fn feed(&mut self, bytes: &[u8], mut on_event: impl FnMut(Event)) {
+        self.feed_frames(bytes, |frame| on_event(frame.into()));
+    }
+
+    /// Takes the next bytes of the stream and hands each whole frame to `on_frame`, in place:
+    /// nothing is copied that arrived in one piece.
+    pub fn feed_frames(&mut self, bytes: &[u8], mut on_frame: impl FnMut(Frame<'_>)) {
+        let mut taken = 0;
+        while !self.held.is_empty() {
+            let missing = self.missing_bytes().min(bytes.len() - taken);
+            if missing == 0 {
+                return;
+            }
+            self.held.extend(bytes.get(taken..taken + missing).unwrap_or_default());
+            taken += missing;
+            let held = core::mem::take(&mut self.held);
+            // What starts in the bytes of this call is looked for there.
+            let old_bytes = held.len().saturating_sub(taken);
+            let end = self.run(&held, self.start, old_bytes, &mut on_frame);
+            self.held = held;
+            if end >= old_bytes {
+                self.held.clear();
+                self.start = 0;
+                taken = end - old_bytes;
+            } else {
+                self.start = end;
+                self.drop_front();
+            }
+        }
+        let rest = bytes.get(taken..).unwrap_or_default();
+        let end = self.run(rest, 0, rest.len(), &mut on_frame);
+        self.held.extend(rest.get(end..).unwrap_or_default());
+    }
+
+    /// Frames delivered so far.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Bytes so far that belonged to no delivered frame.
+    #[must_use]
+    pub fn dropped_bytes(&self) -> u64 {
+        self.dropped_bytes
+    }
+
+    /// How many bytes the candidate in `held` lacks; while its length is read, one at a time.
+    fn missing_bytes(&self) -> usize {
+        let frame_bytes = self.candidate.frame_bytes;
+        if frame_bytes == 0 { 1 } else { frame_bytes.saturating_sub(self.held.len() - self.start) }
+    }
+
+    /// Only when half of it is gone, so that a byte moves once on average.
+    fn drop_front(&mut self) {
+        if self.start > self.held.len() / 2 {
+            self.held.drain(..self.start);
+            self.start = 0;
+        }
+    }
+
+    /// Looks for frames that start at `at` or behind it and before `limit`. Returns where the
+    /// candidate starts that lacks bytes, or where to go on.
+    fn run(
+        &mut self,
+        bytes: &[u8],
+        mut at: usize,
+        limit: usize,
+        on_frame: &mut impl FnMut(Frame<'_>),
+    ) -> usize {
+        while at < limit {
+            let frame = bytes.get(at..).unwrap_or_default();
+            let memo = (self.place < self.spent).then_some(&mut self.memo);
+            match self.candidate.look(&self.rules, frame, self.place, memo) {
+                Verdict::Incomplete => return at,
+                Verdict::Complete => {
+                    on_frame(self.read(frame));
+                    self.frames += 1;
+                    at += self.candidate.frame_bytes;
+                    self.place += self.candidate.frame_bytes as u64;
+                }
+                Verdict::Invalid => {
+                    self.spent = self.spent.max(self.place + self.candidate.looked_at as u64);
+                    let rest = bytes.get(at + 1..limit).unwrap_or_default();
+                    let is_digit = |byte: &u8| matches!(byte, b'1'..=b'9');
+                    let skipped = 1 + rest.iter().position(is_digit).unwrap_or(rest.len());
+                    self.dropped_bytes += skipped as u64;
+                    at += skipped;
+                    self.place += skipped as u64;
+                }
+            }
+            self.candidate = Candidate::default();
+        }
+        at
+    }
+
+    /// A frame that is valid to its last byte.
+    fn read<'f>(&'f self, frame: &'f [u8]) -> Frame<'f> {
+        let values = self.candidate.payload_start..self.candidate.values_end;
+        match frame.get(values).unwrap_or_default() {
+            [id] if *id == ID_HELLO => Frame::HelloRequest,
+            [id, a, b, c, d] if *id == ID_HELLO => {
+                Frame::Hello(u32::from_be_bytes([*a, *b, *c, *d]))
+            }
+            items => Frame::Report(Report { schema: self.schema, table: &self.rules.table, items }),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What a decoded frame says, read in place: the bytes stay where they were received.
+
+use alloc::vec::Vec;
+
+use crate::decode::Table;
+use crate::scalar::Scalar;
+use crate::schema::{Item, Schema};
+
+/// What a frame said, with its values as they stand in the stream.
+#[derive(Clone, Copy, Debug)]
+pub enum Frame<'a> {
+    /// Values.
+    Report(Report<'a>),
+    /// The board's schema hash (board to host).
+    Hello(u32),
+    /// The host wants a hello (host to board).
+    HelloRequest,
+}
+
+/// What a frame said, with its values in memory of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// Values in the order of the payload.
+    Report(Vec<(u8, Vec<Scalar>)>),
+    /// The board's schema hash (board to host).
+    Hello(u32),
+    /// The host wants a hello (host to board).
+    HelloRequest,
+}
+
+impl From<Frame<'_>> for Event {
+    fn from(frame: Frame<'_>) -> Self {
+        match frame {
+            Frame::Report(report) => Self::Report(
+                report.values().map(|value| (value.item.id, value.scalars().collect())).collect(),
+            ),
+            Frame::Hello(hash) => Self::Hello(hash),
+            Frame::HelloRequest => Self::HelloRequest,
+        }
+    }
+}
+
+/// The values of one frame; the decoder has checked all of them.
+#[derive(Clone, Copy)]
+pub struct Report<'a> {
+    pub(crate) schema: &'a Schema,
+    pub(crate) table: &'a Table,
+    pub(crate) items: &'a [u8],
+}
+
+impl core::fmt::Debug for Report<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_list().entries(self.values()).finish()
+    }
+}
+
+impl<'a> Report<'a> {
+    /// In the order of the payload.
+    #[must_use]
+    pub fn values(self) -> Values<'a> {
+        Values { report: self }
+    }
+}
+
+/// The values of a report one by one.
+#[derive(Clone, Debug)]
+pub struct Values<'a> {
+    report: Report<'a>,
+}
+
+impl<'a> Iterator for Values<'a> {
+    type Item = Value<'a>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Value<'a>> {
+        let (&id, rest) = self.report.items.split_first()?;
+        let slot = self.report.table.slot(id);
+        let (bytes, rest) = rest.split_at_checked(slot.value_bytes())?;
+        self.report.items = rest;
+        Some(Value { item: self.report.schema.items.get(slot.index())?, bytes })
+    }
+}
+
+/// One value of a report.
+#[derive(Clone, Copy, Debug)]
+pub struct Value<'a> {
+    /// What it is a value of.
+    pub item: &'a Item,
+    /// Its bytes as they came, most significant first.
+    pub bytes: &'a [u8],
+}
+
+impl<'a> Value<'a> {
+    /// Its elements; a plain scalar has one.
+    pub fn scalars(self) -> impl Iterator<Item = Scalar> + use<'a> {
+        let scalar = self.item.value.scalar;
+        self.bytes.chunks_exact(scalar.size_bytes()).filter_map(move |bytes| scalar.read(bytes))
+    }
+}

@@ -1,0 +1,398 @@
+// Bytes to values: any split of the stream, any garbage between frames.
+//
+// In: the bytes of the stream, cut anywhere, and the tables of one board. Out: each value of each
+// whole frame. It needs C++98 and nothing else, so that every C++ host runs this one decoder.
+//
+// A frame is a Netstring `LEN ":" payload ","`; the payload is a run of items, each one identifier
+// byte and its value in network byte order.
+#ifndef SENSEDSL_DECODE_HPP
+#define SENSEDSL_DECODE_HPP
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <vector>
+
+#include "sensedsl/wire.hpp"
+
+namespace sensedsl {
+
+/// Takes what a decoder finds, in the order of the stream.
+class Sink {
+public:
+    virtual ~Sink() {}
+    /// The board's schema hash.
+    virtual void on_hello(uint32_t hash) { (void)hash; }
+    /// The host's wish for a hello; only a board's decoder meets it.
+    virtual void on_hello_request() {}
+    /// One value; `bytes` are as many as the item says and valid during the call.
+    virtual void on_value(uint8_t id, const uint8_t *bytes) = 0;
+    /// All values of the frame have been handed over.
+    virtual void on_frame_end() {}
+};
+
+/// What is known of every window of the stream once it has been gone through: its checksum, and
+/// whether all of it are bools.
+///
+/// Candidates for a frame overlap where one stands in the payload of another. Each would go through
+/// the same bytes again; with sums over everything since one place, a window costs the same whatever
+/// its length. It needs memory for one frame, and only after a candidate has failed.
+class Memo {
+public:
+    explicit Memo(size_t frame_bytes_max)
+        : frame_bytes_max_(frame_bytes_max), mask_(0), sums_(), powers_(), frontier_(0) {}
+
+    /// The CRC of the bytes [from, to) of a candidate that stands at `place` in the stream. Asked
+    /// with places that never go back, each byte is gone through once.
+    uint16_t crc16(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
+        extend(place, frame, to);
+        // A CRC is linear: a start of 0xFFFF and what stood before the window shift through it.
+        const unsigned before = at(place + from).crc ^ 0xFFFFU;
+        return static_cast<uint16_t>(at(place + to).crc ^ product(before, powers_[to - from]));
+    }
+
+    bool all_bools(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
+        extend(place, frame, to);
+        return at(place + to).bools >= to - from;
+    }
+
+private:
+    struct Sums {
+        Sums() : crc(0), bools(0) {}
+        /// The CRC's register of the bytes before this place, from a start of 0.
+        uint16_t crc;
+        /// How many bytes before this place are 0 or 1 without a gap.
+        size_t bools;
+    };
+
+    /// Of two registers as polynomials over GF(2), modulo the one of the CRC.
+    static unsigned product(unsigned left, unsigned right) {
+        unsigned result = 0;
+        for (int bit = 15; bit >= 0; --bit) {
+            result = ((result << 1) & 0xFFFFU) ^ (0x1021U & (0U - (result >> 15)));
+            result ^= left & (0U - ((right >> bit) & 1U));
+        }
+        return result;
+    }
+
+    /// A ring, so that nothing moves when the stream goes on; longer than a frame.
+    Sums &at(uint64_t place) { return sums_[static_cast<size_t>(place) & mask_]; }
+
+    void reserve() {
+        size_t size = 1;
+        while (size <= frame_bytes_max_) {
+            size *= 2;
+        }
+        mask_ = size - 1;
+        sums_.resize(size);
+        uint16_t power = 1;
+        for (size_t i = 0; i <= frame_bytes_max_; ++i) {
+            powers_.push_back(power);
+            power = crc16_tables().step(power, 0);
+        }
+    }
+
+    void extend(uint64_t place, const uint8_t *frame, size_t to) {
+        if (sums_.empty()) {
+            reserve();
+        }
+        if (frontier_ < place) {
+            frontier_ = place;
+            at(place) = Sums();
+        }
+        const Crc16Tables &tables = crc16_tables();
+        Sums sums = at(frontier_);
+        for (size_t i = static_cast<size_t>(frontier_ - place); i < to; ++i) {
+            sums.crc = tables.step(sums.crc, frame[i]);
+            sums.bools = frame[i] <= 1 ? sums.bools + 1 : 0;
+            at(++frontier_) = sums;
+        }
+    }
+
+    size_t frame_bytes_max_;
+    size_t mask_;
+    std::vector<Sums> sums_;
+    /// By a number of bytes: what that many zero bytes multiply a register by.
+    std::vector<uint16_t> powers_;
+    /// Place behind the last byte that is in the sums.
+    uint64_t frontier_;
+};
+
+/// Decoder of one direction of one link. Its sink must not feed it.
+///
+/// A candidate for a frame that cannot become a valid one loses its first byte only, and the rest is
+/// looked at again: so the first valid frame is found wherever it starts. A frame that lies whole in
+/// the bytes of one call is read there; only what a call leaves unfinished is copied.
+///
+/// The time is linear in the bytes, whatever they are and however long a frame may be. A candidate
+/// costs at most one step for each identifier of the schema (none stands twice in a payload): its
+/// comma is looked at first, values are stepped over, and where checksums or arrays of bools were
+/// gone through for a candidate that failed, `Memo` answers for the others in constant time.
+class Decoder {
+public:
+    Decoder(const Schema &schema, const Direction &direction, Sink &sink)
+        : direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0), held_(),
+          start_(0), candidate_(), place_(0), spent_(0), memo_(direction.payload_bytes_max + 22),
+          frames_(0), dropped_bytes_(0) {
+        memset(slots_, 0, sizeof slots_);
+        for (size_t i = direction.item_count; i-- > 0;) {
+            const Item &item = direction.items[i];
+            slots_[item.id].value_bytes = static_cast<uint32_t>(item.size_bytes());
+            slots_[item.id].is_bool = item.is_bool;
+        }
+    }
+
+    /// Takes the next bytes of the stream, however it is cut.
+    void feed(const uint8_t *bytes, size_t count) {
+        size_t taken = 0;
+        while (!held_.empty()) {
+            const size_t missing = missing_bytes() < count - taken ? missing_bytes() : count - taken;
+            if (missing == 0) {
+                return;
+            }
+            held_.insert(held_.end(), bytes + taken, bytes + taken + missing);
+            taken += missing;
+            // What starts in the bytes of this call is looked for there.
+            const size_t old_bytes = held_.size() > taken ? held_.size() - taken : 0;
+            run(&held_[0], held_.size(), start_, old_bytes);
+            if (start_ >= old_bytes) {
+                taken = start_ - old_bytes;
+                held_.clear();
+                start_ = 0;
+            } else if (start_ > held_.size() / 2) {
+                // Only when half of it is gone, so that a byte moves once on average.
+                held_.erase(held_.begin(), held_.begin() + static_cast<Bytes::difference_type>(start_));
+                start_ = 0;
+            }
+        }
+        if (taken < count) {
+            size_t at = taken;
+            run(bytes, count, at, count);
+            held_.insert(held_.end(), bytes + at, bytes + count);
+        }
+    }
+
+    /// Frames delivered so far.
+    uint64_t frames() const { return frames_; }
+    /// Bytes so far that belonged to no delivered frame.
+    uint64_t dropped_bytes() const { return dropped_bytes_; }
+
+private:
+    /// What the bytes at hand can be.
+    enum Verdict { invalid, incomplete, complete };
+
+    /// What travels under one identifier; 0 bytes where nothing does.
+    struct Slot {
+        uint32_t value_bytes;
+        bool is_bool;
+    };
+
+    /// One place where a frame may start, and how far it has been looked at. All places are counted
+    /// from its first byte.
+    struct Candidate {
+        Candidate()
+            : payload_start(0), values_end(0), frame_bytes(0), at(0), looked_at(0),
+              is_checksum_right(false) {
+            memset(seen, 0, sizeof seen);
+        }
+        /// 0 as long as the length has not been read.
+        size_t payload_start;
+        /// Where the checksum or the comma stands.
+        size_t values_end;
+        size_t frame_bytes;
+        /// Where the next identifier stands.
+        size_t at;
+        /// Up to here values and checksum were gone through byte by byte.
+        size_t looked_at;
+        bool is_checksum_right;
+        /// A bit for each identifier of this payload.
+        uint32_t seen[8];
+    };
+
+    /// How many bytes the held candidate lacks; while its length is read, one at a time.
+    size_t missing_bytes() const {
+        const size_t here = held_.size() - start_;
+        return candidate_.frame_bytes > here ? candidate_.frame_bytes - here : 1;
+    }
+
+    /// Looks for frames that start at `at` or behind it and before `limit`; leaves `at` where the
+    /// candidate starts that lacks bytes, or where to go on.
+    void run(const uint8_t *bytes, size_t count, size_t &at, size_t limit) {
+        while (at < limit) {
+            const Verdict verdict = look(bytes + at, count - at);
+            if (verdict == incomplete) {
+                return;
+            }
+            const Candidate was = candidate_;
+            candidate_ = Candidate();
+            if (verdict == complete) {
+                const uint8_t *frame = bytes + at;
+                at += was.frame_bytes;
+                place_ += was.frame_bytes;
+                ++frames_;
+                deliver(frame + was.payload_start, was.values_end - was.payload_start);
+                continue;
+            }
+            if (place_ + was.looked_at > spent_) {
+                spent_ = place_ + was.looked_at;
+            }
+            const size_t from = at++;
+            while (at < limit && (bytes[at] < '1' || bytes[at] > '9')) {
+                ++at;
+            }
+            dropped_bytes_ += at - from;
+            place_ += at - from;
+        }
+    }
+
+    /// Looks at the bytes from the candidate's first on, and at none twice.
+    Verdict look(const uint8_t *bytes, size_t count) {
+        Verdict verdict = candidate_.payload_start == 0 ? read_length(bytes, count) : complete;
+        if (verdict != complete) {
+            return verdict;
+        }
+        // The cheapest first: most of what only looks like a frame ends wrong.
+        const bool has_comma = count >= candidate_.frame_bytes;
+        if (has_comma && bytes[candidate_.frame_bytes - 1] != ',') {
+            return invalid;
+        }
+        if (checksum_bytes_ != 0 && count > candidate_.values_end &&
+            bytes[candidate_.values_end] != id_checksum) {
+            return invalid;
+        }
+        verdict = walk(bytes, count);
+        if (verdict == complete && checksum_bytes_ != 0 && !candidate_.is_checksum_right) {
+            verdict = compare_checksum(bytes, count);
+        }
+        return verdict == complete && !has_comma ? incomplete : verdict;
+    }
+
+    Verdict read_length(const uint8_t *bytes, size_t count) {
+        size_t payload_bytes = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const uint8_t byte = bytes[i];
+            if (byte == ':' && payload_bytes > checksum_bytes_) {
+                candidate_.payload_start = i + 1;
+                candidate_.at = i + 1;
+                candidate_.frame_bytes = i + 1 + payload_bytes + 1;
+                candidate_.values_end = i + 1 + payload_bytes - checksum_bytes_;
+                return complete;
+            }
+            if (byte < '0' || byte > '9' || (i == 0 && byte == '0')) {
+                return invalid;
+            }
+            payload_bytes = payload_bytes * 10 + static_cast<size_t>(byte - '0');
+            if (payload_bytes > direction_->payload_bytes_max) {
+                return invalid;
+            }
+        }
+        return incomplete;
+    }
+
+    /// From identifier to identifier up to the end of the values.
+    Verdict walk(const uint8_t *bytes, size_t count) {
+        size_t at = candidate_.at;
+        const size_t values_end = candidate_.values_end;
+        while (at < values_end) {
+            candidate_.at = at;
+            if (at >= count) {
+                return incomplete;
+            }
+            const uint8_t id = bytes[at];
+            if (id == id_hello) {
+                // It stands alone, and exactly as long as its direction wants it.
+                if (at != candidate_.payload_start || values_end - at != direction_->hello_bytes) {
+                    return invalid;
+                }
+                break;
+            }
+            const Slot slot = slots_[id];
+            const uint32_t bit = uint32_t(1) << (id % 32);
+            const size_t end = at + 1 + slot.value_bytes;
+            if (slot.value_bytes == 0 || (candidate_.seen[id / 32] & bit) != 0 || end > values_end) {
+                return invalid;
+            }
+            if (slot.is_bool) {
+                const Verdict verdict = look_at_bools(bytes, count, end);
+                if (verdict != complete) {
+                    return verdict;
+                }
+            }
+            candidate_.seen[id / 32] |= bit;
+            at = end;
+        }
+        candidate_.at = values_end;
+        return complete;
+    }
+
+    /// The elements of the value before `end`, as many as are there.
+    Verdict look_at_bools(const uint8_t *bytes, size_t count, size_t end) {
+        const size_t value = candidate_.at + 1;
+        const size_t from = candidate_.looked_at > value ? candidate_.looked_at : value;
+        const size_t to = end < count ? end : count;
+        if (from < to) {
+            candidate_.looked_at = to;
+            if (place_ < spent_) {
+                if (!memo_.all_bools(place_, bytes, from, to)) {
+                    return invalid;
+                }
+            } else {
+                for (size_t i = from; i < to; ++i) {
+                    if (bytes[i] > 1) {
+                        return invalid;
+                    }
+                }
+            }
+        }
+        return to == end ? complete : incomplete;
+    }
+
+    Verdict compare_checksum(const uint8_t *bytes, size_t count) {
+        const size_t start = candidate_.payload_start;
+        const size_t end = candidate_.values_end;
+        if (count < end + 3) {
+            return incomplete;
+        }
+        const uint16_t crc = place_ < spent_ ? memo_.crc16(place_, bytes, start, end)
+                                             : crc16_ccitt_false(bytes + start, end - start);
+        candidate_.looked_at = end;
+        candidate_.is_checksum_right = load<uint16_t>(bytes + end + 1) == crc;
+        return candidate_.is_checksum_right ? complete : invalid;
+    }
+
+    void deliver(const uint8_t *payload, size_t values_bytes) {
+        if (payload[0] != id_hello) {
+            for (size_t at = 0; at < values_bytes;) {
+                const uint8_t id = payload[at];
+                sink_->on_value(id, payload + at + 1);
+                at += 1 + slots_[id].value_bytes;
+            }
+            sink_->on_frame_end();
+        } else if (values_bytes == 1) {
+            sink_->on_hello_request();
+        } else {
+            sink_->on_hello(load<uint32_t>(payload + 1));
+        }
+    }
+
+    const Direction *direction_;
+    Sink *sink_;
+    size_t checksum_bytes_;
+    Slot slots_[256];
+    /// The first bytes of a frame whose end has not come; the candidate starts at `start_`.
+    Bytes held_;
+    size_t start_;
+    Candidate candidate_;
+    /// Where the candidate stands in the stream.
+    uint64_t place_;
+    /// Up to here a candidate that failed was gone through byte by byte.
+    uint64_t spent_;
+    Memo memo_;
+    uint64_t frames_;
+    uint64_t dropped_bytes_;
+};
+
+} // namespace sensedsl
+
+#endif

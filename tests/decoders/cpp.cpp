@@ -1,0 +1,98 @@
+// The decoder of the C++ hosts.
+#include "decoders.h"
+
+#include "sensedsl/link.hpp"
+
+namespace {
+
+const uint8_t type_bytes[] = {1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+
+class Log : public sensedsl::Sink {
+public:
+    Log(decoders_out_t out, void *context) : out_(out), context_(context), report_(5), sizes_(256) {}
+
+    void knows(const sensedsl::Item &item) { sizes_[item.id] = item.size_bytes(); }
+
+    void say(char word, uint32_t number, bool has_number) {
+        sensedsl::Bytes said(1, static_cast<uint8_t>(word));
+        if (has_number) {
+            sensedsl::store<uint32_t>(said, number);
+        }
+        put(said);
+    }
+
+    void put(const sensedsl::Bytes &said) {
+        if (out_ != NULL) {
+            out_(context_, &said[0], said.size());
+        }
+    }
+
+private:
+    Log(const Log &);
+    Log &operator=(const Log &);
+
+    virtual void on_hello(uint32_t hash) { say('H', hash, true); }
+    virtual void on_hello_request() { say('Q', 0, false); }
+    virtual void on_value(uint8_t id, const uint8_t *bytes) {
+        if (out_ == NULL) {
+            report_[0] = static_cast<uint8_t>(report_[0] ^ bytes[0]);
+            return;
+        }
+        report_.push_back(id);
+        report_.insert(report_.end(), bytes, bytes + sizes_[id]);
+    }
+    virtual void on_frame_end() {
+        if (out_ == NULL) {
+            return;
+        }
+        sensedsl::Bytes said(1, static_cast<uint8_t>('R'));
+        sensedsl::store<uint32_t>(said, static_cast<uint32_t>(report_.size() - 5));
+        said.insert(said.end(), report_.begin() + 5, report_.end());
+        put(said);
+        report_.resize(5);
+    }
+
+    decoders_out_t out_;
+    void *context_;
+    sensedsl::Bytes report_;
+    std::vector<size_t> sizes_;
+};
+
+} // namespace
+
+extern "C" void decoders_cpp(const decoders_input_t *input, decoders_out_t out, void *context) {
+    const bool to_board = (input->schema[0] & 2U) != 0;
+    std::vector<sensedsl::Item> items;
+    Log log(out, context);
+    size_t values_bytes = 0;
+    for (size_t at = 1; at + 5 <= input->schema_bytes; at += 5) {
+        const uint8_t *bytes = input->schema + at;
+        const sensedsl::Item item = {bytes[0], type_bytes[bytes[1]], bytes[1] == 0,
+                                     sensedsl::load<uint16_t>(bytes + 3)};
+        if ((bytes[2] != 0) == to_board) {
+            items.push_back(item);
+            log.knows(item);
+            values_bytes += 1 + item.size_bytes();
+        }
+    }
+    const bool has_checksum = (input->schema[0] & 1U) != 0;
+    const size_t hello_bytes = to_board ? 1 : 5;
+    const sensedsl::Direction direction = {
+        items.empty() ? NULL : &items[0], items.size(),
+        (values_bytes > hello_bytes ? values_bytes : hello_bytes) + (has_checksum ? 3 : 0), hello_bytes};
+    const sensedsl::Schema schema = {0, has_checksum, direction, direction};
+    sensedsl::Decoder decoder(schema, direction, log);
+    size_t piece = 0;
+    for (size_t at = 0; at < input->stream_bytes; ++piece) {
+        size_t size = input->pieces_count == 0 ? 0 : input->pieces[piece % input->pieces_count];
+        if (size == 0 || size > input->stream_bytes - at) {
+            size = input->stream_bytes - at;
+        }
+        decoder.feed(input->stream + at, size);
+        at += size;
+    }
+    sensedsl::Bytes end(1, static_cast<uint8_t>('E'));
+    sensedsl::store<uint32_t>(end, static_cast<uint32_t>(decoder.frames()));
+    sensedsl::store<uint32_t>(end, static_cast<uint32_t>(decoder.dropped_bytes()));
+    log.put(end);
+}

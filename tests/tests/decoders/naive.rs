@@ -1,0 +1,96 @@
+//! The definition of decoding, as plain as it can be and as slow: at each place, is this a frame?
+
+use sensedsl_wire::{
+    Checksum, Direction, ID_CHECKSUM, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
+};
+
+use crate::program::Answer;
+
+enum Verdict {
+    Invalid,
+    Incomplete,
+    /// A payload without its checksum, and the bytes of the frame.
+    Complete(Vec<u8>, usize),
+}
+
+/// What must be said of a stream.
+pub(crate) fn decode(schema: &Schema, direction: Direction, stream: &[u8]) -> Vec<u8> {
+    let mut answer = Answer::default();
+    let (mut at, mut frames, mut dropped) = (0, 0, 0);
+    while at < stream.len() {
+        match look(schema, direction, &stream[at..]) {
+            Verdict::Incomplete => break,
+            Verdict::Invalid => {
+                at += 1;
+                dropped += 1;
+            }
+            Verdict::Complete(payload, bytes) => {
+                at += bytes;
+                frames += 1;
+                answer.frame(&payload);
+            }
+        }
+    }
+    answer.end(frames, dropped)
+}
+
+fn look(schema: &Schema, direction: Direction, bytes: &[u8]) -> Verdict {
+    let digits = bytes.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let length = bytes[..digits].iter().try_fold(0, |length: usize, byte| {
+        let length = length * 10 + usize::from(byte - b'0');
+        (length > 0 && length <= schema.payload_bytes_max(direction)).then_some(length)
+    });
+    let Some(length) = length else { return Verdict::Invalid };
+    match bytes.get(digits) {
+        None => return Verdict::Incomplete,
+        Some(b':') if digits > 0 && length > schema.checksum.size_bytes() => {}
+        Some(_) => return Verdict::Invalid,
+    }
+    let here = &bytes[digits + 1..];
+    let values_bytes = length - schema.checksum.size_bytes();
+    let Some(mut whole) = are_values(schema, direction, here, values_bytes) else {
+        return Verdict::Invalid;
+    };
+    let crc = crc16_ccitt_false(&here[..values_bytes.min(here.len())]).to_be_bytes();
+    let mut tail = vec![b','];
+    if schema.checksum == Checksum::Crc16 {
+        tail = vec![ID_CHECKSUM, crc[0], crc[1], b','];
+    }
+    let there = here.get(values_bytes..).unwrap_or_default();
+    // The first byte of the sum alone proves nothing: it is compared when both are there.
+    for (index, (is, should)) in there.iter().zip(&tail).enumerate() {
+        let is_half_a_sum = tail.len() == 4 && index == 1 && there.len() < 3;
+        if is != should && !is_half_a_sum {
+            return Verdict::Invalid;
+        }
+    }
+    whole &= there.len() >= tail.len();
+    if whole {
+        Verdict::Complete(here[..values_bytes].to_vec(), digits + 1 + length + 1)
+    } else {
+        Verdict::Incomplete
+    }
+}
+
+/// None when they can never be; true when all are there.
+fn are_values(schema: &Schema, direction: Direction, here: &[u8], bytes: usize) -> Option<bool> {
+    let mut at = 0;
+    let mut seen = Vec::new();
+    while at < bytes {
+        let Some(&id) = here.get(at) else { return Some(false) };
+        if id == ID_HELLO {
+            let hello_bytes = if direction == Direction::Sensor { 5 } else { 1 };
+            return (at == 0 && bytes == hello_bytes).then_some(here.len() >= bytes);
+        }
+        let item = schema.item(direction, id)?;
+        let end = at + 1 + item.value.size_bytes();
+        let value = here.get(at + 1..end.min(here.len())).unwrap_or_default();
+        let is_bool = item.value.scalar == ScalarType::Bool;
+        if end > bytes || seen.contains(&id) || (is_bool && value.iter().any(|&byte| byte > 1)) {
+            return None;
+        }
+        seen.push(id);
+        at = end;
+    }
+    Some(here.len() >= bytes)
+}

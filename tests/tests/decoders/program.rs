@@ -1,0 +1,188 @@
+//! The decoders in C and C++ as a program, and the one in Rust, all answering in the same bytes
+//! (`tests/decoders/decoders.h` says which).
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+use sensedsl_wire::{Checksum, Decoder, Direction, Frame, ScalarType, Schema};
+
+/// What a decoder said.
+#[derive(Default)]
+pub(crate) struct Answer(Vec<u8>);
+
+impl Answer {
+    /// A frame by its payload without the checksum.
+    pub(crate) fn frame(&mut self, payload: &[u8]) {
+        match payload {
+            [0] => self.0.push(b'Q'),
+            [0, hash @ ..] => {
+                self.0.push(b'H');
+                self.0.extend(hash);
+            }
+            items => {
+                self.0.push(b'R');
+                self.0.extend(u32::try_from(items.len()).unwrap().to_be_bytes());
+                self.0.extend(items);
+            }
+        }
+    }
+
+    pub(crate) fn end(mut self, frames: u64, dropped_bytes: u64) -> Vec<u8> {
+        self.0.push(b'E');
+        for number in [frames, dropped_bytes] {
+            self.0.extend(u32::try_from(number).unwrap().to_be_bytes());
+        }
+        self.0
+    }
+}
+
+/// The decoder in Rust.
+pub(crate) fn rust(
+    schema: &Schema,
+    direction: Direction,
+    stream: &[u8],
+    pieces: &[u32],
+) -> Vec<u8> {
+    let mut decoder = Decoder::new(schema, direction);
+    let mut answer = Answer::default();
+    let mut sizes = pieces.iter().cycle();
+    let mut rest = stream;
+    while !rest.is_empty() {
+        let size = sizes.next().map_or(0, |&size| size as usize);
+        let size = if size == 0 { rest.len() } else { size.min(rest.len()) };
+        let (piece, others) = rest.split_at(size);
+        decoder.feed_frames(piece, |frame| match frame {
+            Frame::HelloRequest => answer.frame(&[0]),
+            Frame::Hello(hash) => answer.frame(&[&[0][..], &hash.to_be_bytes()].concat()),
+            Frame::Report(report) => {
+                let items = report.values().flat_map(|value| {
+                    std::iter::once(value.item.id).chain(value.bytes.iter().copied())
+                });
+                answer.frame(&items.collect::<Vec<u8>>());
+            }
+        });
+        rest = others;
+    }
+    answer.end(decoder.frames(), decoder.dropped_bytes())
+}
+
+/// The schema in the bytes that the program takes.
+pub(crate) fn schema_bytes(schema: &Schema, direction: Direction) -> Vec<u8> {
+    let crc = u8::from(schema.checksum == Checksum::Crc16);
+    let mut bytes = vec![crc | u8::from(direction == Direction::Actuator) << 1];
+    for item in &schema.items {
+        let scalar = ScalarType::ALL.iter().position(|&scalar| scalar == item.value.scalar);
+        bytes.extend([item.id, u8::try_from(scalar.unwrap()).unwrap()]);
+        bytes.push(u8::from(item.direction == Direction::Actuator));
+        bytes.extend(u16::try_from(item.value.count()).unwrap().to_be_bytes());
+    }
+    bytes
+}
+
+/// The running program.
+pub(crate) struct Program {
+    child: Child,
+    answers: BufReader<ChildStdout>,
+}
+
+impl Program {
+    /// Compiles it into `folder` and starts it.
+    pub(crate) fn build(folder: &Path, flags: &[&str]) -> Self {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf();
+        std::fs::create_dir_all(folder).unwrap();
+        let mut objects = Vec::new();
+        for (compiler, standard, source) in [
+            ("gcc", "-std=c99", "tests/decoders/c.c"),
+            ("gcc", "-std=c99", "tests/decoders/main.c"),
+            ("gcc", "-std=c99", "runtime/core/up_decode.c"),
+            ("gcc", "-std=c99", "runtime/core/up_encode.c"),
+            ("gcc", "-std=c99", "runtime/core/up_schema.c"),
+            ("g++", "-std=c++98", "tests/decoders/cpp.cpp"),
+        ] {
+            let object = folder.join(Path::new(source).file_name().unwrap()).with_extension("o");
+            let include = |path: &str| format!("-I{}", root.join(path).display());
+            let mut command = Command::new(compiler);
+            command.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow"]);
+            command.args(["-Werror", "-D_POSIX_C_SOURCE=199309L", "-c"]).args(flags);
+            command.args([include("runtime/core"), include("runtime/host/cpp")]);
+            run(command.arg(root.join(source)).arg("-o").arg(&object));
+            objects.push(object);
+        }
+        let program: PathBuf = folder.join("decoders");
+        run(Command::new("g++").args(flags).args(objects).arg("-o").arg(&program));
+        let mut child = Command::new(&program)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap_or_else(|error| panic!("{}: {error}", program.display()));
+        let answers = BufReader::new(child.stdout.take().unwrap());
+        Self { child, answers }
+    }
+
+    fn ask(
+        &mut self,
+        who: &str,
+        how: &str,
+        repeats: u32,
+        schema: &[u8],
+        stream: &[u8],
+        pieces: &[u32],
+    ) {
+        let stdin = self.child.stdin.as_mut().unwrap();
+        let (schema_size, stream_size) = (schema.len(), stream.len());
+        let sizes = format!("{schema_size} {} {stream_size}", pieces.len());
+        writeln!(stdin, "{who} {how} {repeats} {sizes}").unwrap();
+        stdin.write_all(schema).unwrap();
+        for piece in pieces {
+            stdin.write_all(&piece.to_ne_bytes()).unwrap();
+        }
+        stdin.write_all(stream).unwrap();
+        stdin.flush().unwrap();
+    }
+
+    /// What the decoder (`c` or `cpp`) says of a stream that is cut into pieces.
+    pub(crate) fn say(
+        &mut self,
+        who: &str,
+        schema: &[u8],
+        stream: &[u8],
+        pieces: &[u32],
+    ) -> Vec<u8> {
+        self.ask(who, "say", 1, schema, stream, pieces);
+        let mut size = [0; 4];
+        self.answers.read_exact(&mut size).unwrap();
+        let mut answer = vec![0; u32::from_ne_bytes(size) as usize];
+        self.answers.read_exact(&mut answer).unwrap();
+        answer
+    }
+
+    /// The nanoseconds that the decoder takes for the stream, over and over.
+    #[allow(dead_code, reason = "for the benchmark")]
+    pub(crate) fn time(
+        &mut self,
+        who: &str,
+        repeats: u32,
+        schema: &[u8],
+        stream: &[u8],
+        pieces: &[u32],
+    ) -> u64 {
+        self.ask(who, "time", repeats, schema, stream, pieces);
+        let mut line = String::new();
+        self.answers.read_line(&mut line).unwrap();
+        line.trim().parse().unwrap()
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        drop(self.child.stdin.take());
+        let _ = self.child.wait();
+    }
+}
+
+fn run(command: &mut Command) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}\n{errors}");
+}

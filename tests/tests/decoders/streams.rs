@@ -1,0 +1,131 @@
+//! Schemas and streams that are hard on a decoder: frames, what looks like frames, frames within
+//! values within frames, and damage.
+
+use sensedsl_tests::Random;
+use sensedsl_wire::{
+    Checksum, Direction, Item, ScalarType, Schema, ValueType, crc16_ccitt_false, encode_hello,
+    encode_hello_request,
+};
+
+/// A schema of sensors from `(identifier, type, elements)`; one element is a plain scalar.
+pub(crate) fn schema(checksum: Checksum, items: &[(u8, ScalarType, u16)]) -> Schema {
+    let items = items.iter().map(|&(id, scalar, count)| Item {
+        id,
+        name: format!("S{id}"),
+        direction: Direction::Sensor,
+        value: ValueType { scalar, length: (count != 1).then_some(count) },
+    });
+    Schema { checksum, items: items.collect() }
+}
+
+/// The paper's Fig. 2.
+pub(crate) fn fig2(checksum: Checksum) -> Schema {
+    use ScalarType::{Uint8, Uint16, Uint32};
+    schema(checksum, &[(17, Uint16, 1), (18, Uint16, 1), (19, Uint8, 1), (20, Uint32, 1)])
+}
+
+/// Designs whose values and identifiers can be mistaken for framing.
+pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
+    use ScalarType::{Bool, Int64, Uint8, Uint16};
+    let digits_and_marks = (b'0'..=b':').chain([b',']).map(|id| (id, Uint8, 1));
+    let all = (1..=254).map(|id| (id, if id == b'a' { Uint16 } else { Uint8 }, 1));
+    let mut actuators = fig2(checksum);
+    for (item, direction) in
+        actuators.items.iter_mut().zip([Direction::Sensor, Direction::Actuator].into_iter().cycle())
+    {
+        item.direction = direction;
+    }
+    vec![
+        fig2(checksum),
+        actuators,
+        Schema { checksum, items: Vec::new() },
+        schema(checksum, &digits_and_marks.collect::<Vec<_>>()),
+        schema(checksum, &all.collect::<Vec<_>>()),
+        schema(checksum, &[(1, Bool, 30), (b'a', Uint8, 60), (b'1', Bool, 1), (b'b', Bool, 9)]),
+        schema(checksum, &[(b'a', Uint8, 700), (1, Bool, 400), (2, Int64, 1), (b':', Uint8, 5)]),
+    ]
+}
+
+/// The frame of a payload, with the checksum the schema asks for.
+pub(crate) fn frame(schema: &Schema, payload: &[u8]) -> Vec<u8> {
+    let mut payload = payload.to_vec();
+    if schema.checksum == Checksum::Crc16 {
+        let crc = crc16_ccitt_false(&payload).to_be_bytes();
+        payload.extend([255, crc[0], crc[1]]);
+    }
+    [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
+}
+
+/// A payload of some items in any order, `depth` levels of streams within its values.
+fn payload(random: &mut Random, schema: &Schema, direction: Direction, depth: usize) -> Vec<u8> {
+    let mut items: Vec<&Item> =
+        schema.items.iter().filter(|item| item.direction == direction).collect();
+    let most = if random.below(9) == 0 { 300 } else { 5 };
+    let wanted = 1 + random.below(items.len().min(most));
+    let mut payload = Vec::new();
+    while !items.is_empty() && payload.len() < 2000 && wanted > schema.items.len() - items.len() {
+        let item = items.swap_remove(random.below(items.len()));
+        payload.push(item.id);
+        let bytes = item.value.size_bytes();
+        if item.value.scalar == ScalarType::Bool {
+            payload.extend((0..bytes).map(|_| random.below(2) as u8));
+            continue;
+        }
+        let mut value = Vec::new();
+        if depth > 0 && bytes > 3 {
+            value = hard_stream(random, schema, direction, 1 + bytes / 8, depth - 1);
+        }
+        value.resize_with(bytes, || likely(random, schema));
+        payload.extend(value);
+    }
+    payload
+}
+
+fn likely(random: &mut Random, schema: &Schema) -> u8 {
+    match random.below(4) {
+        0 => b"0123456789:,\x00\x01\xff"[random.below(15)],
+        1 => schema.items.get(random.below(schema.items.len())).map_or(0, |item| item.id),
+        _ => random.next() as u8,
+    }
+}
+
+/// Whole frames, damaged frames and what looks like them.
+pub(crate) fn hard_stream(
+    random: &mut Random,
+    schema: &Schema,
+    direction: Direction,
+    parts: usize,
+    depth: usize,
+) -> Vec<u8> {
+    let max = schema.payload_bytes_max(direction);
+    let mut stream = Vec::new();
+    for _ in 0..1 + random.below(parts) {
+        match random.below(12) {
+            0 => stream.push(likely(random, schema)),
+            1 => stream.extend(format!("{}:", random.below(max + 3)).as_bytes()),
+            2 => {
+                let byte = likely(random, schema);
+                stream.resize(stream.len() + random.below(max + 2), byte);
+            }
+            3 if direction == Direction::Sensor => stream.extend(encode_hello(schema)),
+            3 => stream.extend(encode_hello_request(schema)),
+            4 => stream.extend((0..random.below(20)).map(|_| random.next() as u8)),
+            kind => {
+                let payload = payload(random, schema, direction, depth);
+                let mut bytes = frame(schema, &payload);
+                match kind {
+                    5 => bytes.truncate(random.below(bytes.len())),
+                    6 => drop(bytes.drain(..random.below(bytes.len()))),
+                    7 | 8 => {
+                        let at = random.below(bytes.len());
+                        bytes[at] = likely(random, schema);
+                    }
+                    9 => bytes.insert(random.below(bytes.len()), likely(random, schema)),
+                    _ => {}
+                }
+                stream.extend(bytes);
+            }
+        }
+    }
+    stream
+}
