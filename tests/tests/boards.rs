@@ -342,3 +342,55 @@ fn the_pins_of_the_probe_are_taken_without_its_link() {
     let free = file.replace("sensor", "release PA3; sensor");
     let _ = sensedsl(["solve", "-", "-q"]).stdin(free).run().exits(0);
 }
+
+/// Where the pages of the makers and public board files agree and a table once said otherwise.
+#[test]
+fn labels_and_lights_are_where_the_boards_have_them() {
+    let facts = [
+        ("NUCLEO-WL55JC1", "PB7", "D0", ""),
+        ("NUCLEO-WL55JC1", "PB6", "D1", ""),
+        ("NUCLEO-WL55JC1", "PA12", "D15", ""),
+        ("STM32F746G-DISCO", "PI1", "D13", "LED LD1"),
+        ("STM32F769I-DISC1", "PA12", "D13", "LED LD3"),
+        ("NUCLEO-F302R8", "PB15", "D11", ""),
+        ("NUCLEO-F302R8", "PB14", "D12", ""),
+        ("NUCLEO-F302R8", "PB13", "D13", "LED LD2"),
+        ("NUCLEO-F302R8", "PA5", "", ""),
+        ("NUCLEO-F070RB", "PA5", "D13", "LED LD2"),
+        ("NUCLEO-F072RB", "PA5", "D13", "LED LD2"),
+        ("NUCLEO-L452RE-P", "PA10", "D0", ""),
+        ("NUCLEO-H743ZI", "PG9", "D0", ""),
+        ("NUCLEO-H743ZI", "PB7", "", "LED LD2"),
+        ("NUCLEO-H743ZI", "PG6", "", "USB"),
+        ("NUCLEO-H743ZI2", "PB7", "D0", ""),
+        ("NUCLEO-H743ZI2", "PE1", "", "LED LD2"),
+        ("NUCLEO-H743ZI2", "PD10", "", "USB"),
+        ("RASPBERRYPI-PICO", "GP23", "", "Supply mode"),
+    ];
+    for (board, pin, label, part) in facts {
+        let table = catalog::find(board).unwrap().table();
+        let row = table.pin(&PinName::parse(pin).unwrap()).unwrap();
+        assert_eq!(row.label.as_deref().unwrap_or_default(), label, "{board} {pin}");
+        let on = row.onboard.as_ref().map_or("", |on| on.part.as_str());
+        assert_eq!(on, part, "{board} {pin}");
+    }
+}
+
+/// A label of a connector is on one pin, and the light that firmware uses is marked as one.
+#[test]
+fn labels_are_on_one_pin_and_lights_are_marked() {
+    for entry in catalog::all() {
+        let pins = entry.table().pins;
+        let mut labels: BTreeMap<&str, &str> = BTreeMap::new();
+        for pin in &pins {
+            for label in pin.label.iter().flat_map(|label| label.split([' ', '/'])) {
+                let other = labels.insert(label, pin.name.as_str());
+                assert_eq!(other, None, "{}: {label} is on {} as well", entry.name, pin.name);
+            }
+        }
+        let Some(led) = entry.board().unwrap().led else { continue };
+        let marked = pins.iter().find(|pin| pin.name == led.pin).and_then(|p| p.onboard.as_ref());
+        let marked = marked.is_some_and(|part| part.part.starts_with("LED"));
+        assert!(marked, "{}: {} is a light and not marked", entry.name, led.pin);
+    }
+}

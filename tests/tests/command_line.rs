@@ -229,6 +229,38 @@ fn what_new_makes_works_at_once() {
     }
 }
 
+/// The starter has what the board can carry, and goes as far as the board does.
+#[test]
+fn new_works_for_every_board() {
+    let scratch = Scratch::new("new_everywhere");
+    let list = sensedsl(["boards"]).run().exits(0).stdout;
+    let firmware = |name: &str| {
+        let line = list.lines().find(|line| line.split_whitespace().next() == Some(name));
+        line.unwrap().split_whitespace().last().unwrap().starts_with("chibios")
+    };
+    let boards = sensedsl_board::catalog::all();
+    let works = |name: &str| {
+        let dir = scratch.join(name);
+        let folder = dir.display().to_string();
+        let _ = sensedsl(["new", &folder, "--board", name]).run().exits(0);
+        let file = dir.join("robot.sense").display().to_string();
+        let _ = sensedsl(["check", "-q", &file]).run().exits(0);
+        let _ = sensedsl(["fmt", "--check", &file]).run().exits(0);
+        let answer = sensedsl(["solve", "-q", &file, "--format", "json"]).run().exits(0).json();
+        let devices = answer["boards"][0]["devices"].as_array().unwrap().len();
+        assert!(devices >= 2, "{name} begins with {devices} devices");
+        if firmware(name) {
+            let build = dir.join("build").display().to_string();
+            let _ = sensedsl(["generate", "-q", &file, "-o", &build]).run().exits(0);
+        }
+    };
+    std::thread::scope(|scope| {
+        for part in boards.chunks(boards.len().div_ceil(4)) {
+            scope.spawn(|| part.iter().for_each(|board| works(board.name)));
+        }
+    });
+}
+
 #[test]
 fn every_code_is_explained() {
     let list = sensedsl(["explain"]).run().exits(0).stdout;

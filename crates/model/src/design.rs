@@ -4,6 +4,7 @@
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{Target, TargetProfile};
+use sensedsl_board::silicon::{self, Silicon};
 use sensedsl_board::table::Table;
 use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
@@ -77,6 +78,12 @@ impl Board {
             Target::None => None,
             Target::Profile(profile) => Some(profile),
         }
+    }
+
+    /// What the MCU's peripherals can do, where it differs from what most can.
+    #[must_use]
+    pub fn silicon(&self) -> Option<&'static Silicon> {
+        self.mcu.as_deref().and_then(silicon::of)
     }
 
     /// The place of a range of its table.

@@ -67,10 +67,10 @@ impl Found {
 
 /// The part of a part number. The grade may be missing or `x` (`STM32F407VGT`, `STM32F407VGTx`), and
 /// the package as well (`STM32F407VG`): of packages that differ the name means what they have in
-/// common.
+/// common. A hyphen may be written `_`, as a name in a file has none (`ATMEGA328P_AU`).
 #[must_use]
 pub fn find(name: &str) -> Option<Found> {
-    let name = normalise(name);
+    let name = normalise(name).replace('_', "-");
     let trimmed = name.strip_suffix("TR").unwrap_or(&name);
     let parts: Vec<Part> = all().filter(|part| trimmed.starts_with(part.base())).collect();
     let whole = parts.iter().find_map(|part| {
@@ -126,7 +126,7 @@ fn starts(number: &str, name: &str) -> bool {
 /// The part number that a misspelt one is near to.
 #[must_use]
 pub fn nearest_name(name: &str) -> Option<String> {
-    let name = normalise(name);
+    let name = normalise(name).replace('_', "-");
     let mut known: Vec<String> = all().map(|part| part.name()).collect();
     known.extend(all().map(|part| part.base().to_owned()));
     known.dedup();

@@ -4,7 +4,7 @@ mod analog;
 mod buses;
 mod candidates;
 mod cases;
-mod timers;
+pub(crate) mod timers;
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;

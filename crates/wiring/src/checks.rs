@@ -5,12 +5,13 @@ use sensedsl_board::pin::natural;
 use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
-    e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, w0604_unused_rule,
-    w0605_onboard_part,
+    e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
+    w0604_unused_rule, w0605_onboard_part,
 };
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, Spanned, WishFor};
 use sensedsl_model::kind::Role;
 
+use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::Assignment;
 use crate::formulate::{Builder, Converters, Formulation, wanted};
@@ -43,11 +44,15 @@ fn why_hopeless(
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
         }) {
-            let bus_only = bus_only(design, device, *role, pin);
+            let report = bus_only(design, device, *role, pin);
+            let report = report.or_else(|| by_silicon(design, &offers, device, *role, pin));
             return Some(
-                bus_only.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
+                report.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
             );
         }
+    }
+    if let Some(report) = without_silicon(&offers, device) {
+        return Some(report);
     }
     let unit = device.placement.unit.as_ref()?;
     let reachable = possible(design, &offers, device, |wanted| {
@@ -101,6 +106,43 @@ fn withheld(
         ),
     };
     Some(e0316_pin_not_available::pin_not_available(pin.span, name, &by, place, &help))
+}
+
+/// The report for a kind that the silicon of no board in question can do.
+fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic> {
+    let kind = device.kind.name();
+    let unable = offers.iter().map(|offer| {
+        let ability = ability(offer.board, kind)?;
+        ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
+    });
+    let all: Option<Vec<_>> = unable.collect();
+    let (ability, mcu) = all?.into_iter().next()?;
+    let (name, kind) = (&device.name, kind.with_article());
+    let because = &ability.because;
+    Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
+}
+
+/// The report for a fixed pin on a channel that the silicon cannot use so.
+fn by_silicon(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+    pin: &Spanned<sensedsl_board::pin::PinName>,
+) -> Option<Diagnostic> {
+    if let Some(report) = without_silicon(offers, device) {
+        return Some(report);
+    }
+    let ability = offers.iter().find_map(|offer| {
+        let ability = ability(offer.board, device.kind.name())?;
+        let usages = &offer.board.table.pin(&pin.value)?.usages;
+        let mut channels = usages.iter().filter_map(channel);
+        channels.any(|(_, channel)| !ability.channels.contains(&channel)).then_some(ability)
+    })?;
+    let needs = format!("`{role}` of {}", device.kind.name().with_article());
+    let pins = pins_of(design, offers, device, role).join(", ");
+    let (name, because) = (pin.value.as_str(), &ability.because);
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, name, &needs, because, &pins))
 }
 
 fn cannot_serve(

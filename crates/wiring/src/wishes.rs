@@ -3,7 +3,7 @@
 //! A rule counts once for each device it is violated by; a board's rule is read as if it stood in
 //! each device on that board.
 
-use sensedsl_board::signal::Function;
+use sensedsl_board::signal::{Function, UnitName};
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{BoardIndex, Wish, WishFor};
 use sensedsl_model::kind::Role;
@@ -17,6 +17,8 @@ pub(crate) struct Rules<'a> {
     /// With the board a rule is bound to, where it stands in one.
     rules: Vec<(RuleId, Option<BoardIndex>, &'a Wish)>,
     single: bool,
+    /// The unit that the device fixes.
+    unit: Option<&'a str>,
 }
 
 /// Collects the rules for a device: its own, and those of the boards it may go to.
@@ -32,7 +34,8 @@ pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules
             rules.push((builder.rule(), Some(*index), wish));
         }
     }
-    Rules { rules, single: wanted.kind.roles(wanted.direction).len() == 1 }
+    let single = wanted.kind.roles(wanted.direction).len() == 1;
+    Rules { rules, single, unit: wanted.unit }
 }
 
 impl Rules<'_> {
@@ -49,6 +52,7 @@ impl Rules<'_> {
         role: Role,
         pin: &Pin,
         usage: Option<&Usage>,
+        channels: Channels,
     ) -> Vec<RuleId> {
         let place = |has: &Option<String>, wanted: &str| {
             has.as_deref().is_some_and(|has| has.eq_ignore_ascii_case(wanted))
@@ -60,7 +64,7 @@ impl Rules<'_> {
             WishFor::Pin(_, name) => (pin.name == *name) != wish.prefer,
             WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
             WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
-            WishFor::Unit(unit) => converter_violates(usage, unit, wish.prefer),
+            WishFor::Unit(unit) => self.wire_violates(usage, channels, unit, wish.prefer),
         };
         self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
@@ -74,24 +78,41 @@ impl Rules<'_> {
         };
         self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
+
+    /// Converters and single channels are not chosen as instances, so the wire itself tells: it
+    /// violates a `prefer` when that instance cannot have it, an `avoid` when no other can. Of the
+    /// instances that can have it a fixed one alone counts.
+    fn wire_violates(
+        &self,
+        usage: Option<&Usage>,
+        channels: Channels,
+        unit: &str,
+        prefer: bool,
+    ) -> bool {
+        let Some(usage) = usage else { return false };
+        let units = match usage.signal.function() {
+            Function::Adc { .. } | Function::Dac { .. } => usage.signal.function().units(),
+            Function::Timer { .. } if channels == Channels::Single => {
+                usage.signal.function().units()
+            }
+            Function::Timer { .. }
+            | Function::I2c { .. }
+            | Function::Uart { .. }
+            | Function::Spi { .. }
+            | Function::Can { .. }
+            | Function::Other => return false,
+        };
+        let counts = |one: &str| self.unit.is_none_or(|fixed| fixed == one);
+        let mut units = units.iter().map(UnitName::as_str).filter(|one| counts(one));
+        if prefer { units.all(|one| one != unit) } else { units.all(|one| one == unit) }
+    }
 }
 
-/// Converters and single channels are not chosen as instances, so the wire itself tells: it
-/// violates a `prefer` when that instance cannot have it, an `avoid` when no other can.
-fn converter_violates(usage: Option<&Usage>, unit: &str, prefer: bool) -> bool {
-    let Some(usage) = usage else { return false };
-    let units = match usage.signal.function() {
-        Function::Adc { .. } | Function::Dac { .. } => usage.signal.function().units(),
-        Function::I2c { .. }
-        | Function::Timer { .. }
-        | Function::Uart { .. }
-        | Function::Spi { .. }
-        | Function::Can { .. }
-        | Function::Other => return false,
-    };
-    if prefer {
-        units.iter().all(|one| one.as_str() != unit)
-    } else {
-        units.iter().all(|one| one.as_str() == unit)
-    }
+/// How a device takes the channels of a timer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Channels {
+    /// One by one: the wire alone tells which timer it is.
+    Single,
+    /// With the whole timer, which the alternative names.
+    OfWholeTimer,
 }

@@ -19,15 +19,16 @@ Way out: correct the name, or say which table is meant.
 
 const CODE: Code = Code(&INFO);
 
-/// `meant` is the nearest built-in board.
+/// `meant` is the nearest built-in board or part; it is shown as a file has to spell it.
 #[must_use]
 pub fn unknown_board(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
-    let diagnostic = Diagnostic::new(CODE, span, format!("there is no built-in board `{name}`"));
-    match meant {
+    let diagnostic =
+        Diagnostic::new(CODE, span, format!("there is no built-in board or part `{name}`"));
+    match meant.map(|meant| meant.replace('-', "_")) {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))
             .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`")),
         None => diagnostic
-            .help("`sensedsl boards` lists them; a table of your own goes by `on \"table.csv\"` or `--board table.csv`"),
+            .help("`sensedsl boards` and `sensedsl parts --list` list them; a table of your own goes by `on \"table.csv\"` or `--board table.csv`"),
     }
 }

@@ -62,6 +62,7 @@ codes! {
     e0314_pin_cannot_serve,
     e0315_no_board,
     e0316_pin_not_available,
+    e0320_silicon_cannot,
     e0401_no_wiring,
     e0402_solver_disagrees,
     e0403_no_certificate,

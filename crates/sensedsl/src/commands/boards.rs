@@ -79,13 +79,6 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         Transport::Usb => "USB",
     });
     let links: Vec<&str> = links.collect();
-    // Firmware takes a profile of the MCU's family, templates for its drivers, and the tree's
-    // folders for the board.
-    let in_tree = facts.as_ref().is_some_and(|facts| facts.chibios.is_some());
-    let firmware = match profile::find(profile::DEFAULT, board.mcu) {
-        Ok(Target::Profile(profile)) if in_tree && chibios::has_templates(&profile) => profile.name,
-        _ => "-".to_owned(),
-    };
     let or_dash = |text: &str| if text.is_empty() { "-" } else { text }.to_owned();
     [
         board.name.to_owned(),
@@ -95,6 +88,18 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         pins.len().to_string(),
         free.to_string(),
         or_dash(&links.join(" ")),
-        firmware,
+        firmware(board).unwrap_or_else(|| "-".to_owned()),
     ]
+}
+
+/// The system that there is firmware for. It takes a profile of the MCU's family, templates for its
+/// drivers, and the tree's folders for the board.
+pub(crate) fn firmware(board: &catalog::Entry) -> Option<String> {
+    let in_tree = board.board().is_ok_and(|facts| facts.chibios.is_some());
+    match profile::find(profile::DEFAULT, board.mcu) {
+        Ok(Target::Profile(profile)) if in_tree && chibios::has_templates(&profile) => {
+            Some(profile.name)
+        }
+        _ => None,
+    }
 }

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
-use sensedsl_wiring::{Search, Solved};
+use sensedsl_wiring::Solved;
 
 use super::input;
 use crate::Status;
@@ -21,12 +21,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         let (diagnostics, feasible) = match &resolved.design {
             None => (resolved.diagnostics, None),
             Some(design) => {
-                let answer = input::solve(
-                    design,
-                    resolved.diagnostics,
-                    None,
-                    &Search { any: true, stop: None },
-                );
+                let answer = input::feasible(design, resolved.diagnostics);
                 let feasible = match answer.solved {
                     Some(Solved::Wired(_)) => Some(true),
                     Some(Solved::Infeasible(_)) => Some(false),

@@ -1,10 +1,12 @@
 //! From a file on disk to a design: what check, solve and generate have in common.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use sensedsl_diagnostics::codes::{
-    e0301_unknown_board, e0302_table_unreadable, e0313_unknown_target, e0505_unknown_host,
+    e0301_unknown_board, e0302_table_unreadable, e0313_unknown_target, e0404_out_of_time,
+    e0505_unknown_host,
 };
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
@@ -14,6 +16,9 @@ use sensedsl_wiring::{Keep, Proved, Search, Solved, Wiring};
 use crate::Status;
 use crate::cli::On;
 use crate::files::{Disk, read_text, shown};
+
+/// How long `check` looks for the best wiring.
+const BEST: Duration = Duration::from_secs(2);
 
 /// Reads and resolves a file.
 pub(crate) fn load(path: &Path, on: &On) -> Result<Resolved> {
@@ -58,6 +63,21 @@ pub(crate) fn solve(
         solved: wiring.solve(search),
         certificate: None,
     })
+}
+
+/// Whether there is a wiring. Warnings speak of the best one, which `solve` gives, or of the best
+/// that was found when that takes long.
+pub(crate) fn feasible(design: &Design, diagnostics: Vec<Diagnostic>) -> Answer {
+    let deadline = Instant::now() + BEST;
+    let late = || Instant::now() >= deadline;
+    let best = Search { any: false, stop: Some(&late) };
+    let answer = solve(design, diagnostics.clone(), None, &best);
+    match &answer.solved {
+        Some(Solved::Failed(why)) if why.code.info() == &e0404_out_of_time::INFO => {
+            solve(design, diagnostics, None, &Search { any: true, stop: None })
+        }
+        _ => answer,
+    }
 }
 
 /// As [`solve`], with a certificate.

@@ -14,4 +14,5 @@ pub(crate) mod new;
 mod output;
 pub(crate) mod parts;
 pub(crate) mod solve;
+mod starter;
 mod table;

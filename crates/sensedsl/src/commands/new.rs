@@ -3,13 +3,14 @@
 use anyhow::{Result, bail};
 use sensedsl_board::catalog;
 
+use super::{boards, starter};
 use crate::Status;
 use crate::cli::NewArgs;
 use crate::files::{files_below, shown, write_whole};
 use crate::terminal::Terminal;
 
-const ROBOT: &str = include_str!("../../templates/robot.sense");
 const README: &str = include_str!("../../templates/project-readme.md");
+const README_OF_WIRING: &str = include_str!("../../templates/project-readme-wiring.md");
 const IGNORED: &str = "/build/\n";
 
 pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -19,10 +20,10 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     if !files_below(&args.dir, &|_| false)?.is_empty() {
         bail!("{} is not empty: name a folder that does not exist yet", shown(&args.dir));
     }
-    let on = board.name.replace('-', "_");
-    let robot = ROBOT.replace("BOARD", &on);
+    let robot = starter::robot(board);
     write_whole(&args.dir.join("robot.sense"), robot.as_bytes())?;
-    write_whole(&args.dir.join("README.md"), README.as_bytes())?;
+    let readme = if boards::firmware(board).is_some() { README } else { README_OF_WIRING };
+    write_whole(&args.dir.join("README.md"), readme.as_bytes())?;
     write_whole(&args.dir.join(".gitignore"), IGNORED.as_bytes())?;
     let file = args.dir.join("robot.sense");
     terminal.note(&format!(

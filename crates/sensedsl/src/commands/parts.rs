@@ -106,9 +106,18 @@ fn listing(args: &PartsArgs, search: &str) -> String {
     };
     let heads = [("Part", false), ("Package", false), ("Also", false)];
     format!(
-        "{}\n{count}; `sensedsl parts --table PART` prints the pins of one\n",
-        table(heads, &rows)
+        "{}\n{count}; `sensedsl parts --table PART` prints the pins of one{}\n",
+        table(heads, &rows),
+        spelled_in_a_file(&rows)
     )
+}
+
+/// How a file spells a part whose name has a hyphen, where one is listed.
+fn spelled_in_a_file(rows: &[[String; 3]]) -> String {
+    let hyphened = rows.iter().find(|[name, ..]| name.contains('-'));
+    hyphened.map_or_else(String::new, |[name, ..]| {
+        format!("; in a file write `_` for `-`: `board Robot on {}`", name.replace('-', "_"))
+    })
 }
 
 fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {

@@ -123,7 +123,7 @@ impl Maker<'_, '_> {
     }
 
     pub(super) fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
-        self.rules.violated_by(self.offer.index, role, pin, usage)
+        self.rules.violated_by(self.offer.index, role, pin, usage, self.channels())
     }
 }
 

@@ -4,23 +4,28 @@ use std::collections::BTreeSet;
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::signal::Function;
+use sensedsl_board::silicon::Ability;
 use sensedsl_board::table::Usage;
-use sensedsl_model::kind::Role;
+use sensedsl_model::design::Board;
+use sensedsl_model::kind::{Kind, KindName, Role};
 
 use super::candidates::Need;
 use super::cases::MadeRole;
 use super::{Made, Maker, unit_fits};
 use crate::names::{Group, Resource};
+use crate::wishes::Channels;
 
 impl Maker<'_, '_> {
     /// Timers: whole ones where a driver takes them whole, channels in the pure pin model.
     pub(super) fn timers(&mut self, using: TimerUse) -> Vec<Made> {
         let whole = self.profile().is_some();
         let (offer, wanted) = (self.offer, self.wanted);
-        if !whole && using != TimerUse::Encoder {
+        if self.channels() == Channels::Single {
+            let ability = using.ability(offer.board);
             let serves = |usage: &Usage| {
                 channel(usage).is_some_and(|(timer, channel)| {
-                    using.takes(None, channel) && unit_fits(offer, wanted, &format!("TIM{timer}"))
+                    using.takes(ability, None, channel)
+                        && unit_fits(offer, wanted, &format!("TIM{timer}"))
                 })
             };
             let mut roles = vec![self.role(using.role(), &Need::Usage(&serves), None)];
@@ -39,6 +44,15 @@ impl Maker<'_, '_> {
         made
     }
 
+    /// Drivers take timers whole, and an encoder needs two channels of one.
+    pub(super) fn channels(&self) -> Channels {
+        if self.profile().is_some() || matches!(self.wanted.kind, Kind::Encoder(_)) {
+            Channels::OfWholeTimer
+        } else {
+            Channels::Single
+        }
+    }
+
     pub(super) fn timer(
         &mut self,
         using: TimerUse,
@@ -46,11 +60,12 @@ impl Maker<'_, '_> {
         unit: &str,
         timer: Option<&Timer>,
     ) -> Vec<Made> {
+        let ability = using.ability(self.offer.board);
         let on = |wanted: Option<u8>| {
             move |usage: &Usage| {
                 channel(usage).is_some_and(|(of, channel)| {
                     of == number
-                        && using.takes(timer, channel)
+                        && using.takes(ability, timer, channel)
                         && wanted.is_none_or(|wanted| wanted == channel)
                 })
             }
@@ -107,8 +122,25 @@ impl TimerUse {
         }
     }
 
-    /// Whether the channel can be used; without a timer's facts what the hardware has in general.
-    pub(super) fn takes(self, timer: Option<&Timer>, channel: u8) -> bool {
+    /// What the board's silicon is able to, where that differs from most.
+    fn ability(self, board: &Board) -> Option<&'static Ability> {
+        match self {
+            Self::Icu => ability(board, KindName::Icu),
+            Self::Encoder => ability(board, KindName::Encoder),
+            Self::Pwm(_) => None,
+        }
+    }
+
+    /// Whether the channel can be used; without a timer's facts what the silicon can do.
+    pub(super) fn takes(
+        self,
+        ability: Option<&Ability>,
+        timer: Option<&Timer>,
+        channel: u8,
+    ) -> bool {
+        if ability.is_some_and(|ability| !ability.channels.contains(&channel)) {
+            return false;
+        }
         match (self, timer) {
             (Self::Icu | Self::Encoder, None) => matches!(channel, 1 | 2),
             (Self::Pwm(_), None) => true,
@@ -123,8 +155,25 @@ impl TimerUse {
     }
 }
 
+/// Which channels of the board's timers can serve the kind, where its silicon differs from most.
+pub(crate) fn ability(board: &Board, kind: KindName) -> Option<&'static Ability> {
+    let timers = &board.silicon()?.timers;
+    match kind {
+        KindName::Icu => timers.capture.as_ref(),
+        KindName::Encoder => timers.encoder.as_ref(),
+        KindName::Analog
+        | KindName::I2c
+        | KindName::Digital
+        | KindName::Uart
+        | KindName::Spi
+        | KindName::Pwm
+        | KindName::Dac
+        | KindName::Can => None,
+    }
+}
+
 /// Timer and channel of a timer's plain output or input.
-pub(super) fn channel(usage: &Usage) -> Option<(u8, u8)> {
+pub(crate) fn channel(usage: &Usage) -> Option<(u8, u8)> {
     match usage.signal.function() {
         Function::Timer { timer, channel, complementary: false } => Some((*timer, *channel)),
         Function::Timer { .. }
