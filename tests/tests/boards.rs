@@ -389,8 +389,8 @@ fn labels_are_on_one_pin_and_lights_are_marked() {
             }
         }
         let Some(led) = entry.board().unwrap().led else { continue };
-        let marked = pins.iter().find(|pin| pin.name == led.pin).and_then(|p| p.onboard.as_ref());
-        let marked = marked.is_some_and(|part| part.part.starts_with("LED"));
+        let Some(pin) = pins.iter().find(|pin| pin.name == led.pin) else { continue };
+        let marked = pin.onboard.as_ref().is_some_and(|part| part.part.starts_with("LED"));
         assert!(marked, "{}: {} is a light and not marked", entry.name, led.pin);
     }
 }
