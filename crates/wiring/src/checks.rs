@@ -1,19 +1,21 @@
 //! What can be said before and after solving: fixed pins that cannot serve, instances that do not
 //! exist, on-board parts that are touched.
 
+use std::collections::BTreeMap;
+
 use sensedsl_board::pin::natural;
 use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
-    w0604_unused_rule, w0605_onboard_part,
+    w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
 };
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, Spanned, WishFor};
-use sensedsl_model::kind::Role;
+use sensedsl_model::kind::{Kind, Role};
 
 use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
-use crate::assignment::Assignment;
+use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
 use crate::offer::{Offer, Withheld};
 
@@ -282,6 +284,31 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
                     ));
                 }
             }
+        }
+        diagnostics.extend(same_addresses(design, on));
+    }
+    diagnostics
+}
+
+/// Devices of one address that are on two buses although the file asks for no bus.
+fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
+    let mut first: BTreeMap<u8, (&Device, &str)> = BTreeMap::new();
+    let mut diagnostics = Vec::new();
+    for wiring in &on.devices {
+        let Some(device) = design.device(wiring.device) else { continue };
+        let (Kind::I2c(i2c), Some(unit)) = (&device.kind, wiring.unit.as_deref()) else { continue };
+        let Some((other, on)) = first.get(&i2c.address) else {
+            first.insert(i2c.address, (device, unit));
+            continue;
+        };
+        let meant =
+            |device: &Device| device.placement.unit.is_some() || !device.placement.pins.is_empty();
+        if !(meant(other) && meant(device)) {
+            diagnostics.push(w0609_one_address_on_two_buses::one_address_on_two_buses(
+                (device.name.span, &device.name.value, unit),
+                (other.name.span, &other.name.value, on),
+                i2c.address,
+            ));
         }
     }
     diagnostics

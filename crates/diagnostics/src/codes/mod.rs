@@ -82,6 +82,7 @@ codes! {
     w0606_table_oddity,
     w0607_part_not_certain,
     w0608_usages_unknown,
+    w0609_one_address_on_two_buses,
     h0701_eight_bit_address,
     h0702_target_none,
     h0703_default_protocol,

@@ -1,0 +1,37 @@
+//! W0609: two devices with one address are on two buses.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "W0609",
+    severity: Severity::Warning,
+    title: "one address on two buses",
+    explanation: r#"Two i2c devices of a board have the same address, so they are wired to two buses, as two chips must be. Where
+both mean one chip, the second bus leads nowhere.
+
+Way out: if it is one chip, read it with one device, of which `register` and `length` cover both values. If they are two
+chips, give one of them another address where it has an address pin, or fix `unit` or the pins of both, which also ends the warning.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The second device and its unit, the first one and its unit, and the address as it is on the wire.
+#[must_use]
+pub fn one_address_on_two_buses(
+    (span, device, unit): (Span, &str, &str),
+    (first_span, first, first_unit): (Span, &str, &str),
+    address: u8,
+) -> Diagnostic {
+    let text = format!(
+        "`{first}` and `{device}` have the same address, 0x{address:02X}, so they are wired as two chips: \
+         {first_unit} and {unit}"
+    );
+    Diagnostic::new(CODE, span, text)
+        .label(first_span, format!("on {first_unit}"))
+        .help("if it is one chip, read it with one device whose `register` and `length` cover both values; \
+               if they are two, fix the `unit` of both, or give one of them another address")
+}
