@@ -114,6 +114,13 @@ impl Call {
         self
     }
 
+    /// Adds several arguments.
+    #[must_use]
+    pub fn args<S: AsRef<OsStr>>(mut self, arguments: impl IntoIterator<Item = S>) -> Self {
+        self.command.args(arguments);
+        self
+    }
+
     /// Runs in that folder instead of the root of the repository.
     #[must_use]
     pub fn within(mut self, folder: &Path) -> Self {

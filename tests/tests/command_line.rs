@@ -75,7 +75,7 @@ fn exit_status_of_every_command() {
         (&["fmt", FIG2, "--check"], "", 0),
         (&["fmt", "no such file"], "", 2),
         (&["new", &new], "", 0),
-        (&["new", &new], "", 2),
+        (&["new", &new], "", 0),
         (&["new", &full], "", 2),
         (&["new", &path("other"), "--board", "nosuch"], "", 2),
         (&["completions", "bash"], "", 0),

@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+#[cfg(unix)]
+use std::path::Path;
+#[cfg(unix)]
+use std::process::Command;
 
 use sensedsl_tests::{Ran, Scratch, design, read, sensedsl, tree};
 
@@ -68,7 +72,7 @@ fn the_same_input_gives_the_same_bytes_wherever_it_is() {
 }
 
 #[test]
-fn a_file_that_is_as_it_shall_be_is_not_written_again() {
+fn a_file_that_needs_no_change_is_not_written_again() {
     let scratch = Scratch::new("times");
     let _ = generate(FIG2, &scratch, &[]).exits(0);
     let time = |name: &str| fs::metadata(scratch.join(name)).unwrap().modified().unwrap();
@@ -251,4 +255,96 @@ fn the_next_command_is_said() {
     assert!(ran.stdout.contains("make -C '"), "quoted where it has a space: {}", ran.stdout);
     assert!(ran.stdout.contains("CHIBIOS="), "{}", ran.stdout);
     assert!(ran.stdout.contains("opportunity cost 5, proved optimal"), "{}", ran.stdout);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_stays_the_one_it_is() {
+    use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
+    let scratch = Scratch::new("same");
+    // The folder is named by a link, and what the user has in it are links and modes.
+    fs::create_dir(scratch.join("real")).unwrap();
+    symlink("real", scratch.join("out")).unwrap();
+    let _ = generate(FIG2, &scratch, &[]).exits(0);
+    let user = scratch.write(&format!("out/{FIRMWARE}/user/run.sh"), "#!/bin/sh\n");
+    fs::set_permissions(&user, fs::Permissions::from_mode(0o750)).unwrap();
+    symlink("run.sh", user.with_file_name("link")).unwrap();
+    fs::hard_link(&user, scratch.join("second-name")).unwrap();
+    let other = scratch.write("elsewhere/other.c", "int other;\n");
+    symlink("../../../../elsewhere", scratch.join(&format!("out/{FIRMWARE}/build"))).unwrap();
+    let makefile = scratch.join(&format!("out/{FIRMWARE}/Makefile"));
+    fs::write(&makefile, "all: broken\n").unwrap();
+    fs::set_permissions(&makefile, fs::Permissions::from_mode(0o600)).unwrap();
+    let before = [scratch.join("real"), user.clone()].map(|path| fs::metadata(path).unwrap());
+    let _ = generate(CAR, &scratch, &[]).exits(0);
+    let after = [scratch.join("real"), user.clone()].map(|path| fs::metadata(path).unwrap());
+    for (before, after) in before.iter().zip(&after) {
+        assert_eq!((before.ino(), before.mode()), (after.ino(), after.mode()));
+    }
+    assert_eq!(before[1].ctime_nsec(), after[1].ctime_nsec(), "not even touched");
+    assert!(fs::symlink_metadata(scratch.join("out")).unwrap().is_symlink());
+    assert_eq!(fs::read_link(user.with_file_name("link")).unwrap(), Path::new("run.sh"));
+    assert_eq!(read(&other), "int other;\n");
+    assert_eq!(fs::metadata(&makefile).unwrap().mode() & 0o777, 0o600, "modes are kept");
+    let _ = generate(CAR, &scratch, &["--check"]).exits(0);
+    // A shell that works in the folder goes on working in it.
+    let file = sensedsl_tests::root().join(FIG2).display().to_string();
+    let within = scratch.join("out/firmware");
+    let script =
+        format!("'{}' generate -q '{file}' -o .. && ls STM32F4DiscoveryBoard/user/run.sh", {
+            sensedsl_tests::binary().display()
+        });
+    let shell = Command::new("sh").arg("-c").arg(script).current_dir(&within).output().unwrap();
+    assert!(shell.status.success(), "{}", String::from_utf8_lossy(&shell.stderr));
+    let mut names: Vec<_> =
+        fs::read_dir(scratch.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["elsewhere", "out", "real", "second-name"], "nothing is left beside it");
+}
+
+#[test]
+fn what_earlier_versions_left_behind_is_removed() {
+    let scratch = Scratch::new("parts");
+    let _ = generate(FIG2, &scratch, &[]).exits(0);
+    for part in ["out/.wiring.md.part", "out/..sensedsl-files.part", "out/host/cpp/.README.md.part"]
+    {
+        scratch.write(part, "half of i");
+    }
+    let _ = generate(FIG2, &scratch, &["--check"]).exits(0);
+    assert!(scratch.join("out/.wiring.md.part").exists(), "--check writes nothing");
+    let _ = generate(CAR, &scratch, &[]).exits(0);
+    assert!(!out(&scratch).keys().any(|name| name.ends_with(".part")));
+    // What could be somebody's own is not.
+    scratch.write("out/.thesis.tex.part", "years of work");
+    let ran = generate(CAR, &scratch, &[]).exits(1);
+    assert!(ran.stderr.contains(".thesis.tex.part"), "{}", ran.stderr);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_file_is_replaced_and_nobody_waits_for_it() {
+    let scratch = Scratch::new("pipe");
+    let _ = generate(FIG2, &scratch, &[]).exits(0);
+    let sheet = scratch.join("out/wiring.md");
+    fs::remove_file(&sheet).unwrap();
+    assert!(Command::new("mkfifo").arg(&sheet).status().unwrap().success());
+    let ran = generate(FIG2, &scratch, &["--check"]).exits(1);
+    assert!(ran.stderr.contains("different: wiring.md"), "{}", ran.stderr);
+    let _ = generate(FIG2, &scratch, &[]).exits(0);
+    assert!(read(&sheet).contains("WheelEncoder"));
+}
+
+#[test]
+fn folders_that_are_none_are_said() {
+    let scratch = Scratch::new("none");
+    scratch.write("out", "a file");
+    let ran = generate(FIG2, &scratch, &[]).exits(2);
+    assert!(ran.stderr.contains("is not a folder"), "{}", ran.stderr);
+    #[cfg(unix)]
+    {
+        fs::remove_file(scratch.join("out")).unwrap();
+        std::os::unix::fs::symlink("nowhere", scratch.join("out")).unwrap();
+        let ran = generate(FIG2, &scratch, &[]).exits(2);
+        assert!(ran.stderr.contains("link to a folder that does not exist"), "{}", ran.stderr);
+    }
 }

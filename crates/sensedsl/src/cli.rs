@@ -58,6 +58,9 @@ pub(crate) struct NewArgs {
     /// A built-in board
     #[arg(long, default_value = "STM32F4DiscoveryBoard")]
     pub(crate) board: String,
+    /// Write into a folder that is not empty, and replace the files of an earlier `new`
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Which board and target to solve for.
@@ -130,6 +133,9 @@ pub(crate) struct SolveArgs {
     /// is better, or that there is none
     #[arg(long, value_name = "FILE", value_parser = file, conflicts_with_all = ["any", "all", "limit", "count"])]
     pub(crate) proof: Option<PathBuf>,
+    /// With --proof: replace a file that is no certificate
+    #[arg(long, requires = "proof")]
+    pub(crate) force: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -266,6 +272,9 @@ pub(crate) struct ImportArgs {
     /// Where to write the result; the table of a project goes beside it, as .csv
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long, requires = "output")]
+    pub(crate) force: bool,
     /// What the source is
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: ImportFormat,

@@ -1,10 +1,14 @@
 //! `sensedsl generate`: firmware, host applications, wiring sheet and picture.
 
 use anyhow::Result;
+use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::{HOSTS, Host, find};
 use sensedsl_codegen::report::human;
-use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::{e0502_foreign_files, e0503_out_of_date, e0505_unknown_host};
+use sensedsl_diagnostics::codes::{
+    e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
+    e0509_not_written, e0510_unfinished,
+};
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
 use sensedsl_wiring::assignment::Assignment;
@@ -14,7 +18,8 @@ use super::input;
 use super::output::{self, Changes};
 use crate::Status;
 use crate::cli::GenerateArgs;
-use crate::files::shown;
+use crate::files::tree::{Failure, Output, Trouble};
+use crate::files::{lock, shown};
 use crate::terminal::Terminal;
 
 /// Names of files in one message.
@@ -50,16 +55,79 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     if input::has_errors(&diagnostics) {
         return Ok(Status::Wrong);
     }
-    let changes = output::compare(&args.output, &files)?;
-    if let Some(refusal) = refusal(args, design, &changes) {
-        terminal.diagnostics(&[refusal], &sources)?;
-        return Ok(Status::Wrong);
-    }
-    if !args.check {
-        output::write(&args.output, &files, &changes)?;
-    }
+    let changes = match update(args, terminal, design, &files)? {
+        Ok(changes) => changes,
+        Err(refusal) => {
+            terminal.diagnostics(&[refusal.why], &sources)?;
+            return Ok(refusal.status);
+        }
+    };
     report(args, terminal, design, &assignment, &changes)?;
     Ok(Status::Done)
+}
+
+/// Why the folder was not written, or not as it should be.
+struct Refusal {
+    why: Diagnostic,
+    status: Status,
+}
+
+/// Compares the folder with what it is to hold, and writes it unless that was not asked for.
+fn update(
+    args: &GenerateArgs,
+    terminal: &Terminal,
+    design: &Design,
+    files: &FileSet,
+) -> Result<Result<Changes, Refusal>> {
+    let (at, folder) = (input::place(design), shown(&args.output));
+    if args.check {
+        let changes = output::compare(&args.output, files)?;
+        let why = foreign(at, &folder, &changes).or_else(|| out_of_date(at, &folder, &changes));
+        return Ok(why.map_or(Ok(changes), |why| Err(Refusal { why, status: Status::Wrong })));
+    }
+    let mut waiting = || {
+        // There is nowhere to report that reporting failed.
+        let _ = terminal.aside(&format!("waiting for another run that writes {folder}"));
+    };
+    let mut output = match Output::take(&args.output, lock::WAIT, &mut waiting) {
+        Ok(output) => output,
+        Err(trouble) => return trouble_taking(trouble, at, &folder).map(Err),
+    };
+    let changes = output::compare(output.root(), files)?;
+    if let Some(why) = foreign(at, &folder, &changes) {
+        return Ok(Err(Refusal { why, status: Status::Wrong }));
+    }
+    Ok(match output::write(&mut output, files, &changes) {
+        Ok(()) => Ok(changes),
+        Err(Failure::Before(error)) => {
+            let why = e0509_not_written::not_written(at, &folder, &error.to_string());
+            Err(Refusal { why, status: Status::Misused })
+        }
+        Err(Failure::After(error)) => {
+            let why = e0509_not_written::not_completed(at, &folder, &error.to_string());
+            Err(Refusal { why, status: Status::Misused })
+        }
+    })
+}
+
+fn trouble_taking(trouble: Trouble, at: Span, folder: &str) -> Result<Refusal> {
+    let (why, status) = match trouble {
+        Trouble::Failed(error) => return Err(error),
+        Trouble::Busy => {
+            let why = e0507_folder_busy::folder_busy(at, folder, lock::WAIT.as_secs());
+            (why, Status::Misused)
+        }
+        Trouble::Orphan(left) => {
+            (e0510_unfinished::unfinished(at, folder, &shown(&left)), Status::Wrong)
+        }
+        Trouble::Unwritten(error) => {
+            (e0509_not_written::not_written(at, folder, &error.to_string()), Status::Misused)
+        }
+        Trouble::Unrecovered(error) => {
+            (e0509_not_written::not_completed(at, folder, &error.to_string()), Status::Misused)
+        }
+    };
+    Ok(Refusal { why, status })
 }
 
 fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>, Vec<Diagnostic>> {
@@ -82,14 +150,15 @@ fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>,
     if unknown.is_empty() { Ok(hosts) } else { Err(unknown) }
 }
 
-/// Why the folder is not written, or not as it should be.
-fn refusal(args: &GenerateArgs, design: &Design, changes: &Changes) -> Option<Diagnostic> {
-    let (at, folder) = (input::place(design), shown(&args.output));
-    if !changes.foreign.is_empty() {
-        let files = some(&changes.foreign);
-        return Some(e0502_foreign_files::foreign_files(at, &folder, &files));
-    }
-    if !args.check || changes.is_up_to_date() {
+/// That the folder holds files of somebody else.
+fn foreign(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
+    let files = (!changes.foreign.is_empty()).then(|| some(&changes.foreign))?;
+    Some(e0502_foreign_files::foreign_files(at, folder, &files))
+}
+
+/// That the folder is not what would be written.
+fn out_of_date(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
+    if changes.is_up_to_date() {
         return None;
     }
     let parts = [
@@ -102,7 +171,7 @@ fn refusal(args: &GenerateArgs, design: &Design, changes: &Changes) -> Option<Di
         .filter(|(_, files)| !files.is_empty())
         .map(|(what, files)| format!("{what}: {}", some(files)))
         .collect();
-    Some(e0503_out_of_date::out_of_date(at, &folder, &parts.join("; ")))
+    Some(e0503_out_of_date::out_of_date(at, folder, &parts.join("; ")))
 }
 
 /// The first few names.

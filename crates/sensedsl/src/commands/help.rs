@@ -5,7 +5,7 @@ use clap::CommandFactory as _;
 
 use crate::Status;
 use crate::cli::{Cli, CompletionsArgs, ManArgs};
-use crate::files::write_whole;
+use crate::files::write_together;
 use crate::terminal::Terminal;
 
 pub(crate) fn completions(args: &CompletionsArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -23,11 +23,16 @@ pub(crate) fn man(args: &ManArgs, terminal: &mut Terminal) -> Result<Status> {
         return Ok(Status::Done);
     };
     let of_commands = command.get_subcommands().cloned().collect::<Vec<_>>();
-    write_whole(&dir.join("sensedsl.1"), page(command)?.as_bytes())?;
+    let mut pages = vec![(dir.join("sensedsl.1"), page(command)?)];
     for one in of_commands.into_iter().filter(|one| one.get_name() != "help") {
         let name = format!("sensedsl-{}", one.get_name());
         let path = dir.join(format!("{name}.1"));
-        write_whole(&path, page(one.display_name(name))?.as_bytes())?;
+        pages.push((path, page(one.display_name(name))?));
+    }
+    let files: Vec<_> =
+        pages.iter().map(|(path, text)| (path.as_path(), text.as_bytes())).collect();
+    write_together(&files)?;
+    for (path, _) in &pages {
         terminal.note(&format!("{}\n", path.display()))?;
     }
     Ok(Status::Done)

@@ -6,9 +6,10 @@ use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0803_import_no_sheet;
 use sensedsl_import::{Format, Imported, Source, import};
 
+use super::in_the_way;
 use crate::Status;
 use crate::cli::{ImportArgs, ImportFormat};
-use crate::files::{read_bytes, read_if_there, shown, write_whole};
+use crate::files::{is_stream, read_bytes, read_if_there, shown, write_together};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -32,18 +33,32 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
         let by_flag = imported.diagnostics.iter().any(|one| one.code.info() == no_sheet);
         return Ok(if by_flag { Status::Misused } else { Status::Wrong });
     };
-    let Some(output) = &args.output else {
+    let Some(output) = file_to_write(args) else {
         terminal.result(result)?;
         return Ok(Status::Done);
     };
-    if beside.is_some() && table == *output {
+    if beside.is_some() && table == output {
         bail!("{} would hold both the devices and the table: end it in .sense", shown(output));
     }
-    if let Some(csv) = beside {
-        write_whole(&table, csv.as_bytes())?;
+    // The table first: a file is of no use without what it names.
+    let mut files: Vec<(&Path, &[u8])> = Vec::new();
+    let beside = beside.filter(|_| !is_stream(output));
+    files.extend(beside.map(|csv| (table.as_path(), csv.as_bytes())));
+    files.push((output, result.as_bytes()));
+    if !args.force {
+        let refused = in_the_way::refuse(&files, "what was imported", terminal)?;
+        if refused {
+            return Ok(Status::Misused);
+        }
     }
-    write_whole(output, result.as_bytes())?;
+    write_together(&files)?;
     Ok(Status::Done)
+}
+
+/// The file that is asked for; none where the result is printed, or goes to a device, beside which
+/// no table can be put.
+fn file_to_write(args: &ImportArgs) -> Option<&Path> {
+    args.output.as_deref().filter(|output| *output != Path::new("-"))
 }
 
 /// What is asked for, and the table that goes beside it; none when there is no result.
@@ -59,7 +74,7 @@ fn results<'a>(args: &ImportArgs, imported: &'a Imported) -> Option<(&'a str, Op
 fn table_path(args: &ImportArgs) -> PathBuf {
     let stdin = args.source == Path::new("-");
     let source = if stdin { Path::new("board") } else { args.source.as_path() };
-    args.output.as_deref().unwrap_or(source).with_extension("csv")
+    file_to_write(args).filter(|output| !is_stream(output)).unwrap_or(source).with_extension("csv")
 }
 
 fn format(format: ImportFormat) -> Option<Format> {

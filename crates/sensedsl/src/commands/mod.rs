@@ -9,6 +9,7 @@ pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod help;
 pub(crate) mod import;
+mod in_the_way;
 mod input;
 pub(crate) mod new;
 mod output;

@@ -1,12 +1,14 @@
 //! `sensedsl new`: a small project to begin with.
 
+use std::path::Path;
+
 use anyhow::{Result, bail};
 use sensedsl_board::catalog;
 
-use super::{boards, starter};
+use super::{boards, in_the_way, starter};
 use crate::Status;
 use crate::cli::NewArgs;
-use crate::files::{files_below, shown, write_whole};
+use crate::files::{files_below, shown, write_together};
 use crate::terminal::Terminal;
 
 const README: &str = include_str!("../../templates/project-readme.md");
@@ -17,14 +19,23 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(board) = catalog::find(&args.board) else {
         bail!("there is no built-in board {} (`sensedsl boards` lists them)", args.board);
     };
-    if !files_below(&args.dir, &|_| false)?.is_empty() {
-        bail!("{} is not empty: name a folder that does not exist yet", shown(&args.dir));
-    }
     let robot = starter::robot(board);
-    write_whole(&args.dir.join("robot.sense"), robot.as_bytes())?;
     let readme = if boards::firmware(board).is_some() { README } else { README_OF_WIRING };
-    write_whole(&args.dir.join("README.md"), readme.as_bytes())?;
-    write_whole(&args.dir.join(".gitignore"), IGNORED.as_bytes())?;
+    let texts = [(".gitignore", IGNORED), ("README.md", readme), ("robot.sense", &robot)];
+    let paths = texts.map(|(name, text)| (args.dir.join(name), text.as_bytes()));
+    let files: Vec<_> = paths.iter().map(|(path, bytes)| (path.as_path(), *bytes)).collect();
+    if !args.force {
+        if in_the_way::refuse(&files, "the new project", terminal)? {
+            return Ok(Status::Misused);
+        }
+        let own = |path: &Path| files.iter().any(|(file, _)| *file == args.dir.join(path));
+        let found = files_below(&args.dir, &|_| false)?;
+        if let Some(other) = found.iter().find(|path| !own(path)) {
+            in_the_way::say_not_empty(&args.dir, other, terminal)?;
+            return Ok(Status::Misused);
+        }
+    }
+    write_together(&files)?;
     let file = args.dir.join("robot.sense");
     terminal.note(&format!(
         "made {}\nnext: sensedsl solve {}\n",

@@ -1,22 +1,15 @@
-//! A folder that `generate` owns: what stands in it, what shall, and the way from one to the other.
-//!
-//! The list [`LIST`] names all generated files, so that what is no longer made can be removed and
-//! what is foreign can be told.
+//! A folder that `generate` owns: what stands in it, what is to stand in it, and the difference.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use sensedsl_codegen::fileset::FileSet;
 
-use crate::files::{files_below, read_if_there, remove_with_empty_folders, write_whole};
-
-/// The list of generated files, in the folder itself.
-const LIST: &str = ".sensedsl-files";
-const LIST_HEAD: &str = "# Files that `sensedsl generate` made here and may replace or remove.\n";
-
-/// Folders that belong to the user or to build tools.
-const NOT_OURS: &[&str] = &["user", "build", ".dep", ".git", "target", "__pycache__", ".venv"];
+use crate::files::tree::layout::{Kind, LIST, is_not_ours, list, listed, read_file, slashed, walk};
+use crate::files::tree::{Failure, NewFile, NewTree, Output};
+use crate::files::{read_if_there, remove_file};
 
 /// What has to happen to a folder.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -29,7 +22,9 @@ pub(crate) struct Changes {
     pub(crate) stale: Vec<String>,
     /// Files that nobody generated.
     pub(crate) foreign: Vec<String>,
-    /// Files that are as they shall be.
+    /// Parts of files that earlier versions left behind when they were stopped.
+    parts: Vec<String>,
+    /// Number of files that need no change.
     pub(crate) same: usize,
 }
 
@@ -39,29 +34,39 @@ impl Changes {
     }
 }
 
-/// Compares the folder with what it shall hold.
+/// Compares the folder with what it is to hold.
 pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
     let mut changes = Changes::default();
-    let listed = listed(root)?;
+    let reading = || format!("cannot read {}", root.display());
+    let listed = listed(&root.join(LIST)).with_context(reading)?;
     for (path, entry) in files.iter() {
-        match read_if_there(&root.join(path))? {
-            None => changes.missing.push(path.to_owned()),
-            // A user's file is as it shall be, whatever is in it.
-            Some(_) if entry.once => changes.same += 1,
-            Some(bytes) if bytes == entry.bytes => changes.same += 1,
-            Some(_) => changes.different.push(path.to_owned()),
+        match found(&root.join(path))? {
+            Found::Nothing => changes.missing.push(path.to_owned()),
+            // What is in a user's file is the user's business.
+            _ if entry.once => changes.same += 1,
+            Found::Bytes(bytes) if bytes == entry.bytes => changes.same += 1,
+            Found::Bytes(_) | Found::Device => changes.different.push(path.to_owned()),
         }
     }
     let made: BTreeSet<&str> = files.iter().map(|(path, _)| path).collect();
-    let on_disk = files_below(root, &|folder| NOT_OURS.contains(&folder))?;
-    let on_disk: Vec<String> = on_disk.iter().map(|path| slashed(path)).collect();
-    for path in on_disk {
+    for (path, kind) in walk(root).with_context(reading)? {
+        // A user's folder may be a link to one that is elsewhere.
+        let theirs = kind == Kind::Link && path.file_name().is_some_and(is_not_ours);
+        if kind == Kind::Folder || theirs {
+            continue;
+        }
+        let whole = whole(&path);
+        let path = slashed(&path);
         let known = made.contains(path.as_str()) && listed.contains(&path);
         if path == LIST || known {
             continue;
         }
         if listed.contains(&path) {
             changes.stale.push(path);
+        } else if whole.is_some_and(|whole| {
+            whole == LIST || listed.contains(&whole) || made.contains(whole.as_str())
+        }) {
+            changes.parts.push(path);
         } else {
             changes.foreign.push(path);
         }
@@ -70,50 +75,52 @@ pub(crate) fn compare(root: &Path, files: &FileSet) -> Result<Changes> {
 }
 
 /// Makes the folder hold the files. To be called only when [`Changes::foreign`] is empty.
-pub(crate) fn write(root: &Path, files: &FileSet, changes: &Changes) -> Result<()> {
-    let entries: BTreeMap<&str, _> = files.iter().collect();
-    // The list goes first and names old and new files alike: a run that is cut off leaves nothing
-    // behind that a later one takes for foreign.
-    let mut all = listed(root)?;
-    all.extend(generated(files));
-    write_whole(&root.join(LIST), list(&all).as_bytes())?;
-    for path in changes.missing.iter().chain(&changes.different) {
-        if let Some(entry) = entries.get(path.as_str()) {
-            write_whole(&root.join(path), &entry.bytes)?;
-        }
+pub(crate) fn write(
+    output: &mut Output,
+    files: &FileSet,
+    changes: &Changes,
+) -> Result<(), Failure> {
+    for part in &changes.parts {
+        remove_file(&output.root().join(part)).map_err(Failure::Before)?;
     }
-    for path in &changes.stale {
-        remove_with_empty_folders(root, &root.join(path))?;
+    let generated: BTreeSet<String> =
+        files.iter().filter(|(_, entry)| !entry.once).map(|(path, _)| path.to_owned()).collect();
+    let list = list(&generated);
+    let before = read_file(&output.root().join(LIST)).map_err(Failure::Before)?;
+    if changes.is_up_to_date() && before == list.as_bytes() {
+        return Ok(());
     }
-    write_whole(&root.join(LIST), list(&generated(files)).as_bytes())
+    let changing: BTreeSet<&str> =
+        changes.missing.iter().chain(&changes.different).map(String::as_str).collect();
+    let files = files.iter().map(|(path, entry)| NewFile {
+        path,
+        bytes: &entry.bytes,
+        once: entry.once,
+        changes: changing.contains(path),
+    });
+    output.write(&NewTree { files: files.collect(), list })
 }
 
-/// The paths of all files that are rewritten each time.
-fn generated(files: &FileSet) -> BTreeSet<String> {
-    files.iter().filter(|(_, entry)| !entry.once).map(|(path, _)| path.to_owned()).collect()
+/// What stands at a path.
+enum Found {
+    Nothing,
+    Bytes(Vec<u8>),
+    /// Something that cannot be read without waiting for somebody.
+    Device,
 }
 
-fn list(paths: &BTreeSet<String>) -> String {
-    let lines: String = paths.iter().map(|path| format!("{path}\n")).collect();
-    format!("{LIST_HEAD}{lines}")
+fn found(path: &Path) -> Result<Found> {
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() && !found.is_dir() => Ok(Found::Device),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Found::Nothing),
+        Ok(_) | Err(_) => Ok(read_if_there(path)?.map_or(Found::Nothing, Found::Bytes)),
+    }
 }
 
-/// The generated files according to the list; a line that leaves the folder is not believed.
-fn listed(root: &Path) -> Result<BTreeSet<String>> {
-    let Some(bytes) = read_if_there(&root.join(LIST))? else { return Ok(BTreeSet::new()) };
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    let inside = |line: &&str| {
-        !line.is_empty()
-            && !line.starts_with('#')
-            && !line.starts_with('/')
-            && line.split('/').all(|part| !matches!(part, "" | "." | ".."))
-    };
-    Ok(text.lines().filter(inside).map(str::to_owned).collect())
-}
-
-fn slashed(path: &Path) -> String {
-    let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
-    parts.join("/")
+/// The file whose part this is: earlier versions wrote `.NAME.part` first.
+fn whole(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?.strip_prefix('.')?.strip_suffix(".part")?;
+    Some(slashed(&path.with_file_name(name)))
 }
 
 /// The folder as people see it in a command to type.

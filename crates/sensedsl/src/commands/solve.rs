@@ -10,11 +10,15 @@ use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
+use super::in_the_way;
 use super::input::{self, Answer};
 use crate::Status;
 use crate::cli::{SolveArgs, SolveFormat};
-use crate::files::write_whole;
+use crate::files::{begins_with, is_in_the_way, write_whole};
 use crate::terminal::Terminal;
+
+/// How every certificate begins: an earlier one is replaced.
+const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let keep = input::keep(args.keep.as_deref())?;
@@ -29,6 +33,14 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
         return Ok(Status::Done);
+    }
+    if let Some(path) = &args.proof
+        && !args.force
+        && is_in_the_way(path, b"")?
+        && !begins_with(path, CERTIFICATE)?
+    {
+        in_the_way::say(path, "the certificate", terminal)?;
+        return Ok(Status::Misused);
     }
     let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);

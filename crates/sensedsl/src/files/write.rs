@@ -1,45 +1,191 @@
-//! Writing files: a file is written whole or not at all.
+//! Single files: whole or not at all, and what stands there is respected.
+//!
+//! A regular file is written beside its place under a name of its own, is on the disk before it
+//! takes its place, and keeps the permissions and the owner of the one that it replaces; symbolic
+//! links are followed and stay. A device or a pipe is written to and stays what it is. What a
+//! process that was killed left beside a file, the next one that writes this file removes.
 #![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
-use std::fs;
-use std::io;
-use std::path::Path;
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 
-/// Writes a file as a whole or not at all: beside it first, then in its place.
+use super::ops;
+
+/// Links that lead from one to the next.
+const LINKS_MAX: usize = 40;
+
+/// What a file is called until it takes its place.
+const UNTIL_THEN: &str = ".sensedsl-part-";
+
+/// Writes a file, with the folders above it.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    if let Some(folder) = folder {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    }
-    let name = path.file_name().context("a file needs a name")?.to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.part"));
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // What could not be put in its place shall not stay around; if that fails too, the first
-        // error says why.
-        let _ = fs::remove_file(&beside);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
+    write_together(&[(path, bytes)])
 }
 
-/// Removes a file and the folders that are empty without it, up to `root`.
-pub(crate) fn remove_with_empty_folders(root: &Path, path: &Path) -> Result<()> {
-    match fs::remove_file(path) {
-        Ok(()) => {}
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => {
-            return Err(error).with_context(|| format!("cannot remove {}", path.display()));
+/// Writes several files: all of them are complete and on the disk before the first one takes its
+/// place, so that a failure leaves none.
+pub(crate) fn write_together(files: &[(&Path, &[u8])]) -> Result<()> {
+    let mut staged = Vec::new();
+    for (path, bytes) in files {
+        let writing = || format!("cannot write {}", path.display());
+        if is_stream(path) {
+            write_in_place(path, bytes).with_context(writing)?;
+        } else {
+            staged.push(Staged::new(path, bytes).with_context(writing)?);
         }
     }
-    let mut folder = path.parent();
-    while let Some(current) = folder.filter(|folder| *folder != root) {
-        if fs::remove_dir(current).is_err() {
-            // Not empty: something else lives there.
-            break;
-        }
-        folder = current.parent();
+    for one in &mut staged {
+        one.publish().with_context(|| format!("cannot write {}", one.place.display()))?;
     }
     Ok(())
+}
+
+/// Whether what stands there is written to rather than replaced: a device, a pipe, an open file.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    let open = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc"];
+    open.iter().any(|one| path.starts_with(one))
+        || fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+/// Whether a file stands there that would be lost: neither empty nor what is to be written.
+pub(crate) fn is_in_the_way(path: &Path, bytes: &[u8]) -> Result<bool> {
+    let reading = || format!("cannot read {}", path.display());
+    match fs::metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error).with_context(reading),
+        Ok(found) if found.is_dir() => bail!("{} is a folder", path.display()),
+        Ok(found) if found.len() == 0 || is_stream(path) => Ok(false),
+        Ok(found) if found.len() != bytes.len() as u64 => Ok(true),
+        Ok(_) => Ok(fs::read(path).with_context(reading)? != bytes),
+    }
+}
+
+/// Whether a file begins with these bytes.
+pub(crate) fn begins_with(path: &Path, bytes: &[u8]) -> Result<bool> {
+    use io::Read as _;
+    let reading = || format!("cannot read {}", path.display());
+    let mut head = Vec::new();
+    let file = File::open(path).with_context(reading)?;
+    file.take(bytes.len() as u64).read_to_end(&mut head).with_context(reading)?;
+    Ok(head == bytes)
+}
+
+/// Removes a file; it may be gone already.
+pub(crate) fn remove_file(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        done => done,
+    }
+}
+
+fn write_in_place(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // What is in an open file already was printed by this very command.
+    let mut file = OpenOptions::new().append(true).open(path)?;
+    file.write_all(bytes)?;
+    file.flush()
+}
+
+/// A file that is complete, beside its place.
+struct Staged {
+    /// Open, and locked as long as its process lives.
+    file: File,
+    part: PathBuf,
+    place: PathBuf,
+    is_published: bool,
+}
+
+impl Staged {
+    fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let place = behind_links(path)?;
+        let name = place.file_name().context("a file needs a name")?;
+        let above = place.parent().filter(|above| *above != Path::new(""));
+        let above = above.unwrap_or(Path::new("."));
+        fs::create_dir_all(above).with_context(|| format!("cannot make {}", above.display()))?;
+        let old = match fs::metadata(&place) {
+            Ok(old) if old.is_dir() => bail!("it is a folder"),
+            // A file that may not be written is not replaced either.
+            Ok(old) => OpenOptions::new().write(true).open(&place).map(|_| Some(old))?,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(error.into()),
+        };
+        remove_leftovers(above, name);
+        let mut staged = Self::open(place)?;
+        staged.file.write_all(bytes)?;
+        if let Some(old) = old {
+            ops::resemble(&staged.file, &old)?;
+        }
+        staged.file.sync_all()?;
+        Ok(staged)
+    }
+
+    fn open(place: PathBuf) -> io::Result<Self> {
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        loop {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let mut name = OsString::from(".");
+            name.push(place.file_name().unwrap_or_default());
+            name.push(format!("{UNTIL_THEN}{}-{number}", std::process::id()));
+            let part = place.with_file_name(name);
+            match OpenOptions::new().write(true).create_new(true).open(&part) {
+                // Of a process of the same number, on another machine or before a restart.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+                Ok(file) => {
+                    // Without locks leftovers stay, as nobody can tell them from files in use.
+                    let _ = file.try_lock();
+                    return Ok(Self { file, part, place, is_published: false });
+                }
+            }
+        }
+    }
+
+    fn publish(&mut self) -> io::Result<()> {
+        fs::rename(&self.part, &self.place)?;
+        self.is_published = true;
+        let above = self.place.parent().filter(|above| *above != Path::new(""));
+        ops::sync(&[above.unwrap_or(Path::new(".")).to_path_buf()])
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        if !self.is_published {
+            // If that fails too, the first error says why, and the next run tries again.
+            let _ = fs::remove_file(&self.part);
+        }
+    }
+}
+
+/// Removes what processes left beside a file that were killed.
+fn remove_leftovers(folder: &Path, name: &std::ffi::OsStr) {
+    let mut beginning = OsString::from(".");
+    beginning.push(name);
+    beginning.push(UNTIL_THEN);
+    let beginning = beginning.to_string_lossy().into_owned();
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        if !entry.file_name().to_string_lossy().starts_with(&beginning) {
+            continue;
+        }
+        // The lock of a process ends with it.
+        let is_dead = OpenOptions::new().write(true).open(entry.path());
+        if is_dead.is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Where a path leads through links, also when nothing is there yet.
+fn behind_links(path: &Path) -> Result<PathBuf> {
+    let mut place = path.to_path_buf();
+    for _ in 0..LINKS_MAX {
+        let Ok(target) = fs::read_link(&place) else { return Ok(place) };
+        place = place.parent().unwrap_or(Path::new("")).join(target);
+    }
+    bail!("too many links lead from one to the next")
 }

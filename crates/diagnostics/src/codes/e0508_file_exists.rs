@@ -1,0 +1,36 @@
+//! E0508: the file to write exists.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0508",
+    severity: Severity::Error,
+    title: "the file to write exists",
+    explanation: r#"`import -o`, `new` and `solve --proof` do not replace what is there, so that nothing of yours is lost.
+A file that is empty, or that already holds what would be written, is in nobody's way, and `--proof`
+replaces an earlier certificate. `import -o NAME.sense` of a project also writes `NAME.csv` beside it.
+When one of several files is in the way, none is written. `new` wants an empty folder.
+
+Way out: choose another name, or give `--force` to replace the file.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// Which file is in the way, and of what.
+#[must_use]
+pub fn file_exists(span: Span, file: &str, what: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{file}` exists and is not replaced by {what}"))
+        .help("nothing was written; choose another name, or give `--force` to replace it")
+}
+
+/// Which folder is not empty, and what is in it.
+#[must_use]
+pub fn folder_not_empty(span: Span, folder: &str, file: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{folder}` is not empty: it holds `{file}`")).help(
+        "nothing was written; name a folder that does not exist yet, or give `--force` to write into it",
+    )
+}

@@ -1,0 +1,42 @@
+//! Files that exist are not replaced unasked: what `import`, `new` and `solve --proof` have in
+//! common.
+
+use std::path::Path;
+
+use anyhow::Result;
+use sensedsl_diagnostics::codes::e0508_file_exists;
+use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
+
+use crate::files::{is_in_the_way, shown};
+use crate::terminal::Terminal;
+
+/// Says which of these files exist and would be lost; whether there is any.
+pub(crate) fn refuse(files: &[(&Path, &[u8])], by: &str, terminal: &Terminal) -> Result<bool> {
+    let mut refused = false;
+    for (path, bytes) in files {
+        if is_in_the_way(path, bytes)? {
+            say(path, by, terminal)?;
+            refused = true;
+        }
+    }
+    Ok(refused)
+}
+
+/// Says that this file exists.
+pub(crate) fn say(path: &Path, by: &str, terminal: &Terminal) -> Result<()> {
+    show(path, terminal, |at| e0508_file_exists::file_exists(at, &shown(path), by))
+}
+
+/// Says that this folder has a file in it.
+pub(crate) fn say_not_empty(folder: &Path, file: &Path, terminal: &Terminal) -> Result<()> {
+    show(folder, terminal, |at| {
+        e0508_file_exists::folder_not_empty(at, &shown(folder), &shown(file))
+    })
+}
+
+fn show(path: &Path, terminal: &Terminal, why: impl FnOnce(Span) -> Diagnostic) -> Result<()> {
+    let mut sources = SourceMap::default();
+    // The place is the file itself; what is in it is nobody's business here.
+    let at = Span::new(sources.add(shown(path), ""), 0..0);
+    Ok(terminal.diagnostics(&[why(at)], &sources)?)
+}

@@ -1,0 +1,129 @@
+//! From one tree to another within a folder: staged files take their places, files that are no
+//! longer made go. Whoever is stopped in the middle begins again and ends with the same.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::NewTree;
+use super::layout::{self, Kind, LIST, is_there, listed, not_ours_above, walk};
+use crate::files::ops::{self, Ops};
+use crate::files::write_whole;
+
+/// The folder of a working folder with the files that are on their way.
+const FILES: &str = "files";
+
+/// The list of the new tree; it stays until all is done.
+pub(super) const NEW_LIST: &str = "list";
+
+/// Writes the files of a tree that change, except those, and its list into a working folder.
+pub(super) fn stage(
+    ops: &Ops,
+    work: &Path,
+    root: &Path,
+    new: &NewTree<'_>,
+    except: &dyn Fn(&str) -> bool,
+) -> io::Result<()> {
+    ops.create(&work.join(NEW_LIST), new.list.as_bytes(), None)?;
+    let files = work.join(FILES);
+    ops.make_folders(&files)?;
+    for file in new.files.iter().filter(|file| file.changes && !except(file.path)) {
+        let to = files.join(file.path);
+        ops.make_folders(to.parent().unwrap_or(&files))?;
+        ops.create(&to, file.bytes, Some(&root.join(file.path)))?;
+    }
+    ops.create(&files.join(LIST), new.list.as_bytes(), None)?;
+    // With the folders, as a name is on the disk only when its folder is.
+    let mut all: Vec<PathBuf> =
+        walk_all(&files)?.iter().map(|(path, _)| files.join(path)).collect();
+    all.extend([files, work.join(NEW_LIST), work.to_path_buf()]);
+    ops::sync(&all)
+}
+
+/// Where a file is while it is on its way.
+pub(super) fn staged(work: &Path, path: &str) -> PathBuf {
+    work.join(FILES).join(path)
+}
+
+/// Lets a folder hold what is staged for it, and waits until it does.
+pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
+    let files = work.join(FILES);
+    let mut last = None;
+    for (path, kind) in walk_all(&files)? {
+        let from = files.join(&path);
+        match kind {
+            Kind::Folder => {}
+            _ if path == Path::new(LIST) => last = Some(from),
+            Kind::File | Kind::Link => put(ops, &from, root, &path)?,
+        }
+    }
+    let new = listed(&work.join(NEW_LIST))?;
+    for stale in listed(&root.join(LIST))?.difference(&new) {
+        remove(ops, root, Path::new(stale))?;
+    }
+    // With the list goes the memory of what was there before, so it comes last.
+    if let Some(list) = last {
+        put(ops, &list, root, Path::new(LIST))?;
+    }
+    sync_folders(root)
+}
+
+/// Waits until the names in all folders of ours are on the disk.
+pub(super) fn sync_folders(root: &Path) -> io::Result<()> {
+    let ours = |path: &Path| !path.file_name().is_some_and(layout::is_not_ours);
+    let mut folders = vec![root.to_path_buf()];
+    let found = walk(root)?.into_iter();
+    folders.extend(
+        found
+            .filter(|(path, kind)| *kind == Kind::Folder && ours(path))
+            .map(|(path, _)| root.join(path)),
+    );
+    ops::sync(&folders)
+}
+
+/// Removes what a working folder holds; its lock stays.
+pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
+    ops.remove_all(&work.join(FILES))?;
+    for name in more.iter().chain(&[NEW_LIST]) {
+        ops.remove_file(&work.join(name))?;
+    }
+    Ok(())
+}
+
+/// Puts one file into its place.
+fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
+    let to = root.join(path);
+    if not_ours_above(path).is_some() && is_there(&to) {
+        // The user was quicker; it is the user's in any case.
+        return ops.remove_file(from);
+    }
+    ops.make_folders(to.parent().unwrap_or(root))?;
+    match ops.rename(from, &to) {
+        // A folder of the user's may be on another disk.
+        Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
+            write_whole(&to, &layout::read_file(from)?).map_err(io::Error::other)?;
+            ops.remove_file(from)
+        }
+        done => done,
+    }
+}
+
+/// Removes a file and the folders that are empty without it.
+fn remove(ops: &Ops, root: &Path, path: &Path) -> io::Result<()> {
+    if root.join(path).is_dir() {
+        // What is a folder by now is not the file that was generated.
+        return Ok(());
+    }
+    ops.remove_file(&root.join(path))?;
+    for folder in path.ancestors().skip(1).filter(|folder| *folder != Path::new("")) {
+        if ops.remove_folder(&root.join(folder)).is_err() {
+            // Not empty: something else lives there.
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// As [`walk`], with the folders that are the user's elsewhere: here all is the program's.
+fn walk_all(root: &Path) -> io::Result<Vec<(PathBuf, Kind)>> {
+    layout::walk_into(root, &|_| true)
+}

@@ -1,0 +1,263 @@
+//! An output folder: it holds the old tree or the new one, whatever happens while it is written.
+//!
+//! What is promised:
+//!
+//! - One run at a time writes a folder. A second one waits, and gives up after [`lock::WAIT`].
+//! - On Linux, whoever looks into the folder by its name finds the old tree or the new one, also
+//!   after a kill, a full disk or a power failure (`switch`). Elsewhere, on file systems that
+//!   cannot exchange two names, and where the folder is a mount point or nothing can be made beside
+//!   it, the same holds as long as no run is stopped within the few milliseconds in which files
+//!   take their places; then the next run completes them (`journal`).
+//! - What a run leaves behind that is stopped, the next one completes or removes by itself.
+//! - The user's folders are neither moved nor copied nor written to, but for files that are to be
+//!   made once and are missing. For some milliseconds of a switch, and until the next run where one
+//!   is stopped within them, the folder shows them through symbolic links.
+//! - A run that fails before the switch leaves the folder as it was.
+//!
+//! What is not: a process whose working folder is within the output folder sees files change one by
+//! one, and so does one that reads several files by their paths while a run is at it.
+
+mod apply;
+mod journal;
+pub(crate) mod layout;
+#[cfg(target_os = "linux")]
+mod switch;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use anyhow::{Context as _, Result, bail};
+
+use super::lock::{Lock, NoLock};
+use super::ops::{self, Ops};
+use layout::{Beside, WORK, is_there};
+
+/// What a folder is to hold.
+pub(crate) struct NewTree<'a> {
+    /// All files.
+    pub(crate) files: Vec<NewFile<'a>>,
+    /// The text of the list of those that are generated.
+    pub(crate) list: String,
+}
+
+/// One file of a [`NewTree`].
+pub(crate) struct NewFile<'a> {
+    /// Where it is, with `/`.
+    pub(crate) path: &'a str,
+    /// What is in it.
+    pub(crate) bytes: &'a [u8],
+    /// Whether it is the user's once it is there.
+    pub(crate) once: bool,
+    /// Whether it is missing or has other bytes.
+    pub(crate) changes: bool,
+}
+
+/// Why a tree was not written, or not cleanly.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The folder is as it was.
+    Before(io::Error),
+    /// The next run completes it.
+    After(io::Error),
+}
+
+/// Why a folder cannot be written at all.
+#[derive(Debug)]
+pub(crate) enum Trouble {
+    /// Another run writes it.
+    Busy,
+    /// The disk is full, or does not let anything be written there.
+    Unwritten(io::Error),
+    /// What an earlier run left here has lost what it belongs to.
+    Orphan(PathBuf),
+    /// What an earlier run left behind can be neither completed nor removed now.
+    Unrecovered(io::Error),
+    /// The machine is wrong.
+    Failed(anyhow::Error),
+}
+
+impl From<NoLock> for Trouble {
+    fn from(why: NoLock) -> Self {
+        match why {
+            NoLock::Busy => Self::Busy,
+            NoLock::Failed(error) => Self::Unwritten(error),
+        }
+    }
+}
+
+impl From<anyhow::Error> for Trouble {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// An output folder that this run alone may write to.
+#[derive(Debug)]
+pub(crate) struct Output {
+    root: PathBuf,
+    /// None where nothing can stand beside the folder.
+    beside: Option<Beside>,
+    /// Beside the folder, within, or both.
+    locks: Vec<Lock>,
+    /// Whether the folder was made by this run.
+    is_new: bool,
+    ops: Ops,
+}
+
+impl Output {
+    /// Takes a folder for this run, made if needed, and puts right what an earlier run has left.
+    pub(crate) fn take(
+        output: &Path,
+        wait: Duration,
+        waiting: &mut dyn FnMut(),
+    ) -> Result<Self, Trouble> {
+        Self::take_with(Ops::default(), output, wait, waiting)
+    }
+
+    fn take_with(
+        ops: Ops,
+        output: &Path,
+        wait: Duration,
+        waiting: &mut dyn FnMut(),
+    ) -> Result<Self, Trouble> {
+        let root = resolve(output)?;
+        let can = cfg!(target_os = "linux") && !is_mount_point(&root);
+        let mut beside = Beside::of(&root).filter(|_| can);
+        let mut locks = Vec::new();
+        if let Some(place) = &beside {
+            match Lock::take(&place.work, wait, waiting) {
+                Ok(lock) => locks.push(lock),
+                // Then everything has to happen within the folder.
+                Err(NoLock::Failed(error)) if ops::is_unsupported(&error) => beside = None,
+                Err(why) => return Err(why.into()),
+            }
+        }
+        let mut taken = Self { root, beside, locks, is_new: false, ops };
+        taken.recover_beside()?;
+        if !is_there(&taken.root) {
+            taken.ops.make_folders(&taken.root).map_err(Trouble::Unwritten)?;
+            taken.is_new = true;
+        }
+        let within = taken.root.join(WORK);
+        if taken.beside.is_none() || is_there(&within) {
+            taken.lock_within(wait, waiting)?;
+            journal::recover(&taken.ops, &taken.root, &within).map_err(Trouble::Unrecovered)?;
+        }
+        Ok(taken)
+    }
+
+    /// Where the folder is, without links.
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Makes the folder hold a tree.
+    pub(crate) fn write(&mut self, new: &NewTree<'_>) -> Result<(), Failure> {
+        match self.switch(new) {
+            Err(Failure::Before(error)) if ops::is_unsupported(&error) => {}
+            done => return done,
+        }
+        let within = self.root.join(WORK);
+        match self.lock_within(super::lock::WAIT, &mut || {}) {
+            Ok(()) => journal::write(&self.ops, &self.root, &within, new),
+            Err(NoLock::Failed(error)) => Err(Failure::Before(error)),
+            Err(NoLock::Busy) => Err(Failure::Before(io::ErrorKind::ResourceBusy.into())),
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    fn switch(&self, new: &NewTree<'_>) -> Result<(), Failure> {
+        let Some(beside) = &self.beside else {
+            return Err(Failure::Before(io::ErrorKind::Unsupported.into()));
+        };
+        switch::Switch { ops: &self.ops, root: &self.root, beside }.write(new)
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    #[expect(clippy::unused_self, reason = "it has the same form everywhere")]
+    fn switch(&self, _: &NewTree<'_>) -> Result<(), Failure> {
+        Err(Failure::Before(io::ErrorKind::Unsupported.into()))
+    }
+
+    #[cfg(target_os = "linux")]
+    fn recover_beside(&self) -> Result<(), Trouble> {
+        let Some(beside) = &self.beside else { return Ok(()) };
+        let switch = switch::Switch { ops: &self.ops, root: &self.root, beside };
+        match switch.recover() {
+            Ok(None) => Ok(()),
+            Ok(Some(orphan)) => Err(Trouble::Orphan(orphan)),
+            Err(error) => Err(Trouble::Unrecovered(error)),
+        }
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    #[expect(
+        clippy::unused_self,
+        clippy::unnecessary_wraps,
+        reason = "it has the same form everywhere"
+    )]
+    fn recover_beside(&self) -> Result<(), Trouble> {
+        Ok(())
+    }
+
+    fn lock_within(&mut self, wait: Duration, waiting: &mut dyn FnMut()) -> Result<(), NoLock> {
+        if self.locks.len() == usize::from(self.beside.is_some()) {
+            self.locks.push(Lock::take(&self.root.join(WORK), wait, waiting)?);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Output {
+    fn drop(&mut self) {
+        // The last one taken is within the folder.
+        while self.locks.len() > usize::from(self.beside.is_some()) {
+            self.locks.pop();
+        }
+        if self.is_new {
+            // Nothing was written to it, or it is not empty.
+            let _ = fs::remove_dir(&self.root);
+        }
+    }
+}
+
+/// The folder itself, where a path leads to it through links.
+fn resolve(output: &Path) -> Result<PathBuf> {
+    let shown = output.display();
+    match fs::metadata(output) {
+        Ok(found) if found.is_dir() => {
+            fs::canonicalize(output).with_context(|| format!("cannot read {shown}"))
+        }
+        Ok(_) => bail!("{shown} is not a folder"),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            if is_there(output) {
+                bail!("{shown} is a link to a folder that does not exist: make that folder first");
+            }
+            let name = output.file_name().with_context(|| format!("{shown} has no name"))?;
+            let above = output.parent().filter(|above| *above != Path::new(""));
+            let above = above.unwrap_or(Path::new("."));
+            fs::create_dir_all(above)
+                .with_context(|| format!("cannot make {}", above.display()))?;
+            Ok(fs::canonicalize(above).with_context(|| format!("cannot read {shown}"))?.join(name))
+        }
+        Err(error) => Err(error).with_context(|| format!("cannot read {shown}")),
+    }
+}
+
+/// Whether the folder is on another disk than what is beside it.
+#[cfg(unix)]
+fn is_mount_point(root: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let device = |path: &Path| fs::metadata(path).ok().map(|found| found.dev());
+    let (own, above) = (device(root), root.parent().and_then(device));
+    own.is_some() && own != above
+}
+
+#[cfg(not(unix))]
+fn is_mount_point(_: &Path) -> bool {
+    false
+}
