@@ -58,7 +58,7 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     let changes = match update(args, terminal, design, &files)? {
         Ok(changes) => changes,
         Err(refusal) => {
-            terminal.diagnostics(&[refusal.why], &sources)?;
+            terminal.diagnostics(&[*refusal.why], &sources)?;
             return Ok(refusal.status);
         }
     };
@@ -68,8 +68,14 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
 
 /// Why the folder was not written, or not as it should be.
 struct Refusal {
-    why: Diagnostic,
+    why: Box<Diagnostic>,
     status: Status,
+}
+
+impl Refusal {
+    fn new(why: Diagnostic, status: Status) -> Self {
+        Self { why: Box::new(why), status }
+    }
 }
 
 /// Compares the folder with what it is to hold, and writes it unless that was not asked for.
@@ -83,7 +89,7 @@ fn update(
     if args.check {
         let changes = output::compare(&args.output, files)?;
         let why = foreign(at, &folder, &changes).or_else(|| out_of_date(at, &folder, &changes));
-        return Ok(why.map_or(Ok(changes), |why| Err(Refusal { why, status: Status::Wrong })));
+        return Ok(why.map_or(Ok(changes), |why| Err(Refusal::new(why, Status::Wrong))));
     }
     let mut waiting = || {
         // There is nowhere to report that reporting failed.
@@ -95,17 +101,17 @@ fn update(
     };
     let changes = output::compare(output.root(), files)?;
     if let Some(why) = foreign(at, &folder, &changes) {
-        return Ok(Err(Refusal { why, status: Status::Wrong }));
+        return Ok(Err(Refusal::new(why, Status::Wrong)));
     }
     Ok(match output::write(&mut output, files, &changes) {
         Ok(()) => Ok(changes),
         Err(Failure::Before(error)) => {
             let why = e0509_not_written::not_written(at, &folder, &error.to_string());
-            Err(Refusal { why, status: Status::Misused })
+            Err(Refusal::new(why, Status::Misused))
         }
         Err(Failure::After(error)) => {
             let why = e0509_not_written::not_completed(at, &folder, &error.to_string());
-            Err(Refusal { why, status: Status::Misused })
+            Err(Refusal::new(why, Status::Misused))
         }
     })
 }
@@ -127,7 +133,7 @@ fn trouble_taking(trouble: Trouble, at: Span, folder: &str) -> Result<Refusal> {
             (e0509_not_written::not_completed(at, folder, &error.to_string()), Status::Misused)
         }
     };
-    Ok(Refusal { why, status })
+    Ok(Refusal::new(why, status))
 }
 
 fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>, Vec<Diagnostic>> {

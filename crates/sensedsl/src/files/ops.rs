@@ -2,7 +2,6 @@
 //!
 //! What writes a tree does it through [`Ops`] alone, so that a test can stop after any single
 //! change, as a kill does, or let any single one fail, as a full disk does.
-#![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};

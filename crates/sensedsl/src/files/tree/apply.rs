@@ -40,7 +40,7 @@ pub(super) fn stage(
 }
 
 /// Where a file is while it is on its way.
-pub(super) fn staged(work: &Path, path: &str) -> PathBuf {
+pub(super) fn staged(work: &Path, path: &Path) -> PathBuf {
     work.join(FILES).join(path)
 }
 
@@ -51,6 +51,10 @@ pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
     for (path, kind) in walk_all(&files)? {
         let from = files.join(&path);
         match kind {
+            // It has gone with its folder.
+            _ if !is_there(&from) => {}
+            // A folder goes as a whole where there is none: no room is needed for a new one.
+            Kind::Folder if !is_there(&root.join(&path)) => ops.rename(&from, &root.join(&path))?,
             Kind::Folder => {}
             _ if path == Path::new(LIST) => last = Some(from),
             Kind::File | Kind::Link => put(ops, &from, root, &path)?,
@@ -92,11 +96,12 @@ pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
 /// Puts one file into its place.
 fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
     let to = root.join(path);
-    if not_ours_above(path).is_some() && is_there(&to) {
+    let theirs =
+        not_ours_above(path).is_some() || path.file_name().is_some_and(layout::is_not_ours);
+    if theirs && is_there(&to) {
         // The user was quicker; it is the user's in any case.
         return ops.remove_file(from);
     }
-    ops.make_folders(to.parent().unwrap_or(root))?;
     match ops.rename(from, &to) {
         // A folder of the user's may be on another disk.
         Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {

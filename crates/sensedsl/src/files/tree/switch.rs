@@ -77,6 +77,7 @@ impl Switch<'_> {
         self.ops.create(&work.join(ONCE), layout::list(&paths).as_bytes(), None)?;
         let is_once: BTreeSet<&str> = once.clone().map(|file| file.path).collect();
         stage(self.ops, work, self.root, new, &|path| is_once.contains(path))?;
+        self.stage_links(&paths)?;
         self.build(new, &at_once)?;
         for file in once.filter(|file| file.changes && at_once(file.path)) {
             write_whole(&self.root.join(file.path), file.bytes).map_err(io::Error::other)?;
@@ -89,6 +90,20 @@ impl Switch<'_> {
         ops::sync(&made)?;
         sync_folders(tree)?;
         sync_above(tree)
+    }
+
+    /// Folders of the user's that are not there yet: the links that change places with them later
+    /// are made now, while the disk may still be full.
+    fn stage_links(&self, once: &BTreeSet<String>) -> io::Result<()> {
+        let Beside { work, tree } = self.beside;
+        for folder in once.iter().filter_map(|path| not_ours_above(Path::new(path))) {
+            let link = staged(work, folder);
+            if !is_there(&link) {
+                self.ops.make_folders(link.parent().unwrap_or(work))?;
+                self.ops.symlink(&self.link_to(folder, &tree.join(folder)), &link)?;
+            }
+        }
+        Ok(())
     }
 
     /// Makes the new tree of what is staged and of what stays.
@@ -112,7 +127,7 @@ impl Switch<'_> {
             self.ops.make_folders(to.parent().unwrap_or(tree))?;
             let from = match (file.once, file.changes) {
                 (true, _) => None,
-                (false, true) => Some(staged(work, file.path)),
+                (false, true) => Some(staged(work, Path::new(file.path))),
                 (false, false) => Some(self.root.join(file.path)),
             };
             match from.map(|from| self.ops.link(&from, &to)) {
@@ -129,8 +144,9 @@ impl Switch<'_> {
     fn settle(&self) -> io::Result<()> {
         let Beside { work, tree } = self.beside;
         sync_above(self.root)?;
-        self.hand_over()?;
         apply(self.ops, work, tree)?;
+        self.hand_over()?;
+        sync_folders(tree)?;
         self.ops.exchange(self.root, tree)?;
         sync_above(self.root)?;
         if let Some(left) = self.dismantle()? {
