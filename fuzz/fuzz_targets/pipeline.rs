@@ -28,7 +28,7 @@ fuzz_target!(|input: (&str, Option<&str>)| {
             match wiring.solve(&Search::default()) {
                 Solved::Wired(assignment) => {
                     diagnostics.extend(wiring.warnings(&assignment));
-                    let _ = sensedsl_codegen::project(design, &assignment, &HOSTS);
+                    let _ = sensedsl_codegen::project("fuzz", design, &assignment, &HOSTS);
                 }
                 Solved::Infeasible(conflict) => diagnostics.push(conflict.diagnostic(design)),
                 Solved::Failed(failure) => panic!("{}", failure.message),

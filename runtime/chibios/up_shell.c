@@ -189,9 +189,30 @@ static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
 #endif
 }
 
+/* The text that the schema hash is made of: a host that expects another schema names the devices that differ. */
+static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
+  const up_schema_t *schema = up_config.schema;
+  size_t i;
+
+  (void)argc;
+  (void)argv;
+  chprintf(out, "checksum %s" SHELL_NEWLINE_STR, schema->checksum_crc16 ? "crc16" : "none");
+  for (i = 0U; i < schema->fields_count; i++) {
+    const up_field_t *field = &schema->fields[i];
+
+    chprintf(out, "%u %s %s %s", (unsigned)field->id,
+             (field->direction == (uint8_t)UP_TO_HOST) ? "sensor" : "actuator", field->name,
+             up_type_name(field->type));
+    if (field->count > 1U) {
+      chprintf(out, "[%u]", (unsigned)field->count);
+    }
+    chprintf(out, SHELL_NEWLINE_STR);
+  }
+}
+
 static const ShellCommand commands[] = {
-    {"sensors", command_sensors}, {"print", command_print}, {"stream", command_stream},
-    {"link", command_link},       {NULL, NULL},
+    {"sensors", command_sensors}, {"print", command_print},   {"stream", command_stream},
+    {"link", command_link},       {"schema", command_schema}, {NULL, NULL},
 };
 
 /* ---- who has the channel ---- */

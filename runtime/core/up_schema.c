@@ -8,6 +8,16 @@ static const uint8_t type_bytes[] = {
     [UP_TYPE_INT64] = 8U,  [UP_TYPE_FLOAT32] = 4U, [UP_TYPE_FLOAT64] = 8U,
 };
 
+static const char *const type_names[] = {
+    [UP_TYPE_BOOL] = "bool",     [UP_TYPE_UINT8] = "uint8",     [UP_TYPE_INT8] = "int8",     [UP_TYPE_UINT16] = "uint16",
+    [UP_TYPE_INT16] = "int16",   [UP_TYPE_UINT32] = "uint32",   [UP_TYPE_INT32] = "int32",   [UP_TYPE_UINT64] = "uint64",
+    [UP_TYPE_INT64] = "int64",   [UP_TYPE_FLOAT32] = "float32", [UP_TYPE_FLOAT64] = "float64",
+};
+
+const char *up_type_name(uint8_t type) {
+  return (type < sizeof type_names / sizeof type_names[0]) ? type_names[type] : "?";
+}
+
 size_t up_type_bytes(uint8_t type) {
   return (type < sizeof type_bytes) ? type_bytes[type] : 0U;
 }

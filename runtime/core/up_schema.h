@@ -64,6 +64,9 @@ typedef struct {
 /* Bytes of one element, on the wire and in memory. */
 size_t up_type_bytes(uint8_t type);
 
+/* The type's name in the language and in the schema's text. */
+const char *up_type_name(uint8_t type);
+
 /* The bits of one element in memory (which need not be aligned), as an unsigned number of its size. */
 uint64_t up_element_load(uint8_t type, const void *element);
 void up_element_store(uint8_t type, uint64_t bits, void *element);

@@ -25,6 +25,8 @@ static uint64_t stored_signed(uint8_t type, int64_t raw) {
 }
 
 static void test_saturation(void) {
+  CHECK(strcmp(up_type_name(UP_TYPE_BOOL), "bool") == 0 && strcmp(up_type_name(UP_TYPE_INT16), "int16") == 0);
+  CHECK(strcmp(up_type_name(UP_TYPE_FLOAT64), "float64") == 0 && strcmp(up_type_name(99U), "?") == 0);
   CHECK(stored_unsigned(UP_TYPE_UINT8, 255U) == 255U);
   CHECK(stored_unsigned(UP_TYPE_UINT8, 256U) == 255U);
   CHECK(stored_unsigned(UP_TYPE_INT8, 200U) == 127U);

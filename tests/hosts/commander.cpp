@@ -27,15 +27,15 @@ private:
     virtual void tearDown() {}
 
     virtual ExitCode body() {
-        sense::T7 big;
+        sense::robot::T7 big;
         big.setRaw(0x0123456789ABCDEFU);
-        sense::B4 pair;
+        sense::robot::B4 pair;
         pair.setRaw(0, -300);
         pair.setRaw(1, 32767);
 #ifdef OPENDAVINCI2014
         while (getModuleState() == core::base::ModuleState::RUNNING) {
-            core::data::Container first(sense::T7::ID(), big);
-            core::data::Container second(sense::B4::ID(), pair);
+            core::data::Container first(sense::robot::T7::ID(), big);
+            core::data::Container second(sense::robot::B4::ID(), pair);
             getConference().send(first);
             getConference().send(second);
         }

@@ -4,7 +4,7 @@
 // Out: what the vector files call `hash`, `got`, `dropped` and `frame`, and `end` behind each command.
 // A stream is decoded at once, byte by byte, as given and cut at each place; `differs` says that
 // two of these did not agree. `items.h` is `#define ITEMS(X) X(17, uint16_t, 1) ...`, made by the test.
-#include "sense/Vectors_schema.hpp"
+#include "sense/robot/Vectors_schema.hpp"
 #include "items.h"
 
 #include <iostream>
@@ -19,7 +19,7 @@ using sensedsl::Bytes;
 
 namespace {
 
-const sensedsl::Schema &schema() { return sense::Vectors::schema(); }
+const sensedsl::Schema &schema() { return *sense::robot::facts::Vectors().schema; }
 
 template <typename T> void print_values(std::ostream &out, const uint8_t *bytes, size_t count) {
     for (size_t i = 0; i < count; ++i) {

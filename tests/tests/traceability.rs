@@ -58,7 +58,8 @@ const ROWS: &[Row] = &[
         paper: ".....#..",
         ours: ".....#.+",
     },
-    // The order of fields in memory is that of the file and stays.
+    // The order of fields in memory is that of the file and stays. Captures have no cycle, and the host
+    // knows by the cycle when a value is overdue.
     Row {
         element: "type",
         changes: &[
@@ -66,15 +67,15 @@ const ROWS: &[Row] = &[
             ("type = icu;\n    }\n}", "type = i2c; address = 0x48; register = 0;\n    }\n}"),
         ],
         paper: "####..#.",
-        ours: "####..#.",
+        ours: "####..#+",
     },
     Row { element: "address", changes: &[("0xE6", "0xE4")], paper: "..#.....", ours: "..#....." },
-    // Analog sensors of one cycle time share one conversion group.
+    // Analog sensors of one cycle time share one conversion group; the host tells what is overdue.
     Row {
         element: "delay",
         changes: &[("delay = 60", "delay = 1000"), ("delay = 40", "delay = 45")],
         paper: "......#.",
-        ours: ".+....#.",
+        ours: ".+....#+",
     },
     Row {
         element: "prio",

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_model::kind::Kind;
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
@@ -13,11 +14,12 @@ use crate::host::{Host, HostBoard, HostPlan, Presentation};
 use crate::report::{json, markdown, schema, svg};
 
 /// All files: the answer, the schema, the wiring sheet, the picture, firmware for each board and
-/// the host applications `hosts`.
+/// the host applications `hosts`. `name` is what people call the design: what its file is called.
 ///
 /// # Errors
 /// Diagnostics for what no firmware can be generated for; then there are no files at all.
 pub fn project(
+    name: &str,
     design: &Design,
     assignment: &Assignment,
     hosts: &[&dyn Host],
@@ -40,14 +42,14 @@ pub fn project(
     files.add("schema.json", format!("{:#}\n", schema::schema(design, assignment)));
     files.add("wiring.md", markdown::markdown(design, assignment));
     files.add("pinout.svg", svg::svg(design, assignment));
-    let plan = host_plan(design, assignment);
+    let plan = host_plan(name, design, assignment);
     for host in hosts {
         files.merge_under(&format!("host/{}", host.name()), host.render(&plan));
     }
     Ok(files)
 }
 
-fn host_plan(design: &Design, assignment: &Assignment) -> HostPlan {
+fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
     let boards: Vec<HostBoard> = assignment
         .used(design)
         .map(|(on, board)| {
@@ -60,7 +62,7 @@ fn host_plan(design: &Design, assignment: &Assignment) -> HostPlan {
             }
         })
         .collect();
-    HostPlan::new(&boards)
+    HostPlan::new(name, &boards)
 }
 
 fn presentations(design: &Design, devices: &[DeviceIndex]) -> BTreeMap<u8, Presentation> {
@@ -75,6 +77,7 @@ fn presentations(design: &Design, devices: &[DeviceIndex]) -> BTreeMap<u8, Prese
                 offset: shown.offset,
                 min: shown.min,
                 max: shown.max,
+                cycle_ms: (!matches!(device.kind, Kind::Icu(_))).then_some(device.delay_ms),
             };
             (device.id.value, presentation)
         })

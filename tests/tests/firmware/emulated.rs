@@ -232,6 +232,9 @@ fn an_application_runs_on_an_emulated_board() {
     assert!(sensors.contains("  1 IR                       -\r\n"), "{sensors}");
     assert!(number_before(&sensors, "errors") > 0, "{sensors}");
     assert!(number_before(&board.ask("link"), "times") > 0);
+    // The very text that the schema hash is made of: hosts compare theirs with it.
+    let text = schema().canonical_text().replace('\n', "\r\n");
+    assert!(board.ask("schema").contains(&text));
 
     board.say(b"stream\r\n");
     let hello = Event::Hello(schema().hash());

@@ -54,7 +54,7 @@ fn cmake_builds_cpp() {
 fn two_runs_print_the_same_bytes() {
     for (name, boards) in designs::all() {
         for host in HOSTS {
-            let render = || host.render(&HostPlan::new(&boards));
+            let render = || host.render(&HostPlan::new("robot", &boards));
             assert_eq!(render(), render(), "{name} {}", host.name());
         }
     }
@@ -63,7 +63,7 @@ fn two_runs_print_the_same_bytes() {
 #[test]
 fn nothing_leaves_its_comment_or_its_line() {
     for host in HOSTS {
-        for (path, entry) in host.render(&HostPlan::new(&designs::hostile())).iter() {
+        for (path, entry) in host.render(&HostPlan::new("robot", &designs::hostile())).iter() {
             let text = String::from_utf8(entry.bytes.clone()).unwrap();
             for line in text.lines() {
                 assert!(!line.starts_with("int y;"), "{path}: {line}");

@@ -53,10 +53,14 @@ pub(crate) fn all_types() -> Vec<HostBoard> {
     }
     let mut board = board("Everything", Checksum::Crc16, &lines);
     for (index, item) in board.schema.items.iter().enumerate().skip(3) {
+        let sensor = item.direction == Direction::Sensor;
         let shown = Presentation {
             quantity: (index % 3 == 0).then(|| "cm".into()),
             scale: (index % 2 == 0).then_some(0.5),
             offset: (index % 4 == 1).then_some(-3.0),
+            min: (index % 5 == 4 && sensor).then_some(-1e9),
+            max: (index % 5 == 3 && sensor).then_some(1e9),
+            cycle_ms: (index % 2 == 0).then_some(40),
             ..Presentation::default()
         };
         board.presentations.insert(item.id, shown);

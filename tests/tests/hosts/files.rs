@@ -12,10 +12,15 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Writes one host of a design into an own folder.
+/// Writes one host of a design, called `robot`, into an own folder.
 pub(crate) fn generate(host: &str, test: &str, boards: &[HostBoard]) -> PathBuf {
+    generate_as("robot", host, test, boards)
+}
+
+/// The same with another name.
+pub(crate) fn generate_as(name: &str, host: &str, test: &str, boards: &[HostBoard]) -> PathBuf {
     let path = folder(&format!("{test}-{host}"));
-    let files = host::find(host).unwrap().render(&HostPlan::new(boards));
+    let files = host::find(host).unwrap().render(&HostPlan::new(name, boards));
     assert!(!files.is_empty());
     for (name, entry) in files.iter() {
         let file = path.join(name);

@@ -15,10 +15,14 @@ mod designs;
 #[cfg(test)]
 mod files;
 #[cfg(test)]
+mod link;
+#[cfg(test)]
 mod middleware;
 #[cfg(test)]
 mod terminal;
 #[cfg(test)]
 mod tools;
+#[cfg(test)]
+mod units;
 #[cfg(test)]
 mod vectors;

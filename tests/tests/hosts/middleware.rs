@@ -14,11 +14,11 @@ use sensedsl_wire::{
 use crate::compile::compile;
 use crate::terminal::Line;
 use crate::tools::{self, Background};
-use crate::{designs, files};
+use crate::{designs, files, link};
 
 /// A session of its own for each test and run.
 fn session(test: u32) -> String {
-    (10 + 3 * (std::process::id() % 80) + test).to_string()
+    (10 + 6 * (std::process::id() % 40) + test).to_string()
 }
 
 fn have_pycluon() -> bool {
@@ -119,6 +119,34 @@ fn libcluon_compiles() {
     }
 }
 
+/// As its README says.
+fn build_libcluon(tree: &Path, test: &str, boards: &[HostBoard]) -> (PathBuf, PathBuf) {
+    let folder = files::generate("libcluon", test, boards);
+    let build = folder.join("build");
+    let mut configure = Command::new("cmake");
+    configure.arg("-S").arg(&folder).arg("-B").arg(&build);
+    tools::run(configure.arg(format!("-DCLUON_INCLUDE_DIR={}", tree.display())));
+    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    (folder, build)
+}
+
+#[test]
+fn libcluon_comes_back() {
+    let Some(tree) = tools::tree("LIBCLUON") else { return };
+    if !have_pycluon() || !tools::have("cmake") {
+        return;
+    }
+    let (folder, build) = build_libcluon(&tree, "link", &link::design());
+    let cid = session(5);
+    let start = |device: &Path| {
+        let mut command = Command::new(build.join("robot_STM32F4DiscoveryBoard"));
+        command.arg(format!("--cid={cid}")).arg(format!("--device={}", device.display()));
+        Background::start(command.arg("--verbose"), &folder)
+    };
+    let program = "robot_STM32F4DiscoveryBoard";
+    link::scenes(&link::Application { name: "libcluon", program, start: &start });
+}
+
 #[test]
 fn libcluon_speaks_with_an_independent_peer() {
     let Some(tree) = tools::tree("LIBCLUON") else { return };
@@ -126,17 +154,7 @@ fn libcluon_speaks_with_an_independent_peer() {
         return;
     }
     let boards = designs::all_types();
-    let folder = files::generate("libcluon", "peer", &boards);
-    let build = folder.join("build");
-    tools::run(
-        Command::new("cmake")
-            .arg("-S")
-            .arg(&folder)
-            .arg("-B")
-            .arg(&build)
-            .arg(format!("-DCLUON_INCLUDE_DIR={}", tree.display())),
-    );
-    tools::run(Command::new("cmake").arg("--build").arg(&build));
+    let (folder, build) = build_libcluon(&tree, "peer", &boards);
     let cid = session(0);
     let mut line = Line::new();
     let peer = Background::start(
@@ -144,14 +162,14 @@ fn libcluon_speaks_with_an_independent_peer() {
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
             .arg(&cid)
             .arg(folder.join("sense.odvd"))
-            .arg("21068:sense_T7:raw=18446744073709551615")
-            .arg("21095:sense_B4:raw0=-300,raw1=32767")
-            .arg("21061:sense_T0:raw=True"),
+            .arg("21068:sense_robot_T7:raw=18446744073709551615")
+            .arg("21095:sense_robot_B4:raw0=-300,raw1=32767")
+            .arg("21061:sense_robot_T0:raw=True"),
         &folder,
     );
     peer.wait_for("ready");
     let _service = Background::start(
-        Command::new(build.join("sense_Everything"))
+        Command::new(build.join("robot_Everything"))
             .arg(format!("--cid={cid}"))
             .arg(format!("--device={}", line.device.display())),
         &folder,
@@ -241,35 +259,61 @@ impl OpenDavinci {
         program
     }
 
+    fn start(&self, program: &Path, cid: &str, folder: &Path, more: &[&str]) -> Background {
+        let mut command = Command::new(program);
+        command.current_dir(folder).arg(format!("--cid={cid}")).arg("--freq=20").args(more);
+        Background::start(&mut command, folder)
+    }
+
+    fn can_run(&self) -> bool {
+        let found = self.library.exists() && self.supercomponent.exists();
+        if !found {
+            let (library, supercomponent) = (self.library.display(), self.supercomponent.display());
+            eprintln!("SKIPPED: no {library} or {supercomponent}");
+        }
+        found
+    }
+
+    /// What happens to its board.
+    fn comes_back(&self, cid: &str) {
+        if !self.can_run() {
+            return;
+        }
+        let folder = files::generate(self.host, "link", &link::design());
+        let source = folder.join("src/STM32F4DiscoveryBoard.cpp");
+        let application = self.build(&folder, &source, "robot_Board");
+        let configuration = folder.join("configuration");
+        std::fs::write(&configuration, "robot.nothing = 1\n").unwrap();
+        let configured = format!("--configuration={}", configuration.display());
+        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
+        std::thread::sleep(Duration::from_secs(1));
+        let start = |device: &Path| {
+            let device = format!("--device={}", device.display());
+            self.start(&application, cid, &folder, &[&device, "--verbose=1"])
+        };
+        link::scenes(&link::Application { name: self.host, program: "robot_Board", start: &start });
+    }
+
     /// The board's values reach another application as Containers, another application's Containers
     /// reach the board.
     fn run(&self, cid: &str) {
-        if !self.library.exists() || !self.supercomponent.exists() {
-            eprintln!(
-                "SKIPPED: no {} or {}",
-                self.library.display(),
-                self.supercomponent.display()
-            );
+        if !self.can_run() {
             return;
         }
         let boards = designs::all_types();
         let folder = files::generate(self.host, "run", &boards);
         let application =
-            self.build(&folder, &folder.join("src/Everything.cpp"), "sense_Everything");
-        let printer = self.build(&folder, &folder.join("src/print.cpp"), "sense_print");
+            self.build(&folder, &folder.join("src/Everything.cpp"), "robot_Everything");
+        let printer = self.build(&folder, &folder.join("src/print.cpp"), "robot_print");
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/commander.cpp");
         let commander = self.build(&folder, &source, "commander");
         let mut line = Line::new();
-        let device = format!("sense_Everything.device = {}\n", line.device.display());
+        let device = format!("robot_Everything.device = {}\n", line.device.display());
         let configuration = folder.join("configuration");
         std::fs::write(&configuration, device).unwrap();
-        let start = |program: &Path| {
-            let mut command = Command::new(program);
-            command.current_dir(&folder).arg(format!("--cid={cid}")).arg("--freq=20");
-            command.arg(format!("--configuration={}", configuration.display()));
-            Background::start(&mut command, &folder)
-        };
-        let _supercomponent = start(&self.supercomponent);
+        let start = |program: &Path| self.start(program, cid, &folder, &[]);
+        let configured = format!("--configuration={}", configuration.display());
+        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
         std::thread::sleep(Duration::from_secs(1));
         let printer = start(&printer);
         let _application = start(&application);
@@ -306,6 +350,20 @@ fn opendavinci2014_compiles() {
 fn opendavinci2014_runs() {
     if let Some(tree) = opendavinci2014() {
         tree.run(&session(1));
+    }
+}
+
+#[test]
+fn opendavinci2014_comes_back() {
+    if let Some(tree) = opendavinci2014() {
+        tree.comes_back(&session(3));
+    }
+}
+
+#[test]
+fn opendavinci_comes_back() {
+    if let Some(tree) = opendavinci() {
+        tree.comes_back(&session(4));
     }
 }
 

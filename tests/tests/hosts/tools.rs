@@ -66,6 +66,18 @@ impl Background {
         String::from_utf8_lossy(&std::fs::read(&self.log).unwrap()).into_owned()
     }
 
+    /// Waits until it has ended; none when a signal ended it.
+    pub(crate) fn exit_status(&mut self) -> Option<i32> {
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status.code();
+            }
+            assert!(start.elapsed() < Duration::from_secs(30), "goes on:\n{}", self.output());
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
     /// Waits until it has printed `text`.
     pub(crate) fn wait_for(&self, text: &str) {
         let start = Instant::now();

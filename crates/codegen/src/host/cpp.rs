@@ -26,12 +26,14 @@ struct Monitor<'a> {
 #[derive(Template)]
 #[template(path = "host/cpp/CMakeLists.txt.txt", escape = "none")]
 struct CMakeLists<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
 #[derive(Template)]
 #[template(path = "host/cpp/README.md.txt", escape = "none")]
 struct Readme<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
@@ -46,20 +48,24 @@ impl Host for Cpp {
 
     fn render(&self, plan: &HostPlan) -> FileSet {
         let design = DesignView::new(plan);
-        let mut files = FileSet::default();
-        for (path, text) in
-            runtime::LINK.into_iter().chain([runtime::SERIAL, runtime::TEXT, runtime::HANDLERS])
-        {
+        let mut files = runtime::files();
+        for (path, text) in runtime::BOARD {
             files.add(path, text);
         }
         for board in &design.boards {
-            let ident = &board.ident;
-            files.add(format!("include/sense/{ident}_schema.hpp"), print(&SchemaHeader { board }));
-            files.add(format!("include/sense/{ident}.hpp"), print(&BoardHeader { board }));
+            let (name, ident) = (&design.ident, &board.ident);
+            files.add(
+                format!("include/sense/{name}/{ident}_schema.hpp"),
+                print(&SchemaHeader { board }),
+            );
+            files.add(format!("include/sense/{name}/{ident}.hpp"), print(&BoardHeader { board }));
             files.add(format!("src/monitor_{ident}.cpp"), print(&Monitor { board }));
         }
-        files.add("CMakeLists.txt", print(&CMakeLists { boards: &design.boards }));
-        files.add("README.md", print(&Readme { boards: &design.boards }));
+        files.add(
+            "CMakeLists.txt",
+            print(&CMakeLists { design: &design.ident, boards: &design.boards }),
+        );
+        files.add("README.md", print(&Readme { design: &design.ident, boards: &design.boards }));
         files
     }
 }

@@ -6,7 +6,7 @@ use askama::Template;
 use sensedsl_wire::ScalarType;
 
 use super::cpp_names::CppNames;
-use super::plan::{BoardPlan, DirectionPlan, HostPlan, MESSAGE_NUMBER_BASE, MessagePlan};
+use super::plan::{BoardPlan, DirectionPlan, HostPlan, Limits, MESSAGE_NUMBER_BASE, MessagePlan};
 
 /// Distance between a wire identifier and its data type in the OpenDaVINCI of 2014, whose data types
 /// are an enumeration: 701 to 954 are free there and within its range of values.
@@ -35,15 +35,23 @@ impl<'a> OdvdFile<'a> {
 
 /// The whole design.
 pub(super) struct DesignView {
+    /// Its namespace in `sense`, its CMake target, its folder of headers.
+    pub(super) ident: String,
     pub(super) boards: Vec<BoardView>,
 }
 
 /// One board.
 pub(super) struct BoardView {
+    /// The design's namespace.
+    pub(super) design: String,
     pub(super) name: String,
-    /// Its namespace and the stem of its files.
+    /// Its name as a C++ string literal.
+    pub(super) name_literal: String,
+    /// Its class and the stem of its files.
     pub(super) ident: String,
     pub(super) hash: String,
+    /// C++ string literals, a line each.
+    pub(super) schema_text: Vec<String>,
     pub(super) has_checksum: bool,
     pub(super) baud: u32,
     pub(super) sensors: Vec<MessageView>,
@@ -58,12 +66,18 @@ pub(super) struct MessageView {
     pub(super) name: String,
     /// Its class.
     pub(super) ident: String,
+    /// The same from anywhere: `::sense::fig2::IRFront`.
+    pub(super) path: String,
+    /// Its name in an .odvd file: `sense.fig2.IRFront`.
+    pub(super) odvd_name: String,
     pub(super) id: u8,
     pub(super) number: u32,
     pub(super) data_type_2014: u32,
     pub(super) is_actuator: bool,
     /// One line for a comment.
     pub(super) summary: String,
+    /// One line for a help text, as a C++ string literal: name, type, limits, label.
+    pub(super) help: String,
     /// `uint16_t`
     pub(super) cpp_type: &'static str,
     pub(super) scalar_bytes: usize,
@@ -74,6 +88,11 @@ pub(super) struct MessageView {
     pub(super) scale: String,
     pub(super) offset: String,
     pub(super) has_value: bool,
+    /// C++ expressions of type double.
+    pub(super) min: String,
+    pub(super) max: String,
+    /// 0 when values come only when something happens.
+    pub(super) cycle_ms: u32,
     /// The unit as a C++ string literal; `""` when there is none.
     pub(super) quantity: String,
     /// ` cm` as a C++ string literal, for printing behind a number.
@@ -96,8 +115,10 @@ pub(super) struct FieldView {
 impl DesignView {
     /// Names are unique over the whole design, so that messages of all boards fit one namespace.
     pub(super) fn new(plan: &HostPlan) -> Self {
+        let ident = CppNames::new().take(&plan.name);
         let mut names = CppNames::new();
-        Self { boards: plan.boards.iter().map(|board| BoardView::new(board, &mut names)).collect() }
+        let boards = plan.boards.iter().map(|board| BoardView::new(board, &ident, &mut names));
+        Self { boards: boards.collect(), ident }
     }
 
     /// All messages of all boards.
@@ -107,11 +128,15 @@ impl DesignView {
 }
 
 impl BoardView {
-    fn new(board: &BoardPlan, names: &mut CppNames) -> Self {
-        let sensors = messages(&board.sensors, names);
-        let actuators = messages(&board.actuators, names);
+    fn new(board: &BoardPlan, design: &str, names: &mut CppNames) -> Self {
+        let sensors = messages(&board.sensors, design, names);
+        let actuators = messages(&board.actuators, design, names);
+        let schema_text = board.schema_text.split_inclusive('\n').map(string_literal).collect();
         Self {
+            design: design.to_owned(),
+            schema_text,
             name: one_line(&board.name),
+            name_literal: string_literal(&board.name),
             ident: names.take(&board.name),
             hash: format!("0x{:08x}U", board.hash),
             has_checksum: board.has_checksum,
@@ -129,12 +154,13 @@ impl BoardView {
     }
 }
 
-fn messages(direction: &DirectionPlan, names: &mut CppNames) -> Vec<MessageView> {
-    direction.messages.iter().map(|message| MessageView::new(message, names)).collect()
+fn messages(direction: &DirectionPlan, design: &str, names: &mut CppNames) -> Vec<MessageView> {
+    direction.messages.iter().map(|message| MessageView::new(message, design, names)).collect()
 }
 
 impl MessageView {
-    fn new(message: &MessagePlan, names: &mut CppNames) -> Self {
+    fn new(message: &MessagePlan, design: &str, names: &mut CppNames) -> Self {
+        let ident = names.take(&message.name);
         let quantity = message.quantity.as_deref().unwrap_or_default();
         let scalar = message.value.scalar;
         let count = message.value.count();
@@ -143,7 +169,9 @@ impl MessageView {
         let label = message.label.as_deref().map(|label| format!(": {label}")).unwrap_or_default();
         Self {
             name: string_literal(&message.name),
-            ident: names.take(&message.name),
+            path: format!("::sense::{design}::{ident}"),
+            odvd_name: format!("sense.{design}.{ident}"),
+            ident,
             id: message.id,
             number: message.number,
             data_type_2014: DATA_TYPE_BASE_2014 + u32::from(message.id),
@@ -154,6 +182,7 @@ impl MessageView {
                 message.name,
                 message.value
             )),
+            help: string_literal(&help(message)),
             cpp_type: types.cpp,
             scalar_bytes: scalar.size_bytes(),
             is_bool: scalar == ScalarType::Bool,
@@ -162,6 +191,9 @@ impl MessageView {
             scale: real_literal(scale),
             offset: real_literal(offset),
             has_value: message.scaling.is_some(),
+            min: limit_literal("-", message.limits.min),
+            max: limit_literal("", message.limits.max),
+            cycle_ms: message.cycle_ms.unwrap_or_default(),
             quantity: string_literal(quantity),
             quantity_suffix: string_literal(&suffix(quantity)),
             fields: fields(
@@ -172,6 +204,21 @@ impl MessageView {
             ),
         }
     }
+}
+
+/// `Steering int16, -30 to 30 deg: front axle`
+fn help(message: &MessagePlan) -> String {
+    let Limits { min, max } = message.limits;
+    let limits = match (min, max) {
+        (Some(min), Some(max)) => format!(", {min} to {max}"),
+        (Some(min), None) => format!(", at least {min}"),
+        (None, Some(max)) => format!(", at most {max}"),
+        (None, None) => String::new(),
+    };
+    let quantity = suffix(message.quantity.as_deref().unwrap_or_default());
+    let shown = if limits.is_empty() && !quantity.is_empty() { "," } else { "" };
+    let label = message.label.as_deref().map(|label| format!(": {label}")).unwrap_or_default();
+    format!("{} {}{limits}{shown}{quantity}{label}", message.name, message.value)
 }
 
 fn suffix(quantity: &str) -> String {
@@ -223,6 +270,11 @@ impl CppTypes {
 /// A finite number as a C++ literal of type double.
 fn real_literal(number: f64) -> String {
     format!("{number:?}")
+}
+
+/// A limit as a C++ expression; one that is not there is infinite.
+fn limit_literal(sign: &str, limit: Option<f64>) -> String {
+    limit.map_or_else(|| format!("{sign}std::numeric_limits<double>::infinity()"), real_literal)
 }
 
 /// Text as a C++ string literal. Bytes outside printable ASCII become octal escapes, which end after

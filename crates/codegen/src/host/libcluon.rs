@@ -20,12 +20,14 @@ struct Service<'a> {
 #[derive(Template)]
 #[template(path = "host/libcluon/CMakeLists.txt.txt", escape = "none")]
 struct CMakeLists<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
 #[derive(Template)]
 #[template(path = "host/libcluon/README.md.txt", escape = "none")]
 struct Readme<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
@@ -40,18 +42,21 @@ impl Host for Libcluon {
 
     fn render(&self, plan: &HostPlan) -> FileSet {
         let design = DesignView::new(plan);
-        let mut files = FileSet::default();
-        for (path, text) in runtime::LINK.into_iter().chain([runtime::SERIAL, runtime::TEXT]) {
-            files.add(path, text);
-        }
+        let mut files = runtime::files();
         for board in &design.boards {
-            let ident = &board.ident;
-            files.add(format!("include/sense/{ident}_schema.hpp"), print(&SchemaHeader { board }));
+            let (name, ident) = (&design.ident, &board.ident);
+            files.add(
+                format!("include/sense/{name}/{ident}_schema.hpp"),
+                print(&SchemaHeader { board }),
+            );
             files.add(format!("src/{ident}.cpp"), print(&Service { board }));
         }
         files.add("sense.odvd", print(&OdvdFile::new(&design)));
-        files.add("CMakeLists.txt", print(&CMakeLists { boards: &design.boards }));
-        files.add("README.md", print(&Readme { boards: &design.boards }));
+        files.add(
+            "CMakeLists.txt",
+            print(&CMakeLists { design: &design.ident, boards: &design.boards }),
+        );
+        files.add("README.md", print(&Readme { design: &design.ident, boards: &design.boards }));
         files
     }
 }

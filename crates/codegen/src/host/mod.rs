@@ -12,7 +12,9 @@ mod opendavinci;
 mod opendavinci2014;
 mod plan;
 
-pub use plan::{BoardPlan, DirectionPlan, HostBoard, HostPlan, MessagePlan, Presentation, Scaling};
+pub use plan::{
+    BoardPlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Presentation, Scaling,
+};
 
 use crate::fileset::FileSet;
 
@@ -38,34 +40,42 @@ pub fn find(name: &str) -> Option<&'static dyn Host> {
 
 /// The hand-written files that C++ hosts share.
 mod runtime {
-    /// Tables and scalars, decoder, encoder.
-    pub(super) const LINK: [(&str, &str); 3] = [
-        (
-            "include/sensedsl/wire.hpp",
-            include_str!("../../../../runtime/host/cpp/sensedsl/wire.hpp"),
-        ),
-        (
-            "include/sensedsl/decode.hpp",
-            include_str!("../../../../runtime/host/cpp/sensedsl/decode.hpp"),
-        ),
-        (
-            "include/sensedsl/link.hpp",
-            include_str!("../../../../runtime/host/cpp/sensedsl/link.hpp"),
-        ),
+    use crate::fileset::FileSet;
+
+    /// A file of `runtime/host/cpp` and where a host has it.
+    macro_rules! shared {
+        ($name:literal) => {
+            (
+                concat!("include/sensedsl/", $name),
+                include_str!(concat!("../../../../runtime/host/cpp/sensedsl/", $name)),
+            )
+        };
+    }
+
+    /// From C++98 on: what every host is made of.
+    const EVERY_HOST: [(&str, &str); 12] = [
+        shared!("cause.hpp"),
+        shared!("connection.hpp"),
+        shared!("decode.hpp"),
+        shared!("difference.hpp"),
+        shared!("link.hpp"),
+        shared!("options.hpp"),
+        shared!("serial.hpp"),
+        shared!("session.hpp"),
+        shared!("text.hpp"),
+        shared!("thread.hpp"),
+        shared!("usb.hpp"),
+        shared!("wire.hpp"),
     ];
-    /// Raw serial device.
-    pub(super) const SERIAL: (&str, &str) = (
-        "include/sensedsl/serial.hpp",
-        include_str!("../../../../runtime/host/cpp/sensedsl/serial.hpp"),
-    );
-    /// Overloads for C++17.
-    pub(super) const HANDLERS: (&str, &str) = (
-        "include/sensedsl/handlers.hpp",
-        include_str!("../../../../runtime/host/cpp/sensedsl/handlers.hpp"),
-    );
-    /// Scalars as text.
-    pub(super) const TEXT: (&str, &str) = (
-        "include/sensedsl/text.hpp",
-        include_str!("../../../../runtime/host/cpp/sensedsl/text.hpp"),
-    );
+    /// For C++17.
+    pub(super) const BOARD: [(&str, &str); 2] = [shared!("board.hpp"), shared!("handlers.hpp")];
+
+    /// All that a host of any C++ includes.
+    pub(super) fn files() -> FileSet {
+        let mut files = FileSet::default();
+        for (path, text) in EVERY_HOST {
+            files.add(path, text);
+        }
+        files
+    }
 }

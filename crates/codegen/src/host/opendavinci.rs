@@ -14,6 +14,7 @@ pub(super) struct OpenDavinci;
 #[derive(Template)]
 #[template(path = "host/opendavinci/messages.h.txt", escape = "none")]
 struct Messages<'a> {
+    design: &'a str,
     messages: &'a [&'a MessageView],
 }
 
@@ -26,18 +27,21 @@ struct Application<'a> {
 #[derive(Template)]
 #[template(path = "host/opendavinci/print.cpp.txt", escape = "none")]
 struct Printer<'a> {
+    design: &'a str,
     messages: &'a [&'a MessageView],
 }
 
 #[derive(Template)]
 #[template(path = "host/opendavinci/CMakeLists.txt.txt", escape = "none")]
 struct CMakeLists<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
 #[derive(Template)]
 #[template(path = "host/opendavinci/README.md.txt", escape = "none")]
 struct Readme<'a> {
+    design: &'a str,
     boards: &'a [BoardView],
 }
 
@@ -53,20 +57,26 @@ impl Host for OpenDavinci {
     fn render(&self, plan: &HostPlan) -> FileSet {
         let design = DesignView::new(plan);
         let messages: Vec<_> = design.messages().collect();
-        let mut files = FileSet::default();
-        for (path, text) in runtime::LINK.into_iter().chain([runtime::TEXT]) {
-            files.add(path, text);
-        }
+        let mut files = runtime::files();
         for board in &design.boards {
-            let ident = &board.ident;
-            files.add(format!("include/sense/{ident}_schema.hpp"), print(&SchemaHeader { board }));
+            let (name, ident) = (&design.ident, &board.ident);
+            files.add(
+                format!("include/sense/{name}/{ident}_schema.hpp"),
+                print(&SchemaHeader { board }),
+            );
             files.add(format!("src/{ident}.cpp"), print(&Application { board }));
         }
-        files.add("include/messages.h", print(&Messages { messages: &messages }));
-        files.add("src/print.cpp", print(&Printer { messages: &messages }));
+        files.add(
+            "include/messages.h",
+            print(&Messages { design: &design.ident, messages: &messages }),
+        );
+        files.add("src/print.cpp", print(&Printer { design: &design.ident, messages: &messages }));
         files.add("sense.odvd", print(&OdvdFile::new(&design)));
-        files.add("CMakeLists.txt", print(&CMakeLists { boards: &design.boards }));
-        files.add("README.md", print(&Readme { boards: &design.boards }));
+        files.add(
+            "CMakeLists.txt",
+            print(&CMakeLists { design: &design.ident, boards: &design.boards }),
+        );
+        files.add("README.md", print(&Readme { design: &design.ident, boards: &design.boards }));
         files
     }
 }

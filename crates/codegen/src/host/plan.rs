@@ -27,6 +27,8 @@ pub struct Presentation {
     pub min: Option<f64>,
     /// Greatest shown value that makes sense.
     pub max: Option<f64>,
+    /// From one value to the next; none where values come only when something happens.
+    pub cycle_ms: Option<u32>,
 }
 
 /// One board as the hosts see it.
@@ -45,6 +47,8 @@ pub struct HostBoard {
 /// All boards of a design, ready to be printed in any language.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HostPlan {
+    /// The design's name: what its file is called.
+    pub name: String,
     /// In file order.
     pub boards: Vec<BoardPlan>,
 }
@@ -56,6 +60,8 @@ pub struct BoardPlan {
     pub name: String,
     /// The schema hash.
     pub hash: u32,
+    /// The text that the hash is made of.
+    pub schema_text: String,
     /// Whether frames end with a checksum.
     pub has_checksum: bool,
     /// Baud rate of the link.
@@ -94,6 +100,19 @@ pub struct MessagePlan {
     pub quantity: Option<String>,
     /// Set when a scaled value is to be shown beside the raw one.
     pub scaling: Option<Scaling>,
+    /// What the scaled value is expected to keep to.
+    pub limits: Limits,
+    /// From one value to the next; none where values come only when something happens.
+    pub cycle_ms: Option<u32>,
+}
+
+/// Least and greatest value of a message, finite where there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Least.
+    pub min: Option<f64>,
+    /// Greatest.
+    pub max: Option<f64>,
 }
 
 /// `scale * raw + offset`.
@@ -106,10 +125,10 @@ pub struct Scaling {
 }
 
 impl HostPlan {
-    /// Decides everything that is the same in each language.
+    /// Decides everything that is the same in each language. `name` is what people call the design.
     #[must_use]
-    pub fn new(boards: &[HostBoard]) -> Self {
-        Self { boards: boards.iter().map(BoardPlan::new).collect() }
+    pub fn new(name: &str, boards: &[HostBoard]) -> Self {
+        Self { name: name.to_owned(), boards: boards.iter().map(BoardPlan::new).collect() }
     }
 }
 
@@ -118,6 +137,7 @@ impl BoardPlan {
         Self {
             name: board.name.clone(),
             hash: board.schema.hash(),
+            schema_text: board.schema.canonical_text(),
             has_checksum: board.schema.checksum == Checksum::Crc16,
             baud: board.baud,
             sensors: DirectionPlan::new(board, Direction::Sensor),
@@ -143,6 +163,11 @@ impl DirectionPlan {
                 direction,
                 value: item.value,
                 scaling: Scaling::of(&shown),
+                limits: Limits {
+                    min: shown.min.filter(|min| min.is_finite()),
+                    max: shown.max.filter(|max| max.is_finite()),
+                },
+                cycle_ms: shown.cycle_ms.filter(|_| direction == Direction::Sensor),
                 label: shown.label,
                 quantity: shown.quantity,
             }

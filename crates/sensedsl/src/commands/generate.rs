@@ -1,5 +1,7 @@
 //! `sensedsl generate`: firmware, host applications, wiring sheet and picture.
 
+use std::path::Path;
+
 use anyhow::Result;
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::{HOSTS, Host, find};
@@ -39,8 +41,9 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
         terminal.diagnostics(&diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
+    let name = design_name(&args.file);
     let files = hosts(args, design)
-        .and_then(|hosts| sensedsl_codegen::project(design, &assignment, &hosts));
+        .and_then(|hosts| sensedsl_codegen::project(&name, design, &assignment, &hosts));
     let files = match files {
         Ok(files) => files,
         Err(mut reports) => {
@@ -64,6 +67,12 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     };
     report(args, terminal, design, &assignment, &changes)?;
     Ok(Status::Done)
+}
+
+/// What people call the design: what its file is called.
+fn design_name(file: &Path) -> String {
+    let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    stem.filter(|stem| stem != "-").unwrap_or_else(|| "design".to_owned())
 }
 
 /// Why the folder was not written, or not as it should be.

@@ -1,8 +1,9 @@
-// What a C++17 program writes to take messages from a decoder.
+// What a C++17 program writes to take messages from a board.
 #ifndef SENSEDSL_HANDLERS_HPP
 #define SENSEDSL_HANDLERS_HPP
 
 #include <cstdint>
+#include <string>
 
 namespace sensedsl {
 
@@ -11,6 +12,12 @@ struct Hello {
     std::uint32_t hash;
     /// True when it is the hash of the design this program was generated from.
     bool is_same_schema;
+};
+
+/// Something happened that people want to know: the board is lost, back, silent, or another one.
+struct Note {
+    /// One or more lines.
+    std::string text;
 };
 
 /// Many function objects as one with an overload of each.

@@ -1,4 +1,5 @@
-// A board's serial device, raw: what is sent is not echoed back, and no byte is special.
+// A board's serial device, raw and for this program alone: what is sent is not echoed back, no byte
+// is special, and nobody else takes a part of the bytes.
 //
 // In: a path and a baud rate. Out: bytes. A file or `-` (standard input) works as well, so that a
 // recorded stream can be played. C++98 and POSIX.
@@ -9,67 +10,146 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
-#include <stdexcept>
+#include <sstream>
 #include <string>
 
+#include "sensedsl/cause.hpp"
 #include "sensedsl/link.hpp"
+
+#if defined(__APPLE__)
+#include <IOKit/serial/ioss.h>
+#endif
 
 namespace sensedsl {
 
-/// An open device; closed when it goes.
+/// Any baud rate, whatever names the system has for some.
+namespace baud_rate {
+#if defined(__linux__) && defined(TCGETS2) && !defined(__mips__) && !defined(__sparc__)
+/// The kernel's own structure: the C library's header and the kernel's cannot be included together.
+struct termios2 {
+    uint32_t c_iflag, c_oflag, c_cflag, c_lflag;
+    uint8_t c_line;
+    uint8_t c_cc[19];
+    uint32_t c_ispeed, c_ospeed;
+};
+
+inline bool set(int descriptor, unsigned baud) {
+    const uint32_t any_rate = 0x1000, rates = 0x100F, input_shift = 16;
+    struct termios2 settings;
+    if (::ioctl(descriptor, TCGETS2, &settings) != 0) {
+        return false;
+    }
+    settings.c_cflag &= ~(rates | rates << input_shift);
+    settings.c_cflag |= any_rate | any_rate << input_shift;
+    settings.c_ispeed = baud;
+    settings.c_ospeed = baud;
+    return ::ioctl(descriptor, TCSETS2, &settings) == 0;
+}
+
+/// The rate that the device really has; 0 when it does not say.
+inline unsigned get(int descriptor) {
+    struct termios2 settings;
+    return ::ioctl(descriptor, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
+}
+#else
+inline bool set(int descriptor, unsigned baud) {
+#if defined(__APPLE__)
+    speed_t speed = baud;
+    return ::ioctl(descriptor, IOSSIOSPEED, &speed) == 0;
+#else
+    struct termios settings;
+    return ::tcgetattr(descriptor, &settings) == 0 && ::cfsetspeed(&settings, baud) == 0 &&
+           ::tcsetattr(descriptor, TCSANOW, &settings) == 0;
+#endif
+}
+
+inline unsigned get(int) { return 0; }
+#endif
+} // namespace baud_rate
+
+/// A device; closed when it goes.
 class Serial {
 public:
     enum State { data, silent, ended };
 
-    /// Opens the device. Throws std::runtime_error with the reason.
-    Serial(const std::string &path, unsigned baud) : fd_(STDIN_FILENO), path_(path) {
+    Serial() : descriptor_(-1), path_() {}
+    /// Opens the device. Throws OpenError with the cause and what to do.
+    Serial(const std::string &path, unsigned baud) : descriptor_(-1), path_() { open(path, baud); }
+    ~Serial() { close(); }
+
+    /// Opens the device, for this program alone if it is a terminal device. Throws OpenError.
+    void open(const std::string &path, unsigned baud) {
+        close();
+        path_ = path;
         if (path == "-") {
+            descriptor_ = STDIN_FILENO;
             return;
         }
-        fd_ = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
-        if (fd_ < 0 && (errno == EACCES || errno == EROFS || errno == EPERM)) {
-            fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK);
+        struct stat status;
+        if (::stat(path.c_str(), &status) != 0) {
+            throw OpenError(path, errno);
         }
-        if (fd_ < 0) {
-            fail("cannot open");
+        if (S_ISDIR(status.st_mode)) {
+            throw OpenError(path, EISDIR);
+        }
+        const int mode = S_ISCHR(status.st_mode) ? O_RDWR | O_NONBLOCK : O_RDONLY;
+        descriptor_ = ::open(path.c_str(), mode | O_NOCTTY | O_CLOEXEC);
+        if (descriptor_ < 0) {
+            throw OpenError(path, errno);
         }
         try {
-            make_raw(baud);
+            if (is_terminal()) {
+                take_for_this_program();
+                make_raw();
+                set_baud(baud);
+                // What other firmware sent before is nobody's any more.
+                ::tcflush(descriptor_, TCIFLUSH);
+            }
         } catch (...) {
-            ::close(fd_);
+            ::close(descriptor_);
+            descriptor_ = -1;
             throw;
         }
     }
 
-    ~Serial() {
-        if (fd_ != STDIN_FILENO) {
-            ::close(fd_);
+    void close() {
+        if (is_terminal()) {
+            ::ioctl(descriptor_, TIOCNXCL);
         }
+        if (descriptor_ > STDIN_FILENO) {
+            ::close(descriptor_);
+        }
+        descriptor_ = -1;
     }
 
+    bool is_open() const { return descriptor_ >= 0; }
+
     /// True for a terminal device; only there an answer can be had.
-    bool is_terminal() const { return fd_ != STDIN_FILENO && ::isatty(fd_) == 1; }
+    bool is_terminal() const { return descriptor_ > STDIN_FILENO && ::isatty(descriptor_) == 1; }
 
     /// For waiting on it beside other things.
-    int descriptor() const { return fd_; }
+    int descriptor() const { return descriptor_; }
 
     /// Waits for bytes and puts them in `bytes`. `silent` when none came in time or a signal came;
     /// `ended` when the device is gone or the file is over.
     State read(Bytes &bytes, int timeout_ms) {
         bytes.clear();
         struct pollfd wanted;
-        wanted.fd = fd_;
+        wanted.fd = descriptor_;
         wanted.events = POLLIN;
         wanted.revents = 0;
         const int ready = ::poll(&wanted, 1, timeout_ms);
         if (ready == 0 || (ready < 0 && errno == EINTR)) {
             return silent;
         }
-        uint8_t chunk[512];
-        const ssize_t count = ::read(fd_, chunk, sizeof chunk);
+        uint8_t chunk[4096];
+        const ssize_t count = ::read(descriptor_, chunk, sizeof chunk);
         if (count > 0) {
             bytes.assign(chunk, chunk + count);
             return data;
@@ -81,12 +161,12 @@ public:
     bool write(const Bytes &bytes) {
         size_t done = 0;
         while (done < bytes.size()) {
-            const ssize_t count = ::write(fd_, &bytes[done], bytes.size() - done);
+            const ssize_t count = ::write(descriptor_, &bytes[done], bytes.size() - done);
             if (count > 0) {
                 done += static_cast<size_t>(count);
             } else if (count < 0 && errno == EAGAIN) {
                 struct pollfd wanted;
-                wanted.fd = fd_;
+                wanted.fd = descriptor_;
                 wanted.events = POLLOUT;
                 wanted.revents = 0;
                 if (::poll(&wanted, 1, 1000) == 0) {
@@ -103,77 +183,49 @@ private:
     Serial(const Serial &);
     Serial &operator=(const Serial &);
 
-    void fail(const char *what) const {
-        throw std::runtime_error(std::string(what) + " " + path_ + ": " + strerror(errno));
+    /// The lock stops other programs that ask for it, and root; TIOCEXCL stops all others.
+    void take_for_this_program() const {
+        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+            throw OpenError(path_, errno == EWOULDBLOCK ? EBUSY : errno);
+        }
+        ::ioctl(descriptor_, TIOCEXCL);
     }
 
-    void make_raw(unsigned baud) const {
-        if (::isatty(fd_) != 1) {
-            return;
-        }
+    void make_raw() const {
         struct termios settings;
-        if (::tcgetattr(fd_, &settings) != 0) {
-            fail("cannot read the settings of");
+        if (::tcgetattr(descriptor_, &settings) != 0) {
+            throw OpenError(path_, errno);
         }
-        settings.c_iflag &= static_cast<tcflag_t>(~static_cast<tcflag_t>(
-            IGNBRK | BRKINT | PARMRK | ISTRIP | INLCR | IGNCR | ICRNL | IXON | IXOFF | IXANY));
-        settings.c_oflag &= static_cast<tcflag_t>(~static_cast<tcflag_t>(OPOST));
-        settings.c_lflag &= static_cast<tcflag_t>(
-            ~static_cast<tcflag_t>(ECHO | ECHOE | ECHOK | ECHONL | ICANON | ISIG | IEXTEN));
-        settings.c_cflag &= static_cast<tcflag_t>(~static_cast<tcflag_t>(CSIZE | PARENB | CSTOPB));
-        settings.c_cflag |= static_cast<tcflag_t>(CS8 | CREAD | CLOCAL);
+        ::cfmakeraw(&settings);
+        settings.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY);
+        settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB);
+        settings.c_cflag |= static_cast<tcflag_t>(CREAD | CLOCAL);
 #ifdef CRTSCTS
-        settings.c_cflag &= static_cast<tcflag_t>(~static_cast<tcflag_t>(CRTSCTS));
+        settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS);
 #endif
         settings.c_cc[VMIN] = 1;
         settings.c_cc[VTIME] = 0;
-        speed_t speed = B115200;
-        if (!speed_of(baud, speed)) {
-            throw std::runtime_error("this system has no such baud rate for " + path_);
-        }
-        if (::cfsetispeed(&settings, speed) != 0 || ::cfsetospeed(&settings, speed) != 0 ||
-            ::tcsetattr(fd_, TCSANOW, &settings) != 0) {
-            fail("cannot make raw");
+        if (::tcsetattr(descriptor_, TCSANOW, &settings) != 0) {
+            throw OpenError(path_, errno);
         }
     }
 
-    static bool speed_of(unsigned baud, speed_t &speed) {
-        switch (baud) {
-        case 1200: speed = B1200; return true;
-        case 2400: speed = B2400; return true;
-        case 4800: speed = B4800; return true;
-        case 9600: speed = B9600; return true;
-        case 19200: speed = B19200; return true;
-        case 38400: speed = B38400; return true;
-        case 57600: speed = B57600; return true;
-        case 115200: speed = B115200; return true;
-        case 230400: speed = B230400; return true;
-#ifdef B460800
-        case 460800: speed = B460800; return true;
-#endif
-#ifdef B500000
-        case 500000: speed = B500000; return true;
-#endif
-#ifdef B921600
-        case 921600: speed = B921600; return true;
-#endif
-#ifdef B1000000
-        case 1000000: speed = B1000000; return true;
-#endif
-#ifdef B2000000
-        case 2000000: speed = B2000000; return true;
-#endif
-#ifdef B3000000
-        case 3000000: speed = B3000000; return true;
-#endif
-#ifdef B4000000
-        case 4000000: speed = B4000000; return true;
-#endif
-        default: return false;
+    /// An adapter takes the nearest rate it has; more than 2.5 % off, bytes are misread.
+    void set_baud(unsigned baud) const {
+        const bool is_set = baud_rate::set(descriptor_, baud);
+        const double real = is_set ? baud_rate::get(descriptor_) : 0.0;
+        const bool is_near = real < 1.0 || (real > 0.975 * baud && real < 1.025 * baud);
+        if (!is_set || !is_near) {
+            std::ostringstream text;
+            text << "cannot open " << path_ << ": this adapter has no " << baud << " baud";
+            if (is_set) {
+                text << "; the nearest it has is " << real;
+            }
+            throw OpenError(text.str());
         }
     }
 
-    int fd_;
+    int descriptor_;
     std::string path_;
 };
 

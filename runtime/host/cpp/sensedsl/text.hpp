@@ -14,6 +14,7 @@
 
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <string>
 
 namespace sensedsl {
@@ -59,40 +60,97 @@ template <typename T> inline void print_all(std::ostream &out, const T *values, 
     out << ']';
 }
 
-/// Reads an integer of `T`'s range. False when the text is none.
-template <typename T> inline bool parse(const std::string &text, T &value) {
-    char *end = NULL;
-    errno = 0;
-    if (std::numeric_limits<T>::is_signed) {
-        const intmax_t number = strtoimax(text.c_str(), &end, 0);
-        if (number < static_cast<intmax_t>(std::numeric_limits<T>::min()) ||
-            number > static_cast<intmax_t>(std::numeric_limits<T>::max())) {
-            return false;
-        }
-        value = static_cast<T>(number);
-    } else {
-        const uintmax_t number = strtoumax(text.c_str(), &end, 0);
-        if (text.find('-') != std::string::npos ||
-            number > static_cast<uintmax_t>(std::numeric_limits<T>::max())) {
-            return false;
-        }
-        value = static_cast<T>(number);
+/// What is wrong with typed text as a `T`; empty when nothing is, and then `value` is it. Integers are
+/// decimal, leading zeros included, or hexadecimal behind `0x`; nothing stands before or behind.
+template <typename T> inline std::string read_typed(const std::string &text, T &value) {
+    const bool has_sign = !text.empty() && (text[0] == '-' || text[0] == '+');
+    const std::string number = has_sign ? text.substr(1) : text;
+    const bool is_hex = number.compare(0, 2, "0x") == 0 || number.compare(0, 2, "0X") == 0;
+    const std::string digits = is_hex ? number.substr(2) : number;
+    const char *const allowed = is_hex ? "0123456789abcdefABCDEF" : "0123456789";
+    if (digits.empty() || digits.find_first_not_of(allowed) != std::string::npos) {
+        return "is not a whole number";
     }
-    return errno == 0 && !text.empty() && *end == '\0';
+    errno = 0;
+    const uint64_t size = strtoumax(digits.c_str(), NULL, is_hex ? 16 : 10);
+    const bool is_negative = has_sign && text[0] == '-' && size != 0;
+    const uint64_t greatest = static_cast<uint64_t>(std::numeric_limits<T>::max());
+    const uint64_t least = std::numeric_limits<T>::is_signed ? greatest + 1 : 0;
+    if (errno != 0 || size > (is_negative ? least : greatest)) {
+        std::ostringstream reason;
+        reason << "is not in the range " << +std::numeric_limits<T>::min() << " to "
+               << +std::numeric_limits<T>::max();
+        return reason.str();
+    }
+    value = static_cast<T>(is_negative ? 0 - size : size);
+    return std::string();
 }
-template <> inline bool parse<bool>(const std::string &text, bool &value) {
+template <> inline std::string read_typed<bool>(const std::string &text, bool &value) {
     value = text == "true" || text == "1";
-    return value || text == "false" || text == "0";
+    return value || text == "false" || text == "0" ? "" : "is not true, false, 1 or 0";
 }
-template <> inline bool parse<double>(const std::string &text, double &value) {
+template <> inline std::string read_typed<double>(const std::string &text, double &value) {
+    if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
+        return "is not a finite number such as -2.5 or 1e3";
+    }
     char *end = NULL;
     value = strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0';
+    if (*end != '\0') {
+        return "is not a finite number such as -2.5 or 1e3";
+    }
+    const bool is_finite = value - value <= 0.0;
+    return is_finite ? "" : "is too large for a float64";
 }
-template <> inline bool parse<float>(const std::string &text, float &value) {
-    char *end = NULL;
-    value = strtof(text.c_str(), &end);
-    return !text.empty() && *end == '\0';
+template <> inline std::string read_typed<float>(const std::string &text, float &value) {
+    double wide = 0.0;
+    const std::string reason = read_typed(text, wide);
+    const double greatest = static_cast<double>(std::numeric_limits<float>::max());
+    if (!reason.empty()) {
+        return reason;
+    }
+    if (wide > greatest || wide < -greatest) {
+        return "is too large for a float32";
+    }
+    // Not by way of double: that would round twice.
+    value = strtof(text.c_str(), NULL);
+    return std::string();
+}
+
+/// Reads one scalar. False when the text is none.
+template <typename T> inline bool parse(const std::string &text, T &value) {
+    return read_typed(text, value).empty();
+}
+
+/// The limits that the design gives to a value; absent ones are infinite.
+struct Limits {
+    double min;
+    double max;
+};
+
+/// ` (below the minimum of -30 deg)` behind a value outside its limits, otherwise nothing.
+inline std::string outside(const Limits &limits, double value, const std::string &quantity) {
+    if (value >= limits.min && value <= limits.max) {
+        return std::string();
+    }
+    const bool is_below = value < limits.min;
+    if (!is_below && !(value > limits.max)) {
+        return " (not a number)";
+    }
+    return (is_below ? " (below the minimum of " : " (above the maximum of ") +
+           real_text(is_below ? limits.min : limits.max, 6, false) + quantity + ")";
+}
+
+/// The same for the first of `count` raw scalars whose `scale * raw + offset` is outside.
+template <typename T>
+inline std::string outside_of(const Limits &limits, const T *raw, size_t count, double scale,
+                              double offset, const std::string &quantity) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const bool has_limits = limits.min > -infinity || limits.max < infinity;
+    std::string text;
+    for (size_t i = 0; i < count && text.empty() && has_limits; ++i) {
+        text = outside(limits, scale * static_cast<double>(raw[i]) + offset, quantity);
+    }
+    return text;
 }
 
 } // namespace sensedsl

@@ -17,6 +17,9 @@
 /* Clock of the core's cycle counter, in Hz. */
 #define UP_CORE_HZ STM32_HCLK
 
+/* The shortest read the I2C driver accepts. */
+#define UP_I2C_READ_BYTES_MIN 1
+
 #define UP_FIELDS_COUNT 4U
 #define UP_VALUE_BYTES_MAX 4U
 #define UP_FRAME_BYTES_MAX_TO_HOST 17U

@@ -221,7 +221,8 @@ _Static_assert(STM32_ADC_ADC1_DMA_STREAM !=
 _Static_assert(STM32_I2C_I2C3_RX_DMA_STREAM !=
                STM32_I2C_I2C3_TX_DMA_STREAM,
                "two drivers have one DMA stream");
-_Static_assert(STM32_PCLK1 / (2U * 400000U) <= 4095U,
+_Static_assert(STM32_PCLK1 % (3U * 400000U) == 0U && STM32_PCLK1 / (3U * 400000U) >= 4U &&
+                   STM32_PCLK1 / (3U * 400000U) <= 4095U,
                "the clock of I2C3 does not divide to 400000 Hz");
 _Static_assert(STM32_TIMCLK1 % 10000U == 0U && STM32_TIMCLK1 / 10000U <= 65536U,
                "the clock of TIM3 does not divide to 10000 Hz");

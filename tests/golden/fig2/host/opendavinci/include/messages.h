@@ -1,11 +1,12 @@
 // The messages of this design for OpenDaVINCI 4. Written by SenseDSL; do not edit.
 // These are the classes that `sense.odvd` describes, in the form in which OpenDaVINCI serializes them.
-#ifndef SENSE_MESSAGES_H
-#define SENSE_MESSAGES_H
+#ifndef SENSE_fig2_MESSAGES_H
+#define SENSE_fig2_MESSAGES_H
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -20,6 +21,7 @@
 #include "sensedsl/text.hpp"
 
 namespace sense {
+namespace fig2 {
 
 /// sensor IRFront uint16
 class IRFront : public odcore::data::SerializableData, public odcore::base::Visitable {
@@ -33,7 +35,7 @@ public:
 
     static std::int32_t ID() { return 21017; }
     static const std::string ShortName() { return "IRFront"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.fig2." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -49,10 +51,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -84,7 +93,7 @@ public:
 
     static std::int32_t ID() { return 21018; }
     static const std::string ShortName() { return "IRFrontRight"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.fig2." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -100,10 +109,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -135,7 +151,7 @@ public:
 
     static std::int32_t ID() { return 21019; }
     static const std::string ShortName() { return "USRear"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.fig2." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -156,6 +172,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -167,6 +189,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -202,7 +225,7 @@ public:
 
     static std::int32_t ID() { return 21020; }
     static const std::string ShortName() { return "WheelEncoder"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.fig2." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -218,10 +241,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -241,6 +271,7 @@ private:
     std::array<uint32_t, 1> m_raw{};
 };
 
+} // namespace fig2
 } // namespace sense
 
 #endif

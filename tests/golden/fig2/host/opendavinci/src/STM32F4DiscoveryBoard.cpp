@@ -2,67 +2,76 @@
 // Container. Written by SenseDSL; do not edit.
 #include "messages.h"
 
-#include <atomic>
 #include <exception>
 #include <iostream>
-#include <memory>
+#include <set>
 #include <string>
 
 #include "opendavinci/generated/odcore/data/dmcp/ModuleExitCodeMessage.h"
 #include "opendavinci/generated/odcore/data/dmcp/ModuleStateMessage.h"
-#include "opendavinci/odcore/base/CommandLineArgument.h"
-#include "opendavinci/odcore/base/CommandLineParser.h"
 #include "opendavinci/odcore/base/KeyValueConfiguration.h"
 #include "opendavinci/odcore/base/module/DataTriggeredConferenceClientModule.h"
 #include "opendavinci/odcore/data/Container.h"
 #include "opendavinci/odcore/data/TimeStamp.h"
-#include "opendavinci/odcore/io/ConnectionListener.h"
-#include "opendavinci/odcore/io/StringListener.h"
 #include "opendavinci/odcore/io/conference/ContainerConference.h"
-#include "opendavinci/odcore/wrapper/SerialPort.h"
-#include "opendavinci/odcore/wrapper/SerialPortFactory.h"
 
-#include "sense/STM32F4DiscoveryBoard_schema.hpp"
+#include "sense/fig2/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/options.hpp"
+#include "sensedsl/thread.hpp"
 
 namespace {
 
-namespace board = ::sense::STM32F4DiscoveryBoard;
+const sensedsl::BoardFacts &facts() { return ::sense::fig2::facts::STM32F4DiscoveryBoard(); }
 
 using odcore::data::dmcp::ModuleExitCodeMessage;
 using odcore::data::dmcp::ModuleStateMessage;
 
+const sensedsl::Option known[] = {
+    {"cid", "SESSION", "conference, 2 to 253"},
+    {"freq", "HZ", "how often the module looks at its own state"},
+    {"device", "DEVICE", "serial device of the board; without it the configuration's key\n"
+                         "                        fig2_STM32F4DiscoveryBoard.device"},
+    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"id", "NUMBER", "tells several modules of one name apart"},
+    {"verbose", "1", "print each value"},
+    {"profiling", "1", "OpenDaVINCI's own"},
+    {"realtime", "PRIORITY", "OpenDaVINCI's own"},
+    {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
+    {"version", nullptr, "the design and its schema hash"},
+    {"help", nullptr, "this text"},
+};
+
+/// Values come from the connection's thread, Containers from the conference's.
 class Board final : public odcore::base::module::DataTriggeredConferenceClientModule,
-                    public odcore::io::ConnectionListener,
-                    public odcore::io::StringListener,
-                    public sensedsl::Sink {
+                    public sensedsl::Receiver {
 public:
-    Board(int argc, char **argv)
-        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "sense_STM32F4DiscoveryBoard"),
-          m_decoder(board::schema(), board::schema().sensors, *this) {
-        odcore::base::CommandLineParser parser;
-        parser.addCommandLineArgument("device");
-        parser.addCommandLineArgument("baud");
-        parser.parse(argc, argv);
-        odcore::base::CommandLineArgument device = parser.getCommandLineArgument("device");
-        odcore::base::CommandLineArgument baud = parser.getCommandLineArgument("baud");
-        if (device.isSet()) {
-            m_device = device.getValue<std::string>();
-        }
-        if (baud.isSet()) {
-            m_baud = baud.getValue<std::uint32_t>();
-        }
+    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud)
+        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv,
+                                                                    "fig2_STM32F4DiscoveryBoard"),
+          m_device(options.value("device")), m_baud(baud), m_connection(facts(), *this),
+          m_thread(m_connection) {
+        m_connection.reconnect(!options.has("no-reconnect"));
     }
+
+    /// 1 when the firmware is another or the device is gone, 2 when it cannot be opened, otherwise 0.
+    int exitStatus() const { return m_isOpen ? m_connection.exit_status() : m_isRefused ? 2 : 0; }
 
     /// Everything happens when bytes or Containers come; here is only waited for the end.
     ModuleExitCodeMessage::ModuleExitCode body() override {
+        if (m_isRefused) {
+            return ModuleExitCodeMessage::SERIOUS_ERROR;
+        }
         while (getModuleStateAndWaitForRemainingTimeInTimeslice() == ModuleStateMessage::RUNNING) {
-            if (m_isOtherSchema) {
-                std::cerr << "the board was built from another version of the design" << std::endl;
+            switch (m_connection.end()) {
+            case sensedsl::Connection::other_firmware:
                 return ModuleExitCodeMessage::SERIOUS_ERROR;
-            }
-            if (m_isGone) {
-                std::cerr << m_device << " is gone" << std::endl;
+            case sensedsl::Connection::device_gone:
                 return ModuleExitCodeMessage::CONNECTION_LOST;
+            case sensedsl::Connection::recording_over:
+                return ModuleExitCodeMessage::OKAY;
+            case sensedsl::Connection::none:
+            default:
+                break;
             }
         }
         return ModuleExitCodeMessage::OKAY;
@@ -72,56 +81,46 @@ private:
     /// The device comes from `--device=` or, without it, from odsupercomponent's configuration.
     void setUp() override {
         if (m_device.empty()) {
-            m_device = getKeyValueConfiguration().getValue<std::string>("sense_STM32F4DiscoveryBoard.device");
+            m_device = getKeyValueConfiguration().getValue<std::string>("fig2_STM32F4DiscoveryBoard.device");
         }
-        m_serial.reset(odcore::wrapper::SerialPortFactory::createSerialPort(m_device, m_baud));
-        m_serial->setConnectionListener(this);
-        m_serial->setStringListener(this);
-        m_serial->start();
-        send(sensedsl::hello_request(board::schema()));
+        try {
+            m_connection.open(m_device, m_baud);
+            m_isOpen = true;
+        } catch (const std::exception &error) {
+            std::cerr << error.what() << std::endl;
+            m_isRefused = true;
+            return;
+        }
+        m_thread.start();
     }
 
     void tearDown() override {
-        m_serial->stop();
-        m_serial->setStringListener(nullptr);
-        m_serial->setConnectionListener(nullptr);
-        std::clog << m_decoder.frames() << " frames, " << m_decoder.dropped_bytes()
-                  << " bytes dropped" << std::endl;
+        m_thread.stop();
+        std::clog << m_connection.summary() << std::endl;
     }
-
-    void nextString(const std::string &bytes) override {
-        m_decoder.feed(reinterpret_cast<const std::uint8_t *>(bytes.data()), bytes.size());
-    }
-
-    void handleConnectionError() override { m_isGone = true; }
-
-    void on_hello(std::uint32_t hash) override { m_isOtherSchema = hash != board::schema().hash; }
 
     void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
-        if (m_isOtherSchema) {
-            return;
-        }
         switch (id) {
-        case ::sense::IRFront::WIRE_ID: {
-            ::sense::IRFront message;
+        case ::sense::fig2::IRFront::WIRE_ID: {
+            ::sense::fig2::IRFront message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::IRFrontRight::WIRE_ID: {
-            ::sense::IRFrontRight message;
+        case ::sense::fig2::IRFrontRight::WIRE_ID: {
+            ::sense::fig2::IRFrontRight message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::USRear::WIRE_ID: {
-            ::sense::USRear message;
+        case ::sense::fig2::USRear::WIRE_ID: {
+            ::sense::fig2::USRear message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::WheelEncoder::WIRE_ID: {
-            ::sense::WheelEncoder message;
+        case ::sense::fig2::WheelEncoder::WIRE_ID: {
+            ::sense::fig2::WheelEncoder message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
@@ -145,30 +144,52 @@ private:
         (void)container;
     }
 
-    void send(const sensedsl::Bytes &frame) {
-        if (m_serial) {
-            m_serial->send(std::string(frame.begin(), frame.end()));
-        }
-    }
-
-    std::string m_device{};
-    std::uint32_t m_baud{115200};
-    std::unique_ptr<odcore::wrapper::SerialPort> m_serial{};
-    sensedsl::Decoder m_decoder;
-    std::atomic<bool> m_isOtherSchema{false};
-    std::atomic<bool> m_isGone{false};
+    std::string m_device;
+    unsigned m_baud;
+    std::set<std::uint8_t> m_told{};
+    bool m_isOpen{false};
+    bool m_isRefused{false};
+    sensedsl::Connection m_connection;
+    sensedsl::ConnectionThread m_thread;
 };
 
 } // namespace
 
 int main(int argc, char **argv) {
+    sensedsl::Options options(known, sizeof known / sizeof known[0]);
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " --cid=SESSION --freq=HZ --device=DEVICE [OPTIONS]\n\n"
+                  << "sends what board " << "STM32F4DiscoveryBoard" << " says to an OpenDaVINCI conference\n\n"
+                  << options.help()
+                  << "\nexit status: 0 ended by you or supercomponent; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened; 4 no supercomponent\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design fig2, board " << "STM32F4DiscoveryBoard" << ", schema 0xb2d2a70bU\n";
+        return 0;
+    }
+    unsigned baud = 115200;
+    if (problem.empty() && !options.words().empty()) {
+        problem = "what is " + options.words()[0] + "? see --help";
+    }
+    if (problem.empty() && (!options.has("cid") || !options.has("freq"))) {
+        problem = "which conference, and how often? --cid=2..253 --freq=HZ; see --help";
+    }
+    if (problem.empty() && options.has("baud") && (!sensedsl::parse(options.value("baud"), baud) || baud == 0)) {
+        problem = "no baud rate: " + options.value("baud");
+    }
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
+        return 2;
+    }
     try {
-        Board board(argc, argv);
-        return board.runModule();
-    } catch (const std::exception &problem) {
-        std::cerr << problem.what() << "\nusage: " << argv[0]
-                  << " --cid=2..253 --freq=HZ [--device=DEVICE] [--baud=115200] [--verbose=1]"
-                  << std::endl;
+        Board board(argc, argv, options, baud);
+        const int code = board.runModule();
+        return board.exitStatus() != 0 ? board.exitStatus() : code;
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
         return 2;
     }
 }

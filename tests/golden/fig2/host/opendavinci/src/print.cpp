@@ -13,17 +13,17 @@ namespace {
 class Printer final : public odcore::base::module::DataTriggeredConferenceClientModule {
 public:
     Printer(int argc, char **argv)
-        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "sense_print") {}
+        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "fig2_print") {}
 
 private:
     void setUp() override {}
     void tearDown() override {}
 
     void nextContainer(odcore::data::Container &container) override {
-        print< ::sense::IRFront>(container);
-        print< ::sense::IRFrontRight>(container);
-        print< ::sense::USRear>(container);
-        print< ::sense::WheelEncoder>(container);
+        print< ::sense::fig2::IRFront>(container);
+        print< ::sense::fig2::IRFrontRight>(container);
+        print< ::sense::fig2::USRear>(container);
+        print< ::sense::fig2::WheelEncoder>(container);
     }
 
     template <typename Message> static void print(odcore::data::Container &container) {

@@ -1,8 +1,9 @@
 // The messages of this design for OpenDaVINCI as it was in 2014. Written by SenseDSL; do not edit.
 // A message travels as its wire bytes, in a Container whose data type is 700 + the wire identifier.
-#ifndef SENSE_MESSAGES_H
-#define SENSE_MESSAGES_H
+#ifndef SENSE_fig2_MESSAGES_H
+#define SENSE_fig2_MESSAGES_H
 
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "sensedsl/text.hpp"
 
 namespace sense {
+namespace fig2 {
 
 /// sensor IRFront uint16
 class IRFront : public core::data::SerializableData {
@@ -41,10 +43,17 @@ public:
     const uint16_t *begin() const { return m_raw; }
     uint16_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -95,10 +104,17 @@ public:
     const uint16_t *begin() const { return m_raw; }
     uint16_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -152,6 +168,12 @@ public:
     static std::string Quantity() { return "cm"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -163,6 +185,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -213,10 +236,17 @@ public:
     const uint32_t *begin() const { return m_raw; }
     uint32_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -245,6 +275,7 @@ private:
     uint32_t m_raw[1];
 };
 
+} // namespace fig2
 } // namespace sense
 
 #endif

@@ -12,7 +12,7 @@ namespace {
 
 class Printer : public core::base::ConferenceClientModule {
 public:
-    Printer(int argc, char **argv) : core::base::ConferenceClientModule(argc, argv, "sense_print") {}
+    Printer(int argc, char **argv) : core::base::ConferenceClientModule(argc, argv, "fig2_print") {}
 
 private:
     virtual void setUp() {}
@@ -25,10 +25,10 @@ private:
     }
 
     virtual void nextContainer(core::data::Container &container) {
-        print< ::sense::IRFront>(container);
-        print< ::sense::IRFrontRight>(container);
-        print< ::sense::USRear>(container);
-        print< ::sense::WheelEncoder>(container);
+        print< ::sense::fig2::IRFront>(container);
+        print< ::sense::fig2::IRFrontRight>(container);
+        print< ::sense::fig2::USRear>(container);
+        print< ::sense::fig2::WheelEncoder>(container);
     }
 
     template <typename Message> static void print(core::data::Container &container) {

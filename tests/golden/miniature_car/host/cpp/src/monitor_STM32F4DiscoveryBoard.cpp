@@ -1,74 +1,81 @@
 // Prints what board STM32F4DiscoveryBoard says. Written by SenseDSL; do not edit: copy it
 // to start a program of your own.
-#include "sense/STM32F4DiscoveryBoard.hpp"
+#include "sense/miniature_car/STM32F4DiscoveryBoard.hpp"
 
+#include <atomic>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
 
-#include "sensedsl/serial.hpp"
+#include "sensedsl/options.hpp"
 
 namespace {
 
-namespace board = ::sense::STM32F4DiscoveryBoard;
+using Board = ::sense::miniature_car::STM32F4DiscoveryBoard;
 
-volatile std::sig_atomic_t stopped = 0;
+std::atomic<bool> stopped{false};
 
-extern "C" void stop(int) { stopped = 1; }
+extern "C" void stop(int) { stopped = true; }
 
-int run(const std::string &device, unsigned baud) {
-    bool is_other_schema = false;
-    board::Decoder decoder(sensedsl::Handlers{
-        [&is_other_schema](const auto &message) {
-            if (!is_other_schema) {
-                std::cout << message << "\n";
-            }
-        },
-        [&is_other_schema](const sensedsl::Hello &hello) {
-            is_other_schema = !hello.is_same_schema;
-        },
+const sensedsl::Option known[] = {
+    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
+    {"version", nullptr, "the design and its schema hash"},
+    {"help", nullptr, "this text"},
+};
+
+int run(const std::string &device, unsigned baud, bool reconnect) {
+    Board board(sensedsl::Handlers{
+        [](const auto &message) { std::cout << message << "\n"; },
+        [](const sensedsl::Note &note) { std::cerr << note.text << std::endl; },
     });
-    sensedsl::Serial serial(device, baud);
-    if (serial.is_terminal() && !serial.write(board::hello_request())) {
-        std::cerr << "the board does not take bytes\n";
-    }
-    sensedsl::Bytes bytes;
-    while (stopped == 0 && !is_other_schema) {
-        const sensedsl::Serial::State state = serial.read(bytes, 100);
-        decoder.feed(bytes);
+    board.reconnect(reconnect);
+    board.open(device, baud);
+    while (!stopped && board.poll(50)) {
         std::cout.flush();
-        if (state == sensedsl::Serial::ended) {
-            break;
-        }
     }
-    std::cerr << decoder.frames() << " frames, " << decoder.dropped_bytes() << " bytes dropped\n";
-    if (is_other_schema) {
-        std::cerr << "the board was built from another version of the design\n";
-        return 1;
-    }
-    return 0;
+    std::cout.flush();
+    std::cerr << board.summary() << std::endl;
+    return board.exit_status();
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    if (argc < 2 || argc > 3) {
-        std::cerr << "usage: " << argv[0] << " DEVICE|FILE|- [BAUD]\n";
+    sensedsl::Options options(known, std::size(known));
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " [OPTIONS] DEVICE|FILE|- [RATE]\n\n"
+                  << "prints what board " << "STM32F4DiscoveryBoard" << " says; plays a recorded FILE or standard input\n"
+                  << "\n" << options.help() << "\n" << Board::devices()
+                  << "\nexit status: 0 ended by you or the recording; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design miniature_car, board " << "STM32F4DiscoveryBoard" << ", schema 0x64783683U\n";
+        return 0;
+    }
+    unsigned baud = Board::default_baud;
+    const auto words = options.words().size();
+    const std::string rate = words == 2 ? options.words()[1] : options.value("baud");
+    if (problem.empty() && (words < 1 || words > 2)) {
+        problem = "which device? for example: " + std::string(argv[0]) + " /dev/ttyACM0";
+    }
+    if (problem.empty() && !rate.empty() && (!sensedsl::parse(rate, baud) || baud == 0)) {
+        problem = "no baud rate: " + rate;
+    }
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
         return 2;
     }
     std::signal(SIGINT, stop);
     std::signal(SIGTERM, stop);
-    unsigned baud = 115200;
-    if (argc == 3 && !sensedsl::parse(argv[2], baud)) {
-        std::cerr << "no baud rate: " << argv[2] << "\n";
-        return 2;
-    }
     try {
-        return run(argv[1], baud);
-    } catch (const std::exception &problem) {
-        std::cerr << problem.what() << "\n";
+        return run(options.words()[0], baud, !options.has("no-reconnect"));
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
         return 2;
     }
 }

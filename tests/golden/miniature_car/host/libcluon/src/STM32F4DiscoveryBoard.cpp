@@ -3,24 +3,38 @@
 #include "sense.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <map>
-#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "sense/STM32F4DiscoveryBoard_schema.hpp"
-#include "sensedsl/link.hpp"
-#include "sensedsl/serial.hpp"
+#include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/connection.hpp"
+#include "sensedsl/options.hpp"
 #include "sensedsl/text.hpp"
 
 namespace {
 
-namespace board = ::sense::STM32F4DiscoveryBoard;
+const sensedsl::BoardFacts &facts() { return ::sense::miniature_car::facts::STM32F4DiscoveryBoard(); }
 
-struct Options {
+const sensedsl::Option known[] = {
+    {"cid", "SESSION", "OD4 session, 1 to 254"},
+    {"device", "DEVICE", "serial device of the board, for example /dev/ttyACM0"},
+    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"id", "STAMP", "sender stamp of all messages; without it a sensor's identifier"},
+    {"freq", "HZ", "send the latest values that often; without it each when it comes"},
+    {"verbose", nullptr, "print each value"},
+    {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
+    {"version", nullptr, "the design and its schema hash"},
+    {"help", nullptr, "this text"},
+};
+
+struct Settings {
     std::uint16_t cid{0};
     std::string device{};
     unsigned baud{115200};
@@ -28,15 +42,14 @@ struct Options {
     bool has_sender_stamp{false};
     std::uint32_t sender_stamp{0};
     bool is_verbose{false};
+    bool reconnect{true};
     /// 0: each value is sent when it comes.
     float frequency_hz{0.0F};
 };
 
-class Publisher final : public sensedsl::Sink {
+class Publisher final : public sensedsl::Receiver {
 public:
-    Publisher(cluon::OD4Session &od4, const Options &options) : od4_(od4), options_(options) {}
-
-    bool is_other_schema() const { return is_other_schema_; }
+    Publisher(cluon::OD4Session &od4, const Settings &settings) : od4_(od4), settings_(settings) {}
 
     /// Sends the latest value of each sensor that spoke since the last time.
     void publish_latest() {
@@ -52,151 +65,145 @@ private:
         cluon::data::TimeStamp sampled;
     };
 
-    void on_hello(std::uint32_t hash) override {
-        is_other_schema_ = hash != board::schema().hash;
-    }
-
     void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
-        if (is_other_schema_) {
-            return;
-        }
         const cluon::data::TimeStamp sampled{cluon::time::now()};
-        if (!(options_.frequency_hz > 0.0F)) {
+        if (!(settings_.frequency_hz > 0.0F)) {
             publish(id, bytes, sampled);
             return;
         }
-        for (std::size_t i{0}; i < board::schema().sensors.item_count; ++i) {
-            const sensedsl::Item &item = board::schema().sensors.items[i];
-            if (item.id == id) {
-                latest_[id] = Latest{sensedsl::Bytes(bytes, bytes + item.size_bytes()), sampled};
+        const sensedsl::Direction &sensors = facts().schema->sensors;
+        for (std::size_t i{0}; i < sensors.item_count; ++i) {
+            if (sensors.items[i].id == id) {
+                const std::size_t size = sensors.items[i].size_bytes();
+                latest_[id] = Latest{sensedsl::Bytes(bytes, bytes + size), sampled};
             }
         }
     }
 
     void publish(std::uint8_t id, const std::uint8_t *bytes,
                  const cluon::data::TimeStamp &sampled) {
-        const std::uint32_t stamp{options_.has_sender_stamp ? options_.sender_stamp : id};
+        const std::uint32_t stamp{settings_.has_sender_stamp ? settings_.sender_stamp : id};
         switch (id) {
         case 1: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::IRFrontRight message;
+            ::sense::miniature_car::IRFrontRight message;
             message.raw(raw[0]);
-            tell("IRFrontRight", raw, 1);
+            tell("IRFrontRight", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 2: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::IRRearRight message;
+            ::sense::miniature_car::IRRearRight message;
             message.raw(raw[0]);
-            tell("IRRearRight", raw, 1);
+            tell("IRRearRight", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 3: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::IRRear message;
+            ::sense::miniature_car::IRRear message;
             message.raw(raw[0]);
-            tell("IRRear", raw, 1);
+            tell("IRRear", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 4: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::USFront message;
+            ::sense::miniature_car::USFront message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("USFront", raw, 1);
+            tell("USFront", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 5: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::USFrontRight message;
+            ::sense::miniature_car::USFrontRight message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("USFrontRight", raw, 1);
+            tell("USFrontRight", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 6: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::USRear message;
+            ::sense::miniature_car::USRear message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("USRear", raw, 1);
+            tell("USRear", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 7: {
             uint32_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::WheelLeftA message;
+            ::sense::miniature_car::WheelLeftA message;
             message.raw(raw[0]);
-            tell("WheelLeftA", raw, 1);
+            tell("WheelLeftA", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 8: {
             uint32_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::WheelLeftB message;
+            ::sense::miniature_car::WheelLeftB message;
             message.raw(raw[0]);
-            tell("WheelLeftB", raw, 1);
+            tell("WheelLeftB", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 9: {
             uint32_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::WheelRightA message;
+            ::sense::miniature_car::WheelRightA message;
             message.raw(raw[0]);
-            tell("WheelRightA", raw, 1);
+            tell("WheelRightA", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 10: {
             uint32_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::WheelRightB message;
+            ::sense::miniature_car::WheelRightB message;
             message.raw(raw[0]);
-            tell("WheelRightB", raw, 1);
+            tell("WheelRightB", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 11: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::RCSteering message;
+            ::sense::miniature_car::RCSteering message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("RCSteering", raw, 1);
+            tell("RCSteering", raw, 1, 1.0, 0.0, {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 12: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::RCThrottle message;
+            ::sense::miniature_car::RCThrottle message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("RCThrottle", raw, 1);
+            tell("RCThrottle", raw, 1, 1.0, 0.0, {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
         case 13: {
             uint16_t raw[1];
             sensedsl::load_all(bytes, raw, 1);
-            ::sense::RCSwitch message;
+            ::sense::miniature_car::RCSwitch message;
             message.raw(raw[0]);
             message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("RCSwitch", raw, 1);
+            tell("RCSwitch", raw, 1, 1.0, 0.0, {1000.0, 2000.0}, " us");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -205,95 +212,105 @@ private:
         }
     }
 
-    template <typename T> void tell(const char *name, const T *raw, std::size_t count) const {
-        if (options_.is_verbose) {
+    template <typename T>
+    void tell(const char *name, const T *raw, std::size_t count, double scale, double offset,
+              const sensedsl::Limits &limits, const char *quantity) const {
+        if (settings_.is_verbose) {
             std::cout << name << " = ";
             sensedsl::print_all(std::cout, raw, count);
-            std::cout << std::endl;
+            std::cout << sensedsl::outside_of(limits, raw, count, scale, offset, quantity) << std::endl;
         }
     }
 
     cluon::OD4Session &od4_;
-    const Options &options_;
+    const Settings &settings_;
     std::map<std::uint8_t, Latest> latest_{};
-    bool is_other_schema_{false};
 };
 
-int run(const Options &options) {
-    cluon::OD4Session od4{options.cid};
-    sensedsl::Serial serial(options.device, options.baud);
-    Publisher publisher(od4, options);
-    sensedsl::Decoder decoder(board::schema(), board::schema().sensors, publisher);
-    if (serial.is_terminal() && !serial.write(sensedsl::hello_request(board::schema()))) {
-        std::cerr << "the board does not take bytes" << std::endl;
-    }
+int run(const Settings &settings) {
+    cluon::OD4Session od4{settings.cid};
+    Publisher publisher(od4, settings);
+    sensedsl::Connection connection(facts(), publisher);
+    connection.reconnect(settings.reconnect);
+    connection.open(settings.device, settings.baud);
     using Clock = std::chrono::steady_clock;
-    const bool is_paced{options.frequency_hz > 0.0F};
+    const bool is_paced{settings.frequency_hz > 0.0F};
     const auto period = std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<float>(is_paced ? 1.0F / options.frequency_hz : 1.0F));
+        std::chrono::duration<float>(is_paced ? 1.0F / settings.frequency_hz : 1.0F));
     auto due = Clock::now() + period;
-    sensedsl::Bytes bytes;
-    auto state = sensedsl::Serial::silent;
-    while (od4.isRunning() && !publisher.is_other_schema() && state != sensedsl::Serial::ended) {
-        int timeout_ms{100};
+    int timeout_ms{50};
+    while (od4.isRunning() && connection.poll(timeout_ms)) {
         if (is_paced) {
+            if (Clock::now() >= due) {
+                publisher.publish_latest();
+                due += period;
+            }
             const auto left =
                 std::chrono::duration_cast<std::chrono::milliseconds>(due - Clock::now()).count();
-            timeout_ms = left < 0 ? 0 : left < 100 ? static_cast<int>(left) : 100;
-        }
-        state = serial.read(bytes, timeout_ms);
-        decoder.feed(bytes.data(), bytes.size());
-        if (is_paced && Clock::now() >= due) {
-            publisher.publish_latest();
-            due += period;
+            timeout_ms = left < 0 ? 0 : left < 50 ? static_cast<int>(left) : 50;
         }
     }
     publisher.publish_latest();
-    std::cerr << decoder.frames() << " frames, " << decoder.dropped_bytes() << " bytes dropped"
-              << std::endl;
-    if (publisher.is_other_schema()) {
-        std::cerr << "the board was built from another version of the design" << std::endl;
-        return 1;
-    }
-    if (state == sensedsl::Serial::ended) {
-        std::cerr << options.device << " is gone" << std::endl;
-        return 1;
-    }
-    return 0;
+    std::cerr << connection.summary() << std::endl;
+    return connection.exit_status();
 }
 
-/// False when an option is missing or is no number.
-bool read_options(std::map<std::string, std::string> given, Options &options) {
-    options.device = given["device"];
-    options.is_verbose = given.count("verbose") != 0;
-    options.has_sender_stamp = given.count("id") != 0;
-    return !options.device.empty() && sensedsl::parse(given["cid"], options.cid) &&
-           options.cid >= 1 && options.cid <= 254 &&
-           (given.count("baud") == 0 || sensedsl::parse(given["baud"], options.baud)) &&
-           (given.count("id") == 0 || sensedsl::parse(given["id"], options.sender_stamp)) &&
-           (given.count("freq") == 0 || sensedsl::parse(given["freq"], options.frequency_hz));
+/// What is wrong with the options; empty when nothing is.
+std::string read_settings(const sensedsl::Options &options, Settings &settings) {
+    settings.device = options.value("device");
+    settings.is_verbose = options.has("verbose");
+    settings.reconnect = !options.has("no-reconnect");
+    settings.has_sender_stamp = options.has("id");
+    if (!options.words().empty()) {
+        return "what is " + options.words()[0] + "? see --help";
+    }
+    if (!sensedsl::parse(options.value("cid"), settings.cid) || settings.cid < 1 || settings.cid > 254) {
+        return "which OD4 session? --cid=1 to --cid=254; see --help";
+    }
+    if (settings.device.empty()) {
+        return "which device? for example --device=/dev/ttyACM0; see --help";
+    }
+    if (options.has("baud") &&
+        (!sensedsl::parse(options.value("baud"), settings.baud) || settings.baud == 0)) {
+        return "no baud rate: " + options.value("baud");
+    }
+    if (options.has("id") && !sensedsl::parse(options.value("id"), settings.sender_stamp)) {
+        return "no sender stamp: " + options.value("id");
+    }
+    if (options.has("freq") && (!sensedsl::parse(options.value("freq"), settings.frequency_hz) ||
+                                !(settings.frequency_hz >= 0.0F))) {
+        return "no frequency: " + options.value("freq");
+    }
+    return {};
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    Options options;
-    if (!read_options(cluon::getCommandlineArguments(argc, argv), options)) {
-        std::cerr << argv[0] << " publishes what board STM32F4DiscoveryBoard says to an OD4 session.\n"
-                  << "Usage: " << argv[0]
-                  << " --cid=<OD4 session 1..254> --device=<serial device> [--baud=115200]"
-                     " [--id=<sender stamp>] [--freq=<Hz>] [--verbose]\n"
-                  << "  --id    sender stamp of all messages; without it each message has the\n"
-                     "          identifier that its sensor has on the wire\n"
-                  << "  --freq  send the latest values that often; without it each when it comes\n"
-                  << "Example: " << argv[0] << " --cid=111 --device=/dev/ttyACM0 --verbose"
-                  << std::endl;
-        return 1;
+    sensedsl::Options options(known, sizeof known / sizeof known[0]);
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " --cid=SESSION --device=DEVICE [OPTIONS]\n\n"
+                  << "publishes what board " << "STM32F4DiscoveryBoard" << " says to an OD4 session\n\n"
+                  << options.help()
+                  << "\nexit status: 0 ended by you; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design miniature_car, board " << "STM32F4DiscoveryBoard" << ", schema 0x64783683U\n";
+        return 0;
+    }
+    Settings settings;
+    problem = problem.empty() ? read_settings(options, settings) : problem;
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
+        return 2;
     }
     try {
-        return run(options);
-    } catch (const std::exception &problem) {
-        std::cerr << problem.what() << std::endl;
-        return 1;
+        return run(settings);
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
+        return 2;
     }
 }

@@ -1,11 +1,12 @@
 // The messages of this design for OpenDaVINCI 4. Written by SenseDSL; do not edit.
 // These are the classes that `sense.odvd` describes, in the form in which OpenDaVINCI serializes them.
-#ifndef SENSE_MESSAGES_H
-#define SENSE_MESSAGES_H
+#ifndef SENSE_miniature_car_MESSAGES_H
+#define SENSE_miniature_car_MESSAGES_H
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -20,6 +21,7 @@
 #include "sensedsl/text.hpp"
 
 namespace sense {
+namespace miniature_car {
 
 /// sensor IRFrontRight uint16
 class IRFrontRight : public odcore::data::SerializableData, public odcore::base::Visitable {
@@ -33,7 +35,7 @@ public:
 
     static std::int32_t ID() { return 21001; }
     static const std::string ShortName() { return "IRFrontRight"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -49,10 +51,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -84,7 +93,7 @@ public:
 
     static std::int32_t ID() { return 21002; }
     static const std::string ShortName() { return "IRRearRight"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -100,10 +109,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -135,7 +151,7 @@ public:
 
     static std::int32_t ID() { return 21003; }
     static const std::string ShortName() { return "IRRear"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -151,10 +167,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -186,7 +209,7 @@ public:
 
     static std::int32_t ID() { return 21004; }
     static const std::string ShortName() { return "USFront"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -207,6 +230,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -218,6 +247,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -253,7 +283,7 @@ public:
 
     static std::int32_t ID() { return 21005; }
     static const std::string ShortName() { return "USFrontRight"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -274,6 +304,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -285,6 +321,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -320,7 +357,7 @@ public:
 
     static std::int32_t ID() { return 21006; }
     static const std::string ShortName() { return "USRear"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -341,6 +378,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -352,6 +395,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -387,7 +431,7 @@ public:
 
     static std::int32_t ID() { return 21007; }
     static const std::string ShortName() { return "WheelLeftA"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -403,10 +447,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -438,7 +489,7 @@ public:
 
     static std::int32_t ID() { return 21008; }
     static const std::string ShortName() { return "WheelLeftB"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -454,10 +505,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -489,7 +547,7 @@ public:
 
     static std::int32_t ID() { return 21009; }
     static const std::string ShortName() { return "WheelRightA"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -505,10 +563,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -540,7 +605,7 @@ public:
 
     static std::int32_t ID() { return 21010; }
     static const std::string ShortName() { return "WheelRightB"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -556,10 +621,17 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -591,7 +663,7 @@ public:
 
     static std::int32_t ID() { return 21011; }
     static const std::string ShortName() { return "RCSteering"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -612,6 +684,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -623,6 +701,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -658,7 +737,7 @@ public:
 
     static std::int32_t ID() { return 21012; }
     static const std::string ShortName() { return "RCThrottle"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -679,6 +758,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -690,6 +775,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -725,7 +811,7 @@ public:
 
     static std::int32_t ID() { return 21013; }
     static const std::string ShortName() { return "RCSwitch"; }
-    static const std::string LongName() { return "sense." + ShortName(); }
+    static const std::string LongName() { return "sense.miniature_car." + ShortName(); }
     std::int32_t getID() const override { return ID(); }
     const std::string getShortName() const override { return ShortName(); }
     const std::string getLongName() const override { return LongName(); }
@@ -746,6 +832,12 @@ public:
         visitor.endVisit();
     }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+    }
+
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -757,6 +849,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -780,6 +873,7 @@ private:
     std::array<uint16_t, 1> m_raw{};
 };
 
+} // namespace miniature_car
 } // namespace sense
 
 #endif

@@ -13,26 +13,26 @@ namespace {
 class Printer final : public odcore::base::module::DataTriggeredConferenceClientModule {
 public:
     Printer(int argc, char **argv)
-        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "sense_print") {}
+        : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv, "miniature_car_print") {}
 
 private:
     void setUp() override {}
     void tearDown() override {}
 
     void nextContainer(odcore::data::Container &container) override {
-        print< ::sense::IRFrontRight>(container);
-        print< ::sense::IRRearRight>(container);
-        print< ::sense::IRRear>(container);
-        print< ::sense::USFront>(container);
-        print< ::sense::USFrontRight>(container);
-        print< ::sense::USRear>(container);
-        print< ::sense::WheelLeftA>(container);
-        print< ::sense::WheelLeftB>(container);
-        print< ::sense::WheelRightA>(container);
-        print< ::sense::WheelRightB>(container);
-        print< ::sense::RCSteering>(container);
-        print< ::sense::RCThrottle>(container);
-        print< ::sense::RCSwitch>(container);
+        print< ::sense::miniature_car::IRFrontRight>(container);
+        print< ::sense::miniature_car::IRRearRight>(container);
+        print< ::sense::miniature_car::IRRear>(container);
+        print< ::sense::miniature_car::USFront>(container);
+        print< ::sense::miniature_car::USFrontRight>(container);
+        print< ::sense::miniature_car::USRear>(container);
+        print< ::sense::miniature_car::WheelLeftA>(container);
+        print< ::sense::miniature_car::WheelLeftB>(container);
+        print< ::sense::miniature_car::WheelRightA>(container);
+        print< ::sense::miniature_car::WheelRightB>(container);
+        print< ::sense::miniature_car::RCSteering>(container);
+        print< ::sense::miniature_car::RCThrottle>(container);
+        print< ::sense::miniature_car::RCSwitch>(container);
     }
 
     template <typename Message> static void print(odcore::data::Container &container) {

@@ -1,8 +1,9 @@
 // The messages of this design for OpenDaVINCI as it was in 2014. Written by SenseDSL; do not edit.
 // A message travels as its wire bytes, in a Container whose data type is 700 + the wire identifier.
-#ifndef SENSE_MESSAGES_H
-#define SENSE_MESSAGES_H
+#ifndef SENSE_miniature_car_MESSAGES_H
+#define SENSE_miniature_car_MESSAGES_H
 
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "sensedsl/text.hpp"
 
 namespace sense {
+namespace miniature_car {
 
 /// sensor IRFrontRight uint16
 class IRFrontRight : public core::data::SerializableData {
@@ -41,10 +43,17 @@ public:
     const uint16_t *begin() const { return m_raw; }
     uint16_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -95,10 +104,17 @@ public:
     const uint16_t *begin() const { return m_raw; }
     uint16_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -149,10 +165,17 @@ public:
     const uint16_t *begin() const { return m_raw; }
     uint16_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -206,6 +229,12 @@ public:
     static std::string Quantity() { return "cm"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -217,6 +246,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -270,6 +300,12 @@ public:
     static std::string Quantity() { return "cm"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -281,6 +317,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -334,6 +371,12 @@ public:
     static std::string Quantity() { return "cm"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -345,6 +388,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " cm" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -395,10 +439,17 @@ public:
     const uint32_t *begin() const { return m_raw; }
     uint32_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -449,10 +500,17 @@ public:
     const uint32_t *begin() const { return m_raw; }
     uint32_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -503,10 +561,17 @@ public:
     const uint32_t *begin() const { return m_raw; }
     uint32_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -557,10 +622,17 @@ public:
     const uint32_t *begin() const { return m_raw; }
     uint32_t *begin() { return m_raw; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
+        text << outsideLimits();
         return text.str();
     }
 
@@ -614,6 +686,12 @@ public:
     static std::string Quantity() { return "us"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -625,6 +703,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -678,6 +757,12 @@ public:
     static std::string Quantity() { return "us"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -689,6 +774,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -742,6 +828,12 @@ public:
     static std::string Quantity() { return "us"; }
     double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
 
+    /// What is outside the limits that the design gives, for people; empty when nothing is.
+    std::string outsideLimits() const {
+        const sensedsl::Limits limits = {1000.0, 2000.0};
+        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+    }
+
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
@@ -753,6 +845,7 @@ public:
         text << " (";
         sensedsl::print_all(text, values, COUNT);
         text << " us" << ')';
+        text << outsideLimits();
         return text.str();
     }
 
@@ -781,6 +874,7 @@ private:
     uint16_t m_raw[1];
 };
 
+} // namespace miniature_car
 } // namespace sense
 
 #endif

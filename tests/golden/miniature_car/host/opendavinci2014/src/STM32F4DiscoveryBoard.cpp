@@ -4,47 +4,46 @@
 
 #include <exception>
 #include <iostream>
-#include <memory>
+#include <set>
 #include <string>
 
-#include "core/base/CommandLineArgument.h"
-#include "core/base/CommandLineParser.h"
 #include "core/base/ConferenceClientModule.h"
 #include "core/base/ModuleState.h"
-#include "core/exceptions/Exceptions.h"
-#include "core/wrapper/ConnectionListener.h"
-#include "core/wrapper/PartialStringReceiver.h"
-#include "core/wrapper/SerialPort.h"
-#include "core/wrapper/SerialPortFactory.h"
 
-#include "sense/STM32F4DiscoveryBoard_schema.hpp"
+#include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/options.hpp"
+#include "sensedsl/thread.hpp"
 
 namespace {
 
-namespace board = ::sense::STM32F4DiscoveryBoard;
+const sensedsl::BoardFacts &facts() { return ::sense::miniature_car::facts::STM32F4DiscoveryBoard(); }
 
-class Board : public core::base::ConferenceClientModule,
-              public core::wrapper::ConnectionListener,
-              public core::wrapper::PartialStringReceiver,
-              public sensedsl::Sink {
+const sensedsl::Option known[] = {
+    {"cid", "SESSION", "conference, 2 to 253"},
+    {"freq", "HZ", "how often the module looks at its own state"},
+    {"device", "DEVICE", "serial device of the board; without it the configuration's key\n"
+                         "                        miniature_car_STM32F4DiscoveryBoard.device"},
+    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"id", "NUMBER", "tells several modules of one name apart"},
+    {"verbose", "1", "print each value"},
+    {"profiling", "1", "OpenDaVINCI's own"},
+    {"no-reconnect", NULL, "end when the device is gone, instead of waiting for it"},
+    {"version", NULL, "the design and its schema hash"},
+    {"help", NULL, "this text"},
+};
+
+/// Values come from the connection's thread, Containers from the conference's.
+class Board : public core::base::ConferenceClientModule, public sensedsl::Receiver {
 public:
-    Board(int argc, char **argv)
-        : core::base::ConferenceClientModule(argc, argv, "sense_STM32F4DiscoveryBoard"), m_device(),
-          m_baud(115200), m_serial(), m_decoder(board::schema(), board::schema().sensors, *this),
-          m_isOtherSchema(false), m_isGone(false) {
-        core::base::CommandLineParser parser;
-        parser.addCommandLineArgument("device");
-        parser.addCommandLineArgument("baud");
-        parser.parse(argc, argv);
-        core::base::CommandLineArgument device = parser.getCommandLineArgument("device");
-        core::base::CommandLineArgument baud = parser.getCommandLineArgument("baud");
-        if (device.isSet()) {
-            m_device = device.getValue<std::string>();
-        }
-        if (baud.isSet()) {
-            m_baud = baud.getValue<uint32_t>();
-        }
+    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud)
+        : core::base::ConferenceClientModule(argc, argv, "miniature_car_STM32F4DiscoveryBoard"),
+          m_device(options.value("device")), m_baud(baud), m_told(), m_isOpen(false),
+          m_isRefused(false), m_connection(facts(), *this), m_thread(m_connection) {
+        m_connection.reconnect(!options.has("no-reconnect"));
     }
+
+    /// 1 when the firmware is another or the device is gone, 2 when it cannot be opened, otherwise 0.
+    int exitStatus() const { return m_isOpen ? m_connection.exit_status() : m_isRefused ? 2 : 0; }
 
 private:
     Board(const Board &);
@@ -53,125 +52,121 @@ private:
     /// The device comes from `--device=` or, without it, from supercomponent's configuration.
     virtual void setUp() {
         if (m_device.empty()) {
-            m_device = getKeyValueConfiguration().getValue<std::string>("sense_STM32F4DiscoveryBoard.device");
+            m_device = getKeyValueConfiguration().getValue<std::string>("miniature_car_STM32F4DiscoveryBoard.device");
         }
-        m_serial.reset(core::wrapper::SerialPortFactory::createSerialPort(m_device, m_baud));
-        m_serial->setConnectionListener(this);
-        m_serial->setPartialStringReceiver(this);
-        m_serial->start();
-        send(sensedsl::hello_request(board::schema()));
+        try {
+            m_connection.open(m_device, m_baud);
+            m_isOpen = true;
+        } catch (const std::exception &error) {
+            std::cerr << error.what() << std::endl;
+            m_isRefused = true;
+            return;
+        }
+        m_thread.start();
     }
 
     virtual void tearDown() {
-        m_serial->stop();
-        m_serial->setPartialStringReceiver(NULL);
-        m_serial->setConnectionListener(NULL);
-        std::clog << m_decoder.frames() << " frames, " << m_decoder.dropped_bytes()
-                  << " bytes dropped" << std::endl;
+        m_thread.stop();
+        std::clog << m_connection.summary() << std::endl;
     }
 
     /// Everything happens when bytes or Containers come; here is only waited for the end.
     virtual core::base::ModuleState::MODULE_EXITCODE body() {
+        if (m_isRefused) {
+            return core::base::ModuleState::SERIOUS_ERROR;
+        }
         while (getModuleState() == core::base::ModuleState::RUNNING) {
-            if (m_isOtherSchema) {
-                std::cerr << "the board was built from another version of the design" << std::endl;
+            switch (m_connection.end()) {
+            case sensedsl::Connection::other_firmware:
                 return core::base::ModuleState::SERIOUS_ERROR;
-            }
-            if (m_isGone) {
-                std::cerr << m_device << " is gone" << std::endl;
+            case sensedsl::Connection::device_gone:
                 return core::base::ModuleState::CONNECTION_LOST;
+            case sensedsl::Connection::recording_over:
+                return core::base::ModuleState::OKAY;
+            case sensedsl::Connection::none:
+            default:
+                break;
             }
         }
         return core::base::ModuleState::OKAY;
     }
 
-    virtual void receivedPartialString(const std::string &bytes) {
-        m_decoder.feed(reinterpret_cast<const uint8_t *>(bytes.data()), bytes.size());
-    }
-
-    virtual void handleConnectionError() { m_isGone = true; }
-
-    virtual void on_hello(uint32_t hash) { m_isOtherSchema = hash != board::schema().hash; }
-
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
-        if (m_isOtherSchema) {
-            return;
-        }
         switch (id) {
-        case ::sense::IRFrontRight::WIRE_ID: {
-            ::sense::IRFrontRight message;
+        case ::sense::miniature_car::IRFrontRight::WIRE_ID: {
+            ::sense::miniature_car::IRFrontRight message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::IRRearRight::WIRE_ID: {
-            ::sense::IRRearRight message;
+        case ::sense::miniature_car::IRRearRight::WIRE_ID: {
+            ::sense::miniature_car::IRRearRight message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::IRRear::WIRE_ID: {
-            ::sense::IRRear message;
+        case ::sense::miniature_car::IRRear::WIRE_ID: {
+            ::sense::miniature_car::IRRear message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::USFront::WIRE_ID: {
-            ::sense::USFront message;
+        case ::sense::miniature_car::USFront::WIRE_ID: {
+            ::sense::miniature_car::USFront message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::USFrontRight::WIRE_ID: {
-            ::sense::USFrontRight message;
+        case ::sense::miniature_car::USFrontRight::WIRE_ID: {
+            ::sense::miniature_car::USFrontRight message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::USRear::WIRE_ID: {
-            ::sense::USRear message;
+        case ::sense::miniature_car::USRear::WIRE_ID: {
+            ::sense::miniature_car::USRear message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::WheelLeftA::WIRE_ID: {
-            ::sense::WheelLeftA message;
+        case ::sense::miniature_car::WheelLeftA::WIRE_ID: {
+            ::sense::miniature_car::WheelLeftA message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::WheelLeftB::WIRE_ID: {
-            ::sense::WheelLeftB message;
+        case ::sense::miniature_car::WheelLeftB::WIRE_ID: {
+            ::sense::miniature_car::WheelLeftB message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::WheelRightA::WIRE_ID: {
-            ::sense::WheelRightA message;
+        case ::sense::miniature_car::WheelRightA::WIRE_ID: {
+            ::sense::miniature_car::WheelRightA message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::WheelRightB::WIRE_ID: {
-            ::sense::WheelRightB message;
+        case ::sense::miniature_car::WheelRightB::WIRE_ID: {
+            ::sense::miniature_car::WheelRightB message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::RCSteering::WIRE_ID: {
-            ::sense::RCSteering message;
+        case ::sense::miniature_car::RCSteering::WIRE_ID: {
+            ::sense::miniature_car::RCSteering message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::RCThrottle::WIRE_ID: {
-            ::sense::RCThrottle message;
+        case ::sense::miniature_car::RCThrottle::WIRE_ID: {
+            ::sense::miniature_car::RCThrottle message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
         }
-        case ::sense::RCSwitch::WIRE_ID: {
-            ::sense::RCSwitch message;
+        case ::sense::miniature_car::RCSwitch::WIRE_ID: {
+            ::sense::miniature_car::RCSwitch message;
             sensedsl::load_all(bytes, message.begin(), 1);
             publish(message);
             break;
@@ -193,30 +188,52 @@ private:
         core::base::ConferenceClientModule::nextContainer(container);
     }
 
-    void send(const sensedsl::Bytes &frame) {
-        if (m_serial.get() != NULL) {
-            m_serial->send(std::string(frame.begin(), frame.end()));
-        }
-    }
-
     std::string m_device;
-    uint32_t m_baud;
-    std::auto_ptr<core::wrapper::SerialPort> m_serial;
-    sensedsl::Decoder m_decoder;
-    volatile bool m_isOtherSchema;
-    volatile bool m_isGone;
+    unsigned m_baud;
+    std::set<uint8_t> m_told;
+    bool m_isOpen;
+    bool m_isRefused;
+    sensedsl::Connection m_connection;
+    sensedsl::ConnectionThread m_thread;
 };
 
 } // namespace
 
 int main(int argc, char **argv) {
+    sensedsl::Options options(known, sizeof known / sizeof known[0]);
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " --cid=SESSION --freq=HZ --device=DEVICE [OPTIONS]\n\n"
+                  << "sends what board " << "STM32F4DiscoveryBoard" << " says to an OpenDaVINCI conference\n\n"
+                  << options.help()
+                  << "\nexit status: 0 ended by you or supercomponent; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened; 4 no supercomponent\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design miniature_car, board " << "STM32F4DiscoveryBoard" << ", schema 0x64783683U\n";
+        return 0;
+    }
+    unsigned baud = 115200;
+    if (problem.empty() && !options.words().empty()) {
+        problem = "what is " + options.words()[0] + "? see --help";
+    }
+    if (problem.empty() && (!options.has("cid") || !options.has("freq"))) {
+        problem = "which conference, and how often? --cid=2..253 --freq=HZ; see --help";
+    }
+    if (problem.empty() && options.has("baud") && (!sensedsl::parse(options.value("baud"), baud) || baud == 0)) {
+        problem = "no baud rate: " + options.value("baud");
+    }
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
+        return 2;
+    }
     try {
-        Board board(argc, argv);
-        return board.runModule();
-    } catch (const std::exception &problem) {
-        std::cerr << problem.what() << "\nusage: " << argv[0]
-                  << " --cid=2..253 --freq=HZ [--device=DEVICE] [--baud=115200] [--verbose=1]"
-                  << std::endl;
+        Board board(argc, argv, options, baud);
+        const int code = board.runModule();
+        return board.exitStatus() != 0 ? board.exitStatus() : code;
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
         return 2;
     }
 }

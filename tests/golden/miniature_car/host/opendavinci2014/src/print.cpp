@@ -12,7 +12,7 @@ namespace {
 
 class Printer : public core::base::ConferenceClientModule {
 public:
-    Printer(int argc, char **argv) : core::base::ConferenceClientModule(argc, argv, "sense_print") {}
+    Printer(int argc, char **argv) : core::base::ConferenceClientModule(argc, argv, "miniature_car_print") {}
 
 private:
     virtual void setUp() {}
@@ -25,19 +25,19 @@ private:
     }
 
     virtual void nextContainer(core::data::Container &container) {
-        print< ::sense::IRFrontRight>(container);
-        print< ::sense::IRRearRight>(container);
-        print< ::sense::IRRear>(container);
-        print< ::sense::USFront>(container);
-        print< ::sense::USFrontRight>(container);
-        print< ::sense::USRear>(container);
-        print< ::sense::WheelLeftA>(container);
-        print< ::sense::WheelLeftB>(container);
-        print< ::sense::WheelRightA>(container);
-        print< ::sense::WheelRightB>(container);
-        print< ::sense::RCSteering>(container);
-        print< ::sense::RCThrottle>(container);
-        print< ::sense::RCSwitch>(container);
+        print< ::sense::miniature_car::IRFrontRight>(container);
+        print< ::sense::miniature_car::IRRearRight>(container);
+        print< ::sense::miniature_car::IRRear>(container);
+        print< ::sense::miniature_car::USFront>(container);
+        print< ::sense::miniature_car::USFrontRight>(container);
+        print< ::sense::miniature_car::USRear>(container);
+        print< ::sense::miniature_car::WheelLeftA>(container);
+        print< ::sense::miniature_car::WheelLeftB>(container);
+        print< ::sense::miniature_car::WheelRightA>(container);
+        print< ::sense::miniature_car::WheelRightB>(container);
+        print< ::sense::miniature_car::RCSteering>(container);
+        print< ::sense::miniature_car::RCThrottle>(container);
+        print< ::sense::miniature_car::RCSwitch>(container);
     }
 
     template <typename Message> static void print(core::data::Container &container) {

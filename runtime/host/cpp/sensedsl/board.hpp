@@ -1,0 +1,274 @@
+// A board as a C++17 program has it: open it, be called with each message, look at the latest ones,
+// send to its actuators. What a generated header says of one board is its messages and its facts.
+#ifndef SENSEDSL_BOARD_HPP
+#define SENSEDSL_BOARD_HPP
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "sensedsl/connection.hpp"
+#include "sensedsl/handlers.hpp"
+#include "sensedsl/link.hpp"
+#include "sensedsl/text.hpp"
+
+namespace sensedsl {
+
+/// The messages that travel one way, in the order of the file.
+template <typename... Message> struct Messages {};
+
+/// The value of one element as the design shows it.
+template <typename Message> double shown(const Message &message, std::size_t element) {
+    return Message::scale * static_cast<double>(message.data()[element]) + Message::offset;
+}
+
+/// ` cm`, or nothing where the design gives no quantity.
+template <typename Message> std::string quantity_suffix() {
+    return *Message::quantity == '\0' ? std::string() : std::string(" ") + Message::quantity;
+}
+
+/// What of a message is outside the limits that the design gives; empty when nothing is.
+template <typename Message> std::string outside_limits(const Message &message) {
+    return outside_of(Message::limits, message.data(), Message::count, Message::scale,
+                      Message::offset, quantity_suffix<Message>());
+}
+
+/// `USRear = 14 (28 cm)`, and what is outside the design's limits.
+template <typename Message> std::ostream &print_message(std::ostream &out, const Message &message) {
+    out << Message::name << " = ";
+    print_all(out, message.data(), Message::count);
+    if constexpr (Message::is_scaled) {
+        double values[Message::count];
+        for (std::size_t i = 0; i < Message::count; ++i) {
+            values[i] = shown(message, i);
+        }
+        out << " (";
+        print_all(out, values, Message::count);
+        out << quantity_suffix<Message>() << ')';
+    }
+    return out << outside_limits(message);
+}
+
+/// Calls `handler` with the message of these bytes, if it is one of these.
+template <typename Handler, typename... Message>
+void dispatch(Messages<Message...>, std::uint8_t id, const std::uint8_t *bytes, Handler &&handler) {
+    const auto call = [&](auto message) {
+        load_all(bytes, message.data(), decltype(message)::count);
+        handler(message);
+    };
+    (void)call;
+    (void)id;
+    (void)bytes;
+    ((id == Message::id ? call(Message{}) : void()), ...);
+}
+
+/// Calls `handler` with each message of a stream, whoever it is from: for streams that do not come
+/// from a device. An overload for `sensedsl::Hello` is told which firmware speaks.
+template <typename Sensors, typename Handler> class MessageDecoder final : private Sink {
+public:
+    MessageDecoder(const Schema &schema, Handler handler)
+        : schema_(schema), handler_(std::move(handler)), decoder_(schema, schema.sensors, *this) {}
+    MessageDecoder(const MessageDecoder &) = delete;
+    MessageDecoder &operator=(const MessageDecoder &) = delete;
+
+    /// Takes the next bytes of the stream, however it is cut.
+    void feed(const std::uint8_t *bytes, std::size_t count) { decoder_.feed(bytes, count); }
+    void feed(const Bytes &bytes) { decoder_.feed(bytes.data(), bytes.size()); }
+
+    /// Frames delivered so far.
+    [[nodiscard]] std::uint64_t frames() const { return decoder_.frames(); }
+    /// Bytes so far that belonged to no delivered frame.
+    [[nodiscard]] std::uint64_t dropped_bytes() const { return decoder_.dropped_bytes(); }
+
+private:
+    template <typename Message> void call(const Message &message) {
+        if constexpr (std::is_invocable_v<Handler &, const Message &>) {
+            handler_(message);
+        }
+    }
+    void on_hello(std::uint32_t hash) override { call(Hello{hash, hash == schema_.hash}); }
+    void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
+        dispatch(Sensors{}, id, bytes, [this](const auto &message) { call(message); });
+    }
+
+    const Schema &schema_;
+    Handler handler_;
+    sensedsl::Decoder decoder_;
+};
+
+/// A sensor's latest message.
+template <typename Message> struct Latest {
+    Message message;
+    double age_s;
+    /// It is overdue: three of its cycles have passed.
+    bool is_stale;
+};
+
+/// Whether a command went to the board.
+enum class Sent { yes, no_board, outside_limits };
+
+/// See the generated header for the boards that there are.
+template <typename Sensors, typename Actuators> class Board;
+
+template <typename... Sensor, typename... Actuator>
+class Board<Messages<Sensor...>, Messages<Actuator...>> : private Receiver {
+public:
+    /// The handler has an overload for each message type that is wanted (`sensedsl::Handlers` makes
+    /// one of lambdas), and one for `sensedsl::Note` to take what else is printed on standard error.
+    template <typename Handler>
+    Board(const BoardFacts &facts, Handler handler)
+        : facts_(facts), connection_(facts, static_cast<Receiver &>(*this)) {
+        static_assert((std::is_invocable_v<Handler &, const Sensor &> || ... || (sizeof...(Sensor) == 0)) ||
+                          std::is_invocable_v<Handler &, const Note &>,
+                      "the handler takes none of this board's messages");
+        (set_handler<Sensor>(handler), ...);
+        if constexpr (std::is_invocable_v<Handler &, const Note &>) {
+            note_ = handler;
+        }
+    }
+    Board(const Board &) = delete;
+    Board &operator=(const Board &) = delete;
+
+    /// Opens a serial device for this program alone, or a recording (a file, or `-`). Throws
+    /// `sensedsl::OpenError` with the cause and what to do.
+    void open(const std::string &device, unsigned baud) { connection_.open(device, baud); }
+    /// Whether a device that goes is waited for; it is unless told otherwise.
+    void reconnect(bool wanted) { connection_.reconnect(wanted); }
+    /// Waits up to that long, and calls the handler with what came. False when it is over.
+    bool poll(int timeout_ms) { return connection_.poll(timeout_ms); }
+    /// Until it is over, or `stop()` is called, which a signal handler or another thread may do.
+    void run() {
+        while (!is_stopped_ && poll(50)) {
+        }
+    }
+    void stop() { is_stopped_ = true; }
+
+    /// True while the board is there and its firmware is of this design.
+    [[nodiscard]] bool is_ready() const { return connection_.is_ready(); }
+    [[nodiscard]] Connection::End end() const { return connection_.end(); }
+    /// 0, or 1 when the firmware is another or the device is gone for good.
+    [[nodiscard]] int exit_status() const { return connection_.exit_status(); }
+    [[nodiscard]] std::string summary() const { return connection_.summary(); }
+
+    /// The latest message of a sensor; nothing before the first. For the thread that polls.
+    template <typename Message> [[nodiscard]] std::optional<Latest<Message>> latest() const {
+        const auto &message = std::get<std::optional<Message>>(latest_);
+        if (!message) {
+            return std::nullopt;
+        }
+        const std::size_t at = place(Message::id);
+        const double age_s = static_cast<double>(connection_.age_ms(at)) / 1000.0;
+        return Latest<Message>{*message, age_s, connection_.is_stale(at)};
+    }
+
+    /// Sends to an actuator; from any thread. A value outside the design's limits is not sent.
+    template <typename Message> Sent send(const Message &command) {
+        static_assert((std::is_same_v<Message, Actuator> || ...), "this board has no such actuator");
+        if (!outside_limits(command).empty()) {
+            return Sent::outside_limits;
+        }
+        Report report(*facts_.schema, facts_.schema->actuators);
+        report.set(Message::id, command.data(), Message::count);
+        return connection_.send(report.frame()) ? Sent::yes : Sent::no_board;
+    }
+
+    /// Sends what a line `NAME VALUE...` says. Why it was not sent; empty when it was.
+    std::string send_line(const std::string &line) {
+        std::istringstream words(line);
+        std::string name;
+        words >> name;
+        std::string problem = "no actuator is called " + name + "; there are:";
+        ((problem += std::string(" ") + Actuator::name), ...);
+        ((name == Actuator::name ? void(problem = send_words<Actuator>(words)) : void()), ...);
+        return problem;
+    }
+
+    /// A line for each device: what it is and what is expected of it.
+    static std::string devices() {
+        std::ostringstream text;
+        ((text << "  sensor   " << Sensor::summary << "\n"), ...);
+        ((text << "  actuator " << Actuator::summary << "\n"), ...);
+        return text.str();
+    }
+
+private:
+    template <typename Message, typename Handler> void set_handler(Handler &handler) {
+        if constexpr (std::is_invocable_v<Handler &, const Message &>) {
+            std::get<std::function<void(const Message &)>>(handlers_) = handler;
+        }
+    }
+
+    template <typename Message> std::string send_words(std::istream &words) {
+        Message command;
+        std::string word;
+        for (std::size_t i = 0; i < Message::count; ++i) {
+            if (!(words >> word)) {
+                return std::string(Message::name) + " takes " + std::to_string(Message::count) + " values";
+            }
+            const std::string problem = read_typed(word, command.data()[i]);
+            if (!problem.empty()) {
+                return word + " " + problem;
+            }
+        }
+        if (words >> word) {
+            return "what is " + word + "? " + Message::name + " takes " +
+                   std::to_string(Message::count) + (Message::count == 1 ? " value" : " values");
+        }
+        switch (send(command)) {
+        case Sent::no_board:
+            return "the board is not there";
+        case Sent::outside_limits: {
+            std::ostringstream text;
+            text << command;
+            return text.str();
+        }
+        case Sent::yes:
+        default:
+            return {};
+        }
+    }
+
+    void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
+        dispatch(Messages<Sensor...>{}, id, bytes, [this](const auto &message) {
+            using Message = std::decay_t<decltype(message)>;
+            std::get<std::optional<Message>>(latest_) = message;
+            if (const auto &handler = std::get<std::function<void(const Message &)>>(handlers_)) {
+                handler(message);
+            }
+        });
+    }
+
+    void on_note(const std::string &text) override {
+        if (note_) {
+            note_(Note{text});
+        } else {
+            std::cerr << text << std::endl;
+        }
+    }
+
+    static std::size_t place(std::uint8_t id) {
+        std::size_t at = 0;
+        std::size_t found = 0;
+        ((Sensor::id == id ? void(found = at) : void(), ++at), ...);
+        return found;
+    }
+
+    const BoardFacts &facts_;
+    std::tuple<std::function<void(const Sensor &)>...> handlers_{};
+    std::function<void(const Note &)> note_{};
+    std::tuple<std::optional<Sensor>...> latest_{};
+    std::atomic<bool> is_stopped_{false};
+    Connection connection_;
+};
+
+} // namespace sensedsl
+
+#endif

@@ -1,0 +1,258 @@
+// Whether the board at the other end speaks of the same devices, and what to do until that is known.
+//
+// In: bytes of the link and the time. Out: bytes to send, and values, but none before the board's
+// hello has told the schema hash of this program. It asks for the hello until it is answered. When
+// the hash is another one it asks the board's shell for the whole schema, so that the devices that
+// differ can be named. No I/O and no clock in here; C++98.
+#ifndef SENSEDSL_SESSION_HPP
+#define SENSEDSL_SESSION_HPP
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <string>
+
+#include "sensedsl/difference.hpp"
+#include "sensedsl/link.hpp"
+
+namespace sensedsl {
+
+/// A sensor beside its bytes on the wire.
+struct SensorFacts {
+    const char *name;
+    /// From one value to the next; 0 when values come only when something happens.
+    uint32_t cycle_ms;
+};
+
+/// A board as this program was generated for it.
+struct BoardFacts {
+    const char *name;
+    const Schema *schema;
+    /// The text that the schema hash is made of.
+    const char *schema_text;
+    /// In the order of the schema's sensors.
+    const SensorFacts *sensors;
+};
+
+/// Milliseconds of a clock that only goes forward.
+typedef int64_t Milliseconds;
+
+const Milliseconds ask_every_ms = 250;
+const Milliseconds ask_rarely_after_ms = 5000;
+const Milliseconds ask_rarely_every_ms = 1000;
+const Milliseconds unanswered_after_ms = 1500;
+const Milliseconds shell_answers_within_ms = 1000;
+
+/// One session with a board, from opening the device to losing it.
+class Session : private Sink {
+public:
+    enum State {
+        /// The board has not told its schema hash yet: nothing is believed.
+        asking,
+        /// Same schema: values are handed on.
+        matched,
+        /// A recording has nobody to ask: values are handed on until a hello says otherwise.
+        playing,
+        /// Another schema: the board's shell is asked for it.
+        comparing,
+        /// Another schema, and all that can be known of it is known.
+        refused
+    };
+
+    Session(const BoardFacts &facts, Sink &sink)
+        : facts_(&facts), sink_(&sink), is_recording_(false), state_(asking), now_(0), started_(0), asked_(-1), heard_(0),
+          requests_(0), other_form_hash_(0), bytes_(0), withheld_(0), step_(0), board_hash_(0), reader_(0),
+          other_form_(other_form(*facts.schema)), other_sink_(*this),
+          decoder_(*facts.schema, facts.schema->sensors, *this),
+          other_decoder_(other_form_, other_form_.sensors, other_sink_) {}
+
+    /// For a recording.
+    void play() {
+        is_recording_ = true;
+        state_ = playing;
+    }
+
+    /// Begins to ask.
+    void start(Milliseconds now) {
+        now_ = now;
+        ask_anew();
+    }
+
+    /// Takes the next bytes, however the stream is cut.
+    void feed(const uint8_t *bytes, size_t count, Milliseconds now) {
+        now_ = now;
+        bytes_ += count;
+        if (state_ == comparing && reader_.feed(bytes, count)) {
+            state_ = refused;
+        }
+        if (state_ == asking) {
+            other_decoder_.feed(bytes, count);
+        }
+        decoder_.feed(bytes, count);
+    }
+
+    /// What to send now; mostly nothing.
+    Bytes to_send(Milliseconds now) {
+        now_ = now;
+        if (state_ == asking) {
+            return request();
+        }
+        return state_ == comparing ? shell_command() : Bytes();
+    }
+
+    State state() const { return state_; }
+    /// When the last whole frame came.
+    Milliseconds heard() const { return heard_; }
+    /// True when the board should have answered by now.
+    bool is_unanswered() const {
+        return state_ == asking && now_ - started_ >= unanswered_after_ms;
+    }
+    /// A board that says nothing for long may have been restarted, with whatever firmware.
+    void ask_anew() {
+        state_ = asking;
+        started_ = now_;
+        asked_ = -1;
+        requests_ = 0;
+    }
+
+    uint64_t frames() const { return decoder_.frames(); }
+    uint64_t dropped_bytes() const { return decoder_.dropped_bytes(); }
+    uint64_t bytes() const { return bytes_; }
+    /// Frames with values that came while nothing was believed.
+    uint64_t withheld_frames() const { return withheld_; }
+
+    /// What is known of a board with another schema.
+    std::string difference() const {
+        char hashes[64];
+        snprintf(hashes, sizeof hashes, " (schema 0x%08x instead of 0x%08x)",
+                 static_cast<unsigned>(board_hash_), static_cast<unsigned>(facts_->schema->hash));
+        if (is_recording_) {
+            return std::string("this is a recording of other firmware than this program was generated for") +
+                   hashes;
+        }
+        return std::string("the board runs other firmware than this program was generated for") + hashes +
+               (reader_.is_whole() ? ":\n" + differences(facts_->schema_text, reader_.text())
+                                   : "; it does not say in which devices\n") +
+               "generate again and flash the board, or take the program of the board's design";
+    }
+
+private:
+    Session(const Session &);
+    Session &operator=(const Session &);
+
+    /// The hello of a board whose frames have a checksum where ours have none, or the other way round.
+    class OtherSink : public Sink {
+    public:
+        explicit OtherSink(Session &session) : session_(&session) {}
+        virtual void on_hello(uint32_t hash) { session_->on_other_form(hash); }
+        virtual void on_value(uint8_t, const uint8_t *) {}
+
+    private:
+        Session *session_;
+    };
+
+    static Schema other_form(const Schema &own) {
+        Schema other = own;
+        other.has_checksum = !own.has_checksum;
+        other.sensors.items = NULL;
+        other.sensors.item_count = 0;
+        other.sensors.payload_bytes_max = other.sensors.hello_bytes + (other.has_checksum ? 3 : 0);
+        return other;
+    }
+
+    Bytes request() {
+        const Milliseconds every =
+            now_ - started_ < ask_rarely_after_ms ? ask_every_ms : ask_rarely_every_ms;
+        if (asked_ >= 0 && now_ - asked_ < every) {
+            return Bytes();
+        }
+        asked_ = now_;
+        ++requests_;
+        // A board that does not answer may have the other form of frames.
+        return hello_request(requests_ % 3 == 0 ? other_form_ : *facts_->schema);
+    }
+
+    /// `q` brings the shell back from frames; the return before the command ends what was typed.
+    Bytes shell_command() {
+        static const char *const commands[] = {"q", "\rschema\r", "q", "\rschema\r"};
+        static const Milliseconds at[] = {0, 150, shell_answers_within_ms,
+                                          shell_answers_within_ms + 150};
+        const size_t count = sizeof commands / sizeof commands[0];
+        if (step_ < count && now_ - started_ >= at[step_]) {
+            const char *command = commands[step_];
+            ++step_;
+            return Bytes(command, command + strlen(command));
+        }
+        if (now_ - started_ >= 2 * shell_answers_within_ms) {
+            state_ = refused;
+        }
+        return Bytes();
+    }
+
+    virtual void on_hello(uint32_t hash) {
+        heard_ = now_;
+        if (hash == facts_->schema->hash) {
+            if (state_ == asking || state_ == playing) {
+                state_ = matched;
+            }
+            return;
+        }
+        if (state_ == comparing || state_ == refused) {
+            return;
+        }
+        board_hash_ = hash;
+        reader_ = SchemaReader(hash);
+        step_ = 0;
+        state_ = is_recording_ ? refused : comparing;
+        started_ = now_;
+    }
+
+    /// Bytes of a value may look like a hello; two equal ones are one.
+    void on_other_form(uint32_t hash) {
+        if (hash == other_form_hash_) {
+            on_hello(hash);
+        }
+        other_form_hash_ = hash;
+    }
+
+    virtual void on_value(uint8_t id, const uint8_t *bytes) {
+        if (state_ == matched || state_ == playing) {
+            sink_->on_value(id, bytes);
+        }
+    }
+
+    virtual void on_frame_end() {
+        heard_ = now_;
+        if (state_ == matched || state_ == playing) {
+            sink_->on_frame_end();
+        } else {
+            ++withheld_;
+        }
+    }
+
+    const BoardFacts *facts_;
+    Sink *sink_;
+    bool is_recording_;
+    State state_;
+    Milliseconds now_;
+    Milliseconds started_;
+    /// When a hello was asked for; negative before the first time.
+    Milliseconds asked_;
+    Milliseconds heard_;
+    unsigned requests_;
+    uint32_t other_form_hash_;
+    uint64_t bytes_;
+    uint64_t withheld_;
+    size_t step_;
+    uint32_t board_hash_;
+    SchemaReader reader_;
+    Schema other_form_;
+    OtherSink other_sink_;
+    Decoder decoder_;
+    Decoder other_decoder_;
+};
+
+} // namespace sensedsl
+
+#endif
