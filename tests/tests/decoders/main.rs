@@ -4,6 +4,8 @@
 #[cfg(test)]
 mod agree;
 #[cfg(test)]
+mod damage;
+#[cfg(test)]
 mod naive;
 #[cfg(test)]
 mod program;

@@ -1,0 +1,176 @@
+//! What damage costs: wrong values delivered, undamaged frames lost.
+//!
+//! `SENSEDSL_DAMAGED_FRAMES=1000000 cargo test -p sensedsl-tests --test decoders damage -- --nocapture`
+//! prints the table of `docs/wire.md`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use sensedsl_tests::Random;
+use sensedsl_wire::{Checksum, Direction, Schema};
+
+use crate::program::{Program, rust, schema_bytes};
+use crate::streams::{fig2, frame};
+use crate::{scratch, tools};
+
+/// What happens to a frame on its way.
+#[derive(Clone, Copy, Debug)]
+enum Mode {
+    /// One bit is another.
+    Bit,
+    /// Of up to 16 bits in a row the first, the last and any between are others.
+    Burst,
+    /// The same with 17 to 64 bits, which is more than a CRC-16 promises to find.
+    LongBurst,
+    /// The rest is missing.
+    Torn,
+    /// Some bytes are missing.
+    Hole,
+    /// Some bytes come twice.
+    Duplicate,
+}
+
+const MODES: [Mode; 6] =
+    [Mode::Bit, Mode::Burst, Mode::LongBurst, Mode::Torn, Mode::Hole, Mode::Duplicate];
+
+fn flip(bytes: &mut [u8], bit: usize) {
+    bytes[bit / 8] ^= 0x80 >> (bit % 8);
+}
+
+fn damage(random: &mut Random, mode: Mode, bytes: &mut Vec<u8>) {
+    let bits = bytes.len() * 8;
+    let at = random.below(bytes.len());
+    match mode {
+        Mode::Bit => flip(bytes, random.below(bits)),
+        Mode::Burst | Mode::LongBurst => {
+            let length = if matches!(mode, Mode::Burst) {
+                2 + random.below(15)
+            } else {
+                17 + random.below(48)
+            };
+            let from = random.below(bits - length + 1);
+            flip(bytes, from);
+            flip(bytes, from + length - 1);
+            for bit in from + 1..from + length - 1 {
+                if random.below(2) == 1 {
+                    flip(bytes, bit);
+                }
+            }
+        }
+        Mode::Torn => bytes.truncate(at.max(1)),
+        Mode::Hole => {
+            let from = 1 + random.below(bytes.len() - 2);
+            let to = from + 1 + random.below(bytes.len() - from - 1);
+            drop(bytes.drain(from..to));
+        }
+        Mode::Duplicate => {
+            let to = at + 1 + random.below((bytes.len() - at).min(bytes.len() - 1));
+            let again = bytes[at..to].to_vec();
+            bytes.splice(to..to, again);
+        }
+    }
+}
+
+/// Of all frames of a mode.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    damaged: usize,
+    undamaged: usize,
+    /// Frames delivered that were never sent.
+    wrong: usize,
+    /// Undamaged frames not delivered.
+    lost: usize,
+}
+
+/// The frames of an answer by their payloads, without the end.
+fn payloads(answer: &[u8]) -> Vec<&[u8]> {
+    let mut payloads = Vec::new();
+    let mut at = 0;
+    while answer[at] != b'E' {
+        // Only reports and hellos reach a host; a hello has no length of its own.
+        let (start, size) = match answer[at] {
+            b'H' => (at, 5),
+            _ => {
+                let size = answer[at + 1..at + 5].try_into().unwrap();
+                (at + 5, u32::from_be_bytes(size) as usize)
+            }
+        };
+        payloads.push(&answer[start..start + size]);
+        at = start + size;
+    }
+    payloads
+}
+
+/// One stream of about as many damaged as undamaged frames, and what all decoders make of it.
+fn stream(
+    random: &mut Random,
+    schema: &Schema,
+    mode: Mode,
+    damaged: usize,
+    program: &mut Program,
+    counts: &mut Counts,
+) {
+    let mut stream = Vec::new();
+    let mut sent = BTreeMap::new();
+    let before = counts.damaged;
+    let mut behind = 0;
+    // Two undamaged frames at the end, so that nothing is left to wait for.
+    while behind < 2 {
+        let mut payload = Vec::new();
+        for (id, bytes) in [(17, 2), (18, 2), (19, 1), (20, 4)] {
+            payload.push(id);
+            payload.extend_from_slice(&random.next().to_be_bytes()[2..2 + bytes]);
+        }
+        let mut bytes = frame(schema, &payload);
+        let is_end = counts.damaged - before == damaged;
+        let is_damaged = !is_end && random.below(2) == 1;
+        if is_damaged {
+            damage(random, mode, &mut bytes);
+            counts.damaged += 1;
+        } else {
+            counts.undamaged += 1;
+            behind += usize::from(is_end);
+        }
+        stream.extend(bytes);
+        sent.insert(payload, is_damaged);
+    }
+    let answer = rust(schema, Direction::Sensor, &stream, &[0]);
+    let bytes = schema_bytes(schema, Direction::Sensor);
+    let pieces = [1 + random.below(600) as u32, 1 + random.below(40) as u32];
+    for who in ["c", "cpp"] {
+        assert!(program.say(who, &bytes, &stream, &pieces) == answer, "{who} says otherwise");
+    }
+    for payload in payloads(&answer) {
+        counts.wrong += usize::from(sent.remove(payload).is_none());
+    }
+    counts.lost += sent.values().filter(|&&is_damaged| !is_damaged).count();
+}
+
+#[test]
+fn damage_costs_what_the_documentation_says() {
+    if !tools(&["gcc", "g++"]) {
+        return;
+    }
+    let wanted = std::env::var("SENSEDSL_DAMAGED_FRAMES").ok();
+    let wanted = wanted.map_or(3000, |text| text.parse().expect("a number of frames"));
+    let mut program = Program::build(&scratch("damage"), &["-O2", "-DDECODERS_C_FRAMES=2"]);
+    let mut table = String::new();
+    for mode in MODES {
+        for checksum in [Checksum::None, Checksum::Crc16] {
+            let schema = fig2(checksum);
+            let mut random = Random::new(2014);
+            let mut counts = Counts::default();
+            while counts.damaged < wanted {
+                let damaged = 5000.min(wanted - counts.damaged);
+                stream(&mut random, &schema, mode, damaged, &mut program, &mut counts);
+            }
+            writeln!(table, "{mode:?} {} {counts:?}", checksum.name()).unwrap();
+            if checksum == Checksum::Crc16 {
+                assert_eq!(counts.lost, 0, "{mode:?}: an undamaged frame is lost");
+                let is_promised = !matches!(mode, Mode::LongBurst);
+                assert!(counts.wrong == 0 || !is_promised, "{mode:?}: {} wrong", counts.wrong);
+            }
+        }
+    }
+    println!("{table}");
+}
