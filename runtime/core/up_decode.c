@@ -78,6 +78,15 @@ static const up_field_t *field_of(const up_decoder_t *decoder, uint8_t id) {
   return (decoder->field_of[id] == 0U) ? NULL : &decoder->schema->fields[decoder->field_of[id] - 1U];
 }
 
+/* Here and not in another file, so that the compiler makes no calls of them. */
+static bool is_seen(const up_decoder_t *decoder, uint8_t id) {
+  return (decoder->seen[id / 8U] & (1U << (id % 8U))) != 0U;
+}
+
+static void see(up_decoder_t *decoder, uint8_t id) {
+  decoder->seen[id / 8U] = (uint8_t)(decoder->seen[id / 8U] | (1U << (id % 8U)));
+}
+
 /* The elements of the value before `end`, as many as are there. */
 static verdict_t look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t end) {
   size_t i = decoder->at + 1U;
@@ -113,7 +122,7 @@ static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) 
       break;
     }
     field = field_of(decoder, id);
-    if (field == NULL || up_bit_get(decoder->seen, id)) {
+    if (field == NULL || is_seen(decoder, id)) {
       return VERDICT_INVALID;
     }
     end = decoder->at + 1U + up_field_bytes(field);
@@ -126,7 +135,7 @@ static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) 
         return verdict;
       }
     }
-    up_bit_set(decoder->seen, id);
+    see(decoder, id);
     decoder->at = end;
   }
   return VERDICT_COMPLETE;

@@ -1,10 +1,10 @@
 //! All decoders say the same, and what the definition says, however a stream is cut.
 
 use sensedsl_tests::Random;
-use sensedsl_wire::{Checksum, Direction, Schema};
+use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
 use crate::program::{Program, rust, schema_bytes};
-use crate::streams::{hard_schemas, hard_stream};
+use crate::streams::{frame, hard_schemas, hard_stream, schema};
 use crate::{naive, scratch, tools};
 
 /// How often; the variable is for long runs.
@@ -70,4 +70,37 @@ fn c_and_cpp_say_what_the_definition_says() {
             }
         }
     });
+}
+
+/// Nanoseconds a byte where a candidate starts every few bytes, stays right up to the last one and
+/// fails there.
+fn ns_per_byte(program: &mut Program, who: &str, payload_bytes: u16, bytes: usize) -> f64 {
+    let schema = schema(Checksum::None, &[(b'a', ScalarType::Uint8, payload_bytes - 1)]);
+    let mut value = format!("{payload_bytes}:a").repeat(usize::from(payload_bytes)).into_bytes();
+    value.truncate(usize::from(payload_bytes) - 1);
+    let mut nearly = frame(&schema, &[b"a", &value[..]].concat());
+    if let Some(comma) = nearly.last_mut() {
+        *comma = b';';
+    }
+    let stream = nearly.repeat(bytes.div_ceil(nearly.len()));
+    let schema = schema_bytes(&schema, Direction::Sensor);
+    // The least of several: other programs can only make it more.
+    let times = (0..5).map(|_| program.time(who, 1, &schema, &stream, &[64]));
+    times.min().unwrap() as f64 / stream.len() as f64
+}
+
+#[test]
+fn time_is_linear_whatever_the_length_of_a_frame() {
+    if !tools(&["gcc", "g++"]) {
+        return;
+    }
+    let mut program = Program::build(&scratch("linear"), &["-O2", "-DDECODERS_C_FRAMES=2"]);
+    for who in ["c", "cpp"] {
+        let base = ns_per_byte(&mut program, who, 100, 200_000);
+        for (payload_bytes, bytes) in [(100, 800_000), (1000, 200_000), (9999, 200_000)] {
+            let ns = ns_per_byte(&mut program, who, payload_bytes, bytes);
+            println!("{who}, {payload_bytes} B frames, {bytes} B: {ns:.1} ns a byte");
+            assert!(ns < 5.0 * base, "{who}: {ns} ns a byte, {base} with short frames");
+        }
+    }
 }

@@ -158,7 +158,6 @@ impl Program {
     }
 
     /// The nanoseconds that the decoder takes for the stream, over and over.
-    #[allow(dead_code, reason = "for the benchmark")]
     pub(crate) fn time(
         &mut self,
         who: &str,

@@ -116,7 +116,7 @@ fn notices_a_broken_core() {
         ("up_encode.c", "bits >>= 8;", "bits >>= 4;"),
         ("up_decode.c", "while (at < limit && !is_digit(bytes[at]))", "while (at < limit)"),
         ("up_decode.c", "length > decoder->payload_bytes_max", "false"),
-        ("up_decode.c", "|| up_bit_get(decoder->seen, id)", ""),
+        ("up_decode.c", "|| is_seen(decoder, id)", ""),
         ("up_convert.c", "(raw > ranges[type].max) ? ranges[type].max : raw", "raw"),
         ("up_i2c.c", "!is_reached(now_ms, state->ready_ms)", "now_ms < state->ready_ms"),
         ("up_capture.c", "(first_edge_seen ? 1U : 0U)", "0U"),

@@ -53,6 +53,15 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
+    /// Another place, of which nothing is known; the rest is set when its length has been read.
+    #[inline]
+    pub(super) fn restart(&mut self) {
+        self.payload_start = 0;
+        self.frame_bytes = 0;
+        self.looked_at = 0;
+        self.is_checksum_right = false;
+    }
+
     /// Looks at the bytes from the candidate's first on, and at none twice. `memo` is there when
     /// an earlier candidate has been through the same bytes; `place` is where they stand in the
     /// stream.
@@ -104,6 +113,7 @@ impl Candidate {
                     self.at = self.payload_start;
                     self.frame_bytes = self.payload_start + payload_bytes + 1;
                     self.values_end = self.frame_bytes - 1 - rules.checksum.size_bytes();
+                    self.seen = [0; 4];
                     return Verdict::Complete;
                 }
                 _ => return Verdict::Invalid,

@@ -151,7 +151,7 @@ impl<'a> Decoder<'a> {
                     self.place += skipped as u64;
                 }
             }
-            self.candidate = Candidate::default();
+            self.candidate.restart();
         }
         at
     }

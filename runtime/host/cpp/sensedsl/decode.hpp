@@ -196,6 +196,13 @@ private:
               is_checksum_right(false) {
             memset(seen, 0, sizeof seen);
         }
+        /// Another place, of which nothing is known; the rest is set when its length has been read.
+        void restart() {
+            payload_start = 0;
+            frame_bytes = 0;
+            looked_at = 0;
+            is_checksum_right = false;
+        }
         /// 0 as long as the length has not been read.
         size_t payload_start;
         /// Where the checksum or the comma stands.
@@ -224,19 +231,21 @@ private:
             if (verdict == incomplete) {
                 return;
             }
-            const Candidate was = candidate_;
-            candidate_ = Candidate();
             if (verdict == complete) {
-                const uint8_t *frame = bytes + at;
-                at += was.frame_bytes;
-                place_ += was.frame_bytes;
+                // First on to the next frame: the sink may throw.
+                const uint8_t *payload = bytes + at + candidate_.payload_start;
+                const size_t values_bytes = candidate_.values_end - candidate_.payload_start;
+                at += candidate_.frame_bytes;
+                place_ += candidate_.frame_bytes;
+                candidate_.restart();
                 ++frames_;
-                deliver(frame + was.payload_start, was.values_end - was.payload_start);
+                deliver(payload, values_bytes);
                 continue;
             }
-            if (place_ + was.looked_at > spent_) {
-                spent_ = place_ + was.looked_at;
+            if (place_ + candidate_.looked_at > spent_) {
+                spent_ = place_ + candidate_.looked_at;
             }
+            candidate_.restart();
             const size_t from = at++;
             while (at < limit && (bytes[at] < '1' || bytes[at] > '9')) {
                 ++at;
@@ -277,6 +286,7 @@ private:
                 candidate_.at = i + 1;
                 candidate_.frame_bytes = i + 1 + payload_bytes + 1;
                 candidate_.values_end = i + 1 + payload_bytes - checksum_bytes_;
+                memset(candidate_.seen, 0, sizeof candidate_.seen);
                 return complete;
             }
             if (byte < '0' || byte > '9' || (i == 0 && byte == '0')) {
