@@ -1,6 +1,6 @@
 """How fast the decoders are, beside memcpy and a plain reader in Python, in one run.
 
-    python3 benches/decode.py [MIB]
+    python3 benches/decode.py [MIB [PIECE...]]
 
 Compiles the decoders in C and C++ (`gcc`, `g++ -O2`) and in Rust (`cargo`, release) and prints a table in
 Markdown: MB/s by stream and size of the pieces that the stream is fed in. What is hard for a decoder is
@@ -115,9 +115,9 @@ class Program:
             pipe.write(schema + struct.pack("=I", piece) + stream)
             pipe.flush()
             ns = int(self.process.stdout.readline())
-            if ns > 20_000_000:
+            if ns > 10_000_000:
                 return len(stream) * repeats / ns * 1e3
-            repeats = max(2 * repeats, int(repeats * 25_000_000 / max(ns, 1000)))
+            repeats = max(2 * repeats, int(repeats * 12_000_000 / max(ns, 1000)))
 
 
 def build(folder):
@@ -140,6 +140,7 @@ def build(folder):
 
 def main():
     mib = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
+    pieces = [int(word) for word in sys.argv[2:]] or [1, 64, 512, 65536]
     random.seed(2014)
     sums, array = bad_sums()
     deep_sums = [(ord("a"), "uint8", array), *DEEP[1:]]
@@ -165,13 +166,13 @@ def main():
             schema = bytes([crc]) + table
             stream = stream * max(1, int(mib * (1 << 20) / len(stream)))
             copied = c.mb_per_s("memcpy", schema, stream, 0)
-            for piece in [1, 64, 512, 65536]:
+            for piece in pieces:
                 here = [
                     rust.mb_per_s("rust", schema, stream, piece),
                     c.mb_per_s("c", schema, stream, piece),
                     c.mb_per_s("cpp", schema, stream, piece),
                 ]
-                start, some = time.process_time(), stream[: 1 << 15]
+                start, some = time.process_time(), stream[: 1 << 13]
                 python_reader(items, crc, some, piece)
                 python = len(some) / (time.process_time() - start) / 1e6
                 figures = " | ".join(f"{figure:.3g}" for figure in here)
