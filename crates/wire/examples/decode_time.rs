@@ -51,7 +51,7 @@ fn read_schema(bytes: &[u8]) -> Schema {
         name: String::new(),
         direction: if direction == 0 { Direction::Sensor } else { Direction::Actuator },
         value: ValueType {
-            scalar: ScalarType::ALL[usize::from(scalar)],
+            scalar: ScalarType::ALL.get(usize::from(scalar)).copied().unwrap_or(ScalarType::Uint8),
             length: Some(u16::from_be_bytes([high, low])),
         },
     });
