@@ -4,14 +4,14 @@
 use libfuzzer_sys::fuzz_target;
 use sensedsl_codegen::host::HOSTS;
 use sensedsl_diagnostics::{Severity, render};
-use sensedsl_model::{Files, Request, apply_allows, resolve};
+use sensedsl_model::{Files, Request, apply_allows, resolve, Unread, Wanted};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 struct Table<'a>(Option<&'a str>);
 
 impl Files for Table<'_> {
-    fn read(&self, _: &str) -> Result<String, String> {
-        self.0.map(str::to_owned).ok_or_else(|| "no such file".into())
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        self.0.map(str::to_owned).ok_or(Unread::Missing)
     }
 }
 

@@ -4,7 +4,7 @@
 use divan::Bencher;
 use sensedsl_codegen::host::HOSTS;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -17,8 +17,8 @@ fn main() {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err("there are none".into())
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
     }
 }
 

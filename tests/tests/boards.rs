@@ -10,7 +10,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::Transport;
 use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::{Completion, complete, find};
 use sensedsl_tests::{Scratch, sensedsl, text};
 use sensedsl_wiring::assignment::Assignment;
@@ -19,8 +19,8 @@ use sensedsl_wiring::{Solved, Wiring};
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, path: &str) -> Result<String, String> {
-        Err(format!("{path} is not there"))
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Why(format!("{} is not there", wanted.path)))
     }
 }
 

@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use sensedsl_codegen::host::HOSTS;
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::render;
-use sensedsl_model::{Files, Request, apply_allows, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
 use sensedsl_tests::{Random, files, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -25,9 +25,9 @@ struct Input {
 struct Memory<'a>(&'a Input);
 
 impl Files for Memory<'_> {
-    fn read(&self, path: &str) -> Result<String, String> {
-        let table = self.0.table.as_ref().filter(|_| path.ends_with(".csv"));
-        table.cloned().ok_or_else(|| "no such file".into())
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        let table = self.0.table.as_ref().filter(|_| wanted.path.ends_with(".csv"));
+        table.cloned().ok_or(Unread::Missing)
     }
 }
 

@@ -7,6 +7,8 @@
 
 use std::ops::Range;
 
+use sensedsl_limits::CELLS_MAX;
+
 /// The text, cut into pieces.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Sheet {
@@ -16,6 +18,8 @@ pub struct Sheet {
     pub rows: Vec<Vec<Cell>>,
     /// Quotes that do not end, and what follows a closing quote.
     pub bad_quotes: Vec<Range<usize>>,
+    /// Where the text was left because it has more cells than are read.
+    pub cut: Option<usize>,
 }
 
 /// One cell: the bytes between its separators, or between its quotes.
@@ -27,7 +31,7 @@ pub struct Cell {
     pub quoted: bool,
 }
 
-/// Cuts a text. Never fails.
+/// Cuts a text, up to [`CELLS_MAX`] cells. Never fails.
 #[must_use]
 pub fn split(text: &str) -> Sheet {
     let mut cutter = Cutter { bytes: text.as_bytes(), at: 0, separator: b',' };
@@ -36,10 +40,16 @@ pub fn split(text: &str) -> Sheet {
     }
     let mut sheet = Sheet::default();
     let mut header_seen = false;
+    let mut left = CELLS_MAX;
     while cutter.at < text.len() {
+        if left == 0 {
+            sheet.cut = Some(cutter.at);
+            break;
+        }
         let line = cutter.line();
         if let Some(comment) = comment(text, &line) {
             sheet.comments.push(comment);
+            left -= 1;
             cutter.at = cutter.line_end_after(line.end);
         } else if text.get(line.clone()).is_none_or(|line| line.trim().is_empty()) {
             cutter.at = cutter.line_end_after(line.end);
@@ -52,7 +62,8 @@ pub fn split(text: &str) -> Sheet {
                 cutter.separator = guess(text.get(line.clone()).unwrap_or_default());
                 header_seen = true;
             }
-            let row = cutter.row(&mut sheet.bad_quotes);
+            let row = cutter.row(left, &mut sheet.bad_quotes);
+            left -= row.len();
             sheet.rows.push(row);
         }
     }
@@ -124,11 +135,14 @@ impl Cutter<'_> {
         byte == self.separator || matches!(byte, b'\n' | b'\r')
     }
 
-    /// Reads one row and its line end.
-    fn row(&mut self, bad_quotes: &mut Vec<Range<usize>>) -> Vec<Cell> {
+    /// Reads one row and its line end, or `most` cells of it.
+    fn row(&mut self, most: usize, bad_quotes: &mut Vec<Range<usize>>) -> Vec<Cell> {
         let mut cells = Vec::new();
         loop {
             cells.push(self.cell(bad_quotes));
+            if cells.len() == most {
+                return cells;
+            }
             if self.byte(self.at) != Some(self.separator) {
                 self.at = self.line_end_after(self.at);
                 return cells;

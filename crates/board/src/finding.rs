@@ -128,4 +128,18 @@ pub enum FindingKind {
         /// Which one.
         character: char,
     },
+    /// More of something than a table has; what stands behind is not read.
+    TooLarge {
+        /// Of what.
+        what: &'static str,
+        /// How much is read.
+        most: usize,
+    },
+    /// More mistakes than are listed.
+    More {
+        /// How many are listed.
+        listed: usize,
+        /// How many are not.
+        more: usize,
+    },
 }

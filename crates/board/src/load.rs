@@ -3,10 +3,13 @@
 //! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest
 //! is read, so that one run reports them all.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use sensedsl_diagnostics::nearest;
+use sensedsl_limits::{
+    CELLS_MAX, COLUMNS_MAX, DIAGNOSTICS_MAX, PIN_USAGES_MAX, PINS_MAX, USAGES_MAX,
+};
 
 use crate::cells::{self, Cell, Sheet, is_zero_width};
 use crate::finding::{Finding, FindingKind};
@@ -18,16 +21,18 @@ use crate::table::{Column, Loaded, Occupation, Onboard, Pin, Property, Role, Tab
 
 /// See [`crate::table::load`].
 pub(crate) fn load(text: &str) -> Loaded {
-    let mut loader = Loader { text, lines: line_starts(text), findings: Vec::new() };
+    let mut loader = Loader::new(text);
     let sheet = cells::split(text);
+    if let Some(cut) = sheet.cut {
+        loader.too_large("cells", CELLS_MAX, &(cut..cut));
+    }
     for range in &sheet.bad_quotes {
         loader.report(FindingKind::BadQuote, range, None);
     }
     let mut board = Table::default();
     loader.properties(&sheet, &mut board);
     loader.rows(&sheet, &mut board);
-    let mut findings = loader.findings;
-    findings.sort_by_key(|finding| finding.range.start);
+    let findings = loader.finish();
     Loaded { board, findings }
 }
 
@@ -46,10 +51,17 @@ fn line_starts(text: &str) -> Vec<usize> {
 /// A column of the sheet; `None` where its cells are not read.
 type Slot = Option<Column>;
 
+/// The usages of a row by the name of their signal: their index and their place.
+type Known = BTreeMap<String, (usize, Range<usize>)>;
+
 struct Loader<'a> {
     text: &'a str,
     lines: Vec<usize>,
     findings: Vec<Finding>,
+    /// What was found beside those that are listed.
+    more: usize,
+    /// How many more usages are read.
+    usages_left: usize,
 }
 
 /// A piece of a cell between white space.
@@ -58,8 +70,39 @@ struct Word {
     range: Range<usize>,
 }
 
-impl Loader<'_> {
+impl<'a> Loader<'a> {
+    fn new(text: &'a str) -> Self {
+        let (lines, findings) = (line_starts(text), Vec::new());
+        Self { text, lines, findings, more: 0, usages_left: USAGES_MAX }
+    }
+
+    /// What was found, in the order of the text.
+    fn finish(mut self) -> Vec<Finding> {
+        self.findings.sort_by_key(|finding| finding.range.start);
+        if self.more > 0 {
+            let (listed, more, end) = (self.findings.len(), self.more, self.text.len());
+            self.add(FindingKind::More { listed, more }, &(end..end), None);
+        }
+        self.findings
+    }
+
+    /// Reports once that there is more of something than is read.
+    fn too_large(&mut self, what: &'static str, most: usize, range: &Range<usize>) {
+        let kind = FindingKind::TooLarge { what, most };
+        if self.findings.iter().all(|one| one.kind != kind) {
+            self.add(kind, range, None);
+        }
+    }
+
     fn report(&mut self, kind: FindingKind, range: &Range<usize>, column: Option<&str>) {
+        if self.findings.len() < DIAGNOSTICS_MAX {
+            self.add(kind, range, column);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    fn add(&mut self, kind: FindingKind, range: &Range<usize>, column: Option<&str>) {
         self.findings.push(Finding {
             kind,
             range: range.clone(),
@@ -123,9 +166,10 @@ impl Loader<'_> {
     fn properties(&mut self, sheet: &Sheet, board: &mut Table) {
         let header = sheet.rows.first().and_then(|row| row.first());
         let end = header.map_or(self.text.len(), |cell| cell.range.start);
+        let mut known = BTreeSet::new();
         for comment in sheet.comments.iter().filter(|comment| comment.start < end) {
             let Some(property) = property(self.raw(comment), comment.start) else { continue };
-            if board.properties.iter().any(|known| known.key == property.key) {
+            if !known.insert(property.key.clone()) {
                 let key = property.key;
                 self.report(FindingKind::DuplicateProperty { key }, &property.range, None);
                 continue;
@@ -172,6 +216,10 @@ impl Loader<'_> {
             }
             blank = false;
             let Some(pin) = self.row(row, &slots) else { continue };
+            if pins.len() == PINS_MAX && !pins.contains_key(&pin.name) {
+                self.too_large("pins", PINS_MAX, &pin.range);
+                break;
+            }
             if let Some(first) = pins.get(&pin.name) {
                 let kind = FindingKind::DuplicatePin { pin: pin.name, first: first.range.clone() };
                 self.report(kind, &pin.range, Some("Pin"));
@@ -192,29 +240,45 @@ impl Loader<'_> {
     /// Names the columns.
     fn header(&mut self, header: &[Cell], rows: &[Vec<Cell>]) -> Vec<Slot> {
         let mut slots: Vec<Slot> = Vec::new();
+        let mut known: BTreeMap<String, Range<usize>> = BTreeMap::new();
+        let filled = self.filled_columns(rows);
         for (index, cell) in header.iter().enumerate() {
             let Word { text, range } = self.content(cell);
-            let used = |row: &Vec<Cell>| row.get(index).is_some_and(|cell| self.is_filled(cell));
+            if index == COLUMNS_MAX {
+                self.too_large("columns", COLUMNS_MAX, &range);
+                break;
+            }
             if text.is_empty() {
-                if rows.iter().any(used) {
+                if filled.get(index) == Some(&true) {
                     self.report(FindingKind::UnnamedColumn, &range, None);
                 }
                 slots.push(None);
                 continue;
             }
             self.invisible(cell, &text);
-            let twin =
-                slots.iter().flatten().find(|known| known.header.eq_ignore_ascii_case(&text));
-            if let Some(first) = twin.map(|twin| twin.range.clone()) {
+            let folded = text.to_ascii_lowercase();
+            if let Some(first) = known.get(&folded).cloned() {
                 let kind = FindingKind::DuplicateColumn { header: text.clone(), first };
                 self.report(kind, &range, Some(&text));
                 slots.push(None);
                 continue;
             }
+            known.insert(folded, range.clone());
             let role = Role::of(&text);
             slots.push(Some(Column { header: text, role, range }));
         }
         slots
+    }
+
+    /// For each column whether any row has something in it.
+    fn filled_columns(&self, rows: &[Vec<Cell>]) -> Vec<bool> {
+        let mut filled = vec![false; COLUMNS_MAX];
+        for row in rows {
+            for (filled, cell) in filled.iter_mut().zip(row) {
+                *filled = *filled || self.is_filled(cell);
+            }
+        }
+        filled
     }
 
     /// Reads one row; `None` when it names no pin.
@@ -226,11 +290,12 @@ impl Loader<'_> {
         }
         let mut pin = self.pin(row, slots)?;
         let mut alternates = None;
+        let mut known = Known::new();
         for (cell, column) in row.iter().zip(slots) {
             let Some(column) = column else { continue };
             self.invisible(cell, &column.header);
             match column.role {
-                Role::Usages => self.usages(cell, column, &mut pin),
+                Role::Usages => self.usages(cell, column, &mut pin, &mut known),
                 Role::Onboard => pin.onboard = self.onboard(cell, column),
                 Role::Alternate => alternates = Some((cell, column)),
                 Role::Position => pin.position = self.text_of(cell),
@@ -243,7 +308,7 @@ impl Loader<'_> {
             }
         }
         if let Some((cell, column)) = alternates {
-            self.alternates(cell, column, &mut pin);
+            self.alternates(cell, column, &mut pin, &known);
         }
         Some(pin)
     }
@@ -282,8 +347,14 @@ impl Loader<'_> {
     }
 
     /// Reads a cell of usages.
-    fn usages(&mut self, cell: &Cell, column: &Column, pin: &mut Pin) {
+    fn usages(&mut self, cell: &Cell, column: &Column, pin: &mut Pin, known: &mut Known) {
         for Word { text, range } in self.words(cell) {
+            if pin.usages.len() == PIN_USAGES_MAX {
+                return self.too_large("usages of one pin", PIN_USAGES_MAX, &range);
+            }
+            if self.usages_left == 0 {
+                return self.too_large("usages", USAGES_MAX, &range);
+            }
             let (spelled, alternate) = match text.split_once('@') {
                 Some((spelled, number)) => (spelled.to_owned(), Some(number)),
                 None => (text.clone(), None),
@@ -312,13 +383,14 @@ impl Loader<'_> {
                 };
                 self.report(kind, &range, Some(&column.header));
             }
-            if let Some(first) = pin.usage(&signal) {
-                let first = first.range.clone();
+            if let Some((_, first)) = known.get(signal.name()).cloned() {
                 let kind = FindingKind::DuplicateUsage { spelled, first };
                 self.report(kind, &range, Some(&column.header));
                 continue;
             }
             let column = column.header.clone();
+            known.insert(signal.name().to_owned(), (pin.usages.len(), range.clone()));
+            self.usages_left -= 1;
             pin.usages.push(Usage { spelled, signal, alternate: number, blocks, column, range });
         }
     }
@@ -343,12 +415,12 @@ impl Loader<'_> {
     }
 
     /// Reads an `AF` cell: `SIGNAL=n` each, or one number for each usage that has one.
-    fn alternates(&mut self, cell: &Cell, column: &Column, pin: &mut Pin) {
+    fn alternates(&mut self, cell: &Cell, column: &Column, pin: &mut Pin, known: &Known) {
         let words = self.words(cell);
         let (named, bare): (Vec<&Word>, Vec<&Word>) =
             words.iter().partition(|word| word.text.contains('='));
         for word in named {
-            self.named_alternate(word, column, pin);
+            self.named_alternate(word, column, pin, known);
         }
         if bare.is_empty() {
             return;
@@ -366,14 +438,17 @@ impl Loader<'_> {
         }
     }
 
-    fn named_alternate(&mut self, word: &Word, column: &Column, pin: &mut Pin) {
+    fn named_alternate(&mut self, word: &Word, column: &Column, pin: &mut Pin, known: &Known) {
         let Some((spelled, number)) = word.text.split_once('=') else { return };
         let (signal, _) = Signal::parse(spelled);
-        if let Some(usage) = pin.usages.iter_mut().find(|usage| usage.signal == signal) {
+        let known = known.get(signal.name()).and_then(|(at, _)| pin.usages.get_mut(*at));
+        if let Some(usage) = known {
             return self.set_alternate(number, word, column, usage);
         }
         let usages = pin.usages.iter().map(|usage| usage.spelled.as_str());
-        let nearest = nearest(spelled, usages).map(str::to_owned);
+        // What is not listed needs no suggestion.
+        let listed = self.findings.len() < DIAGNOSTICS_MAX;
+        let nearest = if listed { nearest(spelled, usages) } else { None }.map(str::to_owned);
         let kind = FindingKind::UnknownAlternate { signal: spelled.to_owned(), nearest };
         self.report(kind, &word.range, Some(&column.header));
     }

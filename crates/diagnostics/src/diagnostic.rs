@@ -1,5 +1,7 @@
 //! One diagnostic.
 
+use sensedsl_limits::SENTENCE_CHARS_MAX;
+
 use crate::codes::Code;
 use crate::source::Span;
 
@@ -72,6 +74,18 @@ pub struct Diagnostic {
     pub fix: Option<Fix>,
 }
 
+/// A sentence without the middle of what it quotes, where that is a whole file.
+fn short(sentence: String) -> String {
+    const HALF: usize = SENTENCE_CHARS_MAX / 2;
+    let mut places = sentence.char_indices().map(|(at, _)| at);
+    let (Some(end), Some(_)) = (places.nth(HALF), places.nth(SENTENCE_CHARS_MAX - HALF)) else {
+        return sentence;
+    };
+    let start = sentence.char_indices().rev().nth(HALF - 1).map_or(end, |(at, _)| at);
+    let (head, tail) = (sentence.get(..end), sentence.get(start..));
+    format!("{} … {}", head.unwrap_or_default(), tail.unwrap_or_default())
+}
+
 impl Diagnostic {
     /// A diagnostic of `code` with the severity of its registry entry.
     #[must_use]
@@ -79,7 +93,7 @@ impl Diagnostic {
         Self {
             code,
             severity: code.info().severity,
-            message: message.into(),
+            message: short(message.into()),
             primary: Label { span, message: String::new() },
             labels: Vec::new(),
             help: None,
@@ -90,21 +104,21 @@ impl Diagnostic {
     /// Words for the primary place.
     #[must_use]
     pub fn here(mut self, message: impl Into<String>) -> Self {
-        self.primary.message = message.into();
+        self.primary.message = short(message.into());
         self
     }
 
     /// A further place.
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
-        self.labels.push(Label { span, message: message.into() });
+        self.labels.push(Label { span, message: short(message.into()) });
         self
     }
 
     /// The way out.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(short(help.into()));
         self
     }
 

@@ -1,6 +1,8 @@
 //! Files by number, places in them, and the line and column of a place.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// A file of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -54,57 +56,126 @@ pub struct LineColumn {
 struct File {
     name: String,
     text: String,
+    /// Made when the first place of the file is asked for.
+    index: OnceLock<Index>,
+}
+
+/// Where lines start and how many characters stand before, so that no place is searched for from
+/// the start of its file, nor of its line.
+#[derive(Clone, Debug)]
+struct Index {
+    lines: Vec<u32>,
+    /// The characters before each block of the text.
+    characters: Vec<u32>,
+}
+
+/// Bytes after which the characters are counted anew.
+const BLOCK_BYTES: usize = 256;
+
+impl Index {
+    fn new(text: &str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).map(small).collect();
+        let mut before = 0;
+        let blocks = text.as_bytes().chunks(BLOCK_BYTES).map(|block| {
+            let here = before;
+            before += characters(block);
+            small(here)
+        });
+        Self { lines, characters: blocks.collect() }
+    }
+
+    /// How many characters stand before a byte.
+    fn characters_before(&self, text: &str, offset: usize) -> usize {
+        let block = offset / BLOCK_BYTES;
+        let before = self.characters.get(block).map_or(0, |before| *before as usize);
+        before + characters(text.as_bytes().get(block * BLOCK_BYTES..offset).unwrap_or_default())
+    }
+}
+
+/// The characters that begin in a piece of UTF-8.
+fn characters(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| **byte & 0xc0 != 0x80).count()
+}
+
+fn small(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}
+
+impl File {
+    fn index(&self) -> &Index {
+        self.index.get_or_init(|| Index::new(&self.text))
+    }
 }
 
 /// All files that were read, in the order they were read.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
     files: Vec<File>,
+    /// The first file of each name.
+    names: BTreeMap<String, FileId>,
 }
 
 impl SourceMap {
     /// Adds a file under the name that people shall see.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
-        self.files.push(File { name: name.into(), text: text.into() });
-        FileId(u32::try_from(self.files.len() - 1).unwrap_or(u32::MAX))
+        let file = FileId(small(self.files.len()));
+        let name = name.into();
+        self.names.entry(name.clone()).or_insert(file);
+        self.files.push(File { name, text: text.into(), index: OnceLock::new() });
+        file
+    }
+
+    fn file(&self, file: FileId) -> Option<&File> {
+        self.files.get(file.0 as usize)
     }
 
     /// The file's name; empty for a file of another map.
     #[must_use]
     pub fn name(&self, file: FileId) -> &str {
-        self.files.get(file.0 as usize).map_or("", |file| &file.name)
+        self.file(file).map_or("", |file| &file.name)
     }
 
     /// The file's text; empty for a file of another map.
     #[must_use]
     pub fn text(&self, file: FileId) -> &str {
-        self.files.get(file.0 as usize).map_or("", |file| &file.text)
+        self.file(file).map_or("", |file| &file.text)
     }
 
     /// The file of that name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<FileId> {
-        let at = self.files.iter().position(|file| file.name == name)?;
-        Some(FileId(u32::try_from(at).unwrap_or(u32::MAX)))
+        self.names.get(name).copied()
     }
 
     /// Line and column of a byte offset; an offset past the end is the end.
     #[must_use]
     pub fn line_column(&self, file: FileId, offset: u32) -> LineColumn {
-        let text = self.text(file);
-        let mut offset = (offset as usize).min(text.len());
-        while !text.is_char_boundary(offset) {
-            offset -= 1;
-        }
-        let before = text.get(..offset).unwrap_or_default();
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let count = |text: &str, of: char| text.chars().filter(|&c| c == of).count();
-        let column = before.get(line_start..).unwrap_or_default().chars().count();
-        LineColumn {
-            line: u32::try_from(count(before, '\n') + 1).unwrap_or(u32::MAX),
-            column: u32::try_from(column + 1).unwrap_or(u32::MAX),
-        }
+        let Some(file) = self.file(file) else { return LineColumn { line: 1, column: 1 } };
+        let (text, index) = (file.text.as_str(), file.index());
+        let offset = boundary(text, offset as usize);
+        let line = index.lines.partition_point(|start| *start as usize <= offset);
+        let start = index.lines.get(line.saturating_sub(1)).map_or(0, |start| *start as usize);
+        let column =
+            index.characters_before(text, offset) - index.characters_before(text, start) + 1;
+        LineColumn { line: small(line), column: small(column) }
     }
+
+    /// Where the line numbered `line` (from 1) starts; past the last line, the end of the text.
+    pub(crate) fn line_start(&self, file: FileId, line: u32) -> usize {
+        let Some(file) = self.file(file) else { return 0 };
+        let at = (line as usize).saturating_sub(1);
+        file.index().lines.get(at).map_or(file.text.len(), |start| *start as usize)
+    }
+}
+
+/// The character boundary at or before an offset.
+pub(crate) fn boundary(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
 }
 
 #[cfg(test)]
@@ -118,5 +189,19 @@ mod tests {
         assert_eq!(map.line_column(file, 4), LineColumn { line: 2, column: 2 });
         assert_eq!(map.line_column(file, 3), LineColumn { line: 2, column: 1 });
         assert_eq!(map.line_column(file, 999), LineColumn { line: 3, column: 1 });
+    }
+
+    #[test]
+    fn places_are_those_that_counting_gives() {
+        let text = "aµ😀\r\n\n".repeat(200) + &"ä".repeat(1_000) + "\nend";
+        let mut map = SourceMap::default();
+        let file = map.add("x", text.as_str());
+        for offset in 0..=text.len() {
+            let before = &text[..boundary(&text, offset)];
+            let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
+            let expected =
+                LineColumn { line: small(before.matches('\n').count() + 1), column: small(column) };
+            assert_eq!(map.line_column(file, small(offset)), expected, "{offset}");
+        }
     }
 }

@@ -9,8 +9,13 @@ pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
         return None;
     }
     let near = names.into_iter().filter_map(|name| {
+        // The difference in length is a lower bound that costs little.
+        let other = name.chars().count();
+        if length.abs_diff(other) > (other.max(length) / 3).max(1) {
+            return None;
+        }
         let distance = strsim::osa_distance(&typed, &name.to_lowercase());
-        let most = (name.chars().count().max(length) / 3).max(1);
+        let most = (other.max(length) / 3).max(1);
         (distance <= most).then_some((distance, name))
     });
     near.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)

@@ -1,7 +1,7 @@
 //! Pins with their usages in any order in, a board table out: usages in the columns of their
 //! peripherals, the inputs of several converters merged.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::remap::Blocks;
@@ -78,14 +78,12 @@ fn column(signal: &Signal) -> &'static str {
 /// Makes a table. The rows are sorted; of two rows for a pin the usages are united.
 pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
     let mut pins: BTreeMap<PinName, Pin> = BTreeMap::new();
+    let mut known: BTreeSet<(PinName, String)> = BTreeSet::new();
     for row in rows {
-        let usages = usages(row.usages);
+        let mut usages = usages(row.usages);
+        usages.retain(|usage| known.insert((row.name.clone(), usage.signal.name().to_owned())));
         if let Some(pin) = pins.get_mut(&row.name) {
-            for usage in usages {
-                if pin.usage(&usage.signal).is_none() {
-                    pin.usages.push(usage);
-                }
-            }
+            pin.usages.extend(usages);
             continue;
         }
         let pin = Pin {

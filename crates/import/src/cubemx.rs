@@ -13,9 +13,12 @@ use roxmltree::{Document, Node, ParsingOptions};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::{FileId, Span};
+use sensedsl_limits::XML_NODES_MAX;
+use sensedsl_model::Unread;
 
 use crate::assemble::{self, Row};
 use crate::log::Log;
+use crate::package::{Refused as Refusal, check_xml};
 use crate::{Made, Source};
 
 /// The alternate functions of the GPIO files that were read so far, by path. Some ninety of them
@@ -28,14 +31,14 @@ impl Cache {
     fn functions(
         &self,
         path: &str,
-        beside: &dyn Fn(&str) -> Option<Vec<u8>>,
+        beside: &dyn Fn(&str) -> Result<Vec<u8>, Unread>,
     ) -> Result<Arc<Functions>, Refused> {
         if let Some(known) = self.files().get(path) {
             return Ok(Arc::clone(known));
         }
         // Two threads may read one file at a time; what they get is the same.
-        let bytes = beside(path).ok_or(Refused::Missing)?;
-        let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string());
+        let bytes = beside(path).map_err(Refused::Unread)?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| Refusal::why(&error));
         let document = text.and_then(parse).map_err(Refused::Unreadable)?;
         let found = Arc::new(functions(&document));
         self.files().insert(path.to_owned(), Arc::clone(&found));
@@ -50,8 +53,8 @@ impl Cache {
 
 /// Why there are no alternate functions.
 enum Refused {
-    Missing,
-    Unreadable(String),
+    Unread(Unread),
+    Unreadable(Refusal),
 }
 
 /// Imports the description of an MCU.
@@ -64,7 +67,7 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made 
     let document = match parse(&text) {
         Ok(document) => document,
         Err(why) => {
-            log.unreadable(whole, source.name, &why);
+            log.not_read(whole, source.name, &why);
             return Made::default();
         }
     };
@@ -82,13 +85,17 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made 
     let path = format!("IP/GPIO-{version}_Modes.xml");
     let functions = match cache.functions(&path, source.beside) {
         Ok(functions) => functions,
-        Err(Refused::Missing) => {
+        Err(Refused::Unread(Unread::Missing)) => {
             let why = format!("the file `{path}` with its alternate functions is not beside it");
             log.unreadable(whole, source.name, &why);
             return Made::default();
         }
+        Err(Refused::Unread(unread)) => {
+            log.refused(whole, &path, &unread);
+            return Made::default();
+        }
         Err(Refused::Unreadable(why)) => {
-            log.unreadable(whole, &path, &why);
+            log.not_read(whole, &path, &why);
             return Made::default();
         }
     };
@@ -118,10 +125,11 @@ fn properties(mcu: &Node<'_, '_>) -> Vec<(&'static str, String)> {
     properties
 }
 
-fn parse(text: &str) -> Result<Document<'_>, String> {
+fn parse(text: &str) -> Result<Document<'_>, Refusal> {
+    check_xml(text, XML_NODES_MAX)?;
     // A document type could only bring entities, which these files do not use.
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
-    Document::parse_with_options(text, options).map_err(|error| error.to_string())
+    Document::parse_with_options(text, options).map_err(|error| Refusal::why(&error))
 }
 
 fn is(node: &Node<'_, '_>, name: &str) -> bool {

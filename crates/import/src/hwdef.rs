@@ -9,23 +9,25 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
+use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
+use sensedsl_limits::{INCLUDE_DEPTH_MAX, INCLUDES_MAX};
+use sensedsl_model::Unread;
 
 use crate::log::Log;
 use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
 use crate::{Made, Source};
 
-/// Files may include each other so deep.
-const DEPTH_MAX: usize = 8;
+/// The first words of lines about sensors.
+const SENSORS: [&str; 5] = ["IMU", "BARO", "COMPASS", "AIRSPEED", "RANGEFINDER"];
 
 /// Imports a board.
 pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
     let (file, text) = log.text(source.name, source.bytes);
-    let mut reader =
-        Reader { source, mcu: None, orders: Vec::new(), wires: BTreeMap::new(), lines: Vec::new() };
+    let mut reader = Reader::new(source);
     reader.file(file, &text, "", 0, log);
     let whole = Span::new(file, 0..0);
-    if log.diagnostics.iter().any(|one| one.code.name() == "E0801") {
+    if log.has_errors() {
         return Made::default();
     }
     let Some(mcu) = reader.mcu.clone() else {
@@ -62,10 +64,33 @@ struct Reader<'a> {
     /// The I2C units in the order of their numbers.
     orders: Vec<String>,
     wires: BTreeMap<PinName, Wire>,
-    lines: Vec<Line>,
+    /// Lines about something else than a pin, by the first word and their number.
+    lines: Lines,
+    /// How many lines there were so far.
+    count: usize,
+    /// How many more files are included.
+    includes_left: usize,
+    /// Inputs of converters that were looked up, by MCU, pin and unit.
+    inputs: BTreeMap<(String, PinName, String), Option<String>>,
 }
 
-impl Reader<'_> {
+/// Lines by their first word and number: what is undefined goes without a search.
+type Lines = BTreeMap<String, BTreeMap<usize, Line>>;
+
+impl<'a> Reader<'a> {
+    fn new(source: &'a Source<'a>) -> Self {
+        Self {
+            source,
+            mcu: None,
+            orders: Vec::new(),
+            wires: BTreeMap::new(),
+            lines: Lines::new(),
+            count: 0,
+            includes_left: INCLUDES_MAX,
+            inputs: BTreeMap::new(),
+        }
+    }
+
     /// Reads a file; `folder` is where it is, relative to the source.
     fn file(&mut self, file: FileId, text: &str, folder: &str, depth: usize, log: &mut Log) {
         let mut start = 0;
@@ -86,7 +111,11 @@ impl Reader<'_> {
                 ("undef", Some(_)) => self.undefine(&words),
                 _ => match PinName::parse(first).filter(|pin| pin.port().is_some()) {
                     Some(pin) => self.pin(pin, &words, span, log),
-                    None => self.lines.push(Line { words, span }),
+                    None => {
+                        self.count += 1;
+                        let same = self.lines.entry(first.clone()).or_default();
+                        same.insert(self.count, Line { words, span });
+                    }
                 },
             }
         }
@@ -94,18 +123,23 @@ impl Reader<'_> {
 
     fn include(&mut self, path: &str, folder: &str, (depth, span): (usize, Span), log: &mut Log) {
         let path = if folder.is_empty() { path.to_owned() } else { format!("{folder}/{path}") };
-        if depth >= DEPTH_MAX {
-            log.dropped(
-                span,
-                "",
-                &format!("`{path}` is left out: files include each other too deep"),
-            );
-            return;
+        if depth >= INCLUDE_DEPTH_MAX {
+            let limit = format!("{INCLUDE_DEPTH_MAX} files include each other already");
+            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
         }
-        let Some(bytes) = (self.source.beside)(&path) else {
-            let what = format!("`{path}` is not beside the file: what it says of pins is missing");
-            log.dropped(span, "", &what);
-            return;
+        let Some(fewer) = self.includes_left.checked_sub(1) else {
+            let limit = format!("{INCLUDES_MAX} files are included already");
+            return log.once(e0808_too_many_includes::too_many_includes(span, &path, &limit));
+        };
+        self.includes_left = fewer;
+        let bytes = match (self.source.beside)(&path) {
+            Ok(bytes) => bytes,
+            Err(Unread::Missing) => {
+                let what =
+                    format!("`{path}` is not beside the file: what it says of pins is missing");
+                return log.dropped(span, "", &what);
+            }
+            Err(unread) => return log.refused(span, &path, &unread),
         };
         let (file, text) = log.text(&path, &bytes);
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
@@ -117,7 +151,7 @@ impl Reader<'_> {
             if let Some(pin) = PinName::parse(word) {
                 self.wires.remove(&pin);
             }
-            self.lines.retain(|line| line.words.first() != Some(word));
+            self.lines.remove(word);
         }
     }
 
@@ -175,7 +209,17 @@ impl Reader<'_> {
     }
 
     /// The input of a converter at a pin, as parts of the MCU's line have it, or of its family.
-    fn converter_input(&self, pin: &PinName, unit: &str) -> Option<String> {
+    fn converter_input(&mut self, pin: &PinName, unit: &str) -> Option<String> {
+        let key = (self.mcu.clone()?, pin.clone(), unit.to_owned());
+        if let Some(known) = self.inputs.get(&key) {
+            return known.clone();
+        }
+        let found = self.found_input(pin, unit);
+        self.inputs.insert(key, found.clone());
+        found
+    }
+
+    fn found_input(&self, pin: &PinName, unit: &str) -> Option<String> {
         const FAMILY: usize = "STM32F4".len();
         let mcu = self.mcu.as_deref()?;
         let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
@@ -199,11 +243,8 @@ impl Reader<'_> {
     /// The sensors that hang on an I2C bus at a known address.
     fn addressed(&self, log: &mut Log) -> Vec<Addressed> {
         let mut found = Vec::new();
-        for Line { words, span } in &self.lines {
+        for Line { words, span } in self.lines_of(&SENSORS) {
             let [kind, name, rest @ ..] = words.as_slice() else { continue };
-            if !matches!(kind.as_str(), "IMU" | "BARO" | "COMPASS" | "AIRSPEED" | "RANGEFINDER") {
-                continue;
-            }
             for place in rest.iter().filter_map(|word| word.strip_prefix("I2C:")) {
                 let (bus, address) = place.split_once(':').unwrap_or((place, ""));
                 let unit = bus.parse().ok().and_then(|bus: usize| self.orders.get(bus));
@@ -227,18 +268,30 @@ impl Reader<'_> {
 
     /// Ties chip selects to the buses that `SPIDEV name SPI1 DEVID1 NAME_CS …` says.
     fn selects(&mut self) {
-        for Line { words, .. } in &self.lines {
-            let [key, name, unit, _, select, ..] = words.as_slice() else { continue };
-            if key != "SPIDEV" {
-                continue;
+        let mut by_label: BTreeMap<String, PinName> = BTreeMap::new();
+        for wire in self.wires.values() {
+            if let Some(label) = &wire.label {
+                by_label.entry(label.clone()).or_insert_with(|| wire.pin.clone());
             }
-            let of_device = |wire: &&mut Wire| wire.label.as_ref() == Some(select);
-            if let Some(wire) = self.wires.values_mut().find(of_device)
+        }
+        let lines = self.lines.remove("SPIDEV").unwrap_or_default();
+        for Line { words, .. } in lines.values() {
+            let [_, name, unit, _, select, ..] = words.as_slice() else { continue };
+            let Some(pin) = by_label.get(select).cloned() else { continue };
+            if let Some(wire) = self.wires.get_mut(&pin)
                 && matches!(wire.using, Using::Select(_))
             {
                 wire.using = Using::Select(Some(unit.clone()));
                 wire.label = Some(name.clone());
+                by_label.remove(select);
+                by_label.entry(name.clone()).or_insert(pin);
             }
         }
+    }
+
+    /// The lines that begin with one of these words, in the order of the file.
+    fn lines_of(&self, words: &[&str]) -> impl Iterator<Item = &Line> {
+        let lines = words.iter().filter_map(|word| self.lines.get(*word));
+        lines.flatten().collect::<BTreeMap<_, _>>().into_values()
     }
 }

@@ -22,7 +22,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
     let value = |key: &str| values.get(key).map(|value| value.text.as_str());
     let Some(mcu) = value("Mcu.UserName").or(value("Mcu.Name")).filter(|mcu| !mcu.is_empty())
     else {
-        if !log.diagnostics.iter().any(|one| one.code.name() == "E0801") {
+        if !log.has_errors() {
             log.unreadable(whole, source.name, "it names no MCU (`Mcu.Name`)");
         }
         return Made::default();

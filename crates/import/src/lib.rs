@@ -12,6 +12,8 @@ mod devices;
 mod hwdef;
 mod ioc;
 mod log;
+mod ods;
+mod package;
 mod place;
 mod project;
 mod tabular;
@@ -20,6 +22,7 @@ mod workbook;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, Span};
 
 pub use detect::{Format, detect};
+pub use sensedsl_model::Unread;
 
 use log::Log;
 
@@ -35,8 +38,8 @@ pub struct Source<'a> {
     pub sheet: Option<&'a str>,
     /// The name under which a `.sense` file that is made shall find its table.
     pub table: &'a str,
-    /// The content of a file by its path relative to the source, if there is one.
-    pub beside: &'a dyn Fn(&str) -> Option<Vec<u8>>,
+    /// The content of a file by its path relative to the source, or why it was not read.
+    pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, Unread> + 'a),
 }
 
 /// What came of it.
@@ -99,8 +102,7 @@ impl Importer {
             Some(Format::Ioc) => ioc::import(source, &mut log),
             Some(Format::Hwdef) => hwdef::import(source, &mut log),
         };
-        let Log { sources, mut diagnostics } = log;
-        diagnostics.sort_by_key(|one| (one.primary.span, one.code));
+        let (sources, diagnostics) = log.finish();
         let mut imported =
             Imported { table: made.table, program: made.program, diagnostics, sources };
         if imported.failed() {

@@ -1,13 +1,16 @@
 //! What an import has to say, collected while it runs.
 
 use sensedsl_diagnostics::codes::{
-    e0801_import_unreadable, e0802_import_no_table, e0803_import_no_sheet, h0806_import_open,
-    w0804_import_dropped, w0805_import_doubtful,
+    e0801_import_unreadable, e0802_import_no_table, e0803_import_no_sheet, e0807_import_too_large,
+    e0809_include_unreadable, h0806_import_open, w0804_import_dropped, w0805_import_doubtful,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
+use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
+use sensedsl_limits::{DIAGNOSTICS_MAX, SOURCE_TEXT_BYTES_MAX};
+use sensedsl_model::Unread;
 
 use crate::decode::decode;
-use crate::place::place_of;
+use crate::package::Refused;
+use crate::place::Places;
 
 /// So many places of a wrong encoding are reported one by one.
 const GUESSES_MAX: usize = 100;
@@ -16,36 +19,112 @@ const GUESSES_MAX: usize = 100;
 #[derive(Debug, Default)]
 pub(crate) struct Log {
     pub(crate) sources: SourceMap,
-    pub(crate) diagnostics: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
+    errors: usize,
+    /// What is said beside the diagnostics that are listed.
+    more: usize,
 }
 
 impl Log {
+    fn push(&mut self, diagnostic: Diagnostic) {
+        let is_error = diagnostic.severity == Severity::Error;
+        if is_error || self.diagnostics.len() < DIAGNOSTICS_MAX {
+            self.errors += usize::from(is_error);
+            self.diagnostics.push(diagnostic);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Whether the source could not be imported so far.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// Takes over an error; of one code only the first.
+    pub(crate) fn once(&mut self, error: Diagnostic) {
+        if self.diagnostics.iter().all(|one| one.code != error.code) {
+            self.push(error);
+        }
+    }
+
+    /// What is wrong with a table, as a diagnostic already.
+    pub(crate) fn say(&mut self, diagnostic: Diagnostic) {
+        self.push(diagnostic);
+    }
+
+    /// The diagnostics in the order of the source.
+    pub(crate) fn finish(self) -> (SourceMap, Vec<Diagnostic>) {
+        let Self { sources, mut diagnostics, more, .. } = self;
+        diagnostics.sort_by_key(|one| (one.primary.span, one.code));
+        if let Some(last) = diagnostics.last().filter(|_| more > 0) {
+            let what = format!("{more} more things to say of the source are not listed");
+            let report = w0804_import_dropped::import_dropped(last.primary.span, "", &what);
+            diagnostics.push(report);
+        }
+        (sources, diagnostics)
+    }
+
+    /// That a file which the source names was not read.
+    pub(crate) fn refused(&mut self, span: Span, path: &str, unread: &Unread) {
+        let help = match unread {
+            Unread::Outside(folder) => {
+                format!("copy it into the folder, or allow it with `--allow-outside {folder}`")
+            }
+            Unread::Missing
+            | Unread::Why(_)
+            | Unread::NotAFile(_)
+            | Unread::TooLarge
+            | Unread::AllTooLarge => "name a file of a reasonable size that can be read".to_owned(),
+        };
+        self.push(e0809_include_unreadable::include_unreadable(span, path, &unread.why(), &help));
+    }
+
+    /// That a workbook or XML was not read.
+    pub(crate) fn not_read(&mut self, span: Span, name: &str, refused: &Refused) {
+        match refused {
+            Refused::TooMuch(what, most) => self.too_large(span, name, what, *most),
+            Refused::Why(why) => self.unreadable(span, name, why),
+        }
+    }
+
+    /// That there is more of something than is read.
+    pub(crate) fn too_large(&mut self, span: Span, name: &str, what: &str, most: usize) {
+        self.once(e0807_import_too_large::import_too_large(span, name, what, most));
+    }
+
     pub(crate) fn unreadable(&mut self, span: Span, what: &str, why: &str) {
-        self.diagnostics.push(e0801_import_unreadable::import_unreadable(span, what, why));
+        self.push(e0801_import_unreadable::import_unreadable(span, what, why));
     }
 
     pub(crate) fn no_table(&mut self, span: Span, what: &str) {
-        self.diagnostics.push(e0802_import_no_table::import_no_table(span, what));
+        self.push(e0802_import_no_table::import_no_table(span, what));
     }
 
     pub(crate) fn no_sheet(&mut self, span: Span, name: &str, sheets: &[String]) {
-        self.diagnostics.push(e0803_import_no_sheet::import_no_sheet(span, name, sheets));
+        self.push(e0803_import_no_sheet::import_no_sheet(span, name, sheets));
     }
 
     pub(crate) fn dropped(&mut self, span: Span, place: &str, what: &str) {
-        self.diagnostics.push(w0804_import_dropped::import_dropped(span, place, what));
+        self.push(w0804_import_dropped::import_dropped(span, place, what));
     }
 
     pub(crate) fn doubtful(&mut self, span: Span, place: &str, what: &str) {
-        self.diagnostics.push(w0805_import_doubtful::import_doubtful(span, place, what));
+        self.push(w0805_import_doubtful::import_doubtful(span, place, what));
     }
 
     pub(crate) fn open(&mut self, span: Span, what: &str) {
-        self.diagnostics.push(h0806_import_open::import_open(span, what));
+        self.push(h0806_import_open::import_open(span, what));
     }
 
     /// Adds a file as text and reports what of it is no UTF-8, each at its cell.
     pub(crate) fn text(&mut self, name: &str, bytes: &[u8]) -> (FileId, String) {
+        if bytes.len() > SOURCE_TEXT_BYTES_MAX {
+            let file = self.sources.add(name, "");
+            let what = "bytes, the most that a text has";
+            self.too_large(Span::new(file, 0..0), name, what, SOURCE_TEXT_BYTES_MAX);
+            return (file, String::new());
+        }
         let Some(decoded) = decode(bytes) else {
             let file = self.sources.add(name, "");
             self.unreadable(Span::new(file, 0..0), name, "it is no text");
@@ -56,6 +135,7 @@ impl Log {
             let what = format!("the file is no UTF-8 but {encoding}, and was read so");
             self.doubtful(Span::new(file, 0..0), "", &what);
         }
+        let places = Places::new(&decoded.text);
         for guess in decoded.guesses.iter().take(GUESSES_MAX) {
             let read = decoded.text.get(guess.range.clone()).unwrap_or_default();
             let bytes: Vec<String> = guess.bytes.iter().map(|b| format!("0x{b:02X}")).collect();
@@ -66,7 +146,7 @@ impl Log {
                 format!("byte {offset} ({bytes}) is no UTF-8; read as `{read}` of Windows-1252")
             };
             let span = Span::new(file, guess.range.clone());
-            self.doubtful(span, &place_of(&decoded.text, guess.range.start), &what);
+            self.doubtful(span, &places.of(guess.range.start), &what);
         }
         if let Some(more) = decoded.guesses.len().checked_sub(GUESSES_MAX).filter(|more| *more > 0)
         {

@@ -15,17 +15,30 @@ pub(crate) fn a1(row: usize, column: usize) -> String {
     format!("{letters}{}", row + 1)
 }
 
-/// The name of the cell at an offset of a text, its lines taken for rows; empty where there is no
-/// cell.
-pub(crate) fn place_of(text: &str, offset: usize) -> String {
-    let at = |cell: &cells::Cell| cell.range.start <= offset && offset <= cell.range.end;
-    let sheet = cells::split(text);
-    let found = sheet.rows.iter().find_map(|row| {
-        let end = row.last().map_or(0, |cell| cell.range.end);
-        if end < offset { None } else { row.iter().position(at) }
-    });
-    let line = text.get(..offset).map_or(0, |before| before.matches('\n').count());
-    found.map_or(String::new(), |column| a1(line, column))
+/// The cells of a text, to be found by their place.
+#[derive(Debug)]
+pub(crate) struct Places {
+    rows: Vec<Vec<cells::Cell>>,
+    /// Where each line starts.
+    lines: Vec<usize>,
+}
+
+impl Places {
+    pub(crate) fn new(text: &str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect();
+        Self { rows: cells::split(text).rows, lines }
+    }
+
+    /// The name of the cell at an offset, lines taken for rows; empty where there is no cell.
+    pub(crate) fn of(&self, offset: usize) -> String {
+        let ends = |row: &Vec<cells::Cell>| row.last().map_or(0, |cell| cell.range.end);
+        let row = self.rows.get(self.rows.partition_point(|row| ends(row) < offset));
+        let at = |cell: &cells::Cell| cell.range.start <= offset && offset <= cell.range.end;
+        let column = row.and_then(|row| row.iter().position(at));
+        let line = self.lines.partition_point(|start| *start <= offset).saturating_sub(1);
+        column.map_or(String::new(), |column| a1(line, column))
+    }
 }
 
 #[cfg(test)]
@@ -42,8 +55,8 @@ mod tests {
     #[test]
     fn offsets_are_in_cells() {
         let text = "# x\nPin;ADC\nPA1;\"a;b\";c\n";
-        assert_eq!(place_of(text, text.find(";b").unwrap()), "B3");
-        assert_eq!(place_of(text, text.find("c\n").unwrap()), "C3");
-        assert_eq!(place_of(text, 0), "");
+        assert_eq!(Places::new(text).of(text.find(";b").unwrap()), "B3");
+        assert_eq!(Places::new(text).of(text.find("c\n").unwrap()), "C3");
+        assert_eq!(Places::new(text).of(0), "");
     }
 }

@@ -42,7 +42,7 @@ const HEAD_ROWS: usize = 30;
 
 /// Imports a table. `sheet` is the name of the workbook's sheet that the text was made of.
 pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Log) -> Made {
-    if log.diagnostics.iter().any(|one| one.code.name().starts_with('E')) {
+    if log.has_errors() {
         return Made::default();
     }
     let cut = cells::split(text);
@@ -161,11 +161,11 @@ impl Reader<'_> {
 
     fn place_at(&self, offset: usize) -> String {
         let row = self.lines.partition_point(|start| *start <= offset).saturating_sub(1);
-        let holds = |cells: &&Vec<Cell>| {
-            let start = cells.first().map_or(usize::MAX, |cell| cell.range.start);
-            start <= offset + 1 && cells.last().is_some_and(|cell| offset <= cell.range.end)
-        };
-        let cells = self.rows.iter().find(holds);
+        let ends = |cells: &Vec<Cell>| cells.last().map_or(0, |cell| cell.range.end);
+        let cells = self.rows.get(self.rows.partition_point(|cells| ends(cells) < offset));
+        let starts =
+            |cells: &&Vec<Cell>| cells.first().is_some_and(|cell| cell.range.start <= offset + 1);
+        let cells = cells.filter(starts);
         let column = cells.and_then(|cells| {
             cells.iter().position(|cell| {
                 cell.range.start.saturating_sub(1) <= offset && offset <= cell.range.end
@@ -244,6 +244,9 @@ impl Reader<'_> {
                 FindingKind::EmptyTable | FindingKind::NoPinColumn { .. } => {
                     log.no_table(span, &as_table.message);
                     return None;
+                }
+                FindingKind::TooLarge { .. } | FindingKind::More { .. } => {
+                    log.say(as_table);
                 }
                 FindingKind::UnnamedColumn
                 | FindingKind::MissingPin

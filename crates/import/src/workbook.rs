@@ -4,56 +4,61 @@
 //! is then read like any other table; what only a spreadsheet has (formulas, merged cells, dates,
 //! other sheets) is reported here, each at its cell.
 
-use std::collections::BTreeMap;
-use std::fmt::Display;
-use std::io::{Cursor, Read as _};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
 use std::ops::Range;
 
-use calamine::{Data, Dimensions, Ods, Reader as _, Xlsx, open_workbook_from_rs};
+use calamine::{Data, Dimensions, Reader as _, Xlsx, open_workbook_from_rs};
 use sensedsl_board::table::Role;
 use sensedsl_diagnostics::Span;
+use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, MERGED_MAX};
 
 use crate::log::Log;
+use crate::package::{self, Refused};
 use crate::place::a1;
-use crate::{Format, Made, Source, tabular};
+use crate::{Format, Made, Source, ods, tabular};
 
 /// Sheets of pins are far smaller; cells beyond are stray.
 const ROWS_MAX: u32 = 20_000;
-const COLUMNS_MAX: u32 = 512;
-/// Largest `content.xml` that is looked through for merged cells.
-const CONTENT_MAX: u64 = 64 << 20;
+const SHEET_COLUMNS_MAX: u32 = 512;
 
 /// A cell by row and column, from 0.
 type At = (u32, u32);
 
 /// What a sheet holds.
 #[derive(Debug, Default)]
-struct Sheet {
+pub(crate) struct Sheet {
     name: String,
     cells: BTreeMap<At, Data>,
     formulas: BTreeMap<At, String>,
     merged: Vec<Dimensions>,
     /// A cell that is too far out.
     beyond: Option<At>,
+    /// Bytes of text and formulas.
+    bytes: usize,
 }
 
 /// Imports the sheet that has a pin table.
 pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
-    let read = match source.format {
-        Some(Format::Ods) => ods(source.bytes),
-        Some(Format::Xlsx) => xlsx(source.bytes),
-        _ if crate::detect(source.bytes) == Some(Format::Ods) => ods(source.bytes),
-        _ => xlsx(source.bytes),
+    let is_ods = match source.format {
+        Some(Format::Ods) => true,
+        Some(Format::Xlsx) => false,
+        _ => crate::detect(source.bytes) == Some(Format::Ods),
     };
-    let sheets = match read {
-        Ok(sheets) => sheets,
-        Err(why) => {
+    let read = package::check(source.bytes)
+        .and_then(|()| if is_ods { ods::sheets(source.bytes) } else { xlsx(source.bytes) });
+    let read = read.and_then(|sheets| {
+        let texts = sheets.iter().map(Text::new).collect::<Result<Vec<_>, _>>()?;
+        Ok((sheets, texts))
+    });
+    let (sheets, texts) = match read {
+        Ok(read) => read,
+        Err(refused) => {
             let file = log.sources.add(source.name, "");
-            log.unreadable(Span::new(file, 0..0), source.name, &why);
+            log.not_read(Span::new(file, 0..0), source.name, &refused);
             return Made::default();
         }
     };
-    let texts: Vec<Text> = sheets.iter().map(Text::new).collect();
     let names: Vec<String> = sheets.iter().map(|sheet| sheet.name.clone()).collect();
     let chosen = match source.sheet {
         Some(wanted) => names.iter().position(|name| name == wanted),
@@ -111,7 +116,8 @@ fn table(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) -> Made
         log.doubtful(span(merged.start), &place(sheet, merged.start), &what);
     }
     if let Some(at) = sheet.beyond {
-        let what = format!("cells beyond row {ROWS_MAX} or column {COLUMNS_MAX} are left out");
+        let what =
+            format!("cells beyond row {ROWS_MAX} or column {SHEET_COLUMNS_MAX} are left out");
         log.dropped(Span::new(file, 0..0), &place(sheet, at), &what);
     }
     let heads = heads(sheet);
@@ -209,14 +215,18 @@ struct Text {
 }
 
 impl Text {
-    fn new(sheet: &Sheet) -> Self {
+    fn new(sheet: &Sheet) -> Result<Self, Refused> {
         let mut made = Self { text: String::new(), ranges: BTreeMap::new(), rows: Vec::new() };
         let rows = sheet.cells.keys().map(|(row, _)| row + 1).max().unwrap_or_default();
         let columns = sheet.cells.keys().map(|(_, column)| column + 1).max().unwrap_or_default();
+        let filled: BTreeSet<u32> = sheet.cells.keys().map(|(row, _)| *row).collect();
+        // A row has a cell for each column of the widest one.
+        if filled.len().saturating_mul(columns as usize) > CELLS_MAX {
+            return Err(Refused::TooMuch("cells in a sheet, rows times columns", CELLS_MAX));
+        }
         for row in 0..rows {
             made.rows.push(made.text.len());
-            let filled = sheet.cells.range((row, 0)..(row + 1, 0)).next().is_some();
-            for column in 0..if filled { columns } else { 0 } {
+            for column in 0..if filled.contains(&row) { columns } else { 0 } {
                 if column > 0 {
                     made.text.push(',');
                 }
@@ -232,7 +242,7 @@ impl Text {
             }
             made.text.push('\n');
         }
-        made
+        Ok(made)
     }
 
     /// Where a cell is; the start of its row where it is outside of all.
@@ -245,108 +255,86 @@ impl Text {
     }
 }
 
-fn words(error: &dyn Display) -> String {
-    error.to_string()
-}
-
 impl Sheet {
-    fn put(&mut self, at: At, value: Data) {
-        if value == Data::Empty || matches!(&value, Data::String(text) if text.trim().is_empty()) {
-            return;
-        }
-        if at.0 >= ROWS_MAX || at.1 >= COLUMNS_MAX {
-            self.beyond.get_or_insert(at);
-        } else {
-            self.cells.insert(at, value);
-        }
+    pub(crate) fn new(name: String) -> Self {
+        Self { name, ..Self::default() }
     }
 
-    fn put_formula(&mut self, at: At, formula: String) {
-        if !formula.is_empty() && at.0 < ROWS_MAX && at.1 < COLUMNS_MAX {
-            self.formulas.insert(at, formula);
+    /// Puts a value into a cell; false where the cell is too far out.
+    pub(crate) fn put(&mut self, at: At, value: Data) -> Result<bool, Refused> {
+        if value == Data::Empty || matches!(&value, Data::String(text) if text.trim().is_empty()) {
+            return Ok(!is_beyond(at));
         }
+        if is_beyond(at) {
+            self.beyond.get_or_insert(at);
+            return Ok(false);
+        }
+        if let Data::String(text) = &value {
+            self.spend(text.len())?;
+        }
+        self.cells.insert(at, value);
+        if self.cells.len() > CELLS_MAX {
+            return Err(Refused::TooMuch("cells in a sheet", CELLS_MAX));
+        }
+        Ok(true)
+    }
+
+    pub(crate) fn put_formula(&mut self, at: At, formula: &str) -> Result<(), Refused> {
+        if !formula.is_empty() && !is_beyond(at) {
+            self.spend(formula.len())?;
+            self.formulas.insert(at, formula.to_owned());
+        }
+        Ok(())
+    }
+
+    pub(crate) fn put_merged(&mut self, range: Dimensions) -> Result<(), Refused> {
+        if self.merged.len() == MERGED_MAX {
+            return Err(Refused::TooMuch("merged ranges in a sheet", MERGED_MAX));
+        }
+        self.merged.push(range);
+        Ok(())
+    }
+
+    /// Whether a row is too far out to be read.
+    pub(crate) fn is_beyond_rows(&self, row: u32) -> bool {
+        is_beyond((row, 0))
+    }
+
+    /// Counts bytes of text: a text that stands once in the file can stand in any number of cells.
+    fn spend(&mut self, bytes: usize) -> Result<(), Refused> {
+        self.bytes += bytes;
+        if self.bytes > CELL_TEXT_BYTES_MAX {
+            let what = "bytes of text in the cells of a sheet";
+            return Err(Refused::TooMuch(what, CELL_TEXT_BYTES_MAX));
+        }
+        Ok(())
     }
 }
 
-fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
+fn is_beyond((row, column): At) -> bool {
+    row >= ROWS_MAX || column >= SHEET_COLUMNS_MAX
+}
+
+fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, Refused> {
     let book: Result<Xlsx<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
-    let mut book = book.map_err(|error| words(&error))?;
+    let mut book = book.map_err(|error| Refused::why(&error))?;
     let mut sheets = Vec::new();
     for name in book.sheet_names() {
-        let mut sheet = Sheet { name: name.clone(), ..Sheet::default() };
+        let mut sheet = Sheet::new(name.clone());
         // A sheet of another type, such as a chart, has no cells.
         let Ok(mut cells) = book.worksheet_cells_reader(&name) else { continue };
-        while let Some(cell) = cells.next_cell_with_formula().map_err(|error| words(&error))? {
-            sheet.put(cell.pos, Data::from(cell.value));
-            sheet.put_formula(cell.pos, cell.formula.unwrap_or_default());
+        while let Some(cell) =
+            cells.next_cell_with_formula().map_err(|error| Refused::why(&error))?
+        {
+            sheet.put(cell.pos, Data::from(cell.value))?;
+            sheet.put_formula(cell.pos, &cell.formula.unwrap_or_default())?;
         }
         drop(cells);
-        sheet.merged = book.merge_cells_by_sheet_name(&name).map_err(|error| words(&error))?;
+        let merged = book.merge_cells_by_sheet_name(&name);
+        for range in merged.map_err(|error| Refused::why(&error))? {
+            sheet.put_merged(range)?;
+        }
         sheets.push(sheet);
-    }
-    Ok(sheets)
-}
-
-fn ods(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
-    let book: Result<Ods<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
-    let mut book = book.map_err(|error| words(&error))?;
-    let merged = merged(bytes)?;
-    let mut sheets = Vec::new();
-    for name in book.sheet_names() {
-        let mut sheet = Sheet { name: name.clone(), ..Sheet::default() };
-        let values = book.worksheet_range(&name).map_err(|error| words(&error))?;
-        let from = values.start().unwrap_or_default();
-        for (row, column, value) in values.used_cells() {
-            sheet.put((from.0 + small(row), from.1 + small(column)), value.clone());
-        }
-        let formulas = book.worksheet_formula(&name).map_err(|error| words(&error))?;
-        let from = formulas.start().unwrap_or_default();
-        for (row, column, formula) in formulas.used_cells() {
-            sheet.put_formula((from.0 + small(row), from.1 + small(column)), formula.clone());
-        }
-        sheet.merged = merged.get(&name).cloned().unwrap_or_default();
-        sheets.push(sheet);
-    }
-    Ok(sheets)
-}
-
-fn small(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or(u32::MAX / 2)
-}
-
-/// The merged cells of each sheet of an ODS file, which the reader does not tell.
-fn merged(bytes: &[u8]) -> Result<BTreeMap<String, Vec<Dimensions>>, String> {
-    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| words(&error))?;
-    let content = archive.by_name("content.xml").map_err(|error| words(&error))?;
-    let mut text = String::new();
-    content.take(CONTENT_MAX).read_to_string(&mut text).map_err(|error| words(&error))?;
-    let document = roxmltree::Document::parse(&text).map_err(|error| words(&error))?;
-    let attribute = |node: &roxmltree::Node<'_, '_>, name: &str| -> Option<String> {
-        node.attributes().find(|one| one.name() == name).map(|one| one.value().to_owned())
-    };
-    let count = |node: &roxmltree::Node<'_, '_>, name: &str| -> u32 {
-        attribute(node, name).and_then(|count| count.parse().ok()).unwrap_or(1)
-    };
-    let mut sheets = BTreeMap::new();
-    let is =
-        |name: &'static str| move |node: &roxmltree::Node<'_, '_>| node.tag_name().name() == name;
-    for table in document.descendants().filter(is("table")) {
-        let mut found = Vec::new();
-        let mut row: u32 = 0;
-        for line in table.descendants().filter(is("table-row")) {
-            let mut column: u32 = 0;
-            for cell in line.children().filter(roxmltree::Node::is_element) {
-                let wide = count(&cell, "number-columns-spanned");
-                let high = count(&cell, "number-rows-spanned");
-                if wide > 1 || high > 1 {
-                    let end = (row.saturating_add(high - 1), column.saturating_add(wide - 1));
-                    found.push(Dimensions { start: (row, column), end });
-                }
-                column = column.saturating_add(count(&cell, "number-columns-repeated"));
-            }
-            row = row.saturating_add(count(&line, "number-rows-repeated"));
-        }
-        sheets.insert(attribute(&table, "name").unwrap_or_default(), found);
     }
     Ok(sheets)
 }

@@ -2,12 +2,12 @@
 //! message with its place.
 
 use sensedsl_board::catalog;
-use sensedsl_import::{Imported, Source, import};
+use sensedsl_import::{Imported, Source, Unread, import};
 
 fn with(name: &str, bytes: &[u8], sheet: Option<&str>, files: &[(&str, &str)]) -> Imported {
     let beside = |path: &str| {
         let found = files.iter().find(|(name, _)| *name == path);
-        found.map(|(_, text)| text.as_bytes().to_vec())
+        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or(Unread::Missing)
     };
     import(&Source { name, bytes, format: None, sheet, table: "pins.csv", beside: &beside })
 }
@@ -166,7 +166,11 @@ fn a_hwdef_becomes_devices() {
     assert!(says(&alone, "W0804", &["common.inc"]) && says(&alone, "E0801", &["`MCU`"]));
     assert!(alone.program.is_none());
     let round = [("common.inc", "include common.inc\nMCU STM32F4xx STM32F405xx\n")];
-    assert!(says(&with("hwdef.dat", HWDEF.as_bytes(), None, &round), "W0804", &["too deep"]));
+    assert!(says(
+        &with("hwdef.dat", HWDEF.as_bytes(), None, &round),
+        "E0808",
+        &["include each other already"]
+    ));
 }
 
 /// Of chips that the firmware looks for at one address one is wired, and a select needs a bus.

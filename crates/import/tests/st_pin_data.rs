@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_board::table;
 use sensedsl_import::{Format, Imported, Importer, Source};
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 
 /// The folder, or a word that the test is skipped.
 fn data() -> Option<PathBuf> {
@@ -42,7 +42,7 @@ fn imported_with(importer: &Importer, path: &Path) -> Imported {
     let bytes = fs::read(path).unwrap();
     let folder = path.parent().unwrap();
     let name = path.file_name().unwrap().to_string_lossy();
-    let beside = |path: &str| fs::read(folder.join(path)).ok();
+    let beside = |path: &str| fs::read(folder.join(path)).map_err(|_| Unread::Missing);
     importer.import(&Source {
         name: &name,
         bytes: &bytes,
@@ -147,8 +147,8 @@ fn remap_blocks_of_an_f1_are_at_its_usages() {
 struct Pins(String);
 
 impl Files for Pins {
-    fn read(&self, path: &str) -> Result<String, String> {
-        if path == "pins.csv" { Ok(self.0.clone()) } else { Err("there is no such file".into()) }
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        if wanted.path == "pins.csv" { Ok(self.0.clone()) } else { Err(Unread::Missing) }
     }
 }
 

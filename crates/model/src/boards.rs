@@ -1,23 +1,27 @@
 //! One board: its table, its MCU, its target, its link, its rules.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, NoProfile, Target, TargetProfile};
 use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0202_property_twice, e0301_unknown_board, e0302_table_unreadable,
-    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none, w0607_part_not_certain,
-    w0608_usages_unknown,
+    e0201_unknown_property, e0202_property_twice, e0225_too_many_items, e0301_unknown_board,
+    e0302_table_unreadable, e0313_unknown_target, e0504_no_firmware_target, h0702_target_none,
+    w0607_part_not_certain, w0608_usages_unknown,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
+use sensedsl_limits::{BOARDS_MAX, PLACES_MAX, TABLES_BYTES_MAX};
 use sensedsl_parts::Completion;
 use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
 use sensedsl_wire::Checksum;
 
 use crate::design::{Board, Link, Spanned, Transport};
 use crate::fields::{Fields, span};
+use crate::files::{Files, Unread, Wanted, What};
 use crate::resolve::Request;
 use crate::rules;
-use crate::sources::{Files, beside};
+use crate::sources::beside;
 use crate::table_findings;
 
 /// The properties of a link.
@@ -31,6 +35,37 @@ pub(crate) struct Context<'a> {
     pub(crate) files: &'a dyn Files,
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
+    /// The tables that were completed, each with its MCU.
+    pub(crate) completed: BTreeSet<(FileId, Option<String>)>,
+    /// The tables that were read from files.
+    pub(crate) tables: BTreeMap<FileId, Table>,
+    pub(crate) left: Left,
+}
+
+/// What is left of the budgets for all boards.
+pub(crate) struct Left {
+    boards: usize,
+    places: usize,
+    bytes: usize,
+}
+
+impl Default for Left {
+    fn default() -> Self {
+        Self { boards: BOARDS_MAX, places: PLACES_MAX, bytes: TABLES_BYTES_MAX }
+    }
+}
+
+impl Left {
+    /// Takes from a budget; the budget itself where that is not left.
+    fn take(
+        left: &mut usize,
+        taken: usize,
+        what: &'static str,
+        most: usize,
+    ) -> Result<(), (&'static str, usize)> {
+        *left = left.checked_sub(taken).ok_or((what, most))?;
+        Ok(())
+    }
 }
 
 /// Where a board's pins come from.
@@ -55,7 +90,7 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
             None,
         ));
     }
-    let pins = pins(context, file, node, &name);
+    let pins = pins(context, file, node, &name).and_then(|pins| afforded(context, pins, name.span));
     let entry = pins.as_ref().and_then(|pins| pins.entry);
     let like = entry.or_else(|| catalog::find(&name.value));
     let pins = pins.map(|pins| completed(context, pins, like));
@@ -93,7 +128,7 @@ fn pins(
         let as_name = Spanned { value: path.to_owned(), span: name.span };
         let is_path = path.contains(['/', '\\', '.']) || path == "-";
         return if is_path {
-            from_file(context, path, name.span)
+            from_file(context, path, name.span, true)
         } else {
             built_in(context, &as_name)
         };
@@ -101,7 +136,7 @@ fn pins(
     match node.on() {
         Some(BoardSource::File(path)) => {
             let target = beside(context.sources.name(file), &path.value());
-            from_file(context, &target, span(file, path.range()))
+            from_file(context, &target, span(file, path.range()), false)
         }
         Some(BoardSource::Name(on)) => {
             let on = Spanned { value: on.text().to_owned(), span: span(file, on.range()) };
@@ -138,6 +173,27 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     Some(Pins { table, file, entry: None })
 }
 
+/// The pins, unless all boards together have too many.
+fn afforded(context: &mut Context<'_>, pins: Pins, at: Span) -> Option<Pins> {
+    let usages: usize = pins.table.pins.iter().map(|pin| 1 + pin.usages.len()).sum();
+    let (left, bytes) = (&mut context.left, context.sources.text(pins.file).len());
+    let taken = Left::take(&mut left.boards, 1, "boards", BOARDS_MAX)
+        .and_then(|()| {
+            let what = "pins and usages on all boards";
+            Left::take(&mut left.places, usages, what, PLACES_MAX)
+        })
+        .and_then(|()| {
+            let what = "bytes of tables for all boards";
+            Left::take(&mut left.bytes, bytes, what, TABLES_BYTES_MAX)
+        });
+    let Err((what, most)) = taken else { return Some(pins) };
+    let report = e0225_too_many_items::too_many_items(at, what, most);
+    if context.diagnostics.iter().all(|one| one.code != report.code) {
+        context.diagnostics.push(report);
+    }
+    None
+}
+
 /// The pins with their usages and their MCU: that of the built-in board that the file's board is
 /// `like`, where the table names none.
 fn completed(
@@ -152,8 +208,10 @@ fn completed(
         table.mcu = like.map(|entry| entry.mcu.to_owned());
     }
     let mcu = table.mcu.clone();
+    // A table that two boards share is complained about once.
+    let is_new = context.completed.insert((pins.file, mcu.clone()));
     let mut say = |diagnostic: Diagnostic| {
-        if !context.diagnostics.contains(&diagnostic) {
+        if is_new {
             context.diagnostics.push(diagnostic);
         }
     };
@@ -177,32 +235,35 @@ fn completed(
     pins
 }
 
-fn from_file(context: &mut Context<'_>, path: &str, at: Span) -> Option<Pins> {
-    let file = match context.sources.find(path) {
-        Some(file) => file,
-        None => match context.files.read(path) {
-            Ok(text) => context.sources.add(path, text),
-            Err(why) => {
-                let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
-                let known = catalog::find(name).is_some() || sensedsl_parts::find(name).is_some();
-                let report = if known {
-                    e0302_table_unreadable::board_in_quotes(at, name)
-                } else {
-                    e0302_table_unreadable::table_unreadable(at, path, &why)
-                };
-                context.diagnostics.push(report);
-                return None;
-            }
-        },
+fn from_file(context: &mut Context<'_>, path: &str, at: Span, by_user: bool) -> Option<Pins> {
+    if let Some(file) = context.sources.find(path) {
+        // A table that boards share is read, and complained about, once.
+        let table = context.tables.get(&file).cloned();
+        let table = table.unwrap_or_else(|| table::load(context.sources.text(file)).board);
+        return Some(Pins { table, file, entry: None });
+    }
+    let wanted = Wanted { path, what: What::Table, by_user };
+    let text = match context.files.read(&wanted) {
+        Ok(text) => text,
+        Err(unread) => {
+            let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+            let known = catalog::find(name).is_some() || sensedsl_parts::find(name).is_some();
+            let absent = matches!(unread, Unread::Missing | Unread::Why(_));
+            context.diagnostics.push(if known && absent {
+                e0302_table_unreadable::board_in_quotes(at, name)
+            } else {
+                unread.diagnostic(at, &wanted)
+            });
+            return None;
+        }
     };
+    let file = context.sources.add(path, text);
     let loaded = table::load(context.sources.text(file));
     for finding in &loaded.findings {
         let diagnostic = table_findings::diagnostic(finding, file, context.sources);
-        // A table that two boards share is read twice and complained about once.
-        if !context.diagnostics.contains(&diagnostic) {
-            context.diagnostics.push(diagnostic);
-        }
+        context.diagnostics.push(diagnostic);
     }
+    context.tables.insert(file, loaded.board.clone());
     Some(Pins { table: loaded.board, file, entry: None })
 }
 

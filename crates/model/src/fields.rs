@@ -5,6 +5,7 @@
 
 mod quantities;
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use sensedsl_diagnostics::codes::{
@@ -38,6 +39,8 @@ pub(crate) struct Field {
 /// The properties of one block.
 pub(crate) struct Fields<'a> {
     fields: Vec<Field>,
+    /// Where each name stands in the list.
+    names: BTreeMap<String, usize>,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
@@ -53,7 +56,8 @@ impl<'a> Fields<'a> {
         owner_span: Span,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let mut fields = Self { fields: Vec::new(), owner: owner.into(), owner_span, diagnostics };
+        let (owner, names) = (owner.to_owned(), BTreeMap::new());
+        let mut fields = Self { fields: Vec::new(), names, owner, owner_span, diagnostics };
         fields.add(own, file, false);
         fields
     }
@@ -72,8 +76,7 @@ impl<'a> Fields<'a> {
         for property in properties {
             let (Some(name), Some(value)) = (property.name(), property.value()) else { continue };
             let name_span = span(file, name.range());
-            let known = self.fields.iter().find(|field| field.name == name.text());
-            if let Some(first) = known {
+            if let Some(first) = self.field(name.text()) {
                 if first.inherited == inherited {
                     self.diagnostics.push(e0202_property_twice::property_twice(
                         name_span,
@@ -83,6 +86,7 @@ impl<'a> Fields<'a> {
                 }
                 continue;
             }
+            self.names.insert(name.text().into(), self.fields.len());
             self.fields.push(Field {
                 name: name.text().into(),
                 name_span,
@@ -94,6 +98,10 @@ impl<'a> Fields<'a> {
         }
     }
 
+    fn field(&self, name: &str) -> Option<&Field> {
+        self.fields.get(*self.names.get(name)?)
+    }
+
     /// Reports something.
     pub(crate) fn say(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
@@ -101,23 +109,23 @@ impl<'a> Fields<'a> {
 
     /// True when the property was written, by the block or its driver.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.fields.iter().any(|field| field.name == name)
+        self.names.contains_key(name)
     }
 
     /// The whole number of a property that is not taken by looking.
     pub(crate) fn peek_integer(&self, name: &str) -> Option<i64> {
-        let field = self.fields.iter().find(|field| field.name == name)?;
+        let field = self.field(name)?;
         i64::try_from(plain_integer(&field.value)?).ok()
     }
 
     /// Where the value of a property stands.
     pub(crate) fn value_span(&self, name: &str) -> Option<Span> {
-        self.fields.iter().find(|field| field.name == name).map(|field| field.value_span)
+        self.field(name).map(|field| field.value_span)
     }
 
     /// Where a property that the block itself wrote stands, name and value.
     pub(crate) fn own_span(&self, name: &str) -> Option<Span> {
-        let field = self.fields.iter().find(|field| field.name == name && !field.inherited)?;
+        let field = self.field(name).filter(|field| !field.inherited)?;
         Some(field.name_span.cover(field.value_span))
     }
 
@@ -127,7 +135,7 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn take(&mut self, name: &str) -> Option<Field> {
-        let field = self.fields.iter_mut().find(|field| field.name == name)?;
+        let field = self.fields.get_mut(*self.names.get(name)?)?;
         field.taken = true;
         Some(field.clone())
     }
@@ -241,7 +249,7 @@ impl<'a> Fields<'a> {
 
     /// Takes the property when it is the given word, and leaves it otherwise.
     pub(crate) fn take_word_if(&mut self, name: &str, word: &str) -> bool {
-        let field = self.fields.iter().find(|field| field.name == name);
+        let field = self.field(name);
         let is = field.is_some_and(|field| name_or_text(&field.value).as_deref() == Some(word));
         is && self.take(name).is_some()
     }

@@ -10,6 +10,7 @@ pub mod design;
 mod devices;
 mod drivers;
 mod fields;
+mod files;
 pub mod kind;
 mod names;
 mod resolve;
@@ -19,8 +20,9 @@ mod syntax_errors;
 mod table_findings;
 
 pub use drivers::LIBRARY;
+pub use files::{Files, Unread, Wanted, What, stays_inside};
 pub use resolve::{Request, Resolved, resolve, sort};
 pub use rules::apply_allows;
-pub use sources::Files;
+pub use sources::normal as normal_path;
 pub use syntax_errors::diagnostic as syntax_diagnostic;
 pub use table_findings::diagnostic as table_diagnostic;

@@ -1,20 +1,22 @@
 //! From the text of a file to a checked design.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
-    e0203_duplicate_identifier, e0206_missing_property, e0310_unknown_pin, e0312_unknown_place,
-    e0315_no_board,
+    e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0310_unknown_pin,
+    e0312_unknown_place, e0315_no_board,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span, nearest};
+use sensedsl_limits::DIAGNOSTICS_MAX;
 
-use crate::boards::{self, Context};
+use crate::boards::{self, Context, Left};
 use crate::checks;
 use crate::design::{Board, BoardIndex, Design, Device, Spanned};
 use crate::devices;
 use crate::drivers::Drivers;
+use crate::files::Files;
 use crate::names;
-use crate::sources::{Files, Items, Reader};
+use crate::sources::{Items, Reader};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,7 +72,19 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     }
     sort(&mut diagnostics);
     let wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
+    limit(&mut diagnostics);
     Resolved { design: design.filter(|_| !wrong), diagnostics, sources }
+}
+
+/// Leaves as many diagnostics as are listed, and the number of the others.
+pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
+    let more = diagnostics.len().saturating_sub(DIAGNOSTICS_MAX);
+    if more > 0 {
+        diagnostics.truncate(DIAGNOSTICS_MAX);
+        let at = diagnostics.last().map(|last| last.primary.span);
+        let report = |at| e0117_more_mistakes::more_mistakes(at, DIAGNOSTICS_MAX, more);
+        diagnostics.extend(at.map(report));
+    }
 }
 
 /// Orders diagnostics by place, the worse first where the place is the same.
@@ -85,7 +99,15 @@ fn read_boards(
     sources: &mut SourceMap,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Option<Board>> {
-    let mut context = Context { request, files, sources, diagnostics };
+    let mut context = Context {
+        request,
+        files,
+        sources,
+        diagnostics,
+        completed: BTreeSet::new(),
+        tables: BTreeMap::new(),
+        left: Left::default(),
+    };
     items.boards.iter().map(|(file, node)| boards::read(&mut context, *file, node)).collect()
 }
 
@@ -122,7 +144,8 @@ fn check_names(
     let device_names: Vec<_> = devices.iter().map(|device| &device.name).collect();
     names::check("device", &device_names, diagnostics);
     let mut seen: BTreeMap<u8, Span> = BTreeMap::new();
-    let free = (1..=254_u8).find(|id| devices.iter().all(|device| device.id.value != *id));
+    let used: BTreeSet<u8> = devices.iter().map(|device| device.id.value).collect();
+    let free = (1..=254_u8).find(|id| !used.contains(id));
     for Spanned { value, span } in devices.iter().map(|device| device.id) {
         match seen.get(&value) {
             Some(first) => diagnostics

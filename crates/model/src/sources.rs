@@ -1,21 +1,18 @@
 //! Reading a file and all files it uses, in the order of their items.
 
-use sensedsl_diagnostics::codes::{e0110_misplaced_item, e0218_used_file_missing, e0219_use_cycle};
-use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap};
+use std::collections::BTreeSet;
+
+use sensedsl_diagnostics::codes::{
+    e0110_misplaced_item, e0219_use_cycle, e0224_too_many_used, e0225_too_many_items,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
+use sensedsl_limits::{ITEMS_MAX, STATEMENTS_MAX, TOKENS_MAX, USE_DEPTH_MAX, USED_FILES_MAX};
 use sensedsl_syntax::ast::{self, AstNode as _, FileItem};
-use sensedsl_syntax::parse;
+use sensedsl_syntax::{SyntaxKind, SyntaxNode, parse_within};
 
 use crate::fields::span;
+use crate::files::{Files, Wanted, What};
 use crate::syntax_errors;
-
-/// How library code reads files: given by the binary, or by a test.
-pub trait Files {
-    /// The text of the file at `path`.
-    ///
-    /// # Errors
-    /// The machine's reason, in words.
-    fn read(&self, path: &str) -> Result<String, String>;
-}
 
 /// The items of a file and of what it uses, each with its file, in order.
 #[derive(Debug, Default)]
@@ -36,7 +33,27 @@ pub(crate) struct Reader<'a> {
     /// Paths of the files that are being read, outermost first.
     open: Vec<String>,
     /// Paths of all files that were read.
-    done: Vec<String>,
+    done: BTreeSet<String>,
+    left: Left,
+}
+
+/// The blocks and the statements that are counted.
+const ITEMS: [SyntaxKind; 3] = [SyntaxKind::Board, SyntaxKind::Driver, SyntaxKind::Device];
+const STATEMENTS: [SyntaxKind; 6] = [
+    SyntaxKind::Property,
+    SyntaxKind::Prefer,
+    SyntaxKind::Avoid,
+    SyntaxKind::Reserve,
+    SyntaxKind::Release,
+    SyntaxKind::Allow,
+];
+
+/// What is left of the budgets, over all files.
+struct Left {
+    tokens: usize,
+    items: usize,
+    statements: usize,
+    files: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -45,17 +62,29 @@ impl<'a> Reader<'a> {
         sources: &'a mut SourceMap,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let (open, done) = (Vec::new(), Vec::new());
-        Self { files, sources, diagnostics, items: Items::default(), open, done }
+        let (open, done) = (Vec::new(), BTreeSet::new());
+        let left = Left {
+            tokens: TOKENS_MAX,
+            items: ITEMS_MAX,
+            statements: STATEMENTS_MAX,
+            files: USED_FILES_MAX,
+        };
+        Self { files, sources, diagnostics, items: Items::default(), open, done, left }
     }
 
     /// Reads the text of `path` (and what it uses).
     pub(crate) fn read(&mut self, path: &str, text: String) -> FileId {
         let file = self.sources.add(path, text);
-        let parsed = parse(self.sources.text(file));
+        let parsed = parse_within(self.sources.text(file), self.left.tokens);
+        self.left.tokens -= parsed.tokens();
         for error in parsed.errors() {
             self.diagnostics.push(syntax_errors::diagnostic(error, file));
             self.items.broken = true;
+        }
+        if let Some((at, what, most)) = self.beyond(file, &parsed.syntax()) {
+            self.diagnostics.push(e0225_too_many_items::too_many_items(at, what, most));
+            self.items.broken = true;
+            return file;
         }
         self.open.push(normal(path));
         for item in parsed.ast().items() {
@@ -63,6 +92,29 @@ impl<'a> Reader<'a> {
         }
         self.done.extend(self.open.pop());
         file
+    }
+
+    /// The first block or statement of a file that is beyond what a design may have, with the words
+    /// and the figure of that limit.
+    fn beyond(&mut self, file: FileId, root: &SyntaxNode) -> Option<(Span, &'static str, usize)> {
+        for node in root.descendants() {
+            let kind = node.kind();
+            let (left, what, most) = if ITEMS.contains(&kind) {
+                (&mut self.left.items, "boards, drivers and devices", ITEMS_MAX)
+            } else if STATEMENTS.contains(&kind) {
+                (&mut self.left.statements, "properties and rules", STATEMENTS_MAX)
+            } else {
+                continue;
+            };
+            // A rule names any number of pins.
+            let names = node.children_with_tokens().filter(|one| one.kind() == SyntaxKind::Comma);
+            let Some(fewer) = left.checked_sub(1 + names.count()) else {
+                let first = node.first_token().map_or(node.text_range(), |t| t.text_range());
+                return Some((span(file, first), what, most));
+            };
+            *left = fewer;
+        }
+        None
     }
 
     fn item(&mut self, path: &str, file: FileId, item: FileItem) {
@@ -102,14 +154,28 @@ impl<'a> Reader<'a> {
         if self.done.contains(&key) {
             return;
         }
-        match self.files.read(&target) {
+        if self.open.len() > USE_DEPTH_MAX {
+            self.refuse(e0224_too_many_used::chain_too_long(at, USE_DEPTH_MAX));
+            return;
+        }
+        let Some(fewer) = self.left.files.checked_sub(1) else {
+            self.refuse(e0224_too_many_used::too_many_used(at, USED_FILES_MAX));
+            return;
+        };
+        self.left.files = fewer;
+        let wanted = Wanted { path: &target, what: What::Sense, by_user: false };
+        match self.files.read(&wanted) {
             Ok(text) => {
                 self.read(&target, text);
             }
-            Err(why) => {
-                let missing = e0218_used_file_missing::used_file_missing(at, &target, &why);
-                self.diagnostics.push(missing);
-            }
+            Err(unread) => self.diagnostics.push(unread.diagnostic(at, &wanted)),
+        }
+    }
+
+    /// Says once what would be said of each further file.
+    fn refuse(&mut self, report: Diagnostic) {
+        if self.diagnostics.iter().all(|one| one.code != report.code) {
+            self.diagnostics.push(report);
         }
     }
 }
@@ -127,7 +193,8 @@ pub(crate) fn beside(from: &str, relative: &str) -> String {
 }
 
 /// A path without `.` and with `..` resolved where that is possible in the text.
-fn normal(path: &str) -> String {
+#[must_use]
+pub fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split(['/', '\\']) {
         match part {

@@ -3,9 +3,11 @@
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0102_unknown_character, e0103_unterminated, e0104_missing_semicolon,
     e0105_missing_closing, e0106_bad_number, e0107_misspelled_keyword, e0108_nested_too_deep,
-    e0109_bad_string, e0110_misplaced_item, e0221_identifier_reserved,
+    e0109_bad_string, e0110_misplaced_item, e0116_too_many_tokens, e0117_more_mistakes,
+    e0221_identifier_reserved,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
+use sensedsl_limits::TOKENS_MAX;
 use sensedsl_syntax::{Block, Item, SyntaxError, SyntaxErrorKind};
 
 use crate::fields::span;
@@ -71,6 +73,8 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::MissingComma => expected("`,`", "the next value"),
         Kind::TrailingComma => expected("another value after `,`", "none"),
         Kind::NestingTooDeep { limit } => e0108_nested_too_deep::nested_too_deep(at, *limit),
+        Kind::TooManyTokens { limit: _ } => e0116_too_many_tokens::too_many_tokens(at, TOKENS_MAX),
+        Kind::More { listed, more } => e0117_more_mistakes::more_mistakes(at, *listed, *more),
     }
 }
 

@@ -2,8 +2,9 @@
 
 use sensedsl_board::finding::{Finding, FindingKind};
 use sensedsl_diagnostics::codes::{
-    e0303_table_empty, e0304_table_pin_twice, e0305_table_pin_name, e0306_table_signal,
-    e0307_table_ragged_row, e0308_table_column_twice, e0309_table_usage_twice, w0606_table_oddity,
+    e0117_more_mistakes, e0303_table_empty, e0304_table_pin_twice, e0305_table_pin_name,
+    e0306_table_signal, e0307_table_ragged_row, e0308_table_column_twice, e0309_table_usage_twice,
+    e0317_table_too_large, w0606_table_oddity,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 
@@ -51,6 +52,8 @@ pub fn diagnostic(finding: &Finding, file: FileId, sources: &SourceMap) -> Diagn
             };
             e0306_table_signal::table_signal(at, row, column, spelled, None).here(here)
         }
+        Kind::TooLarge { what, most } => e0317_table_too_large::table_too_large(at, what, *most),
+        Kind::More { listed, more } => e0117_more_mistakes::more_mistakes(at, *listed, *more),
         Kind::UnnamedColumn
         | Kind::BadQuote
         | Kind::UnknownAlternate { .. }
@@ -105,6 +108,8 @@ fn oddity(kind: &FindingKind) -> String {
         | Kind::DuplicatePin { .. }
         | Kind::DuplicateUsage { .. }
         | Kind::MalformedSignal { .. }
-        | Kind::BadAlternate { .. } => "this has a code of its own".into(),
+        | Kind::BadAlternate { .. }
+        | Kind::TooLarge { .. }
+        | Kind::More { .. } => "this has a code of its own".into(),
     }
 }

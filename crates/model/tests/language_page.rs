@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_model::kind::KindName;
-use sensedsl_model::{Files, LIBRARY, Request, resolve};
+use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
 use sensedsl_syntax::parse;
 
 /// Properties that fix a wire; the page describes them once for all kinds.
@@ -79,8 +79,8 @@ fn the_library_is_the_folder() {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, path: &str) -> Result<String, String> {
-        Err(format!("{path} is not there"))
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Why(format!("{} is not there", wanted.path)))
     }
 }
 

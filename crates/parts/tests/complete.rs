@@ -3,14 +3,14 @@
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::{catalog, table};
-use sensedsl_model::{Files, Request, Resolved, resolve};
+use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
 use sensedsl_parts::{Completion, complete, find};
 use sensedsl_wiring::{Solved, Wiring};
 
 struct One(&'static str);
 
 impl Files for One {
-    fn read(&self, _: &str) -> Result<String, String> {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
         Ok(self.0.to_owned())
     }
 }

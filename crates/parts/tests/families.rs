@@ -3,18 +3,17 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 use std::collections::BTreeMap;
-use std::io;
 
 use sensedsl_board::profile;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::all;
 use sensedsl_wiring::{Solved, Wiring};
 
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err(io::ErrorKind::NotFound.to_string())
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
     }
 }
 

@@ -2,20 +2,19 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::table::{self, Table};
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::{all, find};
 use sensedsl_wiring::{Solved, Wiring};
 
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err(io::ErrorKind::NotFound.to_string())
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
     }
 }
 

@@ -4,10 +4,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 
 use sensedsl_board::remap::Blocks;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::find;
 use sensedsl_wiring::{Solved, Wiring};
 
@@ -85,8 +84,8 @@ fn what_counts_as_a_usage_decides_the_cost() {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err(io::ErrorKind::NotFound.to_string())
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
     }
 }
 

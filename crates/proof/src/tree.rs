@@ -170,6 +170,8 @@ fn only<'o, 'a>(open: &'o Open<'a>, device: &str) -> Option<&'o OpenAlternative<
 
 /// Checks that each choice is left in one of the cases.
 fn covered<T>(at: usize, cases: &[Case], all: &BTreeMap<&str, T>) -> Result<(), Refuted> {
-    let missing = all.keys().find(|name| !cases.iter().any(|case| case.keep.contains(**name)));
+    let kept: BTreeSet<&str> =
+        cases.iter().flat_map(|case| &case.keep).map(String::as_str).collect();
+    let missing = all.keys().find(|name| !kept.contains(**name));
     missing.map_or(Ok(()), |name| Err(Refuted(format!("node {at} leaves out {name}"))))
 }

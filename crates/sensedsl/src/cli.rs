@@ -63,6 +63,14 @@ pub(crate) struct NewArgs {
     pub(crate) force: bool,
 }
 
+/// Which files may be read beside the one that is named.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct Reach {
+    /// Let files name others in this folder, too, not only in their project's folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) allow_outside: Vec<PathBuf>,
+}
+
 /// Which board and target to solve for.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct On {
@@ -72,6 +80,8 @@ pub(crate) struct On {
     /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
     #[arg(long, value_name = "NAME")]
     pub(crate) target: Option<String>,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
 }
 
 #[derive(Debug, Args)]
@@ -250,6 +260,8 @@ pub(crate) struct PartsArgs {
     /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
     #[arg(long, value_name = "NAME")]
     pub(crate) target: Option<String>,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
     /// How to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
@@ -284,6 +296,8 @@ pub(crate) struct ImportArgs {
     /// Of a project print the table of its pins, not the file with its devices
     #[arg(long)]
     pub(crate) table: bool,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -14,6 +14,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use cli::{Cli, Command};
+use files::Refused;
 use terminal::Terminal;
 
 /// How a command ended, when nothing went wrong with the machine.
@@ -36,7 +37,10 @@ fn main() -> ExitCode {
         Ok(Status::Misused) => ExitCode::from(2),
         Err(error) if terminal::is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            terminal.failure(&error);
+            match error.downcast_ref::<Refused>() {
+                Some(refused) => terminal.refusal(refused),
+                None => terminal.failure(&error),
+            }
             ExitCode::from(2)
         }
     }

@@ -5,6 +5,8 @@ use std::io::{self, IsTerminal as _, Write as _};
 use anstream::{AutoStream, ColorChoice};
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
 
+use crate::files::Refused;
+
 /// Diagnostics that people are shown at once: who has more begins with the first ones, and a file
 /// that is no text of ours at all has thousands.
 const SHOWN_MAX: usize = 100;
@@ -82,6 +84,12 @@ impl Terminal {
             text.push_str(&format!("and {more} more (`check --format json` has them all)\n"));
         }
         io::stderr().lock().write_all(text.as_bytes())
+    }
+
+    /// That a file of the command line was not read.
+    pub(crate) fn refusal(&self, refused: &Refused) {
+        // There is nowhere to report that reporting failed.
+        let _ = self.diagnostics(std::slice::from_ref(&*refused.diagnostic), &refused.sources);
     }
 
     /// That the call or the machine is wrong.

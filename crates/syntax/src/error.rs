@@ -4,6 +4,7 @@
 //! forms here are the noun phrases such a message is made of ("a sensor name", "the end of the file").
 
 use rowan::TextRange;
+use sensedsl_limits::DIAGNOSTICS_MAX;
 use std::fmt;
 
 /// One mistake in the text, at its place.
@@ -135,6 +136,35 @@ pub enum SyntaxErrorKind {
         /// The deepest allowed nesting.
         limit: usize,
     },
+    /// More tokens than are read; nothing behind the range was looked at.
+    TooManyTokens {
+        /// How many are read.
+        limit: usize,
+    },
+    /// More mistakes than are listed.
+    More {
+        /// How many are listed.
+        listed: usize,
+        /// How many are not.
+        more: usize,
+    },
+}
+
+/// Mistakes as they are found: the first are kept, the others are counted.
+#[derive(Debug, Default)]
+pub(crate) struct Errors {
+    pub(crate) list: Vec<SyntaxError>,
+    pub(crate) more: usize,
+}
+
+impl Errors {
+    pub(crate) fn push(&mut self, kind: SyntaxErrorKind, range: TextRange) {
+        if self.list.len() < DIAGNOSTICS_MAX {
+            self.list.push(SyntaxError { kind, range });
+        } else {
+            self.more += 1;
+        }
+    }
 }
 
 /// What the grammar has at a place.

@@ -8,12 +8,13 @@
 use crate::error::SyntaxError;
 use crate::kind::SyntaxKind;
 use crate::{lexer, parser};
+use sensedsl_limits::TOKENS_MAX;
 
 const INDENT: &str = "    ";
 
 /// The text in its canonical layout, or the mistakes that prevent it.
 pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
-    let lexed = lexer::lex(text);
+    let lexed = lexer::lex(text, TOKENS_MAX);
     let (_, errors) = parser::parse(text, &lexed);
     if !errors.is_empty() {
         return Err(errors);

@@ -4,7 +4,7 @@
 //! The mistakes within a token (an unknown escape, a digit that the base does not have) are found
 //! here; whether the token is at the right place is for the parser.
 
-use crate::error::{SyntaxError, SyntaxErrorKind};
+use crate::error::{Errors, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 use crate::literal;
 use rowan::{TextRange, TextSize};
@@ -22,20 +22,24 @@ pub(crate) struct Token {
 #[derive(Debug)]
 pub(crate) struct Lexed {
     pub(crate) tokens: Vec<Token>,
-    pub(crate) errors: Vec<SyntaxError>,
+    pub(crate) errors: Errors,
+    /// Where the text was left because it has more tokens than are read.
+    pub(crate) cut: Option<TextSize>,
 }
 
-/// Splits `text` into tokens.
-pub(crate) fn lex(text: &str) -> Lexed {
-    let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), errors: Vec::new() };
-    while lexer.position < text.len() {
+/// Splits `text` into tokens, `most` at the most.
+pub(crate) fn lex(text: &str, most: usize) -> Lexed {
+    let (tokens, errors) = (Vec::new(), Errors::default());
+    let mut lexer = Lexer { text, position: 0, tokens, errors };
+    while lexer.position < text.len() && lexer.tokens.len() < most {
         let start = lexer.position;
         let kind = lexer.token();
         debug_assert!(lexer.position > start, "a token is never empty");
         let range = TextRange::new(size(start), size(lexer.position));
         lexer.tokens.push(Token { kind, range });
     }
-    Lexed { tokens: lexer.tokens, errors: lexer.errors }
+    let cut = (lexer.position < text.len()).then(|| size(lexer.position));
+    Lexed { tokens: lexer.tokens, errors: lexer.errors, cut }
 }
 
 /// An offset as the tree counts it. Texts are far below 4 GiB: the binary refuses larger files.
@@ -47,7 +51,7 @@ struct Lexer<'a> {
     text: &'a str,
     position: usize,
     tokens: Vec<Token>,
-    errors: Vec<SyntaxError>,
+    errors: Errors,
 }
 
 impl<'a> Lexer<'a> {
@@ -81,7 +85,7 @@ impl<'a> Lexer<'a> {
 
     fn error(&mut self, kind: SyntaxErrorKind, start: usize, end: usize) {
         let range = TextRange::new(size(start), size(end));
-        self.errors.push(SyntaxError { kind, range });
+        self.errors.push(kind, range);
     }
 
     /// Consumes one token.
@@ -234,7 +238,8 @@ impl<'a> Lexer<'a> {
 
     fn check_size(&mut self, start: usize, fits: bool) {
         // A number that lacks digits has been reported as that.
-        let reported = self.errors.last().is_some_and(|error| error.range.start() == size(start));
+        let reported =
+            self.errors.list.last().is_some_and(|error| error.range.start() == size(start));
         if !fits && !reported {
             let number = self.since(start).to_owned();
             self.error(SyntaxErrorKind::NumberTooLarge { number }, start, self.position);
@@ -331,18 +336,18 @@ mod tests {
     use super::*;
 
     fn check(text: &str, expected: &[(SyntaxKind, &str)]) {
-        let lexed = lex(text);
+        let lexed = lex(text, usize::MAX);
         let tokens: Vec<_> =
             lexed.tokens.iter().map(|token| (token.kind, &text[token.range])).collect();
         assert_eq!(tokens, expected, "{text:?}");
-        assert_eq!(lexed.errors, [], "{text:?}");
+        assert_eq!(lexed.errors.list, [], "{text:?}");
     }
 
     fn check_error(text: &str, expected: &str, at: &str) {
-        let lexed = lex(text);
+        let lexed = lex(text, usize::MAX);
         let spelled: String = lexed.tokens.iter().map(|token| &text[token.range]).collect();
         assert_eq!(spelled, text);
-        let [error] = &lexed.errors[..] else { panic!("{text:?}: {:?}", lexed.errors) };
+        let [error] = &lexed.errors.list[..] else { panic!("{text:?}: {:?}", lexed.errors) };
         assert_eq!(format!("{:?}", error.kind), expected, "{text:?}");
         assert_eq!(&text[error.range], at, "{text:?}");
     }
@@ -379,7 +384,8 @@ mod tests {
 
     #[test]
     fn unknown_characters_end_before_a_comment_and_a_number() {
-        let kinds = |text| lex(text).tokens.iter().map(|token| token.kind).collect::<Vec<_>>();
+        let kinds =
+            |text| lex(text, usize::MAX).tokens.iter().map(|token| token.kind).collect::<Vec<_>>();
         use SyntaxKind::{BlockComment, Float, LineComment, Unknown};
         assert_eq!(kinds("@// a"), [Unknown, LineComment]);
         assert_eq!(kinds("@/* a */"), [Unknown, BlockComment]);

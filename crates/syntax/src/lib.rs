@@ -1,8 +1,8 @@
 //! From the text of a `.sense` file to a lossless tree, typed views over it and a canonical layout.
 //!
-//! In comes any text; out comes a tree that spells exactly that text, and a list of mistakes. Parsing
-//! never fails and never panics: one tree serves the compiler, the formatter and the editor, also
-//! while the text is half written. Nothing here knows boards, kinds or properties: what the names
+//! In comes any text; out comes a tree that spells exactly that text, as far as the budget of tokens
+//! goes, and a list of mistakes. Parsing never fails and never panics: one tree serves the compiler,
+//! the formatter and the editor, also while the text is half written. Nothing here knows boards, kinds or properties: what the names
 //! mean is the business of the model.
 //!
 //! ```
@@ -30,12 +30,14 @@ pub use suggest::{distance, nearest};
 pub use unit::Unit;
 
 use ast::AstNode as _;
+use sensedsl_limits::TOKENS_MAX;
 
 /// The tree of a file and the mistakes in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parse {
     green: rowan::GreenNode,
     errors: Vec<SyntaxError>,
+    tokens: usize,
 }
 
 impl Parse {
@@ -51,6 +53,12 @@ impl Parse {
         &self.errors
     }
 
+    /// How many tokens were read, spaces and comments included.
+    #[must_use]
+    pub fn tokens(&self) -> usize {
+        self.tokens
+    }
+
     /// The typed view over the whole file.
     #[must_use]
     pub fn ast(&self) -> ast::SourceFile {
@@ -62,8 +70,16 @@ impl Parse {
 /// Parses the text of a file.
 #[must_use]
 pub fn parse(text: &str) -> Parse {
-    let (green, errors) = parser::parse(text, &lexer::lex(text));
-    Parse { green, errors }
+    parse_within(text, TOKENS_MAX)
+}
+
+/// Parses the text of a file as far as `most` tokens go; that there are more is one of the mistakes,
+/// and the tree does not have the rest of the text.
+#[must_use]
+pub fn parse_within(text: &str, most: usize) -> Parse {
+    let lexed = lexer::lex(text, most);
+    let (green, errors) = parser::parse(text, &lexed);
+    Parse { green, errors, tokens: lexed.tokens.len() }
 }
 
 /// The text in its canonical layout.

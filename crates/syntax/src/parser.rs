@@ -12,7 +12,7 @@ mod items;
 mod statements;
 mod values;
 
-use crate::error::{Block, Expected, Found, SyntaxError, SyntaxErrorKind};
+use crate::error::{Block, Errors, Expected, Found, SyntaxError, SyntaxErrorKind};
 use crate::kind::{SenseDsl, SyntaxKind};
 use crate::lexer::{Lexed, Token};
 use rowan::{GreenNode, GreenNodeBuilder, Language, TextRange, TextSize};
@@ -26,10 +26,24 @@ pub(crate) const NESTING_LIMIT: usize = 32;
 pub(crate) fn parse(text: &str, lexed: &Lexed) -> (GreenNode, Vec<SyntaxError>) {
     let mut parser = Parser::new(text, &lexed.tokens);
     parser.file();
-    let mut errors = parser.unswallowed_errors(&lexed.errors);
-    errors.extend_from_slice(&lexed.errors);
+    let mut errors = parser.unswallowed_errors(&lexed.errors.list);
+    let more = parser.errors.more + lexed.errors.more;
+    if lexed.cut.is_some() {
+        // What is missing at the cut stands behind it.
+        errors.retain(|error| !error.range.is_empty() || error.range.start() < parser.gap().end());
+    }
+    errors.extend_from_slice(&lexed.errors.list);
     // At one place, what is missing comes before what is wrong with the next token.
     errors.sort_by_key(|error| (error.range.start(), error.range.end()));
+    let end = TextRange::empty(lexed.cut.unwrap_or(parser.gap().end()));
+    if lexed.cut.is_some() {
+        let kind = SyntaxErrorKind::TooManyTokens { limit: lexed.tokens.len() };
+        errors.push(SyntaxError { kind, range: end });
+    }
+    if more > 0 {
+        let kind = SyntaxErrorKind::More { listed: errors.len(), more };
+        errors.push(SyntaxError { kind, range: end });
+    }
     (parser.builder.finish(), errors)
 }
 
@@ -43,7 +57,7 @@ struct Parser<'a> {
     /// How many tokens of any kind are in the tree.
     built: usize,
     builder: GreenNodeBuilder<'static>,
-    errors: Vec<SyntaxError>,
+    errors: Errors,
     /// `consumed` at the time of the last complaint.
     complained: Option<usize>,
     /// The block whose items are being parsed.
@@ -65,7 +79,7 @@ impl<'a> Parser<'a> {
             consumed: 0,
             built: 0,
             builder: GreenNodeBuilder::new(),
-            errors: Vec::new(),
+            errors: Errors::default(),
             complained: None,
             block: Block::File,
             depth: 0,
@@ -229,7 +243,7 @@ impl<'a> Parser<'a> {
     }
 
     fn report(&mut self, kind: SyntaxErrorKind, range: TextRange) {
-        self.errors.push(SyntaxError { kind, range });
+        self.errors.push(kind, range);
         self.complained = Some(self.consumed);
     }
 
@@ -259,7 +273,7 @@ impl<'a> Parser<'a> {
         if lexer_errors.iter().any(in_comment) {
             swallowed.insert(self.gap().end());
         }
-        let mut errors = std::mem::take(&mut self.errors);
+        let mut errors = std::mem::take(&mut self.errors.list);
         errors.retain(|error| !error.range.is_empty() || !swallowed.contains(&error.range.end()));
         errors
     }

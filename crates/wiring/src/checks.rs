@@ -1,7 +1,7 @@
 //! What can be said before and after solving: fixed pins that cannot serve, instances that do not
 //! exist, on-board parts that are touched.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_board::table::{Occupation, Pin};
@@ -318,15 +318,14 @@ fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
 pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for (index, board) in design.boards.iter().enumerate() {
-        let known = |name: &str| {
-            let pins = board.table.pins.iter();
-            pins.clone().any(|pin| pin.name.as_str() == name)
-                || pins.clone().flat_map(|pin| &pin.usages).any(|usage| {
-                    let units = usage.signal.function().units();
-                    units.iter().any(|unit| unit.as_str() == name)
-                })
-        };
-        for rule in board.reserved.iter().filter(|rule| !known(&rule.value)) {
+        let pins = || board.table.pins.iter();
+        let mut known: BTreeSet<&str> = pins().map(|pin| pin.name.as_str()).collect();
+        let units: Vec<_> = pins()
+            .flat_map(|pin| &pin.usages)
+            .flat_map(|usage| usage.signal.function().units())
+            .collect();
+        known.extend(units.iter().map(|unit| unit.as_str()));
+        for rule in board.reserved.iter().filter(|rule| !known.contains(rule.value.as_str())) {
             let text = format!("reserve {}", rule.value);
             let why = "the board has no such pin or peripheral";
             diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));

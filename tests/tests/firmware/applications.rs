@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::firmware::chibios;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::{Files, Request, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 /// The paper's Fig. 2.
@@ -69,11 +69,11 @@ board Rear on STM32F4DiscoveryBoard {
 struct Tables;
 
 impl Files for Tables {
-    fn read(&self, path: &str) -> Result<String, String> {
-        match path {
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        match wanted.path {
             "odd.csv" => Ok(ODD_TABLE.to_owned()),
             "emulated.csv" => Ok(crate::emulated::TABLE.to_owned()),
-            other => Err(format!("no file {other}")),
+            _ => Err(Unread::Missing),
         }
     }
 }

@@ -8,7 +8,28 @@
 )]
 
 use sensedsl_proof::{read, verify};
+use std::ffi::OsStr;
+use std::io::Read as _;
 use std::process::ExitCode;
+
+/// Bytes of a certificate; those of a hundred devices on eight boards have a few MiB.
+const BYTES_MAX: u64 = 32 << 20;
+
+/// The text of a file. A pipe or a device may never end, and a file that is far too large is not a
+/// certificate.
+fn text(path: &OsStr) -> Result<String, String> {
+    let refused = |error: std::io::Error| error.to_string();
+    if !std::fs::metadata(path).map_err(refused)?.is_file() {
+        return Err("it is a pipe, a device or a folder, not a file".to_owned());
+    }
+    let mut text = String::new();
+    let file = std::fs::File::open(path).map_err(refused)?;
+    file.take(BYTES_MAX + 1).read_to_string(&mut text).map_err(refused)?;
+    if text.len() as u64 > BYTES_MAX {
+        return Err(format!("it has more than {} MiB", BYTES_MAX >> 20));
+    }
+    Ok(text)
+}
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args_os().skip(1);
@@ -16,8 +37,7 @@ fn main() -> ExitCode {
         eprintln!("usage: sensedsl-verify PROOF");
         return ExitCode::from(2);
     };
-    let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
-    let certificate = text.and_then(|text| read(&text).map_err(|error| error.to_string()));
+    let certificate = text(&path).and_then(|text| read(&text).map_err(|error| error.to_string()));
     let certificate = match certificate {
         Ok(certificate) => certificate,
         Err(error) => {

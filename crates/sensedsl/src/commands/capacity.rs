@@ -15,7 +15,7 @@ use crate::terminal::Terminal;
 const NAMED_MAX: usize = 8;
 
 pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status> {
-    let resolved = input::load(&args.file, &args.on)?;
+    let resolved = input::load(&args.file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;

@@ -16,7 +16,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut plain = String::new();
     let mut logs = Vec::new();
     for path in &args.files {
-        let resolved = input::load(path, &args.on)?;
+        let resolved = input::load(path, &args.on);
         let sources = resolved.sources;
         let (diagnostics, feasible) = match &resolved.design {
             None => (resolved.diagnostics, None),

@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::Result;
 use sensedsl_codegen::report::json::wired;
+use sensedsl_model::What;
 use sensedsl_wiring::{Search, Solved};
 use serde_json::{Value, json};
 
@@ -12,7 +13,7 @@ use super::input;
 use super::table::table;
 use crate::Status;
 use crate::cli::{DiffArgs, On, TableFormat};
-use crate::files::{read_text, shown};
+use crate::files::read_text;
 use crate::terminal::Terminal;
 
 /// A wire of a device, by name and role.
@@ -102,16 +103,13 @@ fn human(changes: &[(&Wire, Option<&Place>, Option<&Place>)], wires: usize) -> S
 
 /// The wires of an answer; none, and said why, when there is no wiring.
 fn wires(path: &Path, on: &On, terminal: &Terminal) -> Result<Option<BTreeMap<Wire, Place>>> {
-    let text = read_text(path)?;
+    let text = read_text(path, What::Sense)?;
     if text.trim_start().starts_with('{') {
-        let value: Value = serde_json::from_str(&text)
-            .with_context(|| format!("{} is no JSON answer of `solve`", shown(path)))?;
-        let wires = of_json(&value);
-        return wires
-            .map(Some)
-            .with_context(|| format!("{} is no JSON answer of `solve`", shown(path)));
+        let wires = of_json(&input::answer_in(path, &text)?);
+        let missing = || input::not_an_answer(path, "boards, devices or wires are missing");
+        return Ok(Some(wires.ok_or_else(missing)?));
     }
-    let resolved = input::load(path, on)?;
+    let resolved = input::resolved(path, &text, on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;

@@ -41,7 +41,7 @@ fn code(name: &str, terminal: &Terminal) -> Result<Status> {
 fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let file = args.file.as_deref().context("`explain wiring` needs a file and a device")?;
     let name = args.device.as_deref().context("`explain wiring` needs a device's name")?;
-    let resolved = input::load(file, &args.on)?;
+    let resolved = input::load(file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::SourceMap;
-use sensedsl_model::syntax_diagnostic;
+use sensedsl_model::{What, syntax_diagnostic};
 
 use crate::Status;
 use crate::cli::FmtArgs;
@@ -14,7 +14,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut status = Status::Done;
     for path in &args.files {
-        let text = read_text(path)?;
+        let text = read_text(path, What::Sense)?;
         let formatted = match sensedsl_syntax::format(&text) {
             Ok(formatted) => formatted,
             Err(errors) => {

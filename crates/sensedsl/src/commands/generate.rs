@@ -29,7 +29,7 @@ const NAMED_MAX: usize = 5;
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status> {
     let keep = input::keep(args.keep.as_deref())?;
-    let resolved = input::load(&args.file, &args.on)?;
+    let resolved = input::load(&args.file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;

@@ -4,21 +4,22 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0803_import_no_sheet;
-use sensedsl_import::{Format, Imported, Source, import};
+use sensedsl_import::{Format, Imported, Source, detect, import};
+use sensedsl_model::What;
 
 use super::in_the_way;
 use crate::Status;
 use crate::cli::{ImportArgs, ImportFormat};
-use crate::files::{is_stream, read_bytes, read_if_there, shown, write_together};
+use crate::files::{Disk, is_stream, read_bytes, real_folder, shown, write_together};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> {
-    let bytes = read_bytes(&args.source)?;
+    let bytes = read_bytes(&args.source, What::Source)?;
     let table = table_path(args);
     let table_name = table.file_name().map(|name| name.to_string_lossy().into_owned());
-    let folder = args.source.parent().unwrap_or(Path::new("")).to_path_buf();
-    // What cannot be read is as good as not there: the importer says what it needs it for.
-    let beside = |path: &str| read_if_there(&folder.join(path)).ok().flatten();
+    let (folder, root) = folders(args, &bytes);
+    let disk = Disk::below(&root, &args.reach.allow_outside);
+    let beside = |path: &str| disk.bytes(&folder.join(path), What::Source);
     let imported = import(&Source {
         name: &shown(&args.source),
         bytes: &bytes,
@@ -59,6 +60,22 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
 /// no table can be put.
 fn file_to_write(args: &ImportArgs) -> Option<&Path> {
     args.output.as_deref().filter(|output| *output != Path::new("-"))
+}
+
+/// The folder of the source, and the one whose files it may name: its own. Boards of ArduPilot
+/// include others that are in folders beside theirs, so of these it is the folder above.
+fn folders(args: &ImportArgs, bytes: &[u8]) -> (PathBuf, PathBuf) {
+    let folder = args.source.parent().unwrap_or(Path::new("")).to_path_buf();
+    if format(args.format).or_else(|| detect(bytes)) != Some(Format::Hwdef) {
+        return (folder.clone(), folder);
+    }
+    // A folder such as `..` has no name, and so no folder above it that could be named.
+    let own = match folder.file_name() {
+        Some(_) => folder,
+        None => real_folder(&folder),
+    };
+    let above = own.parent().unwrap_or(Path::new("")).to_path_buf();
+    (own, above)
 }
 
 /// What is asked for, and the table that goes beside it; none when there is no result.

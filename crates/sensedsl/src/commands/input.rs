@@ -3,45 +3,60 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result};
+use anyhow::Result;
 use sensedsl_diagnostics::codes::{
-    e0301_unknown_board, e0302_table_unreadable, e0313_unknown_target, e0404_out_of_time,
-    e0505_unknown_host,
+    e0111_file_unreadable, e0226_not_an_answer, e0301_unknown_board, e0302_table_unreadable,
+    e0313_unknown_target, e0404_out_of_time, e0505_unknown_host,
 };
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
-use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
+use sensedsl_model::{Request, Resolved, Unread, What, apply_allows, resolve, sort};
 use sensedsl_wiring::{Keep, Proved, Search, Solved, Wiring};
 
 use crate::Status;
 use crate::cli::On;
-use crate::files::{Disk, read_text, shown};
+use crate::files::{Disk, Refused, read_text, shown};
 
 /// How long `check` looks for the best wiring.
 const BEST: Duration = Duration::from_secs(2);
 
-/// Reads and resolves a file.
-pub(crate) fn load(path: &Path, on: &On) -> Result<Resolved> {
-    let text = read_text(path)?;
+/// Reads and resolves a file. That it cannot be read is a diagnostic like any other.
+pub(crate) fn load(path: &Path, on: &On) -> Resolved {
+    match read_text(path, What::Sense) {
+        Ok(text) => resolved(path, &text, on),
+        Err(Refused { diagnostic, sources }) => {
+            Resolved { design: None, diagnostics: vec![*diagnostic], sources }
+        }
+    }
+}
+
+/// Resolves the text of a file.
+pub(crate) fn resolved(path: &Path, text: &str, on: &On) -> Resolved {
     let shown = shown(path);
-    let request = Request {
-        path: &shown,
-        text: &text,
-        board: on.board.as_deref(),
-        target: on.target.as_deref(),
-    };
-    Ok(resolve(&request, &Disk))
+    let request =
+        Request { path: &shown, text, board: on.board.as_deref(), target: on.target.as_deref() };
+    resolve(&request, &Disk::of(path, &on.reach.allow_outside))
 }
 
 /// The earlier answer of `--keep`.
 pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
     let Some(path) = path else { return Ok(None) };
-    let text = read_text(path)?;
-    let value: serde_json::Value = serde_json::from_str(&text)
-        .with_context(|| format!("{} is no JSON answer of `solve`", shown(path)))?;
+    let value = answer_in(path, &read_text(path, What::Answer)?)?;
     let keep = sensedsl_codegen::report::json::keep(&value);
-    let keep = keep.with_context(|| format!("{} is no JSON answer of `solve`", shown(path)))?;
-    Ok(Some(keep))
+    Ok(Some(keep.ok_or_else(|| not_an_answer(path, "boards, devices or wires are missing"))?))
+}
+
+/// An earlier answer in JSON.
+pub(crate) fn answer_in(path: &Path, text: &str) -> Result<serde_json::Value, Refused> {
+    if text.len() > What::Answer.bytes_max() {
+        return Err(Refused::unread(path, What::Answer, &Unread::TooLarge));
+    }
+    serde_json::from_str(text).map_err(|error| not_an_answer(path, &error.to_string()))
+}
+
+/// That a file is not an answer of `solve`.
+pub(crate) fn not_an_answer(path: &Path, why: &str) -> Refused {
+    Refused::new(path, |at, shown| e0226_not_an_answer::not_an_answer(at, shown, why))
 }
 
 /// What one search gave, with everything there is to say.
@@ -117,11 +132,12 @@ fn answer(
 /// How a command ends whose diagnostics are these: a wrong input is told from a wrong call, such as
 /// a target that does not exist or a `--board` that cannot be read.
 pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
-    let by_flag = [&e0313_unknown_target::INFO, &e0505_unknown_host::INFO];
+    let by_call =
+        [&e0111_file_unreadable::INFO, &e0313_unknown_target::INFO, &e0505_unknown_host::INFO];
     let by_board = [&e0301_unknown_board::INFO, &e0302_table_unreadable::INFO];
     let misused = |one: &Diagnostic| {
         let info = one.code.info();
-        by_flag.contains(&info) || (on.board.is_some() && by_board.contains(&info))
+        by_call.contains(&info) || (on.board.is_some() && by_board.contains(&info))
     };
     if diagnostics.iter().any(misused) {
         Status::Misused

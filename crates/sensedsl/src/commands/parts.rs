@@ -7,7 +7,7 @@ use std::thread;
 
 use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
-use sensedsl_model::{Request, resolve};
+use sensedsl_model::{Request, What, resolve};
 use sensedsl_parts::{Part, Sheet};
 use sensedsl_wiring::{Solved, Wiring};
 use serde_json::json;
@@ -121,24 +121,25 @@ fn spelled_in_a_file(rows: &[[String; 3]]) -> String {
 }
 
 fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
-    let text = read_text(file)?;
+    let text = read_text(file, What::Sense)?;
+    let disk = Disk::of(file, &args.reach.allow_outside);
     let path = shown(file);
     let request = Request { path: &path, text: &text, board: None, target: args.target.as_deref() };
     // What is wrong with the devices is told once; that the file's own board is unknown, or does not
     // suit, does not matter here.
-    let resolved = resolve(&request, &Disk);
+    let resolved = resolve(&request, &disk);
     let carriers = carriers(args);
     if carriers.is_empty() {
         bail!("no part and no board fits the filters");
     }
     if resolved.design.is_none() {
         let board = carriers.first().map(|(carrier, _)| carrier.name.as_str());
-        if resolve(&Request { board, ..request }, &Disk).design.is_none() {
+        if resolve(&Request { board, ..request }, &disk).design.is_none() {
             terminal.diagnostics(&resolved.diagnostics, &resolved.sources)?;
             return Ok(Status::Wrong);
         }
     }
-    let answers = solve_all(&request, &carriers, terminal);
+    let answers = solve_all(&request, &disk, &carriers, terminal);
     let mut found: Vec<(&Carrier, u32, u32)> = Vec::new();
     let mut failed = 0;
     for ((carrier, _), fit) in carriers.iter().zip(answers) {
@@ -201,6 +202,7 @@ fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
 /// The answers in the carriers' order: equal ones are asked once, all cores ask.
 fn solve_all(
     request: &Request<'_>,
+    disk: &Disk,
     carriers: &[(Carrier, String)],
     terminal: &Terminal,
 ) -> Vec<Fit> {
@@ -216,7 +218,7 @@ fn solve_all(
             let at = next.fetch_add(1, Ordering::Relaxed);
             let Some(index) = questions.get(at) else { return answers };
             if let Some((carrier, _)) = carriers.get(*index) {
-                answers.push((*index, solve(request, &carrier.name)));
+                answers.push((*index, solve(request, disk, &carrier.name)));
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             terminal.progress("parts", done, questions.len());
@@ -237,8 +239,8 @@ fn solve_all(
     carriers.iter().map(|carrier| answer(carrier).unwrap_or(Fit::Failed)).collect()
 }
 
-fn solve(request: &Request<'_>, board: &str) -> Fit {
-    let resolved = resolve(&Request { board: Some(board), ..*request }, &Disk);
+fn solve(request: &Request<'_>, disk: &Disk, board: &str) -> Fit {
+    let resolved = resolve(&Request { board: Some(board), ..*request }, disk);
     let Some(design) = &resolved.design else { return Fit::Not };
     match Wiring::new(design, None).solve_only(false) {
         Solved::Wired(wiring) => Fit::Wired { violated: wiring.violated, cost: wiring.cost },

@@ -22,7 +22,7 @@ const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let keep = input::keep(args.keep.as_deref())?;
-    let resolved = input::load(&args.file, &args.on)?;
+    let resolved = input::load(&args.file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;

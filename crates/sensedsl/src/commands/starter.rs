@@ -3,6 +3,8 @@
 //! The template has a sensor of each common kind. They are put on the board one by one, and one
 //! stays where there is a wiring with it; the last stands in where another could not stay.
 
+use std::path::Path;
+
 use sensedsl_board::catalog;
 use sensedsl_model::{Request, resolve};
 use sensedsl_wiring::{Solved, Wiring};
@@ -39,7 +41,7 @@ pub(crate) fn robot(board: &catalog::Entry) -> String {
 /// Whether a file has a wiring.
 fn is_wired(text: &str) -> bool {
     let request = Request { path: "robot.sense", text, board: None, target: None };
-    let resolved = resolve(&request, &Disk);
+    let resolved = resolve(&request, &Disk::of(Path::new("-"), &[]));
     let Some(design) = resolved.design.filter(|_| !has_errors(&resolved.diagnostics)) else {
         return false;
     };

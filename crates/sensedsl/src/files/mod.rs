@@ -7,6 +7,7 @@
 #[cfg(test)]
 mod fault;
 pub(crate) mod lock;
+mod open;
 mod ops;
 mod read;
 pub(crate) mod tree;
@@ -14,7 +15,10 @@ mod write;
 
 use std::path::Path;
 
-pub(crate) use read::{Disk, files_below, read_bytes, read_if_there, read_text};
+use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
+use sensedsl_model::{Unread, Wanted, What};
+
+pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
 pub(crate) use write::{
     begins_with, is_in_the_way, is_stream, remove_file, write_together, write_whole,
 };
@@ -22,4 +26,46 @@ pub(crate) use write::{
 /// The name under which people see a file.
 pub(crate) fn shown(path: &Path) -> String {
     if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
+}
+
+/// A file of the command line that was not read, as an error that tells the diagnostic.
+#[derive(Debug)]
+pub(crate) struct Refused {
+    pub(crate) diagnostic: Box<Diagnostic>,
+    pub(crate) sources: SourceMap,
+}
+
+impl Refused {
+    /// The place of what concerns the whole file.
+    pub(crate) fn new(path: &Path, report: impl FnOnce(Span, &str) -> Diagnostic) -> Self {
+        let (shown, mut sources) = (shown(path), SourceMap::default());
+        let file = sources.add(shown.as_str(), "");
+        let diagnostic = Box::new(report(Span::new(file, 0..0), &shown));
+        Self { diagnostic, sources }
+    }
+
+    /// That a file was not read.
+    pub(crate) fn unread(path: &Path, what: What, unread: &Unread) -> Self {
+        Self::new(path, |at, shown| {
+            unread.diagnostic(at, &Wanted { path: shown, what, by_user: true })
+        })
+    }
+}
+
+impl std::fmt::Display for Refused {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.diagnostic.message)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// The content of a file that the command line names.
+pub(crate) fn read_bytes(path: &Path, what: What) -> Result<Vec<u8>, Refused> {
+    read::read(path, what, true).map_err(|unread| Refused::unread(path, what, &unread))
+}
+
+/// The text of a file that the command line names.
+pub(crate) fn read_text(path: &Path, what: What) -> Result<String, Refused> {
+    read::text(read_bytes(path, what)?).map_err(|unread| Refused::unread(path, what, &unread))
 }

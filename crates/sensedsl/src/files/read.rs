@@ -1,55 +1,151 @@
 //! Reading files: what the user names, and what a file names.
+//!
+//! All reading goes through [`read`]: regular files only, and a pipe where the user names one; no
+//! more bytes than the file's kind may have, nor all files together. What a *file* names must be in
+//! the project's folder as well, or in one that the command line allows.
 #![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
-use sensedsl_model::Files;
+use sensedsl_limits::TOTAL_BYTES_MAX;
+use sensedsl_model::{Files, Unread, Wanted, What, normal_path, stays_inside};
 
-/// Largest file that is read: tables and texts are far smaller, devices like /dev/zero endless.
-const BYTES_MAX: u64 = 64 << 20;
+use super::open::open;
 
-/// The machine's files.
-pub(crate) struct Disk;
+/// The machine's files, as one design or source may see them.
+#[derive(Debug)]
+pub(crate) struct Disk {
+    /// The folder of the file on the command line.
+    root: PathBuf,
+    /// Further folders that files may name.
+    allowed: Vec<PathBuf>,
+    /// The files that were read, with their bytes.
+    seen: Mutex<BTreeMap<PathBuf, usize>>,
+}
+
+impl Disk {
+    /// What the file on the command line may name.
+    pub(crate) fn of(file: &Path, allowed: &[PathBuf]) -> Self {
+        let root = if file == Path::new("-") { None } else { file.parent() };
+        Self::below(root.unwrap_or(Path::new("")), allowed)
+    }
+
+    /// What a file of that folder may name.
+    pub(crate) fn below(root: &Path, allowed: &[PathBuf]) -> Self {
+        let seen = Mutex::new(BTreeMap::new());
+        Self { root: root.to_path_buf(), allowed: allowed.to_vec(), seen }
+    }
+
+    /// The content of a file that a file names, seen from where the program runs.
+    pub(crate) fn bytes(&self, path: &Path, what: What) -> Result<Vec<u8>, Unread> {
+        let real = self.real(path)?;
+        self.counted(&real, read(&real, what, false)?)
+    }
+
+    /// The path without symbolic links, where it is in an allowed folder.
+    fn real(&self, path: &Path) -> Result<PathBuf, Unread> {
+        let relative = path.strip_prefix(&self.root).ok();
+        let outside = || {
+            let folder = normal_path(&path.parent().unwrap_or(Path::new("")).to_string_lossy());
+            Unread::Outside(if folder.is_empty() { ".".to_owned() } else { folder })
+        };
+        let stays = relative.is_some_and(|relative| stays_inside(&relative.to_string_lossy()))
+            || self.comes_back(path);
+        // Where nothing else is allowed, not even that the file exists is looked up.
+        if !stays && self.allowed.is_empty() {
+            return Err(outside());
+        }
+        let real = fs::canonicalize(path).map_err(|error| why(&error))?;
+        let mut folders = std::iter::once(&self.root).chain(&self.allowed);
+        let within = folders.any(|folder| real.starts_with(real_folder(folder)));
+        if within { Ok(real) } else { Err(outside()) }
+    }
+
+    /// Whether a path that leaves the folder comes back to it: `../robot/a.sense` in `robot`.
+    fn comes_back(&self, path: &Path) -> bool {
+        let whole = real_folder(Path::new("")).join(path);
+        Path::new(&normal_path(&whole.to_string_lossy())).starts_with(real_folder(&self.root))
+    }
+
+    /// The bytes, unless all files together are too large. A file that is read again counts once.
+    fn counted(&self, path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, Unread> {
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.insert(path.to_path_buf(), bytes.len());
+        let all: usize = seen.values().sum();
+        if all > TOTAL_BYTES_MAX { Err(Unread::AllTooLarge) } else { Ok(bytes) }
+    }
+}
 
 impl Files for Disk {
-    fn read(&self, path: &str) -> Result<String, String> {
-        read_text(Path::new(path)).map_err(|error| error.root_cause().to_string())
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        let path = Path::new(wanted.path);
+        if wanted.by_user {
+            return text(self.counted(path, read(path, wanted.what, true)?)?);
+        }
+        text(self.bytes(path, wanted.what)?)
     }
 }
 
-/// The text of a file, or of the standard input for `-`.
-pub(crate) fn read_text(path: &Path) -> Result<String> {
-    let text = String::from_utf8(read_bytes(path)?);
-    text.map_err(|_| anyhow::anyhow!("it is no text in UTF-8"))
-        .with_context(|| format!("cannot read {}", path.display()))
+/// The content of a file, or of the standard input for `-` where the user names it.
+pub(crate) fn read(path: &Path, what: What, by_user: bool) -> Result<Vec<u8>, Unread> {
+    if by_user && path == Path::new("-") {
+        return limited(io::stdin().lock(), what);
+    }
+    let opened = open(path, by_user)?;
+    let length = opened.file.metadata().map_err(|error| why(&error))?.len();
+    if length > what.bytes_max() as u64 {
+        return Err(Unread::TooLarge);
+    }
+    limited(opened.reader(), what)
 }
 
-/// The content of a file, or of the standard input for `-`.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+/// Reads to the end, or to where there is more than may be: a file can grow, and a pipe has no
+/// length.
+fn limited(source: impl io::Read, what: What) -> Result<Vec<u8>, Unread> {
     let mut bytes = Vec::new();
-    if path == Path::new("-") {
-        io::stdin().lock().take(BYTES_MAX).read_to_end(&mut bytes).context("standard input")?;
-    } else {
-        let file =
-            fs::File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
-        let mut file = file.take(BYTES_MAX);
-        file.read_to_end(&mut bytes).with_context(|| format!("cannot read {}", path.display()))?;
+    let most = what.bytes_max();
+    source.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|error| why(&error))?;
+    if bytes.len() > most { Err(Unread::TooLarge) } else { Ok(bytes) }
+}
+
+/// A folder without symbolic links, so that it has a name; as it is where there is none.
+pub(crate) fn real_folder(folder: &Path) -> PathBuf {
+    let here = if folder == Path::new("") { Path::new(".") } else { folder };
+    fs::canonicalize(here).unwrap_or_else(|_| folder.to_path_buf())
+}
+
+/// The bytes as text.
+pub(crate) fn text(bytes: Vec<u8>) -> Result<String, Unread> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Unread::Why(format!("it is not text in UTF-8 (byte {at})"))
+    })
+}
+
+/// The machine's reason.
+pub(crate) fn why(error: &io::Error) -> Unread {
+    match error.kind() {
+        io::ErrorKind::NotFound => Unread::Missing,
+        _ => Unread::Why(error.to_string()),
     }
-    if bytes.len() as u64 == BYTES_MAX {
-        anyhow::bail!("{} is larger than {} MiB", path.display(), BYTES_MAX >> 20);
-    }
-    Ok(bytes)
 }
 
 /// The content of a file; none when there is no such file.
 pub(crate) fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>> {
-    match fs::read(path) {
-        Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error).with_context(|| format!("cannot read {}", path.display())),
+    let mut bytes = Vec::new();
+    match open(path, false) {
+        Ok(opened) => {
+            let read = opened.reader().read_to_end(&mut bytes);
+            read.with_context(|| format!("cannot read {}", path.display()))?;
+            Ok(Some(bytes))
+        }
+        Err(Unread::Missing) => Ok(None),
+        Err(unread) => anyhow::bail!("cannot read {}: {}", path.display(), unread.why()),
     }
 }
 

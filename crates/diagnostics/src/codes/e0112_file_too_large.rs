@@ -1,0 +1,40 @@
+//! E0112: a file is too large.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0112",
+    severity: Severity::Error,
+    title: "a file is too large",
+    explanation: r#"A real design has a few kilobytes, a real table a few hundred. A file that is far larger is not what it is
+taken for, and reading it would take the memory of the machine. The same holds for all files of one call
+together. The limits are listed in `docs/limits.md`.
+
+Way out: name the right file, or split it with `use`.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The path, what the limit is for, and how many bytes are read at most.
+#[must_use]
+pub fn file_too_large(span: Span, path: &str, what: &str, bytes_max: usize) -> Diagnostic {
+    let most = bytes_max >> 20;
+    Diagnostic::new(CODE, span, format!("{path} is too large: {what} has at most {most} MiB"))
+        .help("name the file that is meant, or take out what does not belong to it")
+}
+
+/// The path that is one too many, and how many bytes all files have at most.
+#[must_use]
+pub fn all_too_large(span: Span, path: &str, bytes_max: usize) -> Diagnostic {
+    let most = bytes_max >> 20;
+    Diagnostic::new(
+        CODE,
+        span,
+        format!("{path} is not read: all files of one call have at most {most} MiB"),
+    )
+    .help("use fewer or smaller files")
+}

@@ -1,0 +1,27 @@
+//! E0807: a source is too large to be imported.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0807",
+    severity: Severity::Error,
+    title: "a source is too large to be imported",
+    explanation: r#"A workbook is a compressed archive: a small file can hold gigabytes, and one cell can say that it is repeated
+a million times. What is inside is counted while it is read, and reading stops at the limits of
+`docs/limits.md`. They are far above what a table of pins needs.
+
+Way out: copy the pins to a new workbook, or export the sheet as CSV.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// What of the source there is too much of, and how much of it is read.
+#[must_use]
+pub fn import_too_large(span: Span, name: &str, what: &str, most: usize) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{name} has more than {most} {what}"))
+        .help("export the sheet with the pins as CSV, or copy the pins to a new workbook")
+}

@@ -1,0 +1,270 @@
+//! What is in a workbook, counted before anybody takes it apart: its files, the bytes after
+//! decompression, and the elements, attributes, levels and namespaces of its XML.
+//!
+//! A megabyte of zeros in a thousand bytes is what compression is good at, so nothing is believed
+//! that the archive says of itself: each file goes through the inflater in small pieces, which are
+//! looked at and thrown away.
+
+use std::io::{Cursor, Read};
+
+use sensedsl_limits::{
+    INFLATED_BYTES_MAX, MEMBERS_MAX, XML_ATTRIBUTES_MAX, XML_DEPTH_MAX, XML_ELEMENTS_MAX,
+    XML_NAMESPACES_MAX,
+};
+use zip::ZipArchive;
+
+/// Why a source is not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Refused {
+    /// There is more of something than is read.
+    TooMuch(&'static str, usize),
+    /// It is damaged, or not what it is taken for.
+    Why(String),
+}
+
+impl Refused {
+    pub(crate) fn why(error: &dyn std::fmt::Display) -> Self {
+        Self::Why(error.to_string())
+    }
+}
+
+/// Bytes that are inflated at a time.
+const PIECE_BYTES: usize = 32 << 10;
+
+/// Counts what is in the XML files of a workbook.
+pub(crate) fn check(bytes: &[u8]) -> Result<(), Refused> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| Refused::why(&error))?;
+    if archive.len() > MEMBERS_MAX {
+        return Err(Refused::TooMuch("files", MEMBERS_MAX));
+    }
+    let mut left = INFLATED_BYTES_MAX;
+    let mut elements = 0;
+    for at in 0..archive.len() {
+        let member = archive.by_index(at).map_err(|error| Refused::why(&error))?;
+        let name = member.name().map_err(|error| Refused::why(&error))?.to_ascii_lowercase();
+        if !name.ends_with(".xml") && !name.ends_with(".rels") {
+            continue;
+        }
+        let mut scan = Scan { elements, ..Scan::new(XML_ELEMENTS_MAX) };
+        pieces(member, &mut left, &mut scan)?;
+        elements = scan.elements;
+    }
+    Ok(())
+}
+
+fn pieces(mut member: impl Read, left: &mut usize, scan: &mut Scan) -> Result<(), Refused> {
+    let mut piece = vec![0; PIECE_BYTES];
+    loop {
+        let count = member.read(&mut piece).map_err(|error| Refused::why(&error))?;
+        if count == 0 {
+            return Ok(());
+        }
+        let too_much = Refused::TooMuch("bytes after decompression", INFLATED_BYTES_MAX);
+        *left = left.checked_sub(count).ok_or(too_much)?;
+        scan.feed(piece.get(..count).unwrap_or_default())?;
+    }
+}
+
+/// Counts what is in a text of XML, of which a tree will be made: `most` elements at the most.
+pub(crate) fn check_xml(text: &str, most: usize) -> Result<(), Refused> {
+    Scan::new(most).feed(text.as_bytes())
+}
+
+/// Where in an XML text the scan is.
+#[derive(Clone, Copy, Debug)]
+enum State {
+    Text,
+    /// Behind `<`.
+    Open,
+    /// Behind `<!`, with so many hyphens.
+    Bang(u8),
+    /// In a comment, behind so many hyphens.
+    Comment(u8),
+    /// In a section of characters, behind so many brackets.
+    Characters(u8),
+    /// In `<?`, behind a question mark.
+    Instruction(bool),
+    /// In a tag, perhaps in quotes.
+    Tag(Option<u8>),
+}
+
+/// Reads XML byte by byte, just well enough to count.
+#[derive(Debug)]
+struct Scan {
+    state: State,
+    most: usize,
+    elements: usize,
+    depth: usize,
+    attributes: usize,
+    namespaces: usize,
+    /// The tag closes an element.
+    closing: bool,
+    last: u8,
+    /// The word in a tag that is being read, as far as it is of interest, and its length.
+    word: [u8; WORD_BYTES],
+    length: usize,
+    /// The digits of a number by which a reader would take memory in advance.
+    digits: Option<usize>,
+}
+
+/// Bytes of the longest name that is of interest.
+const WORD_BYTES: usize = b"uniqueCount".len();
+/// Digits of a number of strings that is believed.
+const DIGITS_MAX: usize = 6;
+
+impl Scan {
+    fn new(most: usize) -> Self {
+        Self {
+            state: State::Text,
+            most,
+            elements: 0,
+            depth: 0,
+            attributes: 0,
+            namespaces: 0,
+            closing: false,
+            last: 0,
+            word: [0; WORD_BYTES],
+            length: 0,
+            digits: None,
+        }
+    }
+
+    fn feed(&mut self, bytes: &[u8]) -> Result<(), Refused> {
+        bytes.iter().try_for_each(|byte| self.byte(*byte))
+    }
+
+    fn byte(&mut self, byte: u8) -> Result<(), Refused> {
+        let more = |count: u8, of: u8| if byte == of { (count + 1).min(2) } else { 0 };
+        self.state = match self.state {
+            State::Text if byte == b'<' => State::Open,
+            State::Text => State::Text,
+            State::Open => return self.open(byte),
+            State::Bang(0) if byte == b'-' => State::Bang(1),
+            State::Bang(1) if byte == b'-' => State::Comment(0),
+            State::Bang(0) if byte == b'[' => State::Characters(0),
+            State::Bang(_) => {
+                let why = "it has a document type, which no such file needs";
+                return Err(Refused::Why(why.to_owned()));
+            }
+            State::Comment(2) | State::Characters(2) if byte == b'>' => State::Text,
+            State::Comment(hyphens) => State::Comment(more(hyphens, b'-')),
+            State::Characters(brackets) => State::Characters(more(brackets, b']')),
+            State::Instruction(true) if byte == b'>' => State::Text,
+            State::Instruction(_) => State::Instruction(byte == b'?'),
+            State::Tag(quote) => return self.tag(quote, byte),
+        };
+        Ok(())
+    }
+
+    /// The byte behind `<`.
+    fn open(&mut self, byte: u8) -> Result<(), Refused> {
+        self.state = match byte {
+            b'!' => State::Bang(0),
+            b'?' => State::Instruction(false),
+            _ => State::Tag(None),
+        };
+        if !matches!(self.state, State::Tag(_)) {
+            return Ok(());
+        }
+        self.closing = byte == b'/';
+        (self.attributes, self.length, self.last) = (0, 0, byte);
+        if self.closing {
+            self.depth = self.depth.saturating_sub(1);
+            return Ok(());
+        }
+        self.elements += 1;
+        self.depth += 1;
+        at_most(self.elements, self.most, "elements of XML")?;
+        at_most(self.depth, XML_DEPTH_MAX, "elements of XML inside each other")
+    }
+
+    /// A byte of a tag.
+    fn tag(&mut self, quote: Option<u8>, byte: u8) -> Result<(), Refused> {
+        if let Some(quote) = quote {
+            let ends = byte == quote;
+            if let Some(digits) = &mut self.digits {
+                *digits += 1;
+                at_most(*digits, DIGITS_MAX + 1, "digits in the number of its strings")?;
+            }
+            if ends {
+                self.digits = None;
+            }
+            self.state = State::Tag((!ends).then_some(quote));
+            return Ok(());
+        }
+        match byte {
+            b'"' | b'\'' => self.state = State::Tag(Some(byte)),
+            b'=' => self.attribute()?,
+            b'>' => {
+                if self.last == b'/' && !self.closing {
+                    self.depth = self.depth.saturating_sub(1);
+                }
+                self.state = State::Text;
+            }
+            byte if byte.is_ascii_whitespace() => {}
+            byte => {
+                if self.last.is_ascii_whitespace() || matches!(self.last, b'"' | b'\'') {
+                    self.length = 0;
+                }
+                if let Some(place) = self.word.get_mut(self.length) {
+                    *place = byte;
+                }
+                self.length += 1;
+            }
+        }
+        self.last = byte;
+        Ok(())
+    }
+
+    /// The `=` of an attribute.
+    fn attribute(&mut self) -> Result<(), Refused> {
+        self.attributes += 1;
+        at_most(self.attributes, XML_ATTRIBUTES_MAX, "attributes of one element")?;
+        let word = self.word.get(..self.length.min(WORD_BYTES)).unwrap_or_default();
+        if word.starts_with(b"xmlns") {
+            self.namespaces += 1;
+        }
+        self.digits = (word == b"uniqueCount").then_some(0);
+        at_most(self.namespaces, XML_NAMESPACES_MAX, "namespaces")
+    }
+}
+
+fn at_most(count: usize, most: usize, what: &'static str) -> Result<(), Refused> {
+    if count > most { Err(Refused::TooMuch(what, most)) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scanned(text: &str) -> Result<(usize, usize), Refused> {
+        let mut scan = Scan::new(1_000);
+        scan.feed(text.as_bytes())?;
+        Ok((scan.elements, scan.depth))
+    }
+
+    #[test]
+    fn elements_are_counted_and_nothing_else() {
+        let text = "<?xml version='1.0'?><!-- > <x ' --><a b='>' c=\"/\"><d/><![CDATA[<e>]]]></a>";
+        assert_eq!(scanned(text), Ok((2, 0)));
+        assert_eq!(scanned("<a><b><c x='1'/>"), Ok((3, 2)));
+    }
+
+    #[test]
+    fn each_limit_is_kept() {
+        let many = |piece: &str, count: usize| piece.repeat(count);
+        for (text, what) in [
+            (many("<a/>", 1_001), "elements"),
+            (many("<a>", XML_DEPTH_MAX + 1), "inside each other"),
+            (format!("<a {}>", many("b='' ", XML_ATTRIBUTES_MAX + 1)), "attributes"),
+            (many("<a xmlns:b='' xmlns='' />", XML_NAMESPACES_MAX / 2 + 1), "namespaces"),
+            ("<sst count='1' uniqueCount='99999999'/>".to_owned(), "digits"),
+        ] {
+            match scanned(&text) {
+                Err(Refused::TooMuch(said, _)) => assert!(said.contains(what), "{said}"),
+                other => panic!("{what}: {other:?}"),
+            }
+        }
+        assert!(matches!(scanned("<!DOCTYPE a [<!ENTITY b 'c'>]>"), Err(Refused::Why(_))));
+    }
+}

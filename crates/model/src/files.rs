@@ -1,0 +1,167 @@
+//! How library code reads files: which one is wanted and why, what was read of it or why it was not.
+//!
+//! The caller of the library has the machine. It looks at the path, at what is there and at the
+//! budgets, and answers with a text or an [`Unread`]; the diagnostic is the same for all callers.
+
+use sensedsl_diagnostics::codes::{
+    e0111_file_unreadable, e0112_file_too_large, e0118_not_a_file, e0218_used_file_missing,
+    e0223_outside_folder, e0302_table_unreadable,
+};
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_limits::{
+    ANSWER_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX, TABLE_BYTES_MAX, TOTAL_BYTES_MAX,
+};
+
+/// How library code reads files: given by the binary, or by a test.
+pub trait Files {
+    /// The text of a file.
+    ///
+    /// # Errors
+    /// Why it was not read.
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread>;
+}
+
+/// A file that is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted<'a> {
+    /// Where it is, as seen from where the program runs.
+    pub path: &'a str,
+    /// What it is taken for.
+    pub what: What,
+    /// The command line names it, and not a file: it may be anywhere, and a pipe.
+    pub by_user: bool,
+}
+
+/// What a file is taken for, which decides how large it may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// A text in the language.
+    Sense,
+    /// A board table.
+    Table,
+    /// An earlier answer of `solve`.
+    Answer,
+    /// What `import` reads.
+    Source,
+}
+
+impl What {
+    /// How many bytes are read at most.
+    #[must_use]
+    pub const fn bytes_max(self) -> usize {
+        match self {
+            Self::Sense => SENSE_BYTES_MAX,
+            Self::Table => TABLE_BYTES_MAX,
+            Self::Answer => ANSWER_BYTES_MAX,
+            Self::Source => SOURCE_BYTES_MAX,
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Sense => "a `.sense` file",
+            Self::Table => "a board table",
+            Self::Answer => "an answer of `solve`",
+            Self::Source => "a source of `import`",
+        }
+    }
+}
+
+/// Why a file was not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// There is none.
+    Missing,
+    /// The machine's reason, in words.
+    Why(String),
+    /// What stands there instead of a file: `a pipe`.
+    NotAFile(&'static str),
+    /// It has more bytes than [`What::bytes_max`].
+    TooLarge,
+    /// All files together have too many bytes.
+    AllTooLarge,
+    /// It is outside of the project's folder, in this one.
+    Outside(String),
+}
+
+impl From<&str> for Unread {
+    fn from(why: &str) -> Self {
+        Self::Why(why.to_owned())
+    }
+}
+
+impl Unread {
+    /// The reason in words.
+    #[must_use]
+    pub fn why(&self) -> String {
+        match self {
+            Self::Missing => "there is no such file".to_owned(),
+            Self::Why(why) => why.clone(),
+            Self::NotAFile(what) => format!("it is {what}, not a file"),
+            Self::TooLarge => "it is too large".to_owned(),
+            Self::AllTooLarge => {
+                format!("all files of one call have at most {} MiB", TOTAL_BYTES_MAX >> 20)
+            }
+            Self::Outside(_) => "it is outside of the project's folder".to_owned(),
+        }
+    }
+
+    /// The diagnostic at the place that names the file.
+    #[must_use]
+    pub fn diagnostic(&self, at: Span, wanted: &Wanted<'_>) -> Diagnostic {
+        let Wanted { path, what, by_user } = *wanted;
+        match (self, what) {
+            (Self::NotAFile(found), _) if !by_user => e0118_not_a_file::not_a_file(at, path, found),
+            (Self::TooLarge, what) => {
+                e0112_file_too_large::file_too_large(at, path, what.name(), what.bytes_max())
+            }
+            (Self::AllTooLarge, _) => {
+                e0112_file_too_large::all_too_large(at, path, TOTAL_BYTES_MAX)
+            }
+            (Self::Outside(folder), _) => e0223_outside_folder::outside_folder(at, path, folder),
+            (_, What::Table) => e0302_table_unreadable::table_unreadable(at, path, &self.why()),
+            (_, What::Sense) if !by_user => {
+                e0218_used_file_missing::used_file_missing(at, path, &self.why())
+            }
+            (_, _) => e0111_file_unreadable::file_unreadable(at, path, &self.why()),
+        }
+    }
+}
+
+/// Whether a path stays in a folder as far as its text tells: it is relative to the folder, and no
+/// `..` leads out. Where symbolic links lead only the machine knows.
+#[must_use]
+pub fn stays_inside(relative: &str) -> bool {
+    if relative.starts_with(['/', '\\']) || relative.get(1..2) == Some(":") {
+        return false;
+    }
+    let mut depth = 0_usize;
+    relative.split(['/', '\\']).all(|part| match part {
+        "" | "." => true,
+        ".." => {
+            let inside = depth > 0;
+            depth = depth.saturating_sub(1);
+            inside
+        }
+        _ => {
+            depth += 1;
+            true
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_that_lead_out_are_told() {
+        for inside in ["a.sense", "./a", "a/../b", "a/b/../../c", "..a", "a//b"] {
+            assert!(stays_inside(inside), "{inside}");
+        }
+        for outside in ["../a", "a/../../b", "/etc/passwd", "C:\\a", "a\\..\\..\\b", "\\\\host\\a"]
+        {
+            assert!(!stays_inside(outside), "{outside}");
+        }
+    }
+}

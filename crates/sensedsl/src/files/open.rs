@@ -1,0 +1,100 @@
+//! Opening what is read: a path in, a regular file out, or a pipe where the user names one.
+//!
+//! What stands at the path is looked at before it is opened, because opening a device can do
+//! things, and again when it is open, because it may have been changed in between. Nothing here waits: a
+//! pipe to which nobody writes is refused after a moment.
+#![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
+
+use std::fs::{self, File, FileType};
+use std::io::{self, Read};
+use std::path::Path;
+
+use sensedsl_model::Unread;
+
+use super::read::why;
+
+/// What was opened.
+pub(super) struct Opened {
+    pub(super) file: File,
+    /// What was read of a pipe to see whether somebody writes to it.
+    head: Vec<u8>,
+}
+
+impl Opened {
+    /// The content from its start.
+    pub(super) fn reader(self) -> impl Read {
+        io::Cursor::new(self.head).chain(self.file)
+    }
+}
+
+/// Opens a file for reading; a pipe only where the user names it.
+pub(super) fn open(path: &Path, by_user: bool) -> Result<Opened, Unread> {
+    readable(fs::metadata(path).map_err(|error| why(&error))?.file_type(), by_user)?;
+    let file = open_at_once(path).map_err(|error| why(&error))?;
+    let kind = file.metadata().map_err(|error| why(&error))?.file_type();
+    readable(kind, by_user)?;
+    if kind.is_file() { Ok(Opened { file, head: Vec::new() }) } else { pipe(file) }
+}
+
+/// Refuses what is neither a file nor a pipe of the user's.
+fn readable(kind: FileType, by_user: bool) -> Result<(), Unread> {
+    match () {
+        () if kind.is_file() || (by_user && is_pipe(kind)) => Ok(()),
+        () if kind.is_dir() => Err(Unread::NotAFile("a folder")),
+        () if is_pipe(kind) => Err(Unread::NotAFile("a pipe")),
+        () => Err(Unread::NotAFile("a device")),
+    }
+}
+
+#[cfg(unix)]
+fn is_pipe(kind: FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: FileType) -> bool {
+    false
+}
+
+/// Opens without waiting for anybody.
+#[cfg(unix)]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt as _;
+
+    let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY;
+    let mut options = fs::OpenOptions::new();
+    options.read(true).custom_flags(flags.bits().cast_signed());
+    options.open(path)
+}
+
+#[cfg(not(unix))]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    File::open(path)
+}
+
+/// Waits a moment for who writes to a pipe; from then on reading waits for them.
+#[cfg(unix)]
+fn pipe(mut file: File) -> Result<Opened, Unread> {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+
+    const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 500_000_000 };
+    poll(&mut [PollFd::new(&file, PollFlags::IN)], Some(&WAIT))
+        .map_err(|error| why(&error.into()))?;
+    let mut head = vec![0];
+    match file.read(&mut head) {
+        // It is open on our side alone.
+        Ok(0) => return Err(Unread::NotAFile("a pipe to which no program writes")),
+        Ok(_) => {}
+        // Somebody has it open and did not write yet.
+        Err(error) if error.kind() == io::ErrorKind::WouldBlock => head.clear(),
+        Err(error) => return Err(why(&error)),
+    }
+    rustix::fs::fcntl_setfl(&file, rustix::fs::OFlags::empty())
+        .map_err(|error| why(&error.into()))?;
+    Ok(Opened { file, head })
+}
+
+#[cfg(not(unix))]
+fn pipe(file: File) -> Result<Opened, Unread> {
+    Ok(Opened { file, head: Vec::new() })
+}
