@@ -1,9 +1,11 @@
 //! Developer tasks: `cargo xtask TASK`.
 //!
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
-//! corpus' list, tables that are embedded. `parts` writes the table of known parts, or compares it;
+//! corpus' list, tables that are embedded. `fuzz` searches for inputs that
+//! break something. `parts` writes the table of known parts, or compares it;
 //! `profiles` compares the target profiles with a tree of ChibiOS.
 
+mod fuzz;
 mod parts;
 mod profiles;
 
@@ -27,9 +29,12 @@ fn run() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
         Some((task, [])) if task == "bless" => bless(),
+        Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => profiles::run(rest),
-        _ => bail!("tasks: bless, parts [--check | --compare FOLDER], profiles --check"),
+        _ => bail!(
+            "tasks: bless, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
+        ),
     }
 }
 

@@ -1,0 +1,306 @@
+//! The vocabulary of the generated designs: kinds with their properties, right values and wrong
+//! ones, boards, types, rules.
+
+/// A property with values that are right, the plainest first, and values that are not.
+pub(super) type Property = (&'static str, &'static [&'static str], &'static [&'static str]);
+
+/// A kind of device.
+#[derive(Debug)]
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    pub(super) is_sensor: bool,
+    pub(super) is_actuator: bool,
+    pub(super) types: &'static [&'static str],
+    /// What a device must have besides `id` and `type`.
+    pub(super) needs: &'static [Property],
+    pub(super) may: &'static [Property],
+    /// Roles that fix a pin, with plausible pins.
+    pub(super) roles: &'static [&'static str],
+    pub(super) drivers: &'static [&'static str],
+}
+
+const NUMBERS: &[&str] = &["uint16", "uint8", "int16", "uint32", "float32", "int64", "float64"];
+const ANY: &[&str] =
+    &["uint16", "int16[3]", "uint8[32]", "bool", "float32", "uint64", "uint8[1024]"];
+const LEVELS: &[&str] = &["bool", "uint8", "int32"];
+
+const BYTES: &[&str] = &["[0x00, 0x51]", "[]", "[7]", "\"$GP\"", "5"];
+const BAD_BYTES: &[&str] = &["[256]", "[1, -1]", "[\"x\"]", "[[1]]", "1.5"];
+
+/// The kinds for which there is firmware come first.
+pub(super) const KINDS: &[Kind] = &[
+    Kind {
+        name: "analog",
+        is_sensor: true,
+        is_actuator: false,
+        types: NUMBERS,
+        needs: &[],
+        may: &[
+            ("samples", &["32", "1", "1024", "7"], &["0", "1025", "1.5"]),
+            ("sampling", &["84", "3", "480", "1000"], &["0", "2 s"]),
+        ],
+        roles: &["pin"],
+        drivers: &[],
+    },
+    Kind {
+        name: "icu",
+        is_sensor: true,
+        is_actuator: false,
+        types: NUMBERS,
+        needs: &[],
+        may: &[
+            ("mode", &["count", "width", "period", "frequency", "duty"], &["area", "1"]),
+            ("edge", &["rising", "falling", "both"], &["up"]),
+            ("resolution", &["10 kHz", "1 us", "1 MHz", "1000"], &["0", "7 MHz", "1 h"]),
+            ("pulse", &["10 us", "1 ms", "10 ms"], &["0", "1 s", "10 Hz"]),
+        ],
+        roles: &["pin", "trigger"],
+        drivers: &["hcsr04", "rc_channel"],
+    },
+    Kind {
+        name: "i2c",
+        is_sensor: true,
+        is_actuator: true,
+        types: ANY,
+        needs: &[(
+            "address",
+            &["0x70", "0x71", "0xE2", "0xE4", "0x1E", "0x68", "0x48"],
+            &["0x100", "0x03", "0xE3", "-1"],
+        )],
+        may: &[
+            ("speed", &["100 kHz", "400 kHz", "1 MHz", "1 kHz"], &["2 MHz", "1 ms"]),
+            ("exclusive", &["false", "true"], &["yes"]),
+            ("trigger", BYTES, BAD_BYTES),
+            ("wait", &["0", "65 ms", "1 s"], &["-1", "61 s"]),
+            ("register", &["0", "2", "255"], &["256", "[1]"]),
+            ("length", &["2", "6", "1", "32", "2048"], &["0", "2049"]),
+            ("order", &["big", "little"], &["middle"]),
+        ],
+        roles: &["scl", "sda"],
+        drivers: &["srf08", "srf10", "srf02", "mpu6050_rate", "as5600", "cmps03", "lm75", "tmp102"],
+    },
+    Kind {
+        name: "digital",
+        is_sensor: true,
+        is_actuator: true,
+        types: LEVELS,
+        needs: &[],
+        may: &[
+            ("pull", &["none", "up", "down"], &["left"]),
+            ("active", &["high", "low"], &["1"]),
+            ("edge", &["both", "rising", "falling"], &["none"]),
+            ("debounce", &["0", "10 ms", "10 s"], &["11 s", "1 kHz"]),
+            ("initial", &["false", "true"], &["2"]),
+        ],
+        roles: &["pin"],
+        drivers: &[],
+    },
+    Kind {
+        name: "encoder",
+        is_sensor: true,
+        is_actuator: false,
+        types: NUMBERS,
+        needs: &[],
+        may: &[("counts", &["2000", "1", "10000000"], &["0", "1e9"])],
+        roles: &["a", "b"],
+        drivers: &[],
+    },
+    Kind {
+        name: "uart",
+        is_sensor: true,
+        is_actuator: true,
+        types: ANY,
+        needs: &[],
+        may: &[
+            ("baud", &["9600", "115200", "300", "10000000"], &["1", "9600 Hz"]),
+            ("frame", &["\"8N1\"", "\"7E1\"", "\"8O1\""], &["\"9N1\"", "8"]),
+            ("start", BYTES, BAD_BYTES),
+            ("end", BYTES, BAD_BYTES),
+            ("length", &["2", "1024"], &["0", "1025"]),
+            ("tx", &["none"], &["5"]),
+        ],
+        roles: &["tx", "rx"],
+        drivers: &[],
+    },
+    Kind {
+        name: "spi",
+        is_sensor: true,
+        is_actuator: true,
+        types: ANY,
+        needs: &[],
+        may: &[
+            ("clock", &["1 MHz", "1 kHz", "100 MHz"], &["1 s", "0"]),
+            ("mode", &["0", "3"], &["4"]),
+            ("read", BYTES, BAD_BYTES),
+            ("length", &["6", "1024"], &["0"]),
+        ],
+        roles: &["sck", "miso", "mosi", "cs"],
+        drivers: &[],
+    },
+    Kind {
+        name: "pwm",
+        is_sensor: false,
+        is_actuator: true,
+        types: NUMBERS,
+        needs: &[],
+        may: &[
+            ("frequency", &["50 Hz", "20 kHz", "1 MHz", "1 Hz"], &["0", "20 ms"]),
+            ("min", &["1 ms", "0"], &["-1 ms"]),
+            ("max", &["2 ms", "20 ms"], &["1 h"]),
+            ("failsafe", &["0", "5000", "-1", "0.5"], &["true"]),
+        ],
+        roles: &["pin"],
+        drivers: &["servo"],
+    },
+    Kind {
+        name: "dac",
+        is_sensor: false,
+        is_actuator: true,
+        types: NUMBERS,
+        needs: &[],
+        may: &[("failsafe", &["0", "4095"], &["off"])],
+        roles: &["pin"],
+        drivers: &[],
+    },
+    Kind {
+        name: "can",
+        is_sensor: true,
+        is_actuator: true,
+        types: ANY,
+        needs: &[("frame", &["0x120", "0", "0x1FFFFFFF"], &["0x20000000", "-1"])],
+        may: &[
+            ("bitrate", &["500 kHz", "1 MHz", "10 kHz"], &["1 kHz"]),
+            ("byte", &["0", "2", "63"], &["64"]),
+        ],
+        roles: &["tx", "rx"],
+        drivers: &[],
+    },
+];
+
+/// Kinds with firmware: the first ones of [`KINDS`].
+pub(super) const WITH_FIRMWARE: usize = 3;
+
+/// What any device may say.
+pub(super) const COMMON: &[Property] = &[
+    ("delay", &["1000 ms", "60 ms", "1 ms", "1 s"], &["0", "2 MHz", "1e9"]),
+    ("prio", &["0", "+12", "-60", "60"], &["61", "1.5"]),
+    ("label", &["\"front left\"", "\"\"", "\"<&\\\"'%|*`{{\\n\\u{202e}\"", "\"\\\\\""], &["[1]"]),
+    ("quantity", &["cm", "\"°C\"", "\"%d\"", "\"*/\""], &["7"]),
+    ("scale", &["1", "0.5", "-1.5e-3", "1e308", "0"], &["1e999", "x"]),
+    ("offset", &["0", "-273.15", "1e-308"], &["[0]"]),
+    ("min", &["0", "-5"], &["a"]),
+    ("max", &["100", "1e9"], &["b"]),
+    // From here on a plain design has none.
+    ("unit", UNITS, &["ADC99", "PA1", "5"]),
+    ("side", &["left", "right", "bottom"], &["3"]),
+    ("header", &["P1", "P2", "CN7"], &["\"\""]),
+];
+
+/// So many of them a plain design may have.
+pub(super) const COMMON_PLAIN: usize = 8;
+
+pub(super) const UNITS: &[&str] = &[
+    "ADC1", "ADC2", "ADC3", "I2C1", "I2C2", "TIM3", "TIM4", "TIM2", "USART2", "SPI1", "CAN1",
+    "DAC1", "TIM9", "UART4",
+];
+
+pub(super) const PINS: &[&str] = &[
+    "PA1", "PA2", "PA3", "PB0", "PB1", "PB6", "PB7", "PB8", "PB9", "PB10", "PB11", "PC1", "PC2",
+    "PC4", "PC5", "PD12", "PE9", "PA0", "PA13", "PC14", "GP4", "D3", "PZ99",
+];
+
+/// Built-in boards and parts: those with firmware and few pins first.
+pub(super) const BOARDS: &[&str] = &[
+    "STM32F4DiscoveryBoard",
+    "STM32F4DiscoveryBoard",
+    "STM32F4DiscoveryBoard",
+    "STM32F407G_DISC1",
+    "NUCLEO_F411RE",
+    "STM32F429I_DISC1",
+    "NUCLEO_F401RE",
+    "NUCLEO_F446RE",
+    "STM32F103C8T6",
+    "Pico",
+    "ArduinoUno",
+    "STM32F401CCU6",
+    "NUCLEO_L432KC",
+    "STM32H743ZIT6",
+    "stm32f407vgt6",
+    "NoSuchBoard",
+];
+
+/// So many of them come first.
+pub(super) const WITH_FIRMWARE_BOARDS: usize = 8;
+
+pub(super) const TARGETS: &[&str] = &["none", "chibios-21.11", "chibios", "zephyr"];
+
+/// Rows of small tables: all pins of an STM32F407, with what they can do there.
+pub(super) const ROWS: &[[&str; 2]] = &[
+    ["PA1", "ADC123_IN1 TIM2_CH2@1 TIM5_CH2@2"],
+    ["PB6", "I2C1_SCL@4 TIM4_CH1@2 USART1_TX@7"],
+    ["PB7", "I2C1_SDA@4 TIM4_CH2@2 USART1_RX@7"],
+    ["PC1", "ADC123_IN11"],
+    ["PA2", "ADC123_IN2 TIM2_CH3@1 TIM9_CH1@3 USART2_TX@7"],
+    ["PA3", "ADC123_IN3 TIM2_CH4@1 TIM9_CH2@3 USART2_RX@7"],
+    ["PB10", "I2C2_SCL@4 TIM2_CH3@1 USART3_TX@7"],
+    ["PB11", "I2C2_SDA@4 TIM2_CH4@1 USART3_RX@7"],
+    ["PA4", "ADC12_IN4 DAC1_OUT1"],
+    ["PA5", "ADC12_IN5 DAC1_OUT2 SPI1_SCK@5 TIM2_CH1@1"],
+    ["PA6", "ADC12_IN6 SPI1_MISO@5 TIM3_CH1@2"],
+    ["PA7", "ADC12_IN7 SPI1_MOSI@5 TIM3_CH2@2"],
+    ["PD0", "CAN1_RX@9"],
+    ["PD1", "CAN1_TX@9"],
+    ["PE9", "TIM1_CH1@1"],
+    ["PE11", "TIM1_CH2@1"],
+];
+
+/// Cells that are odd in one way or the other.
+pub(super) const ODD_CELLS: &[&str] = &[
+    "ADC1_IN1 ADC1_IN1",
+    "TIM3_CH9",
+    "I2C1-SLC",
+    "\"a,b\"",
+    "\"",
+    "TIM3_CH1@16",
+    "TIM2_CH1#0|2",
+    "-",
+    "ADC12IN8",
+    "I²C1-SCL",
+    "PA1",
+    "=1+1",
+    "TIM3_CH1N",
+    "TIM99_CH1",
+    "x\u{a0}y",
+];
+
+/// Rows that are odd.
+pub(super) const ODD_ROWS: &[&str] =
+    &["PA1,,,\n", "PA01,P1\n", ",,,,,,\n", "VDD,,,\n", "PB6,\"x\ny\",,\n"];
+
+/// Pieces of text that break a file in some place.
+pub(super) const BREAKS: &[&str] = &[
+    "",
+    ";",
+    "{",
+    "}",
+    "\"",
+    "/*",
+    "id = 1;",
+    "sensor",
+    "=",
+    "0x",
+    "1e999",
+    "\u{feff}",
+    "\u{202e}",
+    "[",
+    "]]",
+    "use \"robot.sense\";",
+    "board B {}",
+    "18446744073709551616",
+    "-",
+    "é",
+    "// x\n",
+    "\\",
+];
+
+pub(super) const CODES: &[&str] = &["W0601", "W0602", "W0603", "W0604", "W0605", "H0703", "E0401"];

@@ -1,0 +1,252 @@
+//! A generated design goes all the way: resolved, checked, solved, proved, reported, generated for
+//! all hosts, laid out and generated again. Everything that must hold of any input is asserted.
+
+use std::cell::Cell;
+
+use sensedsl_codegen::fileset::FileSet;
+use sensedsl_codegen::host::HOSTS;
+use sensedsl_codegen::report::{csv, human, json, markdown, svg};
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_model::design::Design;
+use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
+use sensedsl_proof::Verified;
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Keep, Search, Solved, Wiring};
+
+use crate::design::{self, Input};
+use crate::draw::Draw;
+use crate::reached::{Stage, count};
+
+/// Questions of the search after which it is told to stop: the bound is a count and no time, so
+/// that an input does the same everywhere.
+const STEPS_MAX: u32 = 2_000;
+
+/// What is done with an input besides the plain way; each costs as much as that.
+#[derive(Clone, Copy, Debug)]
+struct Ask {
+    proof: bool,
+    keep: bool,
+    again: bool,
+    any: bool,
+}
+
+/// The body of the target.
+///
+/// # Panics
+/// Where something does not hold.
+pub fn run(bytes: &[u8]) {
+    count(Stage::Run);
+    let mut draw = Draw::new(bytes);
+    let ask = Ask {
+        proof: draw.chance(64),
+        keep: draw.chance(32),
+        again: draw.chance(48),
+        any: draw.chance(24),
+    };
+    let input = design::draw(&mut draw);
+    pipeline(&input, ask);
+}
+
+/// The `.sense` text that is made of the bytes, and its tables: to look at a finding.
+#[must_use]
+pub fn shown(bytes: &[u8]) -> String {
+    let mut draw = Draw::new(bytes);
+    for _ in 0..4 {
+        draw.byte();
+    }
+    let input = design::draw(&mut draw);
+    let mut shown = format!("// --board {:?} --target {:?}\n", input.board, input.target);
+    for (path, text) in [("robot.sense", &input.text)]
+        .into_iter()
+        .chain(input.files.iter().map(|(path, text)| (path.as_str(), text)))
+    {
+        shown.push_str(&format!("// ---- {path}\n{text}"));
+    }
+    shown
+}
+
+fn pipeline(input: &Input, ask: Ask) {
+    let resolved = resolved(input, &input.text);
+    let Some(design) = &resolved.design else {
+        said(resolved.diagnostics, &resolved.sources);
+        laid_out(input, None);
+        return;
+    };
+    count(Stage::Resolved);
+    let mut diagnostics = resolved.diagnostics;
+    let wiring = Wiring::new(design, None);
+    diagnostics.extend(wiring.check());
+    let mut files = None;
+    if !has_errors(&diagnostics) {
+        count(Stage::Solved);
+        match solve(&wiring, ask) {
+            Solved::Wired(assignment) => {
+                count(Stage::Wired);
+                diagnostics.extend(wiring.warnings(&assignment));
+                reports(design, &assignment);
+                files = generate(design, &assignment, &mut diagnostics);
+                if ask.keep {
+                    keep(design, &assignment, &mut diagnostics);
+                }
+            }
+            Solved::Infeasible(conflict) => {
+                diagnostics.push(conflict.diagnostic(design));
+                let _ = json::infeasible(design, &conflict);
+            }
+            Solved::Failed(failure) => diagnostics.push(*failure),
+        }
+        let program = wiring.prolog();
+        assert!(program.ends_with('\n') && !program.contains('\0'));
+    }
+    apply_allows(design, &mut diagnostics);
+    sort(&mut diagnostics);
+    said(diagnostics, &resolved.sources);
+    if ask.again && !ask.any {
+        laid_out(input, files.as_ref());
+    }
+}
+
+fn resolved(input: &Input, text: &str) -> Resolved {
+    let request = Request { path: "robot.sense", text, board: input.board, target: input.target };
+    resolve(&request, input)
+}
+
+fn has_errors(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics.iter().any(|one| one.severity == Severity::Error)
+}
+
+/// A stop after so many questions.
+fn stop_after(steps: &Cell<u32>) -> bool {
+    steps.set(steps.get() + 1);
+    steps.get() > STEPS_MAX
+}
+
+fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
+    let steps = Cell::new(0);
+    let stop = || stop_after(&steps);
+    if !ask.proof {
+        return wiring.solve(&Search { any: ask.any, stop: Some(&stop) });
+    }
+    let proved = wiring.solve_with_proof(Some(&stop));
+    let Some(Ok(text)) = &proved.certificate else { return proved.solved };
+    let read = sensedsl_proof::read(text).expect("a certificate is read again");
+    let verified = sensedsl_proof::verify(&read).expect("a certificate proves its claim");
+    match (&proved.solved, verified) {
+        (Solved::Wired(wiring), Verified::Best(best)) => {
+            assert!(wiring.bound.is_none(), "proved and not sure");
+            let claimed = (wiring.moved, wiring.violated, wiring.cost);
+            assert_eq!(claimed, (best.moved, best.violated, best.cost));
+        }
+        (Solved::Infeasible(_), Verified::NoWiring) => {}
+        (solved, verified) => panic!("{solved:?}, but {verified:?}"),
+    }
+    count(Stage::Certified);
+    proved.solved
+}
+
+fn reports(design: &Design, assignment: &Assignment) {
+    let _ = human::human(design, assignment, false);
+    let _ = csv::csv(design, assignment);
+    let _ = markdown::markdown(design, assignment);
+    let picture = svg::svg(design, assignment);
+    let parsed = roxmltree::Document::parse(&picture);
+    assert!(parsed.is_ok(), "{parsed:?}\n{picture}");
+    let answer = format!("{:#}", json::wired(design, assignment));
+    let answer: serde_json::Value = serde_json::from_str(&answer).expect("JSON");
+    assert!(json::keep(&answer).is_some(), "the answer cannot be kept");
+}
+
+fn generate(
+    design: &Design,
+    assignment: &Assignment,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<FileSet> {
+    count(Stage::Generate);
+    match sensedsl_codegen::project("robot", design, assignment, &HOSTS) {
+        Ok(files) => {
+            count(Stage::Files);
+            checked(&files);
+            Some(files)
+        }
+        Err(why) => {
+            assert!(has_errors(&why), "no files, and no reason");
+            diagnostics.extend(why);
+            None
+        }
+    }
+}
+
+/// Paths stay inside the folder and can be written on any system; JSON and SVG parse; text is text.
+fn checked(files: &FileSet) {
+    assert!(!files.is_empty());
+    for (path, entry) in files.iter() {
+        let text = std::str::from_utf8(&entry.bytes).expect("generated files are text");
+        for part in path.split('/') {
+            let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+            assert!(part.chars().all(plain), "{path}");
+            assert!(!part.is_empty() && !part.starts_with('.') && !part.ends_with('.'), "{path}");
+        }
+        let odd = |c: &char| c.is_control() && !matches!(*c, '\n' | '\t');
+        assert_eq!(text.chars().find(odd), None, "{path}");
+        if path.ends_with(".json") {
+            serde_json::from_str::<serde_json::Value>(text).expect("JSON");
+        }
+    }
+}
+
+/// A wiring that is kept moves nothing and costs the same.
+fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnostic>) {
+    let before: Option<Keep> = json::keep(&json::wired(design, assignment));
+    let steps = Cell::new(0);
+    let stop = || stop_after(&steps);
+    let wiring = Wiring::new(design, before.as_ref());
+    match wiring.solve(&Search { any: false, stop: Some(&stop) }) {
+        Solved::Wired(again) if again.bound.is_none() => {
+            assert_eq!(again.moved, 0, "what is kept has moved");
+        }
+        Solved::Wired(_) => {}
+        Solved::Infeasible(_) => panic!("what was wired has no wiring"),
+        Solved::Failed(failure) => diagnostics.push(*failure),
+    }
+}
+
+/// Every place is in its text, edits as well; every form can be rendered; the solver never fails
+/// its own check.
+fn said(mut diagnostics: Vec<Diagnostic>, sources: &SourceMap) {
+    for one in &diagnostics {
+        assert_ne!(one.code.name(), "E0402", "{}", one.message);
+        let edits = one.fix.iter().flat_map(|fix| &fix.edits).map(|edit| edit.span);
+        let labels = one.labels.iter().map(|label| label.span);
+        for span in edits.chain(labels).chain([one.primary.span]) {
+            let inside = sources.text(span.file).get(span.range());
+            assert!(inside.is_some(), "{span:?} of {} is no place in the text", one.code);
+        }
+        assert!(!one.message.is_empty());
+    }
+    diagnostics.truncate(8);
+    let _ = render::human(&diagnostics, sources, true);
+    let _ = render::github(&diagnostics, sources);
+    for text in [render::json(&diagnostics, sources), render::sarif(&diagnostics, sources, "0")] {
+        serde_json::from_str::<serde_json::Value>(&text).expect("JSON");
+    }
+}
+
+/// The canonical layout is stable, and the same files come out of it.
+fn laid_out(input: &Input, files: Option<&FileSet>) {
+    let Ok(formatted) = sensedsl_syntax::format(&input.text) else { return };
+    assert_eq!(sensedsl_syntax::format(&formatted).as_deref(), Ok(formatted.as_str()));
+    let Some(files) = files else { return };
+    let resolved = resolved(input, &formatted);
+    let design = resolved.design.expect("a file that is laid out still resolves");
+    let steps = Cell::new(0);
+    let stop = || stop_after(&steps);
+    let wiring = Wiring::new(&design, None);
+    let Solved::Wired(again) = wiring.solve(&Search { any: false, stop: Some(&stop) }) else {
+        panic!("a file that is laid out has no wiring");
+    };
+    let again = sensedsl_codegen::project("robot", &design, &again, &HOSTS);
+    for ((path, one), (_, two)) in files.iter().zip(again.as_ref().expect("files").iter()) {
+        assert!(one == two, "{path} differs once the file is laid out");
+    }
+    assert_eq!(again.as_ref(), Ok(files));
+}

@@ -1,0 +1,22 @@
+//! Designs made of chance: enough of them get through, or the fuzzer would try the messages alone.
+
+use sensedsl_fuzzed::pipeline;
+use sensedsl_fuzzed::reached::{Stage, percent};
+
+#[test]
+fn a_third_of_the_designs_reach_generate() {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut byte = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 32) as u8
+    };
+    for number in 0..200 {
+        let bytes: Vec<u8> = (0..40 + number).map(|_| byte()).collect();
+        pipeline::run(&bytes);
+    }
+    assert!(percent(Stage::Generate) > 30, "{} % reach generate", percent(Stage::Generate));
+    assert!(percent(Stage::Files) >= 12, "{} % give files", percent(Stage::Files));
+    assert!(percent(Stage::Certified) >= 5, "{} % are certified", percent(Stage::Certified));
+}

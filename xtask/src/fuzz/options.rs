@@ -1,0 +1,92 @@
+//! The words behind `cargo xtask fuzz`.
+
+use std::time::Duration;
+
+use anyhow::{Context as _, Result, bail};
+
+use super::divided;
+
+/// How the task is called.
+const USAGE: &str = "fuzz [TARGET…] [--hours N | --runs N | --ci] [--minimise]";
+/// Without a word on it.
+const TIME_DEFAULT: Duration = Duration::from_secs(600);
+
+/// How much is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Effort {
+    /// So many inputs for each target.
+    Runs(u64),
+    /// So long for all targets together.
+    Time(Duration),
+    /// The corpora and a few seconds more for each target.
+    Brief,
+}
+
+impl Effort {
+    /// What each of several targets gets.
+    pub(super) fn share(self, targets: u32) -> Self {
+        match self {
+            Self::Time(time) => Self::Time(divided(time, targets)),
+            Self::Runs(_) | Self::Brief => self,
+        }
+    }
+}
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Options {
+    /// None for all.
+    pub(super) targets: Vec<String>,
+    pub(super) effort: Effort,
+    pub(super) minimise: bool,
+}
+
+impl Options {
+    pub(super) fn read(arguments: &[String]) -> Result<Self> {
+        let mut options =
+            Self { targets: Vec::new(), effort: Effort::Time(TIME_DEFAULT), minimise: false };
+        let mut words = arguments.iter();
+        while let Some(word) = words.next() {
+            let mut number = || -> Result<f64> {
+                let next = words.next().with_context(|| format!("{word} what? {USAGE}"))?;
+                let number: f64 = next.parse().with_context(|| format!("{next} is no number"))?;
+                if !(0.0..1e12).contains(&number) {
+                    bail!("{word} {next} is too much or too little");
+                }
+                Ok(number)
+            };
+            match word.as_str() {
+                "--hours" => {
+                    options.effort = Effort::Time(Duration::from_secs_f64(number()? * 3600.0));
+                }
+                "--runs" => options.effort = Effort::Runs(number()? as u64),
+                "--ci" => options.effort = Effort::Brief,
+                "--minimise" => options.minimise = true,
+                other if other.starts_with('-') => bail!("what is {other}? {USAGE}"),
+                target => options.targets.push(target.to_owned()),
+            }
+        }
+        Ok(options)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hours_are_shared_and_runs_are_not() {
+        let read = |words: &str| {
+            let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
+            Options::read(&words)
+        };
+        let options = read("pipeline certificate --hours 0.5 --minimise").unwrap();
+        assert_eq!(options.targets, ["pipeline", "certificate"]);
+        assert_eq!(options.effort.share(2), Effort::Time(Duration::from_secs(900)));
+        assert!(options.minimise);
+        assert_eq!(read("--runs 1e6").unwrap().effort.share(2), Effort::Runs(1_000_000));
+        for wrong in ["--hours", "--hours x", "--hours -1", "--until 5"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}
