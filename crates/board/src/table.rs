@@ -5,6 +5,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::cells::content;
 use crate::finding::Finding;
 use crate::pin::PinName;
 use crate::remap::Blocks;
@@ -231,7 +232,7 @@ impl Table {
     pub fn to_csv(&self) -> String {
         let mut csv = String::new();
         for property in &self.properties {
-            csv.push_str(&format!("# {} = {}\n", property.key, property.value));
+            csv.push_str(&format!("# {} = {}\n", property.key, content(&property.value, false)));
         }
         let columns: Vec<&Column> =
             self.columns.iter().filter(|column| column.role != Role::Alternate).collect();
@@ -276,6 +277,8 @@ fn push_row(csv: &mut String, cells: impl Iterator<Item = String>) {
         if index > 0 {
             csv.push(',');
         }
+        // What reading would take off is not written: a soft hyphen of a label, blanks around it.
+        let cell = content(&cell, false);
         // A leading `#` would read as a comment, a leading quote as a quoted cell.
         if cell.contains([',', '"', '\n', '\r', ';', '\t']) || cell.starts_with('#') {
             csv.push_str(&format!("\"{}\"", cell.replace('"', "\"\"")));

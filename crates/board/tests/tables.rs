@@ -295,3 +295,13 @@ fn kinds_are_told_apart_as_data() {
     assert_eq!(finding.kind, expected);
     assert_eq!((finding.row, finding.range), (2, 10..17));
 }
+
+#[test]
+fn what_reading_takes_off_is_not_written() {
+    let mut table = load("Pin,Label,Note\nPA1,x,y\n").board;
+    table.pins[0].label = Some("front\u{ad}left ".into());
+    table.pins[0].note = Some("a\u{a0}b".into());
+    let csv = table.to_csv();
+    assert_eq!(csv, "Pin,Label,Note\nPA1,frontleft,a b\n");
+    assert_eq!(load(&csv).board.to_csv(), csv);
+}

@@ -60,7 +60,7 @@ enum Refused {
 /// Imports the description of an MCU.
 pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made {
     let (file, text) = log.text(source.name, source.bytes);
-    if text.is_empty() {
+    if log.has_errors() {
         return Made::default();
     }
     let whole = Span::new(file, 0..0);
