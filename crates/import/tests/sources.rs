@@ -238,7 +238,7 @@ fn an_empty_description_of_an_mcu_is_refused_with_a_reason() {
         format: Some(sensedsl_import::Format::CubeMx),
         sheet: None,
         table: "pins.csv",
-        beside: &|_| Err(sensedsl_import::Unread::Missing),
+        beside: &|_| Err(Unread::Missing),
     };
     let made = import(&source);
     assert!(made.failed() && says(&made, "E0801", &["empty.xml"]), "{:?}", said(&made));

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
+use sensedsl_board::signal::UnitName;
 use sensedsl_board::table::{Occupation, Pin};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
@@ -324,7 +325,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
             .flat_map(|pin| &pin.usages)
             .flat_map(|usage| usage.signal.function().units())
             .collect();
-        known.extend(units.iter().map(|unit| unit.as_str()));
+        known.extend(units.iter().map(UnitName::as_str));
         for rule in board.reserved.iter().filter(|rule| !known.contains(rule.value.as_str())) {
             let text = format!("reserve {}", rule.value);
             let why = "the board has no such pin or peripheral";
