@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use sensedsl_tests::Ran;
+use sensedsl_tests::{Ran, missing};
 
 use crate::{Stage, asked, identity, nothing_beside, run};
 
@@ -46,7 +46,7 @@ fn a_full_disk_leaves_the_old_tree() {
     let mut full = 0;
     for number in 0..count {
         let Some(disk) = Disk::new(stage.scratch.join(&format!("disk{number}"))) else {
-            eprintln!("SKIPPED: a full disk needs root, who may mount one");
+            missing("the right to mount a small disk (root has it)");
             return;
         };
         // Every fourth output folder is a disk itself: nothing can be made beside it.

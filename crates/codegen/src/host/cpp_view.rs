@@ -35,7 +35,7 @@ impl<'a> OdvdFile<'a> {
 
 /// The whole design.
 pub(super) struct DesignView {
-    /// Its namespace in `sense`, its CMake target, its folder of headers.
+    /// Its namespace in `sense`, its `CMake` target, its folder of headers.
     pub(super) ident: String,
     pub(super) boards: Vec<BoardView>,
 }
