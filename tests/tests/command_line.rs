@@ -291,7 +291,7 @@ fn files_that_are_none_are_refused_in_words() {
     let ran = sensedsl(["solve", FIG2, "--board", &table]).run().exits(2);
     assert!(ran.stderr.contains("E0302") && ran.stderr.contains("UTF-8"), "{}", ran.stderr);
     let endless = sensedsl(["check", "/dev/zero"]).run().exits(2);
-    assert!(endless.stderr.contains("larger than"), "{}", endless.stderr);
+    assert!(endless.stderr.contains("it is a device"), "{}", endless.stderr);
 }
 
 #[test]
@@ -310,7 +310,7 @@ fn byte_order_marks_and_line_ends_of_windows_are_read() {
 
 #[test]
 fn a_file_of_nothing_but_mistakes_is_answered_briefly() {
-    let devices = "sensor A returns uint16 { id = 1; type = analog; }\n".repeat(3_000);
+    let devices = "sensor A returns uint16 { id = 1; type = analog; }\n".repeat(1_500);
     let ran = sensedsl(["check", "-"]).stdin(devices).run().exits(1);
     assert!(ran.stderr.len() < 100_000, "{} bytes", ran.stderr.len());
     assert!(ran.stderr.contains(" more ("), "says that there is more");
