@@ -68,7 +68,8 @@ def bad_sums():
 def long_walks():
     """Each candidate goes through up to 253 identifiers until it ends wrong."""
     pad = bytes(b for i in range(1, 255) if i != ord("a") for b in (i, ord(",")))
-    heads = b"2999:a" * (2500 // 6)
+    # The length ends at a value that is a comma, one byte behind an identifier.
+    heads = b"2998:a" * (2500 // 6)
     return (heads + pad * 6) * 12
 
 
@@ -98,6 +99,8 @@ def python_reader(items, crc, stream, piece):
             item = 0
             while item < len(payload) and payload[item] in codes:
                 code = codes[payload[item]]
+                if item + 1 + code.size > len(payload):
+                    break
                 values[payload[item]] = code.unpack_from(payload, item + 1)
                 item += 1 + code.size
             held = held[end + 1 :]
