@@ -9,7 +9,7 @@
 
 static up_decoder_t decoder;
 /* Two frames, so that what is left of a failed one moves once on average. */
-static uint8_t decoder_buffer[2U * UP_FRAME_BYTES_MAX_TO_BOARD];
+static uint8_t decoder_buffer[UP_FRAME_BYTES_MAX_TO_BOARD + UP_DECODER_BYTES(UP_FRAME_BYTES_MAX_TO_BOARD)];
 static uint8_t frame[UP_FRAME_BYTES_MAX_TO_HOST];
 static up_link_counters_t counters;
 static bool hello_due;

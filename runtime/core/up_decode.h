@@ -5,19 +5,24 @@
  * again: so the first valid frame is found wherever it starts. A frame that lies whole in the bytes of one call
  * is read there; only what a call leaves unfinished is copied.
  *
- * Time. A candidate costs at most one step for each field of the schema, because no identifier stands twice in
- * a payload and values are stepped over; its comma is looked at before that. At most one candidate starts at a
- * digit, so the steps are linear in the bytes, whatever they are, and do not grow with the length of a frame.
- * Two things do grow with it, and only for candidates that are right up to there: elements of bool arrays, and
- * the checksum, which is compared when all else fits.
+ * Time. It is linear in the bytes, whatever they are, and does not grow with the length of a frame. At most one
+ * candidate starts at a digit, and it costs at most one step for each field of the schema, because no identifier
+ * stands twice in a payload and values are stepped over; its comma is looked at before that. Where a candidate
+ * failed whose checksum or arrays of bools had been gone through, sums over blocks of the stream are kept, so that
+ * the others that overlap with it cost no more than the bytes of three blocks.
  *
- * Memory: one buffer of up_frame_bytes_max() bytes. With twice as many a byte is moved once on average, however
- * often candidates fail; with one frame's the rest of it moves when a candidate fails.
+ * Memory: one buffer for a frame and the sums over it. With another frame's room a byte is moved once on average,
+ * however often candidates fail; without it the rest of a frame moves whenever one fails.
  */
 #ifndef UP_DECODE_H
 #define UP_DECODE_H
 
 #include "up_schema.h"
+
+/* The buffer of a decoder whose longest frame is of so many bytes. Sums take 6 bytes for a block of 32. */
+#define UP_DECODER_BLOCK_BYTES 32U
+#define UP_DECODER_BLOCKS(frame_bytes) ((frame_bytes) / UP_DECODER_BLOCK_BYTES + 1U)
+#define UP_DECODER_BYTES(frame_bytes) ((frame_bytes) + 6U * UP_DECODER_BLOCKS(frame_bytes))
 
 /* What a delivered frame says; each callback may be NULL. The values of one frame come in the order of its
  * payload, then on_frame closes them. A frame that is not valid to its last byte delivers nothing. */
@@ -43,17 +48,23 @@ typedef struct {
   size_t values_end;    /* where the values end and the checksum or the comma starts */
   size_t frame_bytes;
   size_t at;        /* where the next identifier stands */
-  size_t looked_at; /* up to here the elements of bool arrays were looked at */
+  size_t looked_at; /* up to here arrays of bools and the checksum were gone through */
   bool checksum_right;
-  uint8_t seen[UP_FIELD_BITMAP_BYTES]; /* identifiers of this payload */
-  uint8_t direction;                   /* up_direction_t */
-  uint8_t field_of[256];               /* by identifier: 1 + index of the field; 0 for none */
+  uint32_t seen[UP_FIELD_BITMAP_BYTES / 4U]; /* identifiers of this payload */
+  /* Sums over the stream; also counted from the candidate's first byte. */
+  uint8_t *sums;     /* behind the buffer: a ring of the blocks, then what so many blocks multiply a CRC by */
+  size_t ring_bytes; /* of the stream that the ring covers */
+  size_t ring_at;    /* where in the ring the candidate starts */
+  size_t summed;     /* up to here there are sums; 0 for none */
+  size_t spent;      /* up to here a candidate that failed was gone through; 0 for none */
+  uint8_t direction; /* up_direction_t */
+  uint8_t field_of[256]; /* by identifier: 1 + index of the field; 0 for none */
   uint32_t frames;
   uint32_t dropped_bytes; /* bytes that were part of no delivered frame */
 } up_decoder_t;
 
-/* `buffer` holds at least up_frame_bytes_max(schema, direction) bytes; false when it does not: then every frame
- * is dropped. */
+/* `buffer` holds at least UP_DECODER_BYTES(up_frame_bytes_max(schema, direction)) bytes; false when it does not:
+ * then every frame is dropped. */
 bool up_decoder_init(up_decoder_t *decoder, const up_schema_t *schema, up_direction_t direction,
                      uint8_t *buffer, size_t buffer_bytes, const up_sink_t *sink);
 

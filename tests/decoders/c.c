@@ -99,7 +99,8 @@ void decoders_c(const decoders_input_t *input, decoders_out_t out, void *context
     sink.on_hello = on_request;
   }
   /* Exactly as much as it needs, so that a sanitizer sees each byte too far. */
-  buffer_bytes = up_frame_bytes_max(&schema, direction) * DECODERS_C_FRAMES;
+  buffer_bytes = up_frame_bytes_max(&schema, direction);
+  buffer_bytes = (DECODERS_C_FRAMES - 1U) * buffer_bytes + UP_DECODER_BYTES(buffer_bytes);
   buffer = malloc(buffer_bytes);
   if (buffer == NULL || !up_decoder_init(&decoder, &schema, direction, buffer, buffer_bytes, &sink)) {
     abort();

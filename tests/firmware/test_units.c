@@ -161,9 +161,9 @@ static void test_link(void) {
   const up_sink_t sink = {on_motor, NULL, on_request, NULL};
   const uint8_t stream[] = {'\r', '\n', '1', ':', 0x00U, ',', '3', ':', 40U, 0xFFU, 0xFEU, ','};
   up_decoder_t decoder;
-  uint8_t buffer[6], frame[16];
+  uint8_t buffer[UP_DECODER_BYTES(6U)], frame[16];
 
-  CHECK(up_frame_bytes_max(&model_schema, UP_TO_BOARD) == sizeof buffer);
+  CHECK(up_frame_bytes_max(&model_schema, UP_TO_BOARD) == 6U);
   CHECK(up_frame_bytes_max(&model_schema, UP_TO_HOST) == 8U);
   CHECK(!up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer - 1U, &sink));
   CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));
@@ -181,7 +181,7 @@ static void test_noise(void) {
   const up_sink_t sink = {on_motor, NULL, on_request, NULL};
   const uint8_t frame[] = {'3', ':', 40U, 0x00U, 0x07U, ','};
   up_decoder_t decoder;
-  uint8_t buffer[6], noise[16];
+  uint8_t buffer[UP_DECODER_BYTES(6U)], noise[16];
   uint32_t seed = 12345U, round, i;
 
   CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));

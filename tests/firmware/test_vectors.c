@@ -285,14 +285,14 @@ static void expect_got(const char *line) {
 }
 
 static void run_split(size_t first_bytes, size_t step_bytes, uint32_t wanted_dropped) {
-  static uint8_t buffer[STREAM_MAX_BYTES];
+  static uint8_t buffer[UP_DECODER_BYTES(STREAM_MAX_BYTES)];
   const up_sink_t sink = {on_value, on_frame, on_hello, NULL};
   up_decoder_t decoder;
   size_t at = 0U;
 
   delivered[0] = '\0';
   CHECK(up_decoder_init(&decoder, &vector.schema, current.direction, buffer,
-                        up_frame_bytes_max(&vector.schema, current.direction), &sink));
+                        UP_DECODER_BYTES(up_frame_bytes_max(&vector.schema, current.direction)), &sink));
   while (at < current.stream_bytes) {
     size_t bytes = (at == 0U) ? first_bytes : step_bytes;
     if (bytes > current.stream_bytes - at) {

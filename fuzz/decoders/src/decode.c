@@ -74,7 +74,8 @@ void sense_decode_c(const sense_stream_t *stream, sense_decoded_t *decoded) {
   sink.context = decoded;
   is_open = 0;
   /* Exactly as large as promised, for one frame or for two, so that one byte beyond it is noticed. */
-  buffer_bytes = up_frame_bytes_max(&schema, direction) * (1U + (stream->size & 1U));
+  buffer_bytes = up_frame_bytes_max(&schema, direction);
+  buffer_bytes = (stream->size & 1U) * buffer_bytes + UP_DECODER_BYTES(buffer_bytes);
   buffer = malloc(buffer_bytes);
   if (buffer == NULL || !up_decoder_init(&decoder, &schema, direction, buffer, buffer_bytes, &sink)) {
     abort();

@@ -72,6 +72,41 @@ fn c_and_cpp_say_what_the_definition_says() {
     });
 }
 
+/// Within the value of a frame whose checksum is wrong: a frame whose checksum is right, though one
+/// of its bools is 2, and a good one.
+fn bools_within_a_failed_frame() -> (Schema, Vec<u8>) {
+    let checksum = Checksum::Crc16;
+    let schema = schema(checksum, &[(b'a', ScalarType::Uint8, 400), (1, ScalarType::Bool, 100)]);
+    let mut bools = [[1].as_slice(), &[0; 100]].concat();
+    let good = frame(&schema, &bools);
+    bools[50] = 2;
+    let mut value = [frame(&schema, &bools), good].concat();
+    value.resize(400, 7);
+    let mut stream = frame(&schema, &[b"a", &value[..]].concat());
+    let crc = stream.len() - 2;
+    stream[crc] ^= 1;
+    (schema, stream)
+}
+
+#[test]
+fn sums_excuse_no_value() {
+    let (schema, stream) = bools_within_a_failed_frame();
+    let wanted = naive::decode(&schema, Direction::Sensor, &stream);
+    assert!(wanted.contains(&b'R'));
+    let bytes = schema_bytes(&schema, Direction::Sensor);
+    let has_tools = tools(&["gcc", "g++"]);
+    let mut program =
+        has_tools.then(|| Program::build(&scratch("sums"), &["-O1", "-DDECODERS_C_FRAMES=1"]));
+    for pieces in [0, 1, 64] {
+        assert_eq!(rust(&schema, Direction::Sensor, &stream, &[pieces]), wanted, "{pieces}");
+        for who in ["c", "cpp"] {
+            if let Some(program) = &mut program {
+                assert_eq!(program.say(who, &bytes, &stream, &[pieces]), wanted, "{who} {pieces}");
+            }
+        }
+    }
+}
+
 /// Nanoseconds a byte where a candidate starts every few bytes, stays right up to the last one and
 /// fails there.
 fn ns_per_byte(program: &mut Program, who: &str, payload_bytes: u16, bytes: usize) -> f64 {

@@ -88,6 +88,13 @@ impl Candidate {
         if has_checksum && bytes.get(self.values_end).is_some_and(|&id| id != ID_CHECKSUM) {
             return Verdict::Invalid;
         }
+        // By sums the checksum costs less than a walk.
+        if has_checksum && comma.is_some() && memo.is_some() && !self.is_checksum_right {
+            match self.compare_checksum(bytes, place, memo.as_deref_mut()) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+            }
+        }
         match self.walk(rules, bytes, place, memo.as_deref_mut()) {
             Verdict::Complete => {}
             verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
@@ -199,8 +206,11 @@ impl Candidate {
                 bytes.get(self.payload_start..self.values_end).unwrap_or_default(),
             ),
         };
-        self.looked_at = self.values_end;
         self.is_checksum_right = *sent == crc.to_be_bytes();
+        // Values that have not been walked through may still hold what is not a bool.
+        if !self.is_checksum_right || self.at == self.values_end {
+            self.looked_at = self.values_end;
+        }
         if self.is_checksum_right { Verdict::Complete } else { Verdict::Invalid }
     }
 }

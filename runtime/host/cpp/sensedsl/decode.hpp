@@ -270,8 +270,12 @@ private:
             bytes[candidate_.values_end] != id_checksum) {
             return invalid;
         }
+        // By sums the checksum costs less than a walk.
+        if (has_comma && place_ < spent_ && compare_checksum(bytes, count) != complete) {
+            return invalid;
+        }
         verdict = walk(bytes, count);
-        if (verdict == complete && checksum_bytes_ != 0 && !candidate_.is_checksum_right) {
+        if (verdict == complete) {
             verdict = compare_checksum(bytes, count);
         }
         return verdict == complete && !has_comma ? incomplete : verdict;
@@ -361,13 +365,19 @@ private:
     Verdict compare_checksum(const uint8_t *bytes, size_t count) {
         const size_t start = candidate_.payload_start;
         const size_t end = candidate_.values_end;
+        if (checksum_bytes_ == 0 || candidate_.is_checksum_right) {
+            return complete;
+        }
         if (count < end + 3) {
             return incomplete;
         }
         const uint16_t crc = place_ < spent_ ? memo_.crc16(place_, bytes, start, end)
                                              : crc16_ccitt_false(bytes + start, end - start);
-        candidate_.looked_at = end;
         candidate_.is_checksum_right = load<uint16_t>(bytes + end + 1) == crc;
+        // Values that have not been walked through may still hold what is not a bool.
+        if (!candidate_.is_checksum_right || candidate_.at == end) {
+            candidate_.looked_at = end;
+        }
         return candidate_.is_checksum_right ? complete : invalid;
     }
 
