@@ -112,11 +112,11 @@ fn notices_a_broken_core() {
     }
     let folder = scratch("broken");
     let breakages = [
-        ("up_encode.c", "0x1021U", "0x1023U"),
+        ("up_encode.c", "(high << 5)", "(high << 6)"),
         ("up_encode.c", "bits >>= 8;", "bits >>= 4;"),
         ("up_decode.c", "while (at < limit && !is_digit(bytes[at]))", "while (at < limit)"),
         ("up_decode.c", "length > decoder->payload_bytes_max", "false"),
-        ("up_decode.c", "|| is_seen(decoder, id)", ""),
+        ("up_decode.c", "|| (*seen & bit) != 0U", ""),
         ("up_convert.c", "(raw > ranges[type].max) ? ranges[type].max : raw", "raw"),
         ("up_i2c.c", "!is_reached(now_ms, state->ready_ms)", "now_ms < state->ready_ms"),
         ("up_capture.c", "(first_edge_seen ? 1U : 0U)", "0U"),
