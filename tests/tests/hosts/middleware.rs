@@ -269,7 +269,7 @@ impl OpenDavinci {
         let found = self.library.exists() && self.supercomponent.exists();
         if !found {
             let (library, supercomponent) = (self.library.display(), self.supercomponent.display());
-            eprintln!("SKIPPED: no {library} or {supercomponent}");
+            tools::missing(&format!("{library} or {supercomponent}"));
         }
         found
     }
