@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use sensedsl_limits::CELLS_MAX;
+use sensedsl_limits::{CELLS_MAX, ROWS_MAX};
 
 /// The text, cut into pieces.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -18,8 +18,19 @@ pub struct Sheet {
     pub rows: Vec<Vec<Cell>>,
     /// Quotes that do not end, and what follows a closing quote.
     pub bad_quotes: Vec<Range<usize>>,
-    /// Where the text was left because it has more cells than are read.
-    pub cut: Option<usize>,
+    /// Why the text was left before its end.
+    pub cut: Option<Cut>,
+}
+
+/// There is more of something than is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cut {
+    /// Where the text was left.
+    pub at: usize,
+    /// What there is too much of.
+    pub what: &'static str,
+    /// How much of it is read.
+    pub most: usize,
 }
 
 /// One cell: the bytes between its separators, or between its quotes.
@@ -31,7 +42,7 @@ pub struct Cell {
     pub quoted: bool,
 }
 
-/// Cuts a text, up to [`CELLS_MAX`] cells. Never fails.
+/// Cuts a text, up to [`ROWS_MAX`] rows and [`CELLS_MAX`] cells. Never fails.
 #[must_use]
 pub fn split(text: &str) -> Sheet {
     let mut cutter = Cutter { bytes: text.as_bytes(), at: 0, separator: b',' };
@@ -42,8 +53,13 @@ pub fn split(text: &str) -> Sheet {
     let mut header_seen = false;
     let mut left = CELLS_MAX;
     while cutter.at < text.len() {
-        if left == 0 {
-            sheet.cut = Some(cutter.at);
+        let too_much = match (left, sheet.rows.len()) {
+            (0, _) => Some(("cells", CELLS_MAX)),
+            (_, ROWS_MAX) => Some(("rows", ROWS_MAX)),
+            _ => None,
+        };
+        if let Some((what, most)) = too_much {
+            sheet.cut = Some(Cut { at: cutter.at, what, most });
             break;
         }
         let line = cutter.line();

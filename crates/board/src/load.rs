@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use sensedsl_diagnostics::nearest;
 use sensedsl_limits::{
-    CELLS_MAX, COLUMNS_MAX, DIAGNOSTICS_MAX, PIN_USAGES_MAX, PINS_MAX, USAGES_MAX,
+    COLUMNS_MAX, DIAGNOSTICS_MAX, PIN_USAGES_MAX, PINS_MAX, TABLE_PROPERTIES_MAX, USAGES_MAX,
 };
 
 use crate::cells::{self, Cell, Sheet, is_zero_width};
@@ -24,7 +24,7 @@ pub(crate) fn load(text: &str) -> Loaded {
     let mut loader = Loader::new(text);
     let sheet = cells::split(text);
     if let Some(cut) = sheet.cut {
-        loader.too_large("cells", CELLS_MAX, &(cut..cut));
+        loader.too_large(cut.what, cut.most, &(cut.at..cut.at));
     }
     for range in &sheet.bad_quotes {
         loader.report(FindingKind::BadQuote, range, None);
@@ -177,6 +177,9 @@ impl<'a> Loader<'a> {
             if property.key == "mcu" {
                 self.mcu(&property);
                 board.mcu = Some(property.value.clone());
+            }
+            if board.properties.len() == TABLE_PROPERTIES_MAX {
+                return self.too_large("lines `# key = value`", TABLE_PROPERTIES_MAX, comment);
             }
             board.properties.push(property);
         }

@@ -7,6 +7,10 @@ use sensedsl_board::pin::{PinName, natural};
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::{Column, Onboard, Pin, Property, Role, Table, Usage};
+use sensedsl_diagnostics::Span;
+use sensedsl_limits::{PIN_USAGES_MAX, PINS_MAX};
+
+use crate::log::Log;
 
 /// One pin of a table to be.
 #[derive(Clone, Debug)]
@@ -75,8 +79,14 @@ fn column(signal: &Signal) -> &'static str {
     of.map_or("Other", |(column, _)| column)
 }
 
-/// Makes a table. The rows are sorted; of two rows for a pin the usages are united.
-pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
+/// Makes a table. The rows are sorted; of two rows for a pin the usages are united. None, and an
+/// error, where there is more than a table may have.
+pub(crate) fn table(
+    properties: &[(&str, String)],
+    rows: Vec<Row>,
+    whole: Span,
+    log: &mut Log,
+) -> Option<Table> {
     let mut pins: BTreeMap<PinName, Pin> = BTreeMap::new();
     let mut known: BTreeSet<(PinName, String)> = BTreeSet::new();
     for row in rows {
@@ -84,6 +94,10 @@ pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
         usages.retain(|usage| known.insert((row.name.clone(), usage.signal.name().to_owned())));
         if let Some(pin) = pins.get_mut(&row.name) {
             pin.usages.extend(usages);
+            if pin.usages.len() > PIN_USAGES_MAX {
+                log.table_too_large(whole, "usages of one pin", PIN_USAGES_MAX);
+                return None;
+            }
             continue;
         }
         let pin = Pin {
@@ -100,7 +114,16 @@ pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
             row: 0,
             range: 0..0,
         };
-        pins.insert(row.name, pin);
+        let (what, most) = match (pin.usages.len() > PIN_USAGES_MAX, pins.len() == PINS_MAX) {
+            (true, _) => ("usages of one pin", PIN_USAGES_MAX),
+            (_, true) => ("pins", PINS_MAX),
+            _ => {
+                pins.insert(row.name, pin);
+                continue;
+            }
+        };
+        log.table_too_large(whole, what, most);
+        return None;
     }
     let pins: Vec<Pin> = pins.into_values().collect();
     let properties: Vec<Property> = properties
@@ -108,7 +131,7 @@ pub(crate) fn table(properties: &[(&str, String)], rows: Vec<Row>) -> Table {
         .map(|(key, value)| Property { key: (*key).into(), value: value.clone(), range: 0..0 })
         .collect();
     let mcu = properties.iter().find(|one| one.key == "mcu").map(|one| one.value.clone());
-    Table { mcu, columns: columns(&pins), properties, pins }
+    Some(Table { mcu, columns: columns(&pins), properties, pins })
 }
 
 /// The columns that have something in them.
@@ -140,14 +163,16 @@ fn columns(pins: &[Pin]) -> Vec<Column> {
 fn usages(list: Vec<(String, Option<u8>)>) -> Vec<Usage> {
     let mut converters: BTreeMap<u8, Vec<u8>> = BTreeMap::new();
     let mut usages: Vec<Usage> = Vec::new();
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
     for (spelled, alternate) in list {
         let (spelled, blocks) = Blocks::split(&spelled);
         let (signal, _) = Signal::parse(spelled);
         if let Function::Adc { units, channel } = signal.function() {
             converters.entry(*channel).or_default().extend(units);
-        } else if let Some(known) = usages.iter_mut().find(|known| known.signal == signal) {
-            known.alternate = known.alternate.or(alternate);
+        } else if let Some(same) = known.get(signal.name()).and_then(|at| usages.get_mut(*at)) {
+            same.alternate = same.alternate.or(alternate);
         } else {
+            known.insert(signal.name().to_owned(), usages.len());
             usages.push(Usage { blocks, ..usage(signal, spelled.to_owned(), alternate) });
         }
     }
@@ -185,7 +210,10 @@ mod tests {
             row.usages.push((signal.into(), alternate));
         }
         let rows = vec![row, Row::new(PinName::parse("PA2").unwrap())];
-        let csv = table(&[("mcu", "STM32F407VGTx".into())], rows).to_csv();
+        let mut log = Log::default();
+        let whole = Span::new(log.sources.add("pins.csv", ""), 0..0);
+        let mcu = [("mcu", "STM32F407VGTx".into())];
+        let csv = table(&mcu, rows, whole, &mut log).unwrap().to_csv();
         let expected = "# mcu = STM32F407VGTx\nPin,ADC,TIM,Other\nPA2,-,-,-\n\
                         PA10,ADC2_IN4 ADC13_IN1,TIM2_CH2@1,ETH_REF_CLK@11\n";
         assert_eq!(csv, expected);

@@ -105,7 +105,8 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made 
         log.no_table(whole, "the MCU has no general-purpose pin");
         return Made::default();
     }
-    Made { table: Some(assemble::table(&properties(&mcu), rows).to_csv()), program: None }
+    let table = assemble::table(&properties(&mcu), rows, whole, log);
+    Made { table: table.map(|table| table.to_csv()), program: None }
 }
 
 /// What the table says of the MCU.

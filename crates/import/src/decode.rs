@@ -6,11 +6,16 @@
 
 use std::ops::Range;
 
+/// So many places of a wrong encoding are kept, to be reported one by one.
+const GUESSES_MAX: usize = 100;
+
 /// A text and the places that are guesses.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Decoded {
     pub(crate) text: String,
     pub(crate) guesses: Vec<Guess>,
+    /// Places that are guesses beside those that are kept.
+    pub(crate) more: usize,
     /// The encoding of the whole text, where it is not UTF-8.
     pub(crate) wide: Option<&'static str>,
 }
@@ -58,12 +63,14 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
 impl Decoded {
     /// Adds a guess, to the one before it where they touch.
     fn guess(&mut self, guess: Guess) {
+        let listed = self.guesses.len();
         match self.guesses.last_mut() {
             Some(last) if last.range.end == guess.range.start => {
                 last.range.end = guess.range.end;
                 last.bytes.extend(guess.bytes);
             }
-            Some(_) | None => self.guesses.push(guess),
+            Some(_) | None if listed < GUESSES_MAX => self.guesses.push(guess),
+            Some(_) | None => self.more += 1,
         }
     }
 }

@@ -11,7 +11,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
-use sensedsl_limits::{INCLUDE_DEPTH_MAX, INCLUDES_MAX};
+use sensedsl_limits::{HWDEF_LINES_MAX, INCLUDE_DEPTH_MAX, INCLUDES_MAX};
 use sensedsl_model::Unread;
 
 use crate::log::Log;
@@ -49,7 +49,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         bauds: BTreeMap::new(),
         addressed,
     };
-    project::made(&project, source, log)
+    project::made(&project, source, whole, log)
 }
 
 /// A line about something else than a pin.
@@ -70,6 +70,8 @@ struct Reader<'a> {
     count: usize,
     /// How many more files are included.
     includes_left: usize,
+    /// How many more lines are read.
+    lines_left: usize,
     /// Inputs of converters that were looked up, by MCU, pin and unit.
     inputs: BTreeMap<(String, PinName, String), Option<String>>,
 }
@@ -87,6 +89,7 @@ impl<'a> Reader<'a> {
             lines: Lines::new(),
             count: 0,
             includes_left: INCLUDES_MAX,
+            lines_left: HWDEF_LINES_MAX,
             inputs: BTreeMap::new(),
         }
     }
@@ -95,6 +98,11 @@ impl<'a> Reader<'a> {
     fn file(&mut self, file: FileId, text: &str, folder: &str, depth: usize, log: &mut Log) {
         let mut start = 0;
         for line in text.split_inclusive('\n') {
+            let Some(fewer) = self.lines_left.checked_sub(1) else {
+                let span = Span::new(file, start..start);
+                return log.too_large(span, self.source.name, "lines", HWDEF_LINES_MAX);
+            };
+            self.lines_left = fewer;
             let content = line.split('#').next().unwrap_or_default().trim_end();
             let span = Span::new(file, start..start + content.len());
             start += line.len();

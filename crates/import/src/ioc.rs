@@ -42,7 +42,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         bauds: reader.bauds(),
         addressed: Vec::new(),
     };
-    project::made(&project, source, log)
+    project::made(&project, source, whole, log)
 }
 
 /// A value and where its line is.

@@ -1,8 +1,9 @@
 //! What an import has to say, collected while it runs.
 
 use sensedsl_diagnostics::codes::{
-    e0801_import_unreadable, e0802_import_no_table, e0803_import_no_sheet, e0807_import_too_large,
-    e0809_include_unreadable, h0806_import_open, w0804_import_dropped, w0805_import_doubtful,
+    e0317_table_too_large, e0801_import_unreadable, e0802_import_no_table, e0803_import_no_sheet,
+    e0807_import_too_large, e0809_include_unreadable, h0806_import_open, w0804_import_dropped,
+    w0805_import_doubtful,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::{DIAGNOSTICS_MAX, SOURCE_TEXT_BYTES_MAX};
@@ -11,9 +12,6 @@ use sensedsl_model::Unread;
 use crate::decode::decode;
 use crate::package::Refused;
 use crate::place::Places;
-
-/// So many places of a wrong encoding are reported one by one.
-const GUESSES_MAX: usize = 100;
 
 /// The texts that were read and the diagnostics so far.
 #[derive(Debug, Default)]
@@ -28,6 +26,13 @@ pub(crate) struct Log {
 impl Log {
     fn push(&mut self, diagnostic: Diagnostic) {
         let is_error = diagnostic.severity == Severity::Error;
+        // An error is listed in any case: what is less gives way.
+        while is_error && self.diagnostics.len() + 2 > DIAGNOSTICS_MAX {
+            let less = self.diagnostics.iter().rposition(|one| one.severity != Severity::Error);
+            let Some(less) = less else { break };
+            self.diagnostics.remove(less);
+            self.more += 1;
+        }
         if is_error || self.diagnostics.len() < DIAGNOSTICS_MAX {
             self.errors += usize::from(is_error);
             self.diagnostics.push(diagnostic);
@@ -93,6 +98,11 @@ impl Log {
         self.once(e0807_import_too_large::import_too_large(span, name, what, most));
     }
 
+    /// That a table has more of something than is read.
+    pub(crate) fn table_too_large(&mut self, span: Span, what: &str, most: usize) {
+        self.once(e0317_table_too_large::table_too_large(span, what, most));
+    }
+
     pub(crate) fn unreadable(&mut self, span: Span, what: &str, why: &str) {
         self.push(e0801_import_unreadable::import_unreadable(span, what, why));
     }
@@ -136,7 +146,7 @@ impl Log {
             self.doubtful(Span::new(file, 0..0), "", &what);
         }
         let places = Places::new(&decoded.text);
-        for guess in decoded.guesses.iter().take(GUESSES_MAX) {
+        for guess in &decoded.guesses {
             let read = decoded.text.get(guess.range.clone()).unwrap_or_default();
             let bytes: Vec<String> = guess.bytes.iter().map(|b| format!("0x{b:02X}")).collect();
             let (bytes, offset) = (bytes.join(" "), guess.offset);
@@ -148,8 +158,7 @@ impl Log {
             let span = Span::new(file, guess.range.clone());
             self.doubtful(span, &places.of(guess.range.start), &what);
         }
-        if let Some(more) = decoded.guesses.len().checked_sub(GUESSES_MAX).filter(|more| *more > 0)
-        {
+        if let more @ 1.. = decoded.more {
             let what = format!("{more} more places are no UTF-8 and were read as Windows-1252");
             self.doubtful(Span::new(file, decoded.text.len()..decoded.text.len()), "", &what);
         }

@@ -81,7 +81,7 @@ impl Using {
 }
 
 /// Writes a project as a `.sense` file and its table.
-pub(crate) fn made(project: &Project, source: &Source<'_>, log: &mut Log) -> Made {
+pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mut Log) -> Made {
     let devices = devices::infer(project, log);
     let used: BTreeSet<&PinName> = devices.iter().flat_map(|device| &device.pins).collect();
     let mut rows = Vec::new();
@@ -99,7 +99,8 @@ pub(crate) fn made(project: &Project, source: &Source<'_>, log: &mut Log) -> Mad
         rows.push(row);
     }
     let mcu = project.mcu.iter().map(|mcu| ("mcu", mcu.clone())).collect::<Vec<_>>();
-    let table = assemble::table(&mcu, rows).to_csv();
+    let Some(table) = assemble::table(&mcu, rows, whole, log) else { return Made::default() };
+    let table = table.to_csv();
     let program = program(project, &devices, source.table);
     Made { table: Some(table), program: Some(program) }
 }

@@ -10,6 +10,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::table::{self, Occupation, Onboard, Role};
 use sensedsl_diagnostics::{FileId, Span};
+use sensedsl_limits::{PIN_USAGES_MAX, USAGES_MAX};
 use sensedsl_model::table_diagnostic;
 
 use crate::Made;
@@ -52,6 +53,10 @@ pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Lo
         log.no_table(Span::new(file, 0..0), what);
         return Made::default();
     };
+    if let Some(cut) = cut.cut {
+        log.table_too_large(Span::new(file, cut.at..cut.at), cut.what, cut.most);
+        return Made::default();
+    }
     for row in cut.rows.iter().take(head.row) {
         if let Some(cell) = row.iter().find(|cell| !reader.content(cell).is_empty()) {
             let what = "the row stands above the table and is left out";
@@ -295,7 +300,7 @@ impl Reader<'_> {
         log: &mut Log,
     ) -> Option<String> {
         let heads = self.heads(head);
-        let mut rows = Vec::new();
+        let (mut rows, mut usages) = (Vec::new(), 0);
         let mut ignored: Vec<usize> = Vec::new();
         for cells in self.below(head) {
             let Some(pin) = self.pin(cells, head, log) else { continue };
@@ -324,11 +329,11 @@ impl Reader<'_> {
             if let Some(cell) = cells.get(signal) {
                 let value = self.content(cell);
                 let names = value.split(|c: char| c.is_whitespace() || c == '/' || c == ',');
-                for name in names.filter(|name| !is_empty(name)) {
+                for name in names.filter(|name| !is_empty(name)).take(PIN_USAGES_MAX + 1) {
                     row.usages.extend(self.usage(name, alternate, cell, log));
                 }
             }
-            rows.push(row);
+            self.keep(row, &mut rows, &mut usages, log)?;
         }
         self.finish(head, rows, log)
     }
@@ -340,7 +345,7 @@ impl Reader<'_> {
         log: &mut Log,
     ) -> Option<String> {
         let heads = self.heads(head);
-        let mut rows = Vec::new();
+        let (mut rows, mut usages) = (Vec::new(), 0);
         for (index, cells) in self.below(head).iter().enumerate() {
             let spelled = cells.get(head.pin).map(|cell| self.content(cell)).unwrap_or_default();
             // The second line of such heads names the peripherals.
@@ -365,14 +370,15 @@ impl Reader<'_> {
                     *text = Some(value);
                     continue;
                 }
-                for name in value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ',')) {
+                let names = value.split(|c: char| c.is_whitespace() || matches!(c, '/' | ','));
+                for name in names.take(PIN_USAGES_MAX + 1) {
                     if !is_empty(name) && name != "EVENTOUT" {
                         let number = numbers.get(&at).copied();
                         row.usages.extend(self.usage(name, number, cell, log));
                     }
                 }
             }
-            rows.push(row);
+            self.keep(row, &mut rows, &mut usages, log)?;
         }
         self.finish(head, rows, log)
     }
@@ -404,6 +410,17 @@ impl Reader<'_> {
         Some((name.to_owned(), own.or(alternate)))
     }
 
+    /// Takes a row over; none where there are more usages than a table has.
+    fn keep(&self, row: Row, rows: &mut Vec<Row>, usages: &mut usize, log: &mut Log) -> Option<()> {
+        *usages += row.usages.len();
+        if *usages > USAGES_MAX {
+            log.table_too_large(Span::new(self.file, 0..0), "usages", USAGES_MAX);
+            return None;
+        }
+        rows.push(row);
+        Some(())
+    }
+
     fn number(&self, cell: &Cell, log: &mut Log) -> Option<u8> {
         let value = self.content(cell);
         let digits = value.strip_prefix("AF").unwrap_or(&value);
@@ -426,7 +443,8 @@ impl Reader<'_> {
         let properties = table::load(self.text).board.properties;
         let properties: Vec<(&str, String)> =
             properties.iter().map(|one| (one.key.as_str(), one.value.clone())).collect();
-        Some(assemble::table(&properties, rows).to_csv())
+        let whole = Span::new(self.file, 0..0);
+        Some(assemble::table(&properties, rows, whole, log)?.to_csv())
     }
 }
 

@@ -35,6 +35,10 @@ pub const STATEMENTS_MAX: usize = 8_000;
 
 /// Cells of a table.
 pub const CELLS_MAX: usize = 400_000;
+/// Rows of a table. A long table has one for each pin and signal.
+pub const ROWS_MAX: usize = 50_000;
+/// Lines `# key = value` of a table.
+pub const TABLE_PROPERTIES_MAX: usize = 256;
 /// Columns of a table.
 pub const COLUMNS_MAX: usize = 512;
 /// Pins of a table.
@@ -72,6 +76,9 @@ pub const MERGED_MAX: usize = 10_000;
 pub const INCLUDES_MAX: usize = 64;
 /// Files of `hwdef` that include each other in a chain.
 pub const INCLUDE_DEPTH_MAX: usize = 8;
+
+/// Lines of all files of an `hwdef`.
+pub const HWDEF_LINES_MAX: usize = 50_000;
 
 /// A budget as the documentation shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,6 +119,8 @@ limits! {
     PLACES_MAX: "pins and usages of all boards of a design", "E0225";
     TABLES_BYTES_MAX: "bytes of the tables of all boards of a design", "E0225";
     CELLS_MAX: "cells of a table", "E0317";
+    ROWS_MAX: "rows of a table", "E0317";
+    TABLE_PROPERTIES_MAX: "lines `# key = value` of a table", "E0317";
     COLUMNS_MAX: "columns of a table", "E0317";
     PINS_MAX: "pins of a table", "E0317";
     PIN_USAGES_MAX: "usages of one pin", "E0317";
@@ -127,4 +136,5 @@ limits! {
     MERGED_MAX: "merged ranges of a workbook", "E0807";
     INCLUDES_MAX: "files that an `hwdef.dat` includes", "E0808";
     INCLUDE_DEPTH_MAX: "files of `hwdef` that include each other in a chain", "E0808";
+    HWDEF_LINES_MAX: "lines of all files of an `hwdef`", "E0807";
 }
