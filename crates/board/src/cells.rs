@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 
+use sensedsl_diagnostics::is_hidden;
 use sensedsl_limits::{CELLS_MAX, ROWS_MAX};
 
 /// The text, cut into pieces.
@@ -208,12 +209,28 @@ pub fn content(raw: &str, quoted: bool) -> String {
     let blank = |c: char| c.is_whitespace() || is_zero_width(c);
     let seen = raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c));
     let text: String = seen.map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
-    if quoted { text.replace("\"\"", "\"") } else { text }
+    let text = if quoted { text.replace("\"\"", "\"") } else { text };
+    match text.strip_prefix('\'') {
+        Some(rest) if is_formula(rest) => rest.to_owned(),
+        _ => text,
+    }
 }
 
-/// Characters without width that spreadsheets and web pages leave in a text.
+/// A cell that a spreadsheet takes for text, by the apostrophe that it knows for that.
+pub(crate) fn guarded(cell: String) -> String {
+    if is_formula(&cell) { format!("'{cell}") } else { cell }
+}
+
+/// Whether a spreadsheet would compute a cell. `+5V` and `-` are labels.
+fn is_formula(cell: &str) -> bool {
+    let rest = cell.strip_prefix(['+', '-']);
+    cell.starts_with(['=', '@']) || rest.is_some_and(|rest| rest.contains(['|', '(', '!']))
+}
+
+/// Characters without width that spreadsheets and web pages leave in a text, controls, and marks of
+/// direction.
 pub(crate) fn is_zero_width(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}')
+    is_hidden(c) && !c.is_whitespace()
 }
 
 #[cfg(test)]
@@ -255,6 +272,19 @@ mod tests {
         let comments: Vec<&str> =
             split(text).comments.iter().map(|range| &text[range.clone()]).collect();
         assert_eq!(comments, [" mcu = X", "b", " c\",,", " d"]);
+    }
+
+    #[test]
+    fn formulas_and_hidden_characters_are_text() {
+        for cell in ["=cmd|x", "@SUM(1)", "+1+cmd|x", "-2+f(1)"] {
+            assert_eq!(guarded(cell.to_owned()), format!("'{cell}"));
+            assert_eq!(content(&guarded(cell.to_owned()), false), cell);
+        }
+        for cell in ["+5V", "-", "-12V", "'a'", "PA1"] {
+            assert_eq!(guarded(cell.to_owned()), cell);
+            assert_eq!(content(cell, false), cell);
+        }
+        assert_eq!(content("\u{1b}[1m\u{202e}a\u{0}\u{9b}b", false), "[1mab");
     }
 
     #[test]

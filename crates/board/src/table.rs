@@ -5,7 +5,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::cells::content;
+use crate::cells::{content, guarded};
 use crate::finding::Finding;
 use crate::pin::PinName;
 use crate::remap::Blocks;
@@ -278,7 +278,7 @@ fn push_row(csv: &mut String, cells: impl Iterator<Item = String>) {
             csv.push(',');
         }
         // What reading would take off is not written: a soft hyphen of a label, blanks around it.
-        let cell = content(&cell, false);
+        let cell = guarded(content(&cell, false));
         // A leading `#` would read as a comment, a leading quote as a quoted cell.
         if cell.contains([',', '"', '\n', '\r', ';', '\t']) || cell.starts_with('#') {
             csv.push_str(&format!("\"{}\"", cell.replace('"', "\"\"")));

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
+use sensedsl_diagnostics::{Diagnostic, render};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_model::kind::Kind;
 use sensedsl_wiring::assignment::Assignment;
@@ -38,8 +38,8 @@ pub fn project(
     let firmware = chibios::plan(design, assignment)?;
     let mut files = FileSet::default();
     files.merge_under("firmware", chibios::render(&firmware));
-    files.add("assignment.json", format!("{:#}\n", json::wired(design, assignment)));
-    files.add("schema.json", format!("{:#}\n", schema::schema(design, assignment)));
+    files.add("assignment.json", render::json_text(&json::wired(design, assignment)));
+    files.add("schema.json", render::json_text(&schema::schema(design, assignment)));
     files.add("wiring.md", markdown::markdown(design, assignment));
     files.add("pinout.svg", svg::svg(design, assignment));
     let plan = host_plan(name, design, assignment);

@@ -59,3 +59,36 @@ fn spans_outside_the_text_do_not_panic() {
     assert!(render::human(&diagnostics, &sources, true).contains("E0203"));
     assert!(render::json(&diagnostics, &sources).contains("E0203"));
 }
+
+#[test]
+fn hidden_characters_are_shown_by_their_codes() {
+    let mut sources = SourceMap::default();
+    let text =
+        "// \u{1b}]0;x\u{7}\nsensor \u{202e}A\u{9b} { id = 17; } \u{2028}\nB { id = 17; }\r\n";
+    let file = sources.add("a\u{1b}[31m\n::error::.sense", text);
+    let at = |needle: &str| {
+        let start = text.rfind(needle).unwrap();
+        Span::new(file, start..start + needle.len())
+    };
+    let table = sources.add("t\u{202e}.csv", "Pin\nPA1\u{9b}\n");
+    let mut diagnostic = e0203_duplicate_identifier::duplicate_identifier(
+        at("A\u{9b}"),
+        17,
+        Span::new(table, 4..7),
+        Some(18),
+    );
+    diagnostic.message = "no `\u{1b}[2J\n`, see [a](b) and {0}".to_owned();
+    let human = render::human(std::slice::from_ref(&diagnostic), &sources, false);
+    insta::assert_snapshot!("hidden_human", human);
+    let machine = [
+        render::json(std::slice::from_ref(&diagnostic), &sources),
+        render::sarif(std::slice::from_ref(&diagnostic), &sources, "0.0.0"),
+        render::github(std::slice::from_ref(&diagnostic), &sources),
+    ];
+    for text in machine.iter().chain([&human]) {
+        let is_safe = |c: char| c == '\n' || !sensedsl_diagnostics::is_hidden(c);
+        assert!(text.chars().all(is_safe), "{text:?}");
+    }
+    assert!(machine[1].contains(r"see [a\\](b) and {{0}}"), "{}", machine[1]);
+    assert_eq!(machine[2].lines().count(), 1);
+}

@@ -12,8 +12,10 @@ use crate::design::Spanned;
 /// Longest name: C compilers tell at least that many letters apart.
 const LETTERS_MAX: usize = 63;
 
-/// Names that some operating systems do not let folders have.
-const RESERVED_FOLDERS: &[&str] = &["aux", "con", "nul", "prn"];
+/// Names that Windows does not let files and folders have, whatever follows after a dot. With the
+/// number behind: `COM1`, `LPT9`; the rest of its list is not of letters and digits.
+const DEVICES_OF_WINDOWS: &[&str] = &["aux", "con", "nul", "prn"];
+const PORTS_OF_WINDOWS: &[&str] = &["com", "lpt"];
 
 /// Reports names that are too long, equal, or equal but for case and underscores. `what` is
 /// "board", "device" or "driver".
@@ -57,8 +59,15 @@ fn unusable(what: &str, name: &str) -> Option<&'static str> {
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
         return Some("it does not begin with a letter");
     }
-    let folder = what == "board" && RESERVED_FOLDERS.contains(&name.to_lowercase().as_str());
-    folder.then_some("no folder can have it on Windows")
+    let is_reserved = what == "board" && is_reserved_on_windows(name);
+    is_reserved.then_some("no file or folder can have it on Windows")
+}
+
+fn is_reserved_on_windows(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let stem = name.strip_suffix(|c: char| c.is_ascii_digit());
+    DEVICES_OF_WINDOWS.contains(&name.as_str())
+        || stem.is_some_and(|stem| PORTS_OF_WINDOWS.contains(&stem))
 }
 
 /// What is left of a name when neither case nor underscores count.

@@ -13,6 +13,8 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
+use sensedsl_diagnostics::visible_lines;
+
 use cli::{Cli, Command};
 use files::Refused;
 use terminal::Terminal;
@@ -29,7 +31,7 @@ pub(crate) enum Status {
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::try_parse().unwrap_or_else(|error| refused(&error));
     let mut terminal = Terminal::new(cli.quiet, cli.verbose);
     match run(cli.command, &mut terminal) {
         Ok(Status::Done) => ExitCode::SUCCESS,
@@ -44,6 +46,18 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Ends with what is wrong with the call. It repeats arguments, which a pattern of the shell may have
+/// taken from names of files.
+fn refused(error: &clap::Error) -> ! {
+    let plain = error.render().to_string();
+    let shown = visible_lines(&plain);
+    if error.use_stderr() && shown != plain {
+        terminal::complain(&shown);
+        std::process::exit(error.exit_code());
+    }
+    error.exit()
 }
 
 fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {

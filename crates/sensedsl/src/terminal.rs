@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal as _, Write as _};
 
 use anstream::{AutoStream, ColorChoice};
-use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render, visible, visible_lines};
 
 use crate::files::Refused;
 
@@ -44,12 +44,17 @@ impl Terminal {
 
     /// A result that only people read: dropped when quiet.
     pub(crate) fn note(&self, text: &str) -> io::Result<()> {
+        self.coloured_note(&visible_lines(text))
+    }
+
+    /// A note with our own colours; what it says of others' is visible already.
+    pub(crate) fn coloured_note(&self, text: &str) -> io::Result<()> {
         if self.quiet { Ok(()) } else { self.result(text) }
     }
 
     /// A line about the result, which goes with the messages: dropped when quiet.
     pub(crate) fn aside(&self, line: &str) -> io::Result<()> {
-        if self.quiet { Ok(()) } else { writeln!(io::stderr().lock(), "{line}") }
+        if self.quiet { Ok(()) } else { writeln!(io::stderr().lock(), "{}", visible(line)) }
     }
 
     /// How far a long work is, where somebody looks; gone when it is done.
@@ -95,8 +100,14 @@ impl Terminal {
     /// That the call or the machine is wrong.
     pub(crate) fn failure(&self, error: &anyhow::Error) {
         // There is nowhere to report that reporting failed.
-        let _ = writeln!(io::stderr().lock(), "error: {error:#}");
+        let _ = writeln!(io::stderr().lock(), "error: {}", visible(&format!("{error:#}")));
     }
+}
+
+/// What is wrong with the call, in whole lines.
+pub(crate) fn complain(text: &str) {
+    // There is nowhere to report that reporting failed.
+    let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
 /// Whether the reader of our output went away (`sensedsl … | head`), which is no failure.

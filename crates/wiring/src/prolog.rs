@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use sensedsl_diagnostics::is_hidden;
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder};
 
 use crate::formulate::{Asker, Formulation};
@@ -126,6 +127,18 @@ fn device_name(design: &Design, asker: Asker) -> String {
     }
 }
 
+/// Text as a quoted atom; what cannot be seen is an escape of Prolog (`\x202e\`).
 fn atom(text: &str) -> String {
-    format!("'{}'", text.replace('\\', "\\\\").replace('\'', "\\'"))
+    let mut atom = String::from("'");
+    for character in text.chars() {
+        match character {
+            '\\' | '\'' => atom.extend(['\\', character]),
+            hidden if is_hidden(hidden) => {
+                let _ = write!(atom, "\\x{:x}\\", u32::from(hidden));
+            }
+            plain => atom.push(plain),
+        }
+    }
+    atom.push('\'');
+    atom
 }

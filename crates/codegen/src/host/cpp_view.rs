@@ -3,6 +3,7 @@
 //! In: a [`HostPlan`]. Out: views whose fields are what templates print, nothing left to compute.
 
 use askama::Template;
+use sensedsl_diagnostics::visible;
 use sensedsl_wire::ScalarType;
 
 use super::cpp_names::CppNames;
@@ -161,7 +162,8 @@ fn messages(direction: &DirectionPlan, design: &str, names: &mut CppNames) -> Ve
 impl MessageView {
     fn new(message: &MessagePlan, design: &str, names: &mut CppNames) -> Self {
         let ident = names.take(&message.name);
-        let quantity = message.quantity.as_deref().unwrap_or_default();
+        // It is printed to terminals.
+        let quantity = visible(message.quantity.as_deref().unwrap_or_default());
         let scalar = message.value.scalar;
         let count = message.value.count();
         let types = CppTypes::of(scalar);
@@ -194,8 +196,8 @@ impl MessageView {
             min: limit_literal("-", message.limits.min),
             max: limit_literal("", message.limits.max),
             cycle_ms: message.cycle_ms.unwrap_or_default(),
-            quantity: string_literal(quantity),
-            quantity_suffix: string_literal(&suffix(quantity)),
+            quantity: string_literal(&quantity),
+            quantity_suffix: string_literal(&suffix(&quantity)),
             fields: fields(
                 &types,
                 count,
@@ -291,17 +293,10 @@ fn string_literal(text: &str) -> String {
     literal
 }
 
-/// Text that cannot end a `//` comment or go on in the next line: no line breaks, no backslash, not even
-/// one spelt as a trigraph.
+/// Text that cannot end a `//` comment or go on in the next line: nothing hidden, and no backslash at
+/// the end, not even one spelt as a trigraph.
 fn one_line(text: &str) -> String {
-    let keep = |character: char| {
-        if character.is_control() || matches!(character, '\\' | '\u{2028}' | '\u{2029}') {
-            ' '
-        } else {
-            character
-        }
-    };
-    text.chars().map(keep).collect::<String>().replace("??/", "?? /")
+    visible(&text.replace('\\', " ")).replace("??/", "?? /")
 }
 
 #[cfg(test)]
@@ -311,7 +306,7 @@ mod tests {
     #[test]
     fn text_stays_inside_its_literal_and_its_comment() {
         assert_eq!(string_literal("a\"b\\c\n??/°"), "\"a\\042b\\134c\\012\\077\\077/\\302\\260\"");
-        assert_eq!(one_line("ends with \\\nint x; ??/"), "ends with   int x; ?? /");
+        assert_eq!(one_line("ends with \\\nint x; ??/"), "ends with  \\u{a}int x; ?? /");
     }
 
     #[test]

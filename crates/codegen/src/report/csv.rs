@@ -1,5 +1,6 @@
 //! A wiring as CSV, for spreadsheets.
 
+use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 
@@ -26,11 +27,15 @@ fn line(cells: &[String]) -> String {
     format!("{}\n", cells.join(","))
 }
 
-/// A cell as RFC 4180 wants it.
+/// A cell as RFC 4180 wants it, and as a spreadsheet takes it for text: what would begin a formula
+/// gets the apostrophe that spreadsheets know for that.
 fn quoted(cell: &str) -> String {
+    let cell = visible(cell);
+    let is_formula = cell.len() > 1 && cell.starts_with(['=', '+', '-', '@']);
+    let cell = if is_formula { format!("'{cell}") } else { cell.into_owned() };
     if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {
-        cell.to_owned()
+        cell
     }
 }

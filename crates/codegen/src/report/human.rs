@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, Status};
 
@@ -68,9 +69,9 @@ fn table(out: &mut String, rows: &[&Row], style: Style) {
                 device,
                 row.role.clone(),
                 row.pin.clone(),
-                row.signal.clone(),
+                visible(&row.signal).into_owned(),
                 if row.unit.is_empty() { "-".into() } else { row.unit.clone() },
-                row.place.clone(),
+                visible(&row.place).into_owned(),
                 row.usages.to_string(),
             ]
         })

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, Status};
 
@@ -45,14 +46,33 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
     out
 }
 
-/// Text that cannot end its cell or begin markup.
+/// Text that cannot end its cell, begin markup or become a link, a formula or an entity.
 fn cell(text: &str) -> String {
     let mut out = String::new();
-    for c in text.chars() {
-        if matches!(c, '|' | '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '#') {
+    let is_site = text.to_ascii_lowercase().contains("www");
+    for c in visible(text).chars() {
+        let is_markup = matches!(
+            c,
+            '|' | '\\'
+                | '`'
+                | '*'
+                | '_'
+                | '['
+                | ']'
+                | '<'
+                | '>'
+                | '#'
+                | '&'
+                | '~'
+                | '$'
+                | ':'
+                | '@'
+                | '!'
+        );
+        if is_markup || (is_site && c == '.') {
             out.push('\\');
         }
-        out.push(if c.is_control() { ' ' } else { c });
+        out.push(c);
     }
     out
 }

@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 
 use sensedsl_board::pin::natural;
 use sensedsl_board::table::Pin;
+use sensedsl_diagnostics::visible;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
@@ -244,13 +245,12 @@ fn colour(kind: &str) -> &'static str {
 /// Text for an XML document.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
-    for c in text.chars() {
+    for c in visible(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            c if c.is_control() => out.push(' '),
             c => out.push(c),
         }
     }

@@ -3,6 +3,7 @@
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Span;
+use crate::visible::visible;
 
 /// The registry entry.
 pub const INFO: CodeInfo = CodeInfo {
@@ -22,6 +23,6 @@ const CODE: Code = Code(&INFO);
 /// The character as it stands in the text.
 #[must_use]
 pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{}` means nothing here", found.escape_debug()))
+    Diagnostic::new(CODE, span, format!("`{}` means nothing here", visible(found)))
         .help("remove it; text belongs between straight quotes or in a comment")
 }

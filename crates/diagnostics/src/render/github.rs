@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::SourceMap;
+use crate::visible::{visible, visible_lines};
 
 /// A `::error file=…` line for each diagnostic.
 #[must_use]
@@ -22,13 +23,13 @@ pub fn github(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
         }
         out.push_str(&format!(
             "::{command} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
-            escape_property(sources.name(span.file)),
+            escape_property(&visible(sources.name(span.file))),
             start.line,
             end.line,
             start.column,
             end.column,
             diagnostic.code,
-            escape(&message),
+            escape(&visible_lines(&message)),
         ));
     }
     out

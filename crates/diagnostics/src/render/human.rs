@@ -1,9 +1,13 @@
 //! For people, in the manner of `rustc`.
 
+use std::ops::Range;
+
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
+use super::excerpt::Excerpt;
 use crate::diagnostic::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceMap, Span, boundary};
+use crate::visible::{visible, visible_lines};
 
 /// Renders `diagnostics` one below the other, each followed by an empty line.
 #[must_use]
@@ -11,7 +15,8 @@ pub fn human(diagnostics: &[Diagnostic], sources: &SourceMap, colour: bool) -> S
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let mut out = String::new();
     for diagnostic in diagnostics {
-        out.push_str(&renderer.render(&[group(diagnostic, sources)]));
+        let rendered = renderer.render(&[group(diagnostic, sources)]);
+        out.push_str(&with_columns(rendered, diagnostic, sources));
         out.push_str("\n\n");
     }
     out
@@ -23,13 +28,13 @@ fn group<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap) -> Group<'a> {
         Severity::Warning => Level::WARNING,
         Severity::Hint => Level::NOTE.with_name("hint"),
     };
-    let title = level.primary_title(diagnostic.message.as_str()).id(diagnostic.code.name());
+    let title = level.primary_title(visible(&diagnostic.message)).id(diagnostic.code.name());
     let mut group = Group::with_title(title);
     for file in files(diagnostic) {
         group = of_file(group, diagnostic, file, sources);
     }
     match &diagnostic.help {
-        Some(help) => group.element(Level::HELP.message(help.as_str())),
+        Some(help) => group.element(Level::HELP.message(visible_lines(help))),
         None => group,
     }
 }
@@ -58,19 +63,18 @@ fn of_file<'a>(
     let here: Vec<(AnnotationKind, &Label)> =
         std::iter::once(primary).chain(labels).filter(|(_, one)| one.span.file == file).collect();
     let window = Window::over(here.iter().map(|(_, label)| label.span), file, sources);
+    let path = visible(sources.name(file));
     if window.text.len() <= WINDOW_MAX {
-        let annotations = here.into_iter().map(|(kind, label)| window.annotation(kind, label));
-        let snippet = Snippet::source(window.text).path(sources.name(file));
-        return group.element(snippet.line_start(window.line).annotations(annotations));
+        let snippet = window.snippet(&here).path(path);
+        return group.element(snippet);
     }
     for (kind, label) in here {
         let window = Window::over(std::iter::once(label.span), file, sources).cut(label.span);
         let at = sources.line_column(file, label.span.start);
         // What is cut has no column of its own, so the place is given.
-        let origin = Origin::path(sources.name(file)).line(at.line as usize);
+        let origin = Origin::path(path.clone()).line(at.line as usize);
         group = group.element(origin.char_column(at.column as usize));
-        let snippet = Snippet::source(window.text).line_start(window.line);
-        group = group.element(snippet.annotation(window.annotation(kind, label)));
+        group = group.element(window.snippet(&[(kind, label)]));
     }
     group
 }
@@ -119,11 +123,45 @@ impl<'a> Window<'a> {
         Self { text, start: self.start + begin, line: self.line + line }
     }
 
-    /// The place as a range that surely lies in the text, on character boundaries.
-    fn annotation(&self, kind: AnnotationKind, label: &'a Label) -> Annotation<'a> {
-        let here = |offset: u32| boundary(self.text, (offset as usize).saturating_sub(self.start));
-        let (start, end) = (here(label.span.start), here(label.span.end));
-        let annotation = kind.span(start..end.max(start));
-        if label.message.is_empty() { annotation } else { annotation.label(label.message.as_str()) }
+    /// What is shown of the text, with its places marked.
+    fn snippet(&self, places: &[(AnnotationKind, &'a Label)]) -> Snippet<'a, Annotation<'a>> {
+        let excerpt = Excerpt::new(self.text, self.start == 0);
+        let annotations = places.iter().map(|(kind, label)| {
+            let annotation = kind.span(excerpt.shown(self.range(label.span)));
+            if label.message.is_empty() {
+                annotation
+            } else {
+                annotation.label(visible(&label.message))
+            }
+        });
+        let annotations: Vec<Annotation<'a>> = annotations.collect();
+        Snippet::source(excerpt.text).line_start(self.line).annotations(annotations)
     }
+
+    /// The place as a range that surely lies in the text, on character boundaries.
+    fn range(&self, span: Span) -> Range<usize> {
+        let here = |offset: u32| boundary(self.text, (offset as usize).saturating_sub(self.start));
+        let (start, end) = (here(span.start), here(span.end));
+        start..end.max(start)
+    }
+}
+
+/// Columns are those of the file, also where some of its characters are shown by longer codes.
+fn with_columns(mut rendered: String, diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+    for label in std::iter::once(&diagnostic.primary).chain(&diagnostic.labels) {
+        let (file, offset) = (label.span.file, label.span.start);
+        let place = sources.line_column(file, offset);
+        let start = sources.line_start(file, place.line);
+        let text = sources.text(file);
+        let before = text.get(start..boundary(text, offset as usize)).unwrap_or_default();
+        let excerpt = Excerpt::new(before, start == 0);
+        if excerpt.is_changed() {
+            let shown = excerpt.text.chars().count() + 1;
+            let stands = |column: usize| {
+                format!(" {}:{}:{column}\n", visible(sources.name(file)), place.line)
+            };
+            rendered = rendered.replacen(&stands(shown), &stands(place.column as usize), 1);
+        }
+    }
+    rendered
 }

@@ -4,14 +4,19 @@ use serde_json::{Map, Value, json};
 
 use crate::diagnostic::{Diagnostic, Fix, Label};
 use crate::source::{LineColumn, SourceMap, Span};
+use crate::visible::visible_json;
 
 /// `{ "diagnostics": [ … ] }` with a line break at the end.
 #[must_use]
 pub fn json(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
     let list: Vec<Value> = diagnostics.iter().map(|one| json_value(one, sources)).collect();
-    let mut text = format!("{:#}", json!({ "diagnostics": list }));
-    text.push('\n');
-    text
+    json_text(&json!({ "diagnostics": list }))
+}
+
+/// A value as text that is safe to look at, with a line break at the end.
+#[must_use]
+pub fn json_text(value: &Value) -> String {
+    format!("{}\n", visible_json(&format!("{value:#}")))
 }
 
 /// One diagnostic as a JSON object.

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::json_text;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{SourceMap, Span};
@@ -23,7 +24,7 @@ pub fn sarif(diagnostics: &[Diagnostic], sources: &SourceMap, version: &str) -> 
             "results": results,
         }],
     });
-    format!("{log:#}\n")
+    json_text(&log)
 }
 
 fn level(severity: Severity) -> &'static str {
@@ -55,7 +56,7 @@ fn result(diagnostic: &Diagnostic, sources: &SourceMap) -> Value {
         .map(|label| {
             let mut value = location(label.span, sources);
             if let Some(object) = value.as_object_mut() {
-                object.insert("message".into(), json!({ "text": label.message }));
+                object.insert("message".into(), json!({ "text": plain(&label.message) }));
             }
             value
         })
@@ -63,7 +64,7 @@ fn result(diagnostic: &Diagnostic, sources: &SourceMap) -> Value {
     json!({
         "ruleId": diagnostic.code.name(),
         "level": level(diagnostic.severity),
-        "message": { "text": message },
+        "message": { "text": plain(&message) },
         "locations": [location(diagnostic.primary.span, sources)],
         "relatedLocations": related,
     })
@@ -83,6 +84,30 @@ fn location(span: Span, sources: &SourceMap) -> Value {
             },
         },
     })
+}
+
+/// Text in which nothing is a link (`[text](target)`) and nothing a placeholder (`{0}`).
+fn plain(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(character) = rest.chars().next() {
+        let after = rest.get(character.len_utf8()..).unwrap_or_default();
+        let digits = after.bytes().take_while(u8::is_ascii_digit).count();
+        let number = after.get(..digits).filter(|number| !number.is_empty());
+        match (character, number) {
+            (']', _) if after.starts_with('(') => out.push_str("\\]"),
+            ('{', Some(number)) if after.get(digits..).is_some_and(|end| end.starts_with('}')) => {
+                out.push_str("{{");
+                out.push_str(number);
+                out.push_str("}}");
+                rest = after.get(digits + 1..).unwrap_or_default();
+                continue;
+            }
+            _ => out.push(character),
+        }
+        rest = after;
+    }
+    out
 }
 
 /// A relative path as a URI reference: `/` as separator, the rest percent-encoded.

@@ -1,6 +1,7 @@
 //! `sensedsl capacity`: what can still be added, and what blocks the next device.
 
 use anyhow::Result;
+use sensedsl_diagnostics::render;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::{Capacity, Search, Solved, capacity};
 use serde_json::{Value, json};
@@ -32,7 +33,7 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
         TableFormat::Json => {
             let list: Vec<Value> = capacities.iter().map(|one| value(design, one)).collect();
             let all = json!({ "version": 1, "capacity": list });
-            terminal.result(&format!("{all:#}\n"))?;
+            terminal.result(&render::json_text(&all))?;
         }
     }
     Ok(Status::Done)

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         CheckFormat::Human => {}
         CheckFormat::Json => {
             let all = serde_json::json!({ "diagnostics": values });
-            terminal.result(&format!("{all:#}\n"))?;
+            terminal.result(&render::json_text(&all))?;
         }
         CheckFormat::Sarif => terminal.result(&merged_sarif(logs))?,
         CheckFormat::Github => terminal.result(&plain)?,
@@ -82,5 +82,5 @@ fn merged_sarif(logs: Vec<(Vec<Diagnostic>, SourceMap)>) -> String {
             None => merged = Some(log),
         }
     }
-    merged.map_or(String::new(), |log| format!("{log:#}\n"))
+    merged.map_or(String::new(), |log| render::json_text(&log))
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_codegen::report::json::wired;
+use sensedsl_diagnostics::render;
 use sensedsl_model::What;
 use sensedsl_wiring::{Search, Solved};
 use serde_json::{Value, json};
@@ -37,7 +38,7 @@ pub(crate) fn run(args: &DiffArgs, terminal: &mut Terminal) -> Result<Status> {
         TableFormat::Json => {
             let list: Vec<Value> = changes.iter().map(|change| value(*change)).collect();
             let all = json!({ "version": 1, "changes": list });
-            terminal.result(&format!("{all:#}\n"))?;
+            terminal.result(&render::json_text(&all))?;
         }
         TableFormat::Human if changes.is_empty() => terminal.result("nothing changes\n")?,
         TableFormat::Human => terminal.result(&human(&changes, new.len()))?,

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
-use sensedsl_diagnostics::{Code, nearest};
+use sensedsl_diagnostics::{Code, nearest, render};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Alternative, Search, Solved, Wiring};
@@ -64,7 +64,7 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         TableFormat::Json => {
             let list: Vec<Value> = alternatives.iter().map(value).collect();
             let all = json!({ "version": 1, "device": name, "alternatives": list });
-            terminal.result(&format!("{all:#}\n"))?;
+            terminal.result(&render::json_text(&all))?;
         }
     }
     Ok(Status::Done)

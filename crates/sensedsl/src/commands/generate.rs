@@ -204,7 +204,7 @@ fn report(
     assignment: &Assignment,
     changes: &Changes,
 ) -> Result<()> {
-    terminal.note(&human::human(design, assignment, terminal.colour()))?;
+    terminal.coloured_note(&human::human(design, assignment, terminal.colour()))?;
     let folder = shown(&args.output);
     if args.check {
         terminal.note(&format!("\n{folder} is up to date\n"))?;

@@ -127,9 +127,7 @@ fn whole(path: &Path) -> Option<String> {
 pub(crate) fn typed(root: &Path, relative: &str) -> String {
     let path: PathBuf = root.join(relative);
     let text = path.display().to_string();
-    if text.contains(|c: char| c.is_whitespace() || c == '\'' || c == '"') {
-        format!("'{}'", text.replace('\'', "'\\''"))
-    } else {
-        text
-    }
+    let is_plain =
+        |c: char| c.is_alphanumeric() || matches!(c, '/' | '.' | '_' | '-' | '+' | ':' | '@' | ',');
+    if !text.chars().all(is_plain) { format!("'{}'", text.replace('\'', "'\\''")) } else { text }
 }

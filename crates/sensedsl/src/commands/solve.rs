@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, ensure};
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
-use sensedsl_diagnostics::SourceMap;
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
+use sensedsl_diagnostics::{SourceMap, render, visible_json};
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
@@ -88,7 +88,7 @@ fn print_answer(
                 if args.count {
                     value = json::with_count(value, "0");
                 }
-                terminal.result(&format!("{}\n", print(&value, args)))?;
+                terminal.result(&print(&value, args))?;
             }
             Ok(Status::Wrong)
         }
@@ -107,13 +107,17 @@ fn print_answer(
 }
 
 fn print(value: &serde_json::Value, args: &SolveArgs) -> String {
-    if args.all || args.limit.is_some() { value.to_string() } else { format!("{value:#}") }
+    if args.all || args.limit.is_some() {
+        format!("{}\n", visible_json(&value.to_string()))
+    } else {
+        render::json_text(value)
+    }
 }
 
 fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assignment) -> String {
     match args.format {
         SolveFormat::Human => human::human(design, wiring, terminal.colour()),
-        SolveFormat::Json => format!("{}\n", print(&json::wired(design, wiring), args)),
+        SolveFormat::Json => print(&json::wired(design, wiring), args),
         SolveFormat::Csv => csv::csv(design, wiring),
         SolveFormat::Markdown => markdown::markdown(design, wiring),
         SolveFormat::Svg => svg::svg(design, wiring),
@@ -133,7 +137,7 @@ fn count(
     match Wiring::new(design, keep).count() {
         Ok(count) if args.format == SolveFormat::Json => {
             let value = json::with_count(json::wired(design, best), &count.to_string());
-            terminal.result(&format!("{value:#}\n"))?;
+            terminal.result(&render::json_text(&value))?;
             Ok(Status::Done)
         }
         Ok(count) => {

@@ -95,7 +95,7 @@ pub(super) fn plan(
         let port = match PortPlan::new(context, plan.ports.len(), facts, &bus) {
             Ok(port) => port,
             Err(diagnostic) => {
-                diagnostics.push(diagnostic);
+                diagnostics.push(*diagnostic);
                 continue;
             }
         };
@@ -162,7 +162,7 @@ impl PortPlan {
         index: usize,
         unit: &Unit,
         bus: &Bus<'_>,
-    ) -> Result<Self, Diagnostic> {
+    ) -> Result<Self, Box<Diagnostic>> {
         let asked_hz = bus.asked_hz(context);
         let clock = bus_clock(context, unit, bus, asked_hz)?;
         let bytes = bus.devices.iter().map(|(_, i2c)| {
@@ -205,7 +205,7 @@ fn bus_clock(
     unit: &Unit,
     bus: &Bus<'_>,
     asked_hz: u32,
-) -> Result<BusClock, Diagnostic> {
+) -> Result<BusClock, Box<Diagnostic>> {
     let modes = &context.profile.i2c.modes;
     let macro_name = unit.clock.as_deref().unwrap_or_default();
     let unit_hz = context.chibios.clocks_hz.get(macro_name).copied().unwrap_or_default();
@@ -226,7 +226,7 @@ fn bus_clock(
         let spans =
             bus.slowest().map(|(wired, i2c)| i2c.speed_span.unwrap_or(wired.device.kind_span));
         let span = spans.unwrap_or(context.board.name.span);
-        e0506_hardware_limit::hardware_limit(span, &message, &help)
+        Box::new(e0506_hardware_limit::hardware_limit(span, &message, &help))
     })
 }
 

@@ -66,11 +66,11 @@ mod tests {
 
     use super::*;
 
-    /// What `i2c_lld_set_clock` of I2Cv1 asserts, in its own words.
+    /// What `i2c_lld_set_clock` of the first I2C driver asserts, in its own words.
     fn driver_accepts(pclk1: u32, clock_speed: u32, duty: &str) -> bool {
         let divides = |clocks: u32, least: u32| {
             let clock_div = pclk1 / (clock_speed * clocks);
-            pclk1 % (clock_speed * clocks) == 0 && (least..=0xFFF).contains(&clock_div)
+            pclk1.is_multiple_of(clock_speed * clocks) && (least..=0xFFF).contains(&clock_div)
         };
         match (clock_speed, duty) {
             (1..=100_000, "STD_DUTY_CYCLE") => divides(2, 0x04),

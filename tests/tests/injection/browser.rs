@@ -1,0 +1,52 @@
+//! A browser opens the picture of the pins, and the wiring sheet as HTML: it must show text, and run nothing.
+
+use std::path::Path;
+use std::process::Command;
+
+use sensedsl_tests::{Scratch, has, read};
+
+use crate::corpus::projects;
+
+/// What the browser made of a file after all scripts had run.
+fn page(browser_folder: &Path, file: &Path) -> String {
+    let mut command = Command::new("chromium");
+    command.args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run"]);
+    command.args(["--disable-background-networking", "--disable-dev-shm-usage", "--dump-dom"]);
+    command.arg(format!("--user-data-dir={}", browser_folder.display()));
+    let output = command.arg(format!("file://{}", file.display())).output().unwrap();
+    let page = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(page.contains("</"), "{}", String::from_utf8_lossy(&output.stderr));
+    page
+}
+
+#[test]
+fn the_picture_shows_hostile_text_and_runs_nothing() {
+    if !has("chromium") {
+        return;
+    }
+    let scratch = Scratch::new("browser");
+    // A page that holds all pictures, so that the browser starts once; each is checked as XML besides.
+    let mut html = String::from("<!doctype html><meta charset=utf-8><title>calm</title>\n");
+    for project in projects() {
+        html.push_str(&read(&project.output.join("pinout.svg")));
+    }
+    // A text that would be one more script, to see that this test would notice.
+    let control =
+        scratch.write("control.html", format!("{html}<script>document.title='owned'</script>"));
+    let calm = scratch.write("calm.html", html);
+    assert!(page(&scratch.join("profile"), &control).contains("<title>owned</title>"));
+    let shown = page(&scratch.join("profile"), &calm);
+    assert!(shown.contains("<title>calm</title>"), "{shown}");
+    for element in ["<script", "<img", "<a ", "<foreignObject", "onerror=\""] {
+        assert!(!shown.contains(element), "{element} in\n{shown}");
+    }
+    // Places are cut to what there is room for.
+    for text in ["&lt;script&gt;doc", "=cmd|'/c calc'!", "[31mred", "שלום"] {
+        assert!(shown.contains(text), "{text} is missing in\n{shown}");
+    }
+    let picture = page(&scratch.join("profile"), &projects()[0].output.join("pinout.svg"));
+    assert!(
+        picture.contains("<title>Wiring</title>") && !picture.contains("parsererror"),
+        "{picture}"
+    );
+}

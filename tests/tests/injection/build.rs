@@ -1,0 +1,83 @@
+//! Make and `CMake` in a folder whose name they would take for something else.
+
+use std::path::Path;
+use std::process::Command;
+
+use sensedsl_tests::{Scratch, has, text, tree};
+
+use crate::corpus::{OWNED, generate, words, words_design};
+
+/// Make's functions and comments, the shell's separators; no `:` and no `=`, which no Make can have there.
+const FOLDER: &str = "a $(shell touch owned-by-injection) b #c;`touch owned-by-injection` & 'd' %";
+
+fn is_owned(folder: &Path) -> bool {
+    tree(folder).keys().any(|path| path.rsplit('/').next() == Some(OWNED))
+}
+
+/// A tree of `ChibiOS` as far as Make looks at it before it builds anything.
+fn empty_tree(scratch: &Scratch, makefile: &str) -> std::path::PathBuf {
+    for line in makefile.lines() {
+        let included = line.trim().strip_prefix("include $(CHIBIOS)/");
+        if let Some(path) = included {
+            scratch.write(&format!("tree/{path}"), "");
+        }
+    }
+    let rules =
+        makefile.lines().find_map(|line| line.strip_prefix("RULESPATH := $(CHIBIOS)/")).unwrap();
+    scratch.write(&format!("tree/{rules}/arm-none-eabi.mk"), "");
+    scratch.write(&format!("tree/{rules}/rules.mk"), "all:\n\techo $(CSRC) $(UDEFS)\n");
+    let configuration =
+        makefile.lines().find_map(|line| line.strip_prefix("BASE_CFG := $(CHIBIOS)/")).unwrap();
+    scratch.write(&format!("tree/{configuration}/mcuconf.h"), "");
+    scratch.join("tree")
+}
+
+#[test]
+fn make_takes_a_folder_of_any_name() {
+    if !has("make") {
+        return;
+    }
+    let scratch = Scratch::new("make");
+    let source = scratch.write("fig2.sense", text("examples/fig2.sense"));
+    let output = scratch.join(FOLDER);
+    let next = generate(&source, &output);
+    let board = output.join("firmware/STM32F4DiscoveryBoard");
+    let chibios = empty_tree(&scratch, &sensedsl_tests::read(&board.join("Makefile")));
+    let said = |command: &mut Command| {
+        let output = command.output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+        text
+    };
+    let variable = format!("CHIBIOS={}", chibios.display());
+    let sources =
+        said(Command::new("make").arg("-C").arg(&board).args(["-n", "all"]).arg(&variable));
+    assert!(
+        sources.contains("generated/sense_hw.c") && sources.contains("user/user.c"),
+        "{sources}"
+    );
+    // The line that `generate` tells to type next is one that a shell takes.
+    let typed = next.lines().find(|line| line.trim().starts_with("make -C")).unwrap();
+    let typed = typed.replace("/path/to/ChibiOS", &chibios.display().to_string()) + " -n all";
+    let said = said(Command::new("sh").arg("-c").arg(typed).current_dir(scratch.path()));
+    assert!(said.contains("generated/sense_hw.c"), "{said}");
+    assert!(!is_owned(scratch.path()));
+}
+
+#[test]
+fn cmake_takes_a_folder_of_any_name_and_words_as_names() {
+    if !has("cmake") || !has("g++") {
+        return;
+    }
+    let scratch = Scratch::new("cmake");
+    let source = scratch.write("words.sense", words_design());
+    let output = scratch.join(FOLDER);
+    let _ = generate(&source, &output);
+    for (at, host) in [output.join("host/cpp"), words().join("host/cpp")].iter().enumerate() {
+        let mut command = Command::new("cmake");
+        command.arg("-S").arg(host).arg("-B").arg(scratch.join(&format!("build{at}")));
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(!is_owned(scratch.path()));
+}

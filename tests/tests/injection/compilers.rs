@@ -1,0 +1,113 @@
+//! C and C++ compilers over what is generated, with every warning on and trigraphs in force.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use sensedsl_diagnostics::{is_hidden, visible};
+use sensedsl_tests::{Scratch, files, has, root, tree};
+
+use crate::corpus::{projects, words};
+
+fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.is_empty(), "{command:?}\n{said}");
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The firmware's model, which has all names; the rest of the firmware needs a `ChibiOS` tree.
+fn compile_model(compiler: &str, board: &Path) {
+    let mut command = Command::new(compiler);
+    command.args([
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Wpedantic",
+        "-Werror",
+        "-trigraphs",
+        "-fsyntax-only",
+    ]);
+    command.arg(format!("-I{}", root().join("runtime/core").display()));
+    run(command.arg(board.join("generated/sense_model.c")));
+}
+
+/// All C++ of the host without middleware.
+fn compile_host(compiler: &str, host: &Path) {
+    for source in files(&host.join("src"), "cpp") {
+        let mut command = Command::new(compiler);
+        command.args(["-std=c++17", "-Wall", "-Wextra", "-Werror", "-trigraphs", "-fsyntax-only"]);
+        run(command.arg("-I").arg(host.join("include")).arg(source));
+    }
+}
+
+fn boards(output: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(output.join("firmware")).unwrap();
+    entries.map(|entry| entry.unwrap().path()).collect()
+}
+
+#[test]
+fn names_that_are_words_of_c_compile() {
+    for compiler in ["gcc", "clang", "arm-none-eabi-gcc"] {
+        if has(compiler) {
+            boards(words()).iter().for_each(|board| compile_model(compiler, board));
+        }
+    }
+}
+
+#[test]
+fn names_that_are_words_of_cpp_compile() {
+    for compiler in ["g++", "clang++"] {
+        if has(compiler) {
+            compile_host(compiler, &words().join("host/cpp"));
+        }
+    }
+}
+
+#[test]
+fn hostile_labels_and_quantities_compile_in_cpp() {
+    for compiler in ["g++", "clang++"] {
+        if has(compiler) {
+            projects()
+                .iter()
+                .for_each(|project| compile_host(compiler, &project.output.join("host/cpp")));
+        }
+    }
+}
+
+/// A program that uses the generated library prints what the design says, hidden characters by their codes.
+#[test]
+fn a_program_prints_a_hostile_quantity_as_it_is() {
+    if !has("g++") {
+        return;
+    }
+    let project = &projects()[0];
+    let scratch = Scratch::new("quantities");
+    let mut source =
+        String::from("#include \"sense/Robot.hpp\"\n#include <cstdio>\nint main() {\n");
+    for id in 1..=project.texts.len() {
+        source.push_str(&format!("    std::puts(sense::S{id}::quantity);\n"));
+    }
+    let source = scratch.write("main.cpp", source + "}\n");
+    let program = scratch.join("program");
+    let mut command = Command::new("g++");
+    command.args(["-std=c++17", "-I"]).arg(project.output.join("host/cpp/include"));
+    run(command.arg(source).arg("-o").arg(&program));
+    let said = run(&mut Command::new(program));
+    let expected = project.texts.iter().map(|text| visible(text) + "\n");
+    assert_eq!(said, expected.collect::<String>());
+}
+
+/// Nothing that turns text around, colours a terminal or cannot be seen is in any generated file.
+#[test]
+fn no_generated_file_has_a_hidden_character() {
+    for project in projects() {
+        let mut count = 0;
+        for (path, bytes) in tree(&project.output) {
+            let text = String::from_utf8(bytes).unwrap();
+            let hidden = text.chars().find(|&c| is_hidden(c) && !matches!(c, '\n' | '\t'));
+            assert_eq!(hidden, None, "{path}");
+            count += 1;
+        }
+        assert!(count > 40, "{count} files");
+    }
+}

@@ -1,0 +1,19 @@
+//! Hostile text through to whoever reads it: names, labels, cells and paths come in, and the real
+//! consumer (compilers, Make, `CMake`, a browser, parsers of Markdown, CSV, JSON, Prolog, a terminal) must
+//! see text and nothing else. There is no generator of Rust yet, so no Rust is compiled.
+#![expect(
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test touches files, and a panic is its failure"
+)]
+
+mod browser;
+mod build;
+mod compilers;
+mod corpus;
+mod names;
+mod parsers;
+mod prolog;
+mod terminal;
