@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use sensedsl_diagnostics::visible_lines;
+use sensedsl_diagnostics::visible;
 
 use cli::{Cli, Command};
 use files::Refused;
@@ -51,13 +51,12 @@ fn main() -> ExitCode {
 /// Ends with what is wrong with the call. It repeats arguments, which a pattern of the shell may have
 /// taken from names of files.
 fn refused(error: &clap::Error) -> ! {
-    let plain = error.render().to_string();
-    let shown = visible_lines(&plain);
-    if error.use_stderr() && shown != plain {
-        terminal::complain(&shown);
-        std::process::exit(error.exit_code());
+    let arguments = std::env::args_os();
+    let shown = arguments.map(|argument| visible(&argument.to_string_lossy()).into_owned());
+    match Cli::try_parse_from(shown) {
+        Err(shown) => shown.exit(),
+        Ok(_) => error.exit(),
     }
-    error.exit()
 }
 
 fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {

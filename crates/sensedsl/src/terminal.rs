@@ -104,12 +104,6 @@ impl Terminal {
     }
 }
 
-/// What is wrong with the call, in whole lines.
-pub(crate) fn complain(text: &str) {
-    // There is nowhere to report that reporting failed.
-    let _ = io::stderr().lock().write_all(text.as_bytes());
-}
-
 /// Whether the reader of our output went away (`sensedsl … | head`), which is no failure.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)

@@ -323,7 +323,9 @@ pub(crate) fn words() -> &'static Path {
 /// One board, and a device on its bus for each word.
 pub(crate) fn words_design() -> String {
     let mut design = String::from("board default on STM32F407G_DISC1 {\n");
-    for (at, word) in WORDS.iter().enumerate() {
+    let mut seen = std::collections::BTreeSet::new();
+    let folded = |word: &str| word.replace('_', "").to_lowercase();
+    for (at, word) in WORDS.iter().filter(|word| seen.insert(folded(word))).enumerate() {
         let (id, unit, address) = (at + 1, at / 100 + 1, at % 100 + 8);
         writeln!(
             design,

