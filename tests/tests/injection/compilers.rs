@@ -82,15 +82,17 @@ fn a_program_prints_a_hostile_quantity_as_it_is() {
     }
     let project = &projects()[0];
     let scratch = Scratch::new("quantities");
-    let mut source =
-        String::from("#include \"sense/Robot.hpp\"\n#include <cstdio>\nint main() {\n");
+    let include = project.output.join("host/cpp/include");
+    let header = tree(&include).into_keys().find(|path| path.ends_with("/Robot.hpp")).unwrap();
+    let namespace = header.rsplit_once('/').unwrap().0.replace('/', "::");
+    let mut source = format!("#include \"{header}\"\n#include <cstdio>\nint main() {{\n");
     for id in 1..=project.texts.len() {
-        source.push_str(&format!("    std::puts(sense::S{id}::quantity);\n"));
+        source.push_str(&format!("    std::puts({namespace}::S{id}::quantity);\n"));
     }
     let source = scratch.write("main.cpp", source + "}\n");
     let program = scratch.join("program");
     let mut command = Command::new("g++");
-    command.args(["-std=c++17", "-I"]).arg(project.output.join("host/cpp/include"));
+    command.args(["-std=c++17", "-I"]).arg(include);
     run(command.arg(source).arg("-o").arg(&program));
     let said = run(&mut Command::new(program));
     let expected = project.texts.iter().map(|text| visible(text) + "\n");

@@ -184,7 +184,7 @@ impl MessageView {
                 message.name,
                 message.value
             )),
-            help: string_literal(&help(message)),
+            help: string_literal(&visible(&help(message))),
             cpp_type: types.cpp,
             scalar_bytes: scalar.size_bytes(),
             is_bool: scalar == ScalarType::Bool,
