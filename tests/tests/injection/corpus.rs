@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use sensedsl_tests::{Scratch, sensedsl};
+use sensedsl_tests::sensedsl;
 
 /// A file that a command in a text would make, were it run.
 pub(crate) const OWNED: &str = "owned-by-injection";
@@ -291,33 +291,40 @@ fn design(texts: &[&str]) -> String {
 
 /// The projects of all texts, generated once.
 pub(crate) fn projects() -> &'static [Project] {
-    static PROJECTS: OnceLock<(Scratch, Vec<Project>)> = OnceLock::new();
-    let (_, projects) = PROJECTS.get_or_init(|| {
-        let scratch = Scratch::new("injection");
+    static PROJECTS: OnceLock<Vec<Project>> = OnceLock::new();
+    PROJECTS.get_or_init(|| {
+        let folder = shared("texts");
         let make = |(at, texts): (usize, &'static [&'static str])| {
-            scratch.write(&format!("{at}/robot.csv"), table(texts));
-            let source = scratch.write(&format!("{at}/robot.sense"), design(texts));
-            let output = scratch.join(&format!("{at}/out"));
+            let folder = folder.join(at.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join("robot.csv"), table(texts)).unwrap();
+            let (source, output) = (folder.join("robot.sense"), folder.join("out"));
+            std::fs::write(&source, design(texts)).unwrap();
             let _ = generate(&source, &output);
             Project { texts, source, output }
         };
-        let projects = TEXTS.chunks(PINS.len()).enumerate().map(make).collect();
-        (scratch, projects)
-    });
-    projects
+        TEXTS.chunks(PINS.len()).enumerate().map(make).collect()
+    })
+}
+
+/// A folder that several tests of a run look into, empty at first.
+fn shared(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("injection").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
 }
 
 /// A project whose boards and devices are called by [`WORDS`], generated once.
 pub(crate) fn words() -> &'static Path {
-    static WORDS_PROJECT: OnceLock<(Scratch, PathBuf)> = OnceLock::new();
-    let (_, output) = WORDS_PROJECT.get_or_init(|| {
-        let scratch = Scratch::new("words");
-        let source = scratch.write("words.sense", words_design());
-        let output = scratch.join("out");
+    static WORDS_PROJECT: OnceLock<PathBuf> = OnceLock::new();
+    WORDS_PROJECT.get_or_init(|| {
+        let folder = shared("words");
+        let (source, output) = (folder.join("words.sense"), folder.join("out"));
+        std::fs::write(&source, words_design()).unwrap();
         let _ = generate(&source, &output);
-        (scratch, output)
-    });
-    output
+        output
+    })
 }
 
 /// One board, and a device on its bus for each word.
