@@ -40,6 +40,8 @@ const TARGETS: &[(&str, usize)] = &[
 const KEPT_MAX: usize = 120;
 /// A longer one is not kept, unless it has a name of its own.
 const KEPT_BYTES_MAX: u64 = 4096;
+/// A short run: the corpus, then the same inputs each time, as far as the time goes.
+const BRIEFLY: [&str; 3] = ["-runs=1000", "-seed=1", "-max_total_time=5"];
 /// Seconds for which a finding is made smaller.
 const MINIMISE_S: u64 = 60;
 
@@ -124,11 +126,17 @@ fn fuzz(
     command.args(["-print_final_stats=1", "-rss_limit_mb=2048", "-timeout=30", "-entropic=0"]);
     command.arg(format!("-max_len={bytes_max}"));
     command.arg(format!("-artifact_prefix={}/", findings.display()));
-    command.arg(match effort {
-        Effort::Runs(runs) => format!("-runs={runs}"),
-        Effort::Time(time) => format!("-max_total_time={}", time.as_secs().max(1)),
-        Effort::Brief => "-max_total_time=3".to_owned(),
-    });
+    match effort {
+        Effort::Runs(runs) => {
+            command.arg(format!("-runs={runs}"));
+        }
+        Effort::Time(time) => {
+            command.arg(format!("-max_total_time={}", time.as_secs().max(1)));
+        }
+        Effort::Brief => {
+            command.args(BRIEFLY);
+        }
+    }
     let words = folders.fuzz.join("dictionaries").join(format!("{target}.dict"));
     if words.exists() {
         command.arg(format!("-dict={}", words.display()));

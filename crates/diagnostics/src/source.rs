@@ -82,7 +82,10 @@ impl Index {
             before += characters(block);
             small(here)
         });
-        Self { lines, characters: blocks.collect() }
+        let mut blocks: Vec<u32> = blocks.collect();
+        // The end of a text that fills its last block is the start of another one.
+        blocks.push(small(before));
+        Self { lines, characters: blocks }
     }
 
     /// How many characters stand before a byte.
@@ -189,6 +192,14 @@ mod tests {
         assert_eq!(map.line_column(file, 4), LineColumn { line: 2, column: 2 });
         assert_eq!(map.line_column(file, 3), LineColumn { line: 2, column: 1 });
         assert_eq!(map.line_column(file, 999), LineColumn { line: 3, column: 1 });
+    }
+
+    #[test]
+    fn the_end_of_a_text_that_fills_its_blocks_has_a_place() {
+        let mut map = SourceMap::default();
+        let file = map.add("x", "a\n".repeat(BLOCK_BYTES));
+        let end = small(2 * BLOCK_BYTES);
+        assert_eq!(map.line_column(file, end), LineColumn { line: 257, column: 1 });
     }
 
     #[test]

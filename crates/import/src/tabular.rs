@@ -276,6 +276,10 @@ impl Reader<'_> {
                 }
             }
         }
+        if loaded.board.pins.is_empty() {
+            log.no_table(self.span(pin), "no row below the head names a pin");
+            return None;
+        }
         Some(loaded.board.to_csv())
     }
 

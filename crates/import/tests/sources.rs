@@ -243,3 +243,11 @@ fn an_empty_description_of_an_mcu_is_refused_with_a_reason() {
     let made = import(&source);
     assert!(made.failed() && says(&made, "E0801", &["empty.xml"]), "{:?}", said(&made));
 }
+
+#[test]
+fn a_table_of_which_no_pin_is_left_is_refused() {
+    for text in ["Pin,_\n", "Pin,ADC\n???,ADC1_IN1\n", "Pin,ADC\nVDD,\n"] {
+        let made = imported(text.as_bytes());
+        assert!(made.failed() && says(&made, "E0802", &[]), "{text:?}: {:?}", said(&made));
+    }
+}

@@ -18,7 +18,7 @@ pub(super) enum Effort {
     Runs(u64),
     /// So long for all targets together.
     Time(Duration),
-    /// The corpora and a few seconds more for each target.
+    /// The corpora and a few seconds more for each target, with the same choices each time.
     Brief,
 }
 
