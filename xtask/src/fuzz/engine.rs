@@ -17,8 +17,7 @@ const COVERAGE: &[&str] = &[
     "-Cllvm-args=-sanitizer-coverage-level=4",
     "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
     "-Cllvm-args=-sanitizer-coverage-pc-table",
-    // All code counts, whether or not a target calls it, and each function once.
-    "-Clink-dead-code",
+    // Each function is counted once.
     "-Ccodegen-units=1",
     "--cfg",
     "fuzzing",
