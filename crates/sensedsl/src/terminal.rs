@@ -81,7 +81,15 @@ impl Terminal {
         let wanted =
             diagnostics.iter().filter(|one| !self.quiet || one.severity == Severity::Error);
         let all = wanted.clone().count();
-        let shown: Vec<Diagnostic> = wanted.take(SHOWN_MAX).cloned().collect();
+        let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
+        // An error that comes after many warnings is why the command fails: it must be among those shown.
+        let mut room = SHOWN_MAX.saturating_sub(wanted.clone().filter(is_error).count());
+        let fits = |one: &&Diagnostic| {
+            let others = room;
+            room = room.saturating_sub(usize::from(!is_error(one)));
+            is_error(one) || others > 0
+        };
+        let shown: Vec<Diagnostic> = wanted.filter(fits).take(SHOWN_MAX).cloned().collect();
         let coloured = AutoStream::choice(&io::stderr()) != ColorChoice::Never;
         let mut text = render::human(&shown, sources, coloured);
         if all > shown.len() {
