@@ -120,7 +120,8 @@ class Program:
             ns = int(self.process.stdout.readline())
             if ns > 10_000_000:
                 return len(stream) * repeats / ns * 1e3
-            repeats = max(2 * repeats, int(repeats * 12_000_000 / max(ns, 1000)))
+            # The system counts in steps of some milliseconds: a first 0 says little.
+            repeats = min(10 * repeats, max(2 * repeats, int(repeats * 12_000_000 / max(ns, 1000))))
 
 
 def build(folder):
