@@ -3,8 +3,11 @@
 
 use sensedsl_board::table::{Table, load};
 
+/// A signal with its alternate function.
+type Spelled = (String, Option<u8>);
+
 /// Pins with their signals and alternate functions.
-fn pins(table: &Table) -> Vec<(String, Vec<(String, Option<u8>)>)> {
+fn pins(table: &Table) -> Vec<(String, Vec<Spelled>)> {
     let row = |pin: &sensedsl_board::table::Pin| {
         let usages = pin.usages.iter();
         let usages = usages.map(|usage| (usage.signal.to_string(), usage.alternate)).collect();

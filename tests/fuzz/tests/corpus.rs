@@ -1,6 +1,7 @@
 //! What the fuzzer found is run again, by the very code that the fuzzer runs.
 //!
 //! A file of `fuzz/corpus/TARGET` is an input; one that fails is printed by its path.
+#![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -3,7 +3,6 @@
 //! What stands at the path is looked at before it is opened, because opening a device can do
 //! things, and again when it is open, because it may have been changed in between. Nothing here waits: a
 //! pipe to which nobody writes is refused after a moment.
-#![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
 use std::fs::{self, File, FileType};
 use std::io::{self, Read};

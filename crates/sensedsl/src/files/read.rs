@@ -3,7 +3,6 @@
 //! All reading goes through [`read`]: regular files only, and a pipe where the user names one; no
 //! more bytes than the file's kind may have, nor all files together. What a *file* names must be in
 //! the project's folder as well, or in one that the command line allows.
-#![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -129,9 +128,10 @@ pub(crate) fn text(bytes: Vec<u8>) -> Result<String, Unread> {
 
 /// The machine's reason.
 pub(crate) fn why(error: &io::Error) -> Unread {
-    match error.kind() {
-        io::ErrorKind::NotFound => Unread::Missing,
-        _ => Unread::Why(error.to_string()),
+    if error.kind() == io::ErrorKind::NotFound {
+        Unread::Missing
+    } else {
+        Unread::Why(error.to_string())
     }
 }
 
