@@ -162,7 +162,8 @@ fn soft_rules_for_units_count_without_a_target() {
         let table = scratch.write(&format!("t{seed}.csv"), robot.csv()).display().to_string();
         let text = robot.text(&table);
         let solve = |arguments: &[&str]| {
-            let call = sensedsl(["solve", "-", "-q", "--target", "none"]);
+            let call = sensedsl(["solve", "-", "-q", "--target", "none", "--allow-outside"]);
+            let call = call.arg(scratch.path());
             arguments.iter().fold(call, |call, one| call.arg(one)).stdin(text.clone()).run()
         };
         let all = robot.wirings();
