@@ -23,6 +23,7 @@ fn chosen() -> Target {
     *CHOSEN.get_or_init(|| {
         // SAFETY: `tell` takes nothing, gives nothing and does not unwind.
         unsafe { atexit(tell) };
+        #[expect(clippy::disallowed_methods, reason = "the runner names the target")]
         let name = std::env::var("SENSEDSL_FUZZ_TARGET").unwrap_or_default();
         target(&name).unwrap_or_else(|| panic!("SENSEDSL_FUZZ_TARGET={name} is not a target"))
     })

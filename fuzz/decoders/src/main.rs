@@ -14,6 +14,9 @@ use decoders::{Decoded, STREAMS, Stream, run};
 use libfuzzer_sys::fuzz_target;
 use sensedsl_wire::{Checksum, Direction, ScalarType};
 
+/// A decoder in another language.
+type Other = fn(&Stream) -> Decoded;
+
 #[repr(C)]
 struct CItem {
     id: u8,
@@ -104,7 +107,7 @@ fuzz_target!(|bytes: &[u8]| {
         // SAFETY: `tell` takes nothing, gives nothing and does not unwind.
         unsafe { atexit(tell) };
     }
-    let others: [(&str, fn(&Stream) -> Decoded); 2] = [
+    let others: [(&str, Other); 2] = [
         ("C", |stream| foreign(stream, sense_decode_c)),
         ("C++", |stream| foreign(stream, sense_decode_cpp)),
     ];

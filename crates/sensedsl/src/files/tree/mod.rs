@@ -2,7 +2,7 @@
 //!
 //! What is promised:
 //!
-//! - One run at a time writes a folder. A second one waits, and gives up after [`lock::WAIT`].
+//! - One run at a time writes a folder. A second one waits, and gives up after `lock::WAIT`.
 //! - On Linux, whoever looks into the folder by its name finds the old tree or the new one, also
 //!   after a kill, a full disk or a power failure (`switch`). Elsewhere, on file systems that
 //!   cannot exchange two names, and where the folder is a mount point or nothing can be made beside
