@@ -9,7 +9,7 @@
 pub const SENSE_BYTES_MAX: usize = 4 << 20;
 /// Bytes of one board table.
 pub const TABLE_BYTES_MAX: usize = 4 << 20;
-/// Bytes of one source of `import`, be it a workbook, XML or text.
+/// Bytes of one source of `import`: a workbook, XML or text.
 pub const SOURCE_BYTES_MAX: usize = 16 << 20;
 /// Bytes of one text that `import` reads: CSV, XML, `.ioc`, `hwdef`.
 pub const SOURCE_TEXT_BYTES_MAX: usize = 4 << 20;

@@ -144,7 +144,7 @@ pub(crate) fn walk_into(
     Ok(found)
 }
 
-/// Whether there is anything of that name, be it a link to nowhere.
+/// Whether anything has that name, even a link that leads nowhere.
 pub(crate) fn is_there(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
