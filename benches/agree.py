@@ -2,7 +2,7 @@
 """Has general solvers check our answers to seeded problems of all sorts.
 
     python3 -m venv build/venv && build/venv/bin/pip install ortools highspy clingo
-    cargo run --release -p sensedsl-solve --example agreement -- 1000 > build/agreement.jsonl
+    cargo run --release -p sensedsl-solve --features problems --example agreement -- 1000 > build/agreement.jsonl
     build/venv/bin/python3 benches/agree.py build/agreement.jsonl
 
 Of each problem CP-SAT and HiGHS find the least objective; of the first 200 answers CP-SAT finds the

@@ -2,7 +2,7 @@
 """Compares the solver with general ones on the same seeded problems, in one run.
 
     python3 -m venv build/venv && build/venv/bin/pip install ortools highspy clingo
-    cargo run --release -p sensedsl-solve --example instances > build/instances.jsonl
+    cargo run --release -p sensedsl-solve --features problems --example instances > build/instances.jsonl
     build/venv/bin/python3 benches/compare.py build/instances.jsonl > build/benchmarks.md
 
 Each line of the input is a problem with our answer and our time: proof, least objective and

@@ -25,6 +25,12 @@ mod random;
 
 pub use random::Random;
 
+/// Whether everything that tests are quick without is asked for too: `SENSEDSL_THOROUGH=1`.
+#[must_use]
+pub fn is_thorough() -> bool {
+    std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("1")
+}
+
 /// The root of the repository.
 #[must_use]
 pub fn root() -> PathBuf {
@@ -57,12 +63,15 @@ pub fn binary() -> &'static Path {
 #[must_use]
 pub fn verifier() -> &'static Path {
     static BINARY: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let found = BINARY.get_or_init(|| built("sensedsl-proof"));
+    let found = BINARY.get_or_init(|| built("sensedsl-verify"));
     found.as_deref().unwrap_or_else(|| panic!("there is no verifier to test"))
 }
 
-/// Builds the binary of a package with the profile and into the folder of this test.
-fn built(package: &str) -> Option<PathBuf> {
+/// Builds a program with the profile and into the folder of this test.
+///
+/// The workspace is named, and a test of it, so that Cargo takes the same features as `cargo test
+/// --workspace` does: what that has built is then not built again with others.
+fn built(program: &str) -> Option<PathBuf> {
     let test = std::env::current_exe().unwrap();
     // A test lies in TARGET/PROFILE/deps. Cargo marks TARGET (CACHEDIR.TAG) only where it made it.
     let target = test.ancestors().nth(3);
@@ -70,14 +79,16 @@ fn built(package: &str) -> Option<PathBuf> {
     let release = test.components().any(|part| part.as_os_str() == "release");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.current_dir(root()).args(["build", "--quiet", "--package", package]);
-    command.args(["--profile", if release { "release" } else { "test" }]);
+    command.current_dir(root()).args(["build", "--quiet", "--workspace", "--bin", program]);
+    command.args(["--test", "help", "--profile", if release { "release" } else { "test" }]);
     command.args(["--message-format", "json-render-diagnostics", "--target-dir"]).arg(target);
     let output = command.stderr(Stdio::inherit()).output().unwrap();
     let messages = String::from_utf8_lossy(&output.stdout).into_owned();
-    messages.lines().rev().find_map(|line| {
+    messages.lines().find_map(|line| {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
-        Some(PathBuf::from(message.get("executable")?.as_str()?))
+        let is_program = message.pointer("/target/name")?.as_str()? == program;
+        let file = message.get("executable")?.as_str()?;
+        is_program.then(|| PathBuf::from(file))
     })
 }
 

@@ -1,7 +1,7 @@
 //! The corpus: inputs that must be accepted, and malformed ones that must be refused with the code
 //! that names the file, at the place that `tests/corpus/err/expected.txt` tells.
 //!
-//! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests --test corpus`,
+//! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests corpus::`,
 //! and read the difference.
 #![expect(
     clippy::disallowed_methods,

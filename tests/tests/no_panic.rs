@@ -1,18 +1,20 @@
 //! No input makes the tool panic: seeded mutations of all examples and tables go through resolving,
 //! solving and generating, in this process.
 //!
-//! 20,000 of them by default; `SENSEDSL_MUTATIONS=1000000` for a long run (with `--release`). An
+//! 2,000 of them by default, ten times as many with `SENSEDSL_THOROUGH=1`;
+//! `SENSEDSL_MUTATIONS=1000000` for a long run (with `--release`). An
 //! input that panics is printed; it belongs into `tests/corpus/err` or `tests/corpus/ok`.
 #![expect(clippy::disallowed_methods, reason = "a test reads its data")]
 
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::thread;
 
 use sensedsl_codegen::host::HOSTS;
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::render;
 use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
-use sensedsl_tests::{Random, files, read, root};
+use sensedsl_tests::{Random, files, is_thorough, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 /// One input: a `.sense` text, and the table that its board is read from.
@@ -267,34 +269,52 @@ fn mutate(random: &mut Random, text: &str, other: &str) -> String {
     text.into_iter().collect()
 }
 
+/// The mutation of a number: the same everywhere.
+fn mutation(number: u64, seeds: &[Input]) -> Input {
+    let mut random = Random::new(number);
+    let (seed, other) = (random.below(seeds.len()), random.below(seeds.len()));
+    let (seed, other) = (&seeds[seed], &seeds[other]);
+    let mut input = seed.clone();
+    match &mut input.table {
+        Some(table) if random.below(4) > 0 => {
+            *table = mutate(&mut random, table, other.table.as_deref().unwrap_or(&other.sense));
+        }
+        Some(_) | None => input.sense = mutate(&mut random, &input.sense, &other.sense),
+    }
+    input
+}
+
+/// Runs the mutations of the numbers; prints those that panic.
+fn panics(numbers: impl Iterator<Item = u64>, seeds: &[Input]) -> String {
+    let mut panics = String::new();
+    for number in numbers {
+        let input = mutation(number, seeds);
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| pipeline(&input))) {
+            let why = panic.downcast_ref::<String>().map(String::as_str);
+            let why = why.or(panic.downcast_ref::<&str>().copied()).unwrap_or("?");
+            let _ = writeln!(panics, "mutation {number}: {why}\n{input:#?}");
+        }
+    }
+    panics
+}
+
 #[test]
 fn mutated_examples_and_tables() {
     let mutations: u64 = std::env::var("SENSEDSL_MUTATIONS")
-        .map_or(20_000, |number| number.parse().expect("SENSEDSL_MUTATIONS is a number"));
+        .map_or(if is_thorough() { 20_000 } else { 2_000 }, |number| {
+            number.parse().expect("SENSEDSL_MUTATIONS is a number")
+        });
     let seeds = seeds();
-    let mut failures = String::new();
     for seed in &seeds {
         pipeline(seed);
     }
-    std::panic::set_hook(Box::new(|_| {}));
-    for number in 0..mutations {
-        let mut random = Random::new(number);
-        let (seed, other) = (random.below(seeds.len()), random.below(seeds.len()));
-        let (seed, other) = (&seeds[seed], &seeds[other]);
-        let mut input = seed.clone();
-        match &mut input.table {
-            Some(table) if random.below(4) > 0 => {
-                *table = mutate(&mut random, table, other.table.as_deref().unwrap_or(&other.sense));
-            }
-            Some(_) | None => input.sense = mutate(&mut random, &input.sense, &other.sense),
-        }
-        let ended = catch_unwind(AssertUnwindSafe(|| pipeline(&input)));
-        if let Err(panic) = ended {
-            let why = panic.downcast_ref::<String>().map(String::as_str);
-            let why = why.or(panic.downcast_ref::<&str>().copied()).unwrap_or("?");
-            let _ = writeln!(failures, "mutation {number}: {why}\n{input:#?}");
-        }
-    }
-    drop(std::panic::take_hook());
-    assert!(failures.is_empty(), "{failures}");
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let found: Vec<String> = thread::scope(|scope| {
+        let started: Vec<_> = (0..threads as u64)
+            .map(|first| (first..mutations).step_by(threads))
+            .map(|numbers| scope.spawn(|| panics(numbers, &seeds)))
+            .collect();
+        started.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert!(found.iter().all(String::is_empty), "{}", found.concat());
 }

@@ -1,7 +1,7 @@
 //! Seeded pin problems of all sorts as JSON lines, each with what we say of it: what
 //! `benches/agree.py` has other solvers check.
 //!
-//!     cargo run --release -p sensedsl-solve --example agreement -- [NUMBER [FIRST]] > agreement.jsonl
+//!     cargo run --release -p sensedsl-solve --features problems --example agreement -- [NUMBER [FIRST]] > agreement.jsonl
 #![expect(
     clippy::print_stdout,
     clippy::unwrap_used,

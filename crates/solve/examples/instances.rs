@@ -1,7 +1,7 @@
 //! Seeded pin problems as JSON lines, each with our answer and the time it took: what
 //! `benches/compare.py` puts to other solvers.
 //!
-//!     cargo run --release -p sensedsl-solve --example instances -- [FAMILY...] > instances.jsonl
+//!     cargo run --release -p sensedsl-solve --features problems --example instances -- [FAMILY...] > instances.jsonl
 #![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a developer's program")]
 #![allow(dead_code, reason = "the support code serves several programs")]
 

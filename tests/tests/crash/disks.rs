@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use sensedsl_tests::{Ran, missing};
 
-use crate::{Stage, asked, identity, nothing_beside, run};
+use super::{Stage, asked, identity, nothing_beside, run};
 
 /// A file system of its own, as long as it lives.
 struct Disk(PathBuf);

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use rustix::process::{Pid, Signal, kill_process};
 use sensedsl_tests::{Random, sensedsl};
 
-use crate::{Stage, asked, identity, nothing_beside, run, start};
+use super::{Stage, asked, identity, nothing_beside, run, start};
 
 /// Where the signals met the run.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! Four runs at the same time, and somebody who looks.
 
-use crate::{Stage, asked, identity, nothing_beside, run, start};
+use super::{Stage, asked, identity, nothing_beside, run, start};
 
 #[test]
 fn runs_at_the_same_time_follow_one_another() {

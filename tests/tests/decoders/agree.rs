@@ -1,11 +1,11 @@
 //! All decoders say the same, and what the definition says, however a stream is cut.
 
-use sensedsl_tests::Random;
+use sensedsl_tests::{Random, is_thorough};
 use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
-use crate::program::{Program, rust, schema_bytes};
-use crate::streams::{frame, hard_schemas, hard_stream, schema};
-use crate::{naive, scratch, tools};
+use super::program::{Program, rust, schema_bytes};
+use super::streams::{frame, hard_schemas, hard_stream, schema};
+use super::{naive, scratch, tools};
 
 /// How often; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
@@ -39,7 +39,7 @@ fn cases(seed: u64, rounds: usize, mut check: impl FnMut(&Schema, Direction, &[u
 #[test]
 fn rust_says_what_the_definition_says() {
     let (mut frames, mut streams) = (0, 0);
-    cases(1, rounds(120), |schema, direction, stream, pieces| {
+    cases(1, rounds(if is_thorough() { 120 } else { 30 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let at_once = rust(schema, direction, stream, &[0]);
         assert_eq!(at_once, wanted, "{schema:?} {direction:?} {stream:02x?}");
@@ -60,7 +60,7 @@ fn c_and_cpp_say_what_the_definition_says() {
     let flags = ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
     let flags = [&flags[..], &["-DDECODERS_C_FRAMES=1"]].concat();
     let mut program = Program::build(&scratch("agree"), &flags);
-    cases(2, rounds(25), |schema, direction, stream, pieces| {
+    cases(2, rounds(if is_thorough() { 25 } else { 12 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let schema_bytes = schema_bytes(schema, direction);
         for who in ["c", "cpp"] {

@@ -1,6 +1,6 @@
 //! What damage costs: wrong values delivered, undamaged frames lost.
 //!
-//! `SENSEDSL_DAMAGED_FRAMES=1000000 cargo test -p sensedsl-tests --test decoders damage -- --nocapture`
+//! `SENSEDSL_DAMAGED_FRAMES=1000000 cargo test -p sensedsl-tests decoders::damage -- --nocapture`
 //! prints the table of `docs/wire.md`.
 
 use std::collections::BTreeMap;
@@ -9,9 +9,9 @@ use std::fmt::Write as _;
 use sensedsl_tests::Random;
 use sensedsl_wire::{Checksum, Direction, Schema};
 
-use crate::program::{Program, rust, schema_bytes};
-use crate::streams::{fig2, frame};
-use crate::{scratch, tools};
+use super::program::{Program, rust, schema_bytes};
+use super::streams::{fig2, frame};
+use super::{scratch, tools};
 
 /// What happens to a frame on its way.
 #[derive(Clone, Copy, Debug)]

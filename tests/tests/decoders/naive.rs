@@ -4,7 +4,7 @@ use sensedsl_wire::{
     Checksum, Direction, ID_CHECKSUM, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
 };
 
-use crate::program::Answer;
+use super::program::Answer;
 
 enum Verdict {
     Invalid,

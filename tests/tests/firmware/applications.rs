@@ -72,7 +72,7 @@ impl Files for Tables {
     fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
         match wanted.path {
             "odd.csv" => Ok(ODD_TABLE.to_owned()),
-            "emulated.csv" => Ok(crate::emulated::TABLE.to_owned()),
+            "emulated.csv" => Ok(super::emulated::TABLE.to_owned()),
             _ => Err(Unread::Missing),
         }
     }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::applications::{self, CAR, FIG2, ODD, TWO};
-use crate::tools::{has, run, scratch};
+use super::applications::{self, CAR, FIG2, ODD, TWO};
+use super::tools::{has, run, scratch};
 
 /// The tree, where the machine has one. No registry has ChibiOS, so that its absence is no failure.
 pub(crate) fn tree() -> Option<PathBuf> {

@@ -15,8 +15,8 @@ use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
 };
 
-use crate::chibios::{build, tree, write};
-use crate::tools::{has, root};
+use super::chibios::{build, tree, write};
+use super::tools::{has, root};
 
 const EMULATED: &str = "
 board Emulated on \"emulated.csv\" {

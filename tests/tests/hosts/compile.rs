@@ -4,8 +4,9 @@ use std::path::Path;
 use std::process::Command;
 
 use sensedsl_codegen::host::{HOSTS, HostPlan};
+use sensedsl_tests::is_thorough;
 
-use crate::{designs, files, tools};
+use super::{designs, files, tools};
 
 const WARNINGS: [&str; 6] =
     ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"];
@@ -25,13 +26,14 @@ pub(crate) fn compile(compiler: &str, standard: &str, folder: &Path, system_incl
 
 #[test]
 fn cpp() {
-    for compiler in ["g++", "clang++"] {
+    for compiler in &["g++", "clang++"][..if is_thorough() { 2 } else { 1 }] {
         if !tools::have(compiler) {
             continue;
         }
         for (name, boards) in designs::all() {
             let folder = files::generate("cpp", &format!("{name}-{compiler}"), &boards);
-            for standard in ["c++17", "c++20"] {
+            let standards = ["c++17", "c++20"];
+            for standard in &standards[..if is_thorough() { 2 } else { 1 }] {
                 compile(compiler, standard, &folder, &[]);
             }
         }

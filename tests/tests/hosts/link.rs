@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use sensedsl_codegen::host::HostBoard;
 use sensedsl_wire::{Direction, Scalar, Schema, encode_hello, encode_hello_request, encode_report};
 
-use crate::terminal::Line;
-use crate::tools::Background;
-use crate::{designs, files};
+use super::terminal::Line;
+use super::tools::Background;
+use super::{designs, files};
 
 /// A host application of Fig. 2 that prints each value as `IRFront = 300` and what else happens.
 pub(crate) struct Application<'a> {

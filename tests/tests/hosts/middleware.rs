@@ -11,10 +11,10 @@ use sensedsl_wire::{
     encode_report,
 };
 
-use crate::compile::compile;
-use crate::terminal::Line;
-use crate::tools::{self, Background};
-use crate::{designs, files, link};
+use super::compile::compile;
+use super::terminal::Line;
+use super::tools::{self, Background};
+use super::{designs, files, link};
 
 /// A session of its own for each test and run.
 fn session(test: u32) -> String {

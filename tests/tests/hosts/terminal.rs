@@ -11,7 +11,7 @@ use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_hello, encode_hello_request, encode_report,
 };
 
-use crate::{designs, files, tools};
+use super::{designs, files, tools};
 
 /// The board's end of a serial line. The host's end starts as a login terminal would: it echoes and
 /// waits for whole lines, unless the host makes it raw.

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::link::{Application, design, scenes};
-use crate::tools::{self, Background};
-use crate::{files, terminal};
+use super::link::{Application, design, scenes};
+use super::tools::{self, Background};
+use super::{files, terminal};
 
 #[test]
 fn shared_files_do_what_they_say() {

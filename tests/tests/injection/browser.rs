@@ -5,7 +5,7 @@ use std::process::Command;
 
 use sensedsl_tests::{Scratch, has, read};
 
-use crate::corpus::projects;
+use super::corpus::projects;
 
 /// What the browser made of a file after all scripts had run.
 fn page(browser_folder: &Path, file: &Path) -> String {

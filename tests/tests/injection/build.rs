@@ -5,7 +5,7 @@ use std::process::Command;
 
 use sensedsl_tests::{Scratch, has, text, tree};
 
-use crate::corpus::{OWNED, generate, words_design};
+use super::corpus::{OWNED, generate, words_design};
 
 /// Make's functions and comments, the shell's separators; no `:` and no `=`, which no Make can have there.
 const FOLDER: &str = "a $(shell touch owned-by-injection) b #c;`touch owned-by-injection` & 'd' %";

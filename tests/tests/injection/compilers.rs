@@ -6,7 +6,7 @@ use std::process::Command;
 use sensedsl_diagnostics::{is_hidden, visible};
 use sensedsl_tests::{Scratch, has, root, tree};
 
-use crate::corpus::{projects, words};
+use super::corpus::{projects, words};
 
 fn run(command: &mut Command) -> String {
     let output = command.output().unwrap();

@@ -7,7 +7,7 @@ use sensedsl_diagnostics::is_hidden;
 use sensedsl_tests::{Ran, has, read, sensedsl};
 use serde_json::Value;
 
-use crate::corpus::{Project, projects};
+use super::corpus::{Project, projects};
 
 fn output(command: &mut Command) -> String {
     let output = command.output().unwrap();

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use sensedsl_tests::{Scratch, has, sensedsl};
 
-use crate::corpus::WORDS;
+use super::corpus::WORDS;
 
 #[test]
 fn prolog_finds_the_same_cost_whatever_devices_are_called() {

@@ -6,7 +6,7 @@ use std::ffi::OsString;
 use sensedsl_diagnostics::is_hidden;
 use sensedsl_tests::{Ran, sensedsl};
 
-use crate::corpus::projects;
+use super::corpus::projects;
 
 /// A name of a file with a line end, an escape sequence and a mark of direction in it.
 const NAME: &str = "x\u{1b}]0;owned\u{7}\u{202e}\n::error::owned.sense";

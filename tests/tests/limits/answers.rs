@@ -3,7 +3,7 @@
 use rustix::fs::{CWD, FileType, Mode, mknodat};
 use sensedsl_tests::{Scratch, root, verifier};
 
-use crate::{expect, expect_of, sparse};
+use super::{expect, expect_of, sparse};
 
 #[test]
 fn answers_to_keep() {

@@ -5,7 +5,7 @@ use std::os::unix::fs::symlink;
 use rustix::fs::{CWD, FileType, Mode, mknodat};
 use sensedsl_tests::Scratch;
 
-use crate::{expect, repeat, sparse};
+use super::{expect, repeat, sparse};
 
 /// A pipe to which nobody writes.
 fn pipe(folder: &Scratch, name: &str) {

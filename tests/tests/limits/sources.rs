@@ -2,7 +2,7 @@
 
 use sensedsl_tests::Scratch;
 
-use crate::{expect, refuses, repeat};
+use super::{expect, refuses, repeat};
 
 const MCU: &str = "MCU STM32F4xx STM32F405xx\n";
 

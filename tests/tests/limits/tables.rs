@@ -2,7 +2,7 @@
 
 use sensedsl_tests::Scratch;
 
-use crate::{expect, repeat};
+use super::{expect, repeat};
 
 /// A design on that table is refused with that code.
 #[track_caller]

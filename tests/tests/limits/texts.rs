@@ -2,7 +2,7 @@
 
 use sensedsl_tests::Scratch;
 
-use crate::{expect, refuses, repeat};
+use super::{expect, refuses, repeat};
 
 /// The head of a board with an MCU.
 const BOARD: &str = "board STM32F4DiscoveryBoard {\n";

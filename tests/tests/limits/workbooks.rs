@@ -7,7 +7,7 @@ use sensedsl_tests::Scratch;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::{expect, repeat};
+use super::{expect, repeat};
 
 const MAIN: &str = "xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\"";
 const RELATION: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";

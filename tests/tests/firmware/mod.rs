@@ -6,13 +6,8 @@
 //! tree, which no registry has: without it the generated applications are only looked at.
 #![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
-#[cfg(test)]
 mod applications;
-#[cfg(test)]
 mod chibios;
-#[cfg(test)]
 mod core;
-#[cfg(test)]
 mod emulated;
-#[cfg(test)]
 mod tools;

@@ -8,21 +8,12 @@
 //! `bin/supercomponent`).
 #![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
-#[cfg(test)]
 mod compile;
-#[cfg(test)]
 mod designs;
-#[cfg(test)]
 mod files;
-#[cfg(test)]
 mod link;
-#[cfg(test)]
 mod middleware;
-#[cfg(test)]
 mod terminal;
-#[cfg(test)]
 mod tools;
-#[cfg(test)]
 mod units;
-#[cfg(test)]
 mod vectors;

@@ -1,0 +1,30 @@
+//! Every command that the program lists explains itself.
+//!
+//! The other tests of the program are in `tests/` of the repository. That Cargo builds the program
+//! for this one spares them building it.
+
+use std::process::Command;
+
+/// The standard output of the program, which must succeed.
+fn says(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_sensedsl")).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", output.status);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn every_command_explains_itself() {
+    let help = says(&["--help"]);
+    let (_, commands) = help.split_once("Commands:\n").unwrap();
+    let listed = commands.lines().take_while(|line| !line.is_empty());
+    let named: Vec<&str> = listed
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|command| *command != "help")
+        .collect();
+    assert!(named.contains(&"solve") && named.contains(&"generate"), "{named:?}");
+    for command in named {
+        let help = says(&[command, "--help"]);
+        assert!(help.contains("Usage: sensedsl"), "{command}: {help}");
+    }
+}

@@ -1,0 +1,30 @@
+//! All tests over the whole, as one program: it is linked once, and its tests share all processors.
+//! [`README.md`](../README.md) says what each module holds.
+#![cfg(test)]
+
+mod boards;
+mod boards_page;
+mod command_line;
+mod corpus;
+mod crash;
+mod decoders;
+mod firmware;
+mod generate;
+mod golden;
+mod hosts;
+mod import;
+mod injection;
+mod limits;
+mod limits_page;
+mod messages;
+mod no_panic;
+mod pages;
+mod paper;
+mod parts;
+mod prolog;
+mod proof;
+mod single_files;
+mod soft_units;
+mod spreadsheets;
+mod traceability;
+mod wiring;
