@@ -66,7 +66,7 @@ pub(crate) fn build(test: &str, boards: &[HostBoard], board: &str) -> Option<(Pa
     tools::run(
         Command::new("g++")
             .current_dir(&folder)
-            .args(["-std=c++17", "-O1", "-pthread", "-Iinclude"])
+            .args(["-std=c++17", "-O0", "-pthread", "-Iinclude"])
             .arg(format!("src/monitor_{board}.cpp"))
             .arg("-o")
             .arg(&program),
