@@ -203,7 +203,7 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
     chprintf(out, "%u %s %s %s", (unsigned)field->id,
              (field->direction == (uint8_t)UP_TO_HOST) ? "sensor" : "actuator", field->name,
              up_type_name(field->type));
-    if (field->count > 1U) {
+    if (field->is_array) {
       chprintf(out, "[%u]", (unsigned)field->count);
     }
     chprintf(out, SHELL_NEWLINE_STR);

@@ -49,6 +49,7 @@ typedef struct {
   uint8_t id;       /* 1..254 */
   uint8_t type;     /* up_type_t */
   uint8_t direction; /* up_direction_t */
+  bool is_array;    /* an array of one element is not a scalar: the schema's text tells them apart */
   uint16_t count;   /* elements; 1 for a scalar */
   uint16_t offset;  /* bytes from the start of the value buffer */
 } up_field_t;

@@ -58,10 +58,10 @@ static void test_mean(void) {
 }
 
 static void test_bytes(void) {
-  const up_field_t small = {"s", 1U, UP_TYPE_UINT8, UP_TO_HOST, 1U, 0U};
-  const up_field_t triple = {"t", 2U, UP_TYPE_INT16, UP_TO_HOST, 3U, 0U};
-  const up_field_t wide = {"w", 3U, UP_TYPE_INT32, UP_TO_HOST, 1U, 0U};
-  const up_field_t real = {"r", 4U, UP_TYPE_FLOAT32, UP_TO_HOST, 1U, 0U};
+  const up_field_t small = {"s", 1U, UP_TYPE_UINT8, UP_TO_HOST, false, 1U, 0U};
+  const up_field_t triple = {"t", 2U, UP_TYPE_INT16, UP_TO_HOST, false, 3U, 0U};
+  const up_field_t wide = {"w", 3U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 0U};
+  const up_field_t real = {"r", 4U, UP_TYPE_FLOAT32, UP_TO_HOST, false, 1U, 0U};
   const uint8_t near[] = {0x00U, 0x07U}, far[] = {0x01U, 0x2CU};
   const uint8_t axes[] = {0xFFU, 0xFEU, 0x00U, 0x01U, 0x80U, 0x00U};
   const uint8_t one[] = {0x3FU, 0x80U, 0x00U, 0x00U};
@@ -113,9 +113,9 @@ typedef struct {
 } model_t;
 
 static const up_field_t model_fields[] = {
-    {"Front", 17U, UP_TYPE_UINT16, UP_TO_HOST, 1U, (uint16_t)offsetof(model_t, front)},
-    {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, 1U, (uint16_t)offsetof(model_t, rear)},
-    {"Motor", 40U, UP_TYPE_INT16, UP_TO_BOARD, 1U, (uint16_t)offsetof(model_t, motor)},
+    {"Front", 17U, UP_TYPE_UINT16, UP_TO_HOST, false, 1U, (uint16_t)offsetof(model_t, front)},
+    {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, false, 1U, (uint16_t)offsetof(model_t, rear)},
+    {"Motor", 40U, UP_TYPE_INT16, UP_TO_BOARD, false, 1U, (uint16_t)offsetof(model_t, motor)},
 };
 static const up_schema_t model_schema = {model_fields, 3U, false, 0x01020304U};
 
@@ -234,7 +234,7 @@ static bool ranger_write_read(void *context, uint8_t address, const uint8_t *tx,
 
 static void test_i2c(void) {
   static const uint8_t ranging[] = {0x00U, 0x51U};
-  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, 1U, 0U};
+  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, false, 1U, 0U};
   const up_i2c_script_t script = {ranging, 65U, 2U, 0x73U, 0x02U, true, false, 2U};
   ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x00U, 0x2AU}};
   const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
@@ -261,8 +261,8 @@ static void test_i2c(void) {
 }
 
 static void test_i2c_without_trigger(void) {
-  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT16, UP_TO_HOST, 1U, 0U};
-  const up_field_t out = {"Out", 20U, UP_TYPE_UINT8, UP_TO_BOARD, 1U, 0U};
+  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT16, UP_TO_HOST, false, 1U, 0U};
+  const up_field_t out = {"Out", 20U, UP_TYPE_UINT8, UP_TO_BOARD, false, 1U, 0U};
   const up_i2c_script_t script = {NULL, 0U, 0U, 0x73U, 0x02U, true, true, 2U};
   const up_i2c_script_t slow = {NULL, 50U, 0U, 0x73U, 0x02U, true, true, 2U};
   const up_i2c_script_t output = {NULL, 0U, 0U, 0x73U, 0x10U, true, false, 1U};

@@ -25,7 +25,7 @@ board Emulated on \"emulated.csv\" {
     sensor Ranger returns uint8 { id = 2; type = i2c; driver = srf08; address = 0xE6; delay = 100; }
     sensor Wheel returns uint32 { id = 3; type = icu; }
     actuator Lamp accepts uint8 { id = 4; type = i2c; address = 0x20; register = 1; delay = 50; }
-    sensor Echo returns uint8 { id = 5; type = i2c; address = 0x21; delay = 100; }
+    sensor Echo returns uint8[1] { id = 5; type = i2c; address = 0x21; delay = 100; }
 }
 ";
 
@@ -55,7 +55,11 @@ fn schema() -> Schema {
         item(2, Direction::Sensor, "Ranger", ScalarType::Uint8),
         item(3, Direction::Sensor, "Wheel", ScalarType::Uint32),
         item(4, Direction::Actuator, "Lamp", ScalarType::Uint8),
-        item(5, Direction::Sensor, "Echo", ScalarType::Uint8),
+        // An array of one is no scalar: the text of the schema says so.
+        Item {
+            value: ValueType { scalar: ScalarType::Uint8, length: Some(1) },
+            ..item(5, Direction::Sensor, "Echo", ScalarType::Uint8)
+        },
     ];
     Schema { checksum: Checksum::Crc16, items }
 }

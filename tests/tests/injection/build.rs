@@ -83,3 +83,44 @@ fn cmake_takes_a_folder_of_any_name_and_words_as_names() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(!is_owned(scratch.path()));
 }
+
+#[test]
+fn a_folder_that_cmake_cannot_take_is_told() {
+    if !has("cmake") || !has("g++") {
+        return;
+    }
+    let scratch = Scratch::new("semicolon");
+    let source = scratch.write("words.sense", words_design());
+    let output = scratch.join("a;b");
+    let _ = generate(&source, &output);
+    for host in ["cpp", "libcluon", "opendavinci", "opendavinci2014"] {
+        let mut command = Command::new("cmake");
+        command.arg("-S").arg(output.join("host").join(host)).arg("-B").arg(scratch.join(host));
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains("has a semicolon"), "{host}: {said}");
+    }
+}
+
+#[test]
+fn a_file_of_any_name_is_a_design() {
+    if !has("cmake") || !has("g++") {
+        return;
+    }
+    for (number, name) in
+        [FOLDER, FOLDER_OF_CMAKE, "a;b", "\"q\" \\n", "-rf", "class", "7up", "\u{202e}gnp", "ä 机"]
+            .into_iter()
+            .enumerate()
+    {
+        let scratch = Scratch::new(&format!("named{number}"));
+        let source = scratch.write(&format!("{name}.sense"), words_design());
+        let output = scratch.join("out");
+        let _ = generate(&source, &output);
+        let build = scratch.join("build");
+        let mut command = Command::new("cmake");
+        command.arg("-S").arg(output.join("host/cpp")).arg("-B").arg(&build);
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{name:?}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(!is_owned(scratch.path()));
+    }
+}
