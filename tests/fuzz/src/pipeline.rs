@@ -186,7 +186,8 @@ fn checked(files: &FileSet) {
             assert!(part.chars().all(plain), "{path}");
             assert!(!part.is_empty() && !part.starts_with('.') && !part.ends_with('.'), "{path}");
         }
-        let odd = |c: &char| c.is_control() && !matches!(*c, '\n' | '\t');
+        let turns = |c: char| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        let odd = |c: &char| turns(*c) || c.is_control() && !matches!(*c, '\n' | '\t');
         assert_eq!(text.chars().find(odd), None, "{path}");
         if path.ends_with(".json") {
             serde_json::from_str::<serde_json::Value>(text).expect("JSON");
