@@ -203,22 +203,55 @@ impl Cutter<'_> {
     }
 }
 
-/// What a cell says: no blanks around it, no characters that nobody sees, quotes undone.
+/// What a cell says: no blanks around it, no characters that nobody sees, quotes and guard undone.
 #[must_use]
 pub fn content(raw: &str, quoted: bool) -> String {
-    let blank = |c: char| c.is_whitespace() || is_zero_width(c);
-    let seen = raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c));
-    let text: String = seen.map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
-    let text = if quoted { text.replace("\"\"", "\"") } else { text };
+    let text = inner(raw, quoted);
     match text.strip_prefix('\'') {
-        Some(rest) if is_formula(rest) => rest.to_owned(),
+        Some(rest) if is_guarded(rest) => rest.to_owned(),
         _ => text,
     }
 }
 
+/// Where a cell begins behind its guard; 0 where it has none.
+pub(crate) fn guard_bytes(raw: &str, quoted: bool) -> usize {
+    let text = inner(raw, quoted);
+    let has_guard = text.strip_prefix('\'').is_some_and(is_guarded);
+    raw.find('\'').filter(|_| has_guard).map_or(0, |at| at + 1)
+}
+
+/// What a part of a cell says that does not begin it, and so has no guard.
+pub(crate) fn inner(raw: &str, quoted: bool) -> String {
+    let blank = |c: char| c.is_whitespace() || is_zero_width(c);
+    let seen = raw.trim_matches(blank).chars().filter(|c| !is_zero_width(*c));
+    let text: String = seen.map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
+    if quoted { text.replace("\"\"", "\"") } else { text }
+}
+
+/// The value of a property without the separators, and a quote, of the empty cells that a
+/// spreadsheet adds behind it.
+pub(crate) fn bare(value: &str) -> &str {
+    bare_start(value).trim_end_matches(is_empty_cell)
+}
+
+/// The value from where it begins.
+pub(crate) fn bare_start(value: &str) -> &str {
+    value.trim_start_matches(is_empty_cell)
+}
+
+fn is_empty_cell(c: char) -> bool {
+    c.is_whitespace() || matches!(c, ',' | ';' | '"')
+}
+
 /// A cell that a spreadsheet takes for text, by the apostrophe that it knows for that.
 pub(crate) fn guarded(cell: String) -> String {
-    if is_formula(&cell) { format!("'{cell}") } else { cell }
+    if is_guarded(&cell) { format!("'{cell}") } else { cell }
+}
+
+/// Whether a cell gets an apostrophe: a spreadsheet would compute it, or take its own apostrophe for
+/// the guard.
+fn is_guarded(cell: &str) -> bool {
+    is_formula(cell.trim_start_matches('\''))
 }
 
 /// Whether a spreadsheet would compute a cell. `+5V` and `-` are labels.
@@ -276,7 +309,7 @@ mod tests {
 
     #[test]
     fn formulas_and_hidden_characters_are_text() {
-        for cell in ["=cmd|x", "@SUM(1)", "+1+cmd|x", "-2+f(1)"] {
+        for cell in ["=cmd|x", "@SUM(1)", "+1+cmd|x", "-2+f(1)", "'=x", "''@1"] {
             assert_eq!(guarded(cell.to_owned()), format!("'{cell}"));
             assert_eq!(content(&guarded(cell.to_owned()), false), cell);
         }

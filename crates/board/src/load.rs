@@ -70,6 +70,13 @@ struct Word {
     range: Range<usize>,
 }
 
+impl Word {
+    /// Whether it is more than nothing or a dash.
+    fn is_filled(&self) -> bool {
+        !matches!(self.text.as_str(), "" | "-" | "–" | "—")
+    }
+}
+
 impl<'a> Loader<'a> {
     fn new(text: &'a str) -> Self {
         let (lines, findings) = (line_starts(text), Vec::new());
@@ -132,20 +139,21 @@ impl<'a> Loader<'a> {
 
     /// The content, or nothing for an empty cell or a dash.
     fn value(&self, cell: &Cell) -> Option<Word> {
-        Some(self.content(cell)).filter(|word| !matches!(word.text.as_str(), "" | "-" | "–" | "—"))
+        Some(self.content(cell)).filter(Word::is_filled)
     }
 
     /// The pieces of a cell between white space.
     fn words(&self, cell: &Cell) -> Vec<Word> {
         let raw = self.raw(&cell.range);
         let mut words = Vec::new();
-        let mut rest = raw;
+        let mut rest = raw.get(cells::guard_bytes(raw, cell.quoted)..).unwrap_or_default();
         while let Some(at) = rest.find(|c: char| !c.is_whitespace() && !is_zero_width(c)) {
             let tail = rest.get(at..).unwrap_or_default();
             let end = tail.find(char::is_whitespace).unwrap_or(tail.len());
             let start = cell.range.start + (raw.len() - tail.len());
-            let word = Cell { range: start..start + end, quoted: cell.quoted };
-            words.extend(self.value(&word));
+            let text = cells::inner(tail.get(..end).unwrap_or_default(), cell.quoted);
+            let word = Word { text, range: start..start + end };
+            words.extend(Some(word).filter(Word::is_filled));
             rest = tail.get(end..).unwrap_or_default();
         }
         words
@@ -493,9 +501,7 @@ fn property(comment: &str, start: usize) -> Option<Property> {
     if key.is_empty() || !key.chars().all(word) {
         return None;
     }
-    // A spreadsheet adds the separators, and a quote, of its empty cells.
-    let blank = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
-    let start = start + (comment.len() - value.trim_start_matches(blank).len());
-    let value = value.trim_matches(blank).to_owned();
+    let start = start + (comment.len() - cells::bare_start(value).len());
+    let value = cells::bare(value).to_owned();
     Some(Property { key: key.to_ascii_lowercase(), range: start..start + value.len(), value })
 }

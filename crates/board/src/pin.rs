@@ -106,14 +106,15 @@ pub fn natural(left: &str, right: &str) -> Ordering {
 }
 
 fn is_number(run: &str) -> bool {
-    run.starts_with(|c: char| c.is_ascii_digit())
+    run.as_bytes().first().is_some_and(u8::is_ascii_digit)
 }
 
-/// The leading run of digits, or of anything else, and what follows.
+/// The leading run of digits, or of anything else, and what follows. Digits are single bytes, so a
+/// run ends between characters.
 fn first_run(text: &str) -> (&str, &str) {
     let digits = is_number(text);
-    let end = text.find(|c: char| c.is_ascii_digit() != digits).unwrap_or(text.len());
-    text.split_at_checked(end).unwrap_or((text, ""))
+    let end = text.bytes().position(|byte| byte.is_ascii_digit() != digits);
+    text.split_at_checked(end.unwrap_or(text.len())).unwrap_or((text, ""))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::cells::{content, guarded};
+use crate::cells::{bare, guarded, inner};
 use crate::finding::Finding;
 use crate::pin::PinName;
 use crate::remap::Blocks;
@@ -232,7 +232,8 @@ impl Table {
     pub fn to_csv(&self) -> String {
         let mut csv = String::new();
         for property in &self.properties {
-            csv.push_str(&format!("# {} = {}\n", property.key, content(&property.value, false)));
+            let value = inner(&property.value, false);
+            csv.push_str(&format!("# {} = {}\n", property.key, bare(&value)));
         }
         let columns: Vec<&Column> =
             self.columns.iter().filter(|column| column.role != Role::Alternate).collect();
@@ -278,7 +279,7 @@ fn push_row(csv: &mut String, cells: impl Iterator<Item = String>) {
             csv.push(',');
         }
         // What reading would take off is not written: a soft hyphen of a label, blanks around it.
-        let cell = guarded(content(&cell, false));
+        let cell = guarded(inner(&cell, false));
         // A leading `#` would read as a comment, a leading quote as a quoted cell.
         if cell.contains([',', '"', '\n', '\r', ';', '\t']) || cell.starts_with('#') {
             csv.push_str(&format!("\"{}\"", cell.replace('"', "\"\"")));

@@ -103,14 +103,58 @@ struct Scan {
     /// The word in a tag that is being read, as far as it is of interest, and its length.
     word: [u8; WORD_BYTES],
     length: usize,
-    /// The digits of a number by which a reader would take memory in advance.
-    digits: Option<usize>,
+    /// The value in quotes, where its length matters.
+    value: Option<Value>,
+}
+
+/// A value that a reader makes a number of.
+#[derive(Clone, Copy, Debug)]
+enum Value {
+    /// A number by which a reader takes memory in advance, and its digits so far.
+    Strings(usize),
+    /// The place of a cell (`AB12`, `A1:B2`): the last run of letters or of digits, and its length.
+    Cell { digits: bool, run: usize },
+}
+
+impl Value {
+    /// Of the attribute of that name, where it is of interest.
+    fn of(name: &[u8]) -> Option<Self> {
+        match name {
+            b"uniqueCount" => Some(Self::Strings(0)),
+            b"r" | b"ref" => Some(Self::Cell { digits: false, run: 0 }),
+            _ => None,
+        }
+    }
+
+    /// With one more byte.
+    fn and(self, byte: u8) -> Result<Self, Refused> {
+        match self {
+            Self::Strings(count) => {
+                at_most(count, DIGITS_MAX, "digits in the number of its strings")?;
+                Ok(Self::Strings(count + 1))
+            }
+            Self::Cell { digits, run } => {
+                let is_digit = byte.is_ascii_digit();
+                let run = match byte {
+                    _ if !byte.is_ascii_alphanumeric() => 0,
+                    _ if is_digit == digits => run + 1,
+                    _ => 1,
+                };
+                let most = if is_digit { ROW_DIGITS_MAX } else { COLUMN_LETTERS_MAX };
+                at_most(run, most, "letters or digits in the place of a cell")?;
+                Ok(Self::Cell { digits: is_digit, run })
+            }
+        }
+    }
 }
 
 /// Bytes of the longest name that is of interest.
 const WORD_BYTES: usize = b"uniqueCount".len();
 /// Digits of a number of strings that is believed.
 const DIGITS_MAX: usize = 6;
+/// What no sheet has, and what still fits into a number of 32 bits.
+const COLUMN_LETTERS_MAX: usize = 6;
+const ROW_DIGITS_MAX: usize = 9;
 
 impl Scan {
     fn new(most: usize) -> Self {
@@ -125,7 +169,7 @@ impl Scan {
             last: 0,
             word: [0; WORD_BYTES],
             length: 0,
-            digits: None,
+            value: None,
         }
     }
 
@@ -182,13 +226,10 @@ impl Scan {
     fn tag(&mut self, quote: Option<u8>, byte: u8) -> Result<(), Refused> {
         if let Some(quote) = quote {
             let ends = byte == quote;
-            if let Some(digits) = &mut self.digits {
-                *digits += 1;
-                at_most(*digits, DIGITS_MAX + 1, "digits in the number of its strings")?;
-            }
-            if ends {
-                self.digits = None;
-            }
+            self.value = match self.value.filter(|_| !ends) {
+                Some(value) => Some(value.and(byte)?),
+                None => None,
+            };
             self.state = State::Tag((!ends).then_some(quote));
             return Ok(());
         }
@@ -224,7 +265,7 @@ impl Scan {
         if word.starts_with(b"xmlns") {
             self.namespaces += 1;
         }
-        self.digits = (word == b"uniqueCount").then_some(0);
+        self.value = Value::of(word);
         at_most(self.namespaces, XML_NAMESPACES_MAX, "namespaces")
     }
 }
@@ -248,6 +289,7 @@ mod tests {
         let text = "<?xml version='1.0'?><!-- > <x ' --><a b='>' c=\"/\"><d/><![CDATA[<e>]]]></a>";
         assert_eq!(scanned(text), Ok((2, 0)));
         assert_eq!(scanned("<a><b><c x='1'/>"), Ok((3, 2)));
+        assert_eq!(scanned("<c r='XFD1048576'/><d ref='A1:XFD1048576'/>"), Ok((2, 0)));
     }
 
     #[test]
@@ -259,6 +301,8 @@ mod tests {
             (format!("<a {}>", many("b='' ", XML_ATTRIBUTES_MAX + 1)), "attributes"),
             (many("<a xmlns:b='' xmlns='' />", XML_NAMESPACES_MAX / 2 + 1), "namespaces"),
             ("<sst count='1' uniqueCount='99999999'/>".to_owned(), "digits"),
+            ("<c r='AAAAAAA1'/>".to_owned(), "letters"),
+            ("<mergeCell ref='A1:B1234567890'/>".to_owned(), "letters"),
         ] {
             match scanned(&text) {
                 Err(Refused::TooMuch(said, _)) => assert!(said.contains(what), "{said}"),

@@ -1,7 +1,7 @@
 //! From a design to the solver's problem: every rule becomes a domain, a claim, a DMA request, a
 //! soft rule or a board.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Link, Transport};
@@ -264,9 +264,9 @@ fn pins(design: &Design) -> (Vec<(BoardIndex, usize)>, Vec<u32>) {
 fn signal_ranks(design: &Design) -> BTreeMap<String, u32> {
     let usages = design.boards.iter().flat_map(|board| &board.table.pins);
     let usages = usages.flat_map(|pin| &pin.usages);
-    let mut names: Vec<&str> = usages.map(|usage| usage.signal.name()).chain([GPIO]).collect();
+    let names: BTreeSet<&str> = usages.map(|usage| usage.signal.name()).chain([GPIO]).collect();
+    let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_by(|a, b| natural(a, b));
-    names.dedup();
     names.iter().zip(0..).map(|(name, rank)| ((*name).to_owned(), rank)).collect()
 }
 

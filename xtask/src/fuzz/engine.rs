@@ -24,18 +24,39 @@ const COVERAGE: &[&str] = &[
     "-Clinker=clang",
 ];
 
-/// The program that holds the decoders in C and C++.
-const DECODERS: &str = "sensedsl-fuzz-decoders";
+/// How a target is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Build {
+    package: &'static str,
+    /// Whether the fuzzer is told what values are compared with.
+    compares: bool,
+}
 
-/// The program of a target.
-fn program(target: &str) -> &'static str {
-    if target == "decoders" { DECODERS } else { "sensedsl-fuzz" }
+impl Build {
+    /// Where bytes are choices, from which a design, a certificate or a stream is made, what the
+    /// program compares with is not in them, and telling it would take more than half of the time.
+    /// A brief run does without a build of its own for that.
+    fn of(target: &str, is_brief: bool) -> Self {
+        match target {
+            "decoders" => Self { package: "sensedsl-fuzz-decoders", compares: false },
+            "pipeline" | "certificate" => Self { package: "sensedsl-fuzz", compares: is_brief },
+            _ => Self { package: "sensedsl-fuzz", compares: true },
+        }
+    }
+
+    /// Where it is built, in the folder `target`.
+    fn folder(self, target: &Path) -> PathBuf {
+        if self.compares { target.to_owned() } else { target.join("choices") }
+    }
 }
 
 /// Programs that have been built.
 #[derive(Debug)]
 pub(super) struct Engine {
+    target: PathBuf,
+    /// Below the folder of a build.
     programs: PathBuf,
+    is_brief: bool,
     logs: PathBuf,
 }
 
@@ -61,17 +82,16 @@ impl Engine {
             bail!("clang is missing, with its runtimes (Debian: clang and libclang-rt-14-dev)");
         }
         let profile = if is_brief { "brief" } else { "release" };
-        let folder = fuzz.join("target");
-        let programs: BTreeSet<&str> = targets.map(program).collect();
-        for program in programs {
-            // Streams of frames are made, not found by comparing, and the calls would cost more
-            // than the decoders.
-            let more = (program != DECODERS).then_some(COMPARES);
+        let target = fuzz.join("target");
+        let builds: BTreeSet<Build> = targets.map(|target| Build::of(target, is_brief)).collect();
+        for build in builds {
+            let more = build.compares.then_some(COMPARES);
             let flags: Vec<&str> = COVERAGE.iter().copied().chain(more).collect();
             let mut cargo = Command::new(env!("CARGO"));
-            cargo.current_dir(fuzz).args(["build", "--quiet", "--locked", "--package", program]);
+            cargo.current_dir(fuzz).args(["build", "--quiet", "--locked"]);
             // A target that is named keeps the flags away from build scripts and macros.
-            cargo.args(["--profile", profile, "--target", host, "--target-dir"]).arg(&folder);
+            cargo.args(["--package", build.package, "--profile", profile, "--target", host]);
+            cargo.arg("--target-dir").arg(build.folder(&target));
             cargo.env_remove("RUSTFLAGS").env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
             let library = format!("libclang_rt.fuzzer-{}.a", std::env::consts::ARCH);
             let library = output_of("clang", &[&format!("--print-file-name={library}")]);
@@ -79,17 +99,19 @@ impl Engine {
                 cargo.env("CUSTOM_LIBFUZZER_PATH", library);
             }
             if !cargo.status()?.success() {
-                bail!("{program} does not build");
+                bail!("{} does not build", build.package);
             }
         }
-        let logs = folder.join("logs");
+        let logs = target.join("logs");
         fs::create_dir_all(&logs)?;
-        Ok(Self { programs: folder.join(host).join(profile), logs })
+        Ok(Self { target, programs: Path::new(host).join(profile), is_brief, logs })
     }
 
     /// The program of a target.
     pub(super) fn command(&self, target: &str) -> Command {
-        let mut command = Command::new(self.programs.join(program(target)));
+        let build = Build::of(target, self.is_brief);
+        let folder = build.folder(&self.target).join(&self.programs);
+        let mut command = Command::new(folder.join(build.package));
         command.env("SENSEDSL_FUZZ_TARGET", target);
         command
     }

@@ -6,12 +6,21 @@
 //! upper and lower case being one: libcluon's guards and some file systems do not tell them apart.
 
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 const RESERVED: &str = include_str!("reserved_cpp.txt");
 
+/// The words of the list.
+fn reserved() -> &'static BTreeSet<&'static str> {
+    static WORDS: OnceLock<BTreeSet<&str>> = OnceLock::new();
+    WORDS.get_or_init(|| {
+        let lines = RESERVED.lines().filter(|line| !line.starts_with('#'));
+        lines.flat_map(str::split_whitespace).collect()
+    })
+}
+
 /// Hands out names, each at most once.
 pub(super) struct CppNames {
-    reserved: BTreeSet<&'static str>,
     /// In lower case.
     taken: BTreeSet<String>,
 }
@@ -19,8 +28,7 @@ pub(super) struct CppNames {
 impl CppNames {
     /// Nothing is taken yet.
     pub(super) fn new() -> Self {
-        let lines = RESERVED.lines().filter(|line| !line.starts_with('#'));
-        Self { reserved: lines.flat_map(str::split_whitespace).collect(), taken: BTreeSet::new() }
+        Self { taken: BTreeSet::new() }
     }
 
     /// The C++ name for `name`, taken from now on.
@@ -36,7 +44,7 @@ impl CppNames {
         if !identifier.starts_with(|first: char| first.is_ascii_alphabetic()) {
             identifier.insert(0, 'n');
         }
-        while self.reserved.contains(identifier.as_str())
+        while reserved().contains(identifier.as_str())
             || !self.taken.insert(identifier.to_ascii_lowercase())
         {
             identifier.push('_');
