@@ -1,5 +1,8 @@
 //! Rules: `prefer`, `avoid`, `reserve`, `release`, `allow`.
 
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+
 use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0110_misplaced_item, e0201_unknown_property, e0209_wrong_value,
@@ -157,24 +160,90 @@ fn allow(
 pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let of_boards = design.boards.iter().flat_map(|board| &board.allows);
     let of_devices = design.devices.iter().flat_map(|device| &device.allows);
-    let mut unused = Vec::new();
-    for allow in of_boards.chain(of_devices) {
-        let before = diagnostics.len();
-        diagnostics.retain(|one| !covers(allow, one));
-        if diagnostics.len() == before {
-            let rule = format!("allow {}", allow.code);
-            let why = "nothing of the kind would be said here";
-            unused.push(w0604_unused_rule::unused_rule(allow.span, &rule, why));
-        }
-    }
-    diagnostics.append(&mut unused);
+    let allows: Vec<&Allow> = of_boards.chain(of_devices).collect();
+    let covered = covered(&allows, diagnostics);
+    let mut at = 0..;
+    diagnostics.retain(|_| at.next().is_none_or(|at| !covered.contains_key(&at)));
+    let used: BTreeSet<usize> = covered.into_values().collect();
+    let unused = allows.iter().enumerate().filter(|(index, _)| !used.contains(index));
+    diagnostics.extend(unused.map(|(_, allow)| {
+        let rule = format!("allow {}", allow.code);
+        let why = "nothing of the kind would be said here";
+        w0604_unused_rule::unused_rule(allow.span, &rule, why)
+    }));
 }
 
-fn covers(allow: &Allow, diagnostic: &Diagnostic) -> bool {
-    let Span { file, start, end } = allow.scope;
-    let place = diagnostic.primary.span;
-    diagnostic.code == allow.code
-        && diagnostic.severity != Severity::Error
-        && place.file == file
-        && (start..=end).contains(&place.start)
+/// For each diagnostic that is allowed the first rule that allows it, both by their index.
+///
+/// Goes through rules and diagnostics by their places, so that many of both cost n log n.
+fn covered(allows: &[&Allow], diagnostics: &[Diagnostic]) -> BTreeMap<usize, usize> {
+    let mut rules: Vec<(usize, &Allow)> = allows.iter().copied().enumerate().collect();
+    rules.sort_by_key(|(_, allow)| (allow.code, allow.scope.file, allow.scope.start));
+    let can_be_allowed = |(_, one): &(usize, &Diagnostic)| one.severity != Severity::Error;
+    let mut warnings: Vec<_> = diagnostics.iter().enumerate().filter(can_be_allowed).collect();
+    let place = |one: &Diagnostic| (one.code, one.primary.span.file, one.primary.span.start);
+    warnings.sort_by_key(|(_, one)| place(one));
+    let mut rules = rules.into_iter().peekable();
+    // The scopes that have begun, the first rule on top.
+    let mut open = BinaryHeap::new();
+    let mut found = BTreeMap::new();
+    for (at, warning) in warnings {
+        let (code, file, start) = place(warning);
+        let begun = |(_, allow): &(usize, &Allow)| {
+            (allow.code, allow.scope.file, allow.scope.start) <= (code, file, start)
+        };
+        while let Some((index, Allow { code, scope, .. })) = rules.next_if(begun) {
+            open.push(Reverse((index, *code, scope.file, scope.end)));
+        }
+        // What has ended here, or is about something else, has ended for all that follow.
+        while let Some(Reverse((index, of, within, end))) = open.peek().copied() {
+            if (of, within) == (code, file) && start <= end {
+                found.insert(at, index);
+                break;
+            }
+            open.pop();
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use sensedsl_diagnostics::SourceMap;
+
+    fn covers(allow: &Allow, one: &Diagnostic) -> bool {
+        let (scope, place) = (allow.scope, one.primary.span);
+        let within = (scope.start..=scope.end).contains(&place.start);
+        one.severity != Severity::Error
+            && (allow.code, scope.file) == (one.code, place.file)
+            && within
+    }
+
+    proptest! {
+        #[test]
+        fn the_first_rule_that_covers_a_warning_allows_it(
+            rules in prop::collection::vec((0..3_usize, 0..2_usize, 0..9_usize, 0..6_usize), 0..12),
+            places in prop::collection::vec((0..3_usize, 0..2_usize, 0..12_usize), 0..12),
+        ) {
+            let mut sources = SourceMap::default();
+            let files = [sources.add("a", ""), sources.add("b", "")];
+            let codes = ["W0602", "W0604", "E0201"].map(|code| Code::find(code).unwrap());
+            let rule = |(code, file, start, length): (usize, usize, usize, usize)| {
+                let scope = Span::new(files[file], start..start + length);
+                Allow { code: codes[code], reason: String::new(), span: scope, scope }
+            };
+            let warning = |(code, file, start): (usize, usize, usize)| {
+                Diagnostic::new(codes[code], Span::new(files[file], start..start), String::new())
+            };
+            let rules: Vec<Allow> = rules.into_iter().map(rule).collect();
+            let warnings: Vec<Diagnostic> = places.into_iter().map(warning).collect();
+            let by_definition = warnings.iter().enumerate().filter_map(|(at, one)| {
+                Some((at, rules.iter().position(|allow| covers(allow, one))?))
+            });
+            let rules: Vec<&Allow> = rules.iter().collect();
+            prop_assert_eq!(covered(&rules, &warnings), by_definition.collect());
+        }
+    }
 }

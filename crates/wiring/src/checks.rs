@@ -352,19 +352,23 @@ fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
     let offer = Offer::new(index, board);
     let debug =
         |pin: &Pin| board.profile().is_some_and(|profile| profile.debug.pins.contains(&pin.name));
+    // By what names a pin that is taken: whether the link keeps any of them.
+    let (mut names, mut parts) = (BTreeMap::<&str, bool>::new(), BTreeMap::<String, bool>::new());
+    for (at, pin) in board.table.pins.iter().enumerate() {
+        let linked = offer.why_withheld(at) == Some(&Withheld::Link);
+        if pin.onboard.is_some() || debug(pin) {
+            *names.entry(pin.name.as_str()).or_default() |= linked;
+        }
+        if let Some(part) = &pin.onboard {
+            *parts.entry(part.part.to_ascii_lowercase()).or_default() |= linked;
+        }
+    }
     let why_useless = |rule: &str| {
-        let pins = board.table.pins.iter().enumerate();
-        let named = pins.filter(|(_, pin)| {
-            let part = pin.onboard.as_ref();
-            (pin.name.as_str() == rule && (part.is_some() || debug(pin)))
-                || part.is_some_and(|part| part.part.eq_ignore_ascii_case(rule))
-        });
-        let named: Vec<usize> = named.map(|(at, _)| at).collect();
-        let linked = |at: &usize| offer.why_withheld(*at) == Some(&Withheld::Link);
-        match (named.is_empty(), named.iter().any(linked)) {
-            (true, _) => Some("no on-board part is there"),
-            (false, true) => Some("the USB link keeps it"),
-            (false, false) => None,
+        let (name, part) = (names.get(rule), parts.get(&rule.to_ascii_lowercase()));
+        match name.into_iter().chain(part).copied().reduce(|one, other| one || other) {
+            None => Some("no on-board part is there"),
+            Some(true) => Some("the USB link keeps it"),
+            Some(false) => None,
         }
     };
     let useless = board.released.iter().filter_map(|rule| {

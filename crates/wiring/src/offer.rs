@@ -22,10 +22,47 @@ pub(crate) enum Withheld {
     Debug,
 }
 
+/// The `reserve` and `release` rules of a board by what they name, so that each pin is looked up.
+struct Rules<'a> {
+    /// The first rule that reserves the pin.
+    reserved: BTreeMap<PinName, Span>,
+    /// What is reserved, as it is spelled: a peripheral has one spelling.
+    reserved_units: BTreeSet<&'a str>,
+    released: BTreeSet<PinName>,
+    /// What is released, in lower case: on-board parts are.
+    released_parts: BTreeSet<String>,
+}
+
+impl<'a> Rules<'a> {
+    fn of(board: &'a Board) -> Self {
+        let mut reserved = BTreeMap::new();
+        for rule in &board.reserved {
+            if let Some(pin) = PinName::parse(&rule.value) {
+                reserved.entry(pin).or_insert(rule.span);
+            }
+        }
+        let released = || board.released.iter().map(|rule| &rule.value);
+        Self {
+            reserved,
+            reserved_units: board.reserved.iter().map(|rule| rule.value.as_str()).collect(),
+            released: released().filter_map(|name| PinName::parse(name)).collect(),
+            released_parts: released().map(|name| name.to_ascii_lowercase()).collect(),
+        }
+    }
+
+    /// Whether a rule gives the pin free from its on-board part.
+    fn release(&self, pin: &Pin) -> bool {
+        let by_part = |part: &str| self.released_parts.contains(&part.to_ascii_lowercase());
+        self.released.contains(&pin.name)
+            || pin.onboard.as_ref().is_some_and(|onboard| by_part(&onboard.part))
+    }
+}
+
 /// A board and its pins as devices may use them.
 pub(crate) struct Offer<'a> {
     pub(crate) index: BoardIndex,
     pub(crate) board: &'a Board,
+    rules: Rules<'a>,
     /// For each pin of the table why it is withheld.
     withheld: Vec<Option<Withheld>>,
     /// For each pin of the table the contact that it shares with others.
@@ -36,11 +73,12 @@ pub(crate) struct Offer<'a> {
 
 impl<'a> Offer<'a> {
     pub(crate) fn new(index: BoardIndex, board: &'a Board) -> Self {
-        let mut withheld: Vec<_> =
-            board.table.pins.iter().map(|pin| withheld(board, pin)).collect();
-        let pads = shared_pads(&board.table.pins);
-        keep_pads_free(board, &pads, &mut withheld);
-        Self { index, board, withheld, pads, remaps: remaps(&board.table.pins) }
+        let rules = Rules::of(board);
+        let pins = &board.table.pins;
+        let mut withheld: Vec<_> = pins.iter().map(|pin| withheld(board, &rules, pin)).collect();
+        let pads = shared_pads(pins);
+        keep_pads_free(pins, &rules, &pads, &mut withheld);
+        Self { index, board, rules, withheld, pads, remaps: remaps(pins) }
     }
 
     /// The contact of a pin where other pins are on it as well.
@@ -75,13 +113,12 @@ impl<'a> Offer<'a> {
     /// True when an on-board part leaves the pin to further devices of its bus only.
     pub(crate) fn bus_only(&self, pin: &Pin) -> bool {
         let on_bus = pin.onboard.as_ref().is_some_and(|part| part.how == Occupation::Bus);
-        on_bus && !released(self.board, pin)
+        on_bus && !self.rules.release(pin)
     }
 
     /// True when a rule keeps the peripheral instance free, or it cannot work beside the link.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
-        self.board.reserved.iter().any(|reserved| reserved.value == unit)
-            || self.excluded_by_link(unit)
+        self.rules.reserved_units.contains(unit) || self.excluded_by_link(unit)
     }
 
     /// True when the MCU's USB device is the link and lets the peripheral instance not work.
@@ -148,43 +185,34 @@ fn remaps(pins: &[Pin]) -> BTreeMap<String, Remaps> {
 }
 
 /// What withholds a pin withholds all others on its contact, but those that a rule releases.
-fn keep_pads_free(board: &Board, pads: &[Option<String>], withheld: &mut [Option<Withheld>]) {
+fn keep_pads_free(
+    pins: &[Pin],
+    rules: &Rules<'_>,
+    pads: &[Option<String>],
+    withheld: &mut [Option<Withheld>],
+) {
     let reasons: BTreeMap<&str, Withheld> = pads
         .iter()
         .zip(withheld.iter())
         .filter_map(|(pad, why)| Some((pad.as_deref()?, why.clone()?)))
         .collect();
-    for ((pad, why), pin) in pads.iter().zip(withheld).zip(&board.table.pins) {
-        let released = board
-            .released
-            .iter()
-            .any(|rule| PinName::parse(&rule.value).is_some_and(|name| name == pin.name));
-        if why.is_none() && !released {
+    for ((pad, why), pin) in pads.iter().zip(withheld).zip(pins) {
+        if why.is_none() && !rules.released.contains(&pin.name) {
             *why = pad.as_deref().and_then(|pad| reasons.get(pad)).cloned();
         }
     }
 }
 
-/// Whether a rule gives the pin free from its on-board part.
-fn released(board: &Board, pin: &Pin) -> bool {
-    let part = pin.onboard.as_ref().map(|part| part.part.as_str());
-    board.released.iter().any(|rule| {
-        PinName::parse(&rule.value).is_some_and(|name| name == pin.name)
-            || part.is_some_and(|part| part.eq_ignore_ascii_case(&rule.value))
-    })
-}
-
-fn withheld(board: &Board, pin: &Pin) -> Option<Withheld> {
-    let named = |name: &str| PinName::parse(name).is_some_and(|name| name == pin.name);
-    if let Some(rule) = board.reserved.iter().find(|rule| named(&rule.value)) {
-        return Some(Withheld::Reserved(rule.span));
+fn withheld(board: &Board, rules: &Rules<'_>, pin: &Pin) -> Option<Withheld> {
+    if let Some(rule) = rules.reserved.get(&pin.name) {
+        return Some(Withheld::Reserved(*rule));
     }
     let profile = board.profile();
     if profile.is_some_and(|profile| is_of_usb_link(board, profile, pin)) {
         return Some(Withheld::Link);
     }
     // The part at the other end of a wired link is what the link talks to.
-    if released(board, pin) || board.link.pins.contains(&pin.name) {
+    if rules.release(pin) || board.link.pins.contains(&pin.name) {
         return None;
     }
     if let Some(part) = &pin.onboard
