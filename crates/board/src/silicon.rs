@@ -1,17 +1,23 @@
-//! What peripherals can do in hardware, where pins and signals do not tell.
+//! What peripherals can do in hardware and which pins the MCU needs for itself, where pins and
+//! signals do not tell.
 //!
-//! An MCU comes in, the abilities of its family go out. All facts are data of `silicon/`; this
+//! An MCU comes in, the facts of its family go out. All facts are data of `silicon/`; this
 //! module only finds and serves them.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use serde::Deserialize;
 
 use crate::mcu;
+use crate::pin::PinName;
 
 /// The files of `silicon/`.
-const FILES: &[&str] =
-    &[include_str!("../../../silicon/atmega.toml"), include_str!("../../../silicon/rp2.toml")];
+const FILES: &[&str] = &[
+    include_str!("../../../silicon/atmega.toml"),
+    include_str!("../../../silicon/rp2.toml"),
+    include_str!("../../../silicon/stm32.toml"),
+];
 
 /// What is known of a family.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
@@ -20,11 +26,41 @@ pub struct Silicon {
     /// Starts of part numbers.
     pub parts: Vec<String>,
     /// Its timers.
+    #[serde(default)]
     pub timers: Timers,
+    /// Pins that it needs for itself.
+    #[serde(default)]
+    pub pins: Vec<Needed>,
+}
+
+/// Pins that some MCUs of a family need for themselves.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Needed {
+    /// What for.
+    pub role: PinRole,
+    /// Starts of the part numbers.
+    pub parts: Vec<String>,
+    /// The pins.
+    pub names: Vec<String>,
+    /// Where it was read.
+    pub source: String,
+}
+
+/// What an MCU needs a pin for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PinRole {
+    /// A debugger talks over it.
+    Debug,
+    /// It resets the MCU, as delivered.
+    Reset,
+    /// It is read when the MCU starts, and chooses what is started.
+    Boot,
 }
 
 /// What timers can do, where it differs from most.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timers {
     /// Counting and timing edges.
@@ -49,8 +85,24 @@ pub struct Ability {
 #[must_use]
 pub fn of(mcu: &str) -> Option<&'static Silicon> {
     let name = mcu::normalise(mcu);
-    let covers = |silicon: &&Silicon| silicon.parts.iter().any(|part| name.starts_with(part));
-    all().iter().find(covers)
+    all().iter().find(|silicon| covers(&silicon.parts, &name))
+}
+
+/// The pins that an MCU needs for itself, and for what.
+#[must_use]
+pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
+    let name = mcu::normalise(mcu);
+    let needed = of(mcu).into_iter().flat_map(|silicon| &silicon.pins);
+    let of_part = needed.filter(|needed| covers(&needed.parts, &name));
+    let pins = |needed: &'static Needed| {
+        let names = needed.names.iter().filter_map(|name| PinName::parse(name));
+        names.map(|name| (name, needed.role))
+    };
+    of_part.flat_map(pins).collect()
+}
+
+fn covers(parts: &[String], name: &str) -> bool {
+    parts.iter().any(|part| name.starts_with(part))
 }
 
 /// All families; a damaged file, which tests rule out, is none.
@@ -83,6 +135,12 @@ mod tests {
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {
                 assert!(!ability.because.is_empty() && !ability.source.is_empty());
             }
+            for needed in &silicon.pins {
+                assert!(!needed.parts.is_empty() && !needed.source.is_empty(), "{needed:?}");
+                assert!(needed.names.iter().all(|name| PinName::parse(name).is_some()));
+                let inside = |part: &String| covers(&silicon.parts, part);
+                assert!(needed.parts.iter().all(inside), "{needed:?}");
+            }
         }
         assert_eq!((count, all().len()), (FILES.len(), FILES.len()));
     }
@@ -94,6 +152,20 @@ mod tests {
         assert!(encoder("rp2040").is_some_and(|ability| ability.channels.is_empty()));
         assert_eq!(capture("RP2350B"), Some(&[2][..]));
         assert_eq!(capture("ATmega328P-PU"), Some(&[][..]));
-        assert_eq!(of("STM32F407VGT6"), None);
+        assert_eq!(encoder("STM32F407VGT6"), None);
+        assert_eq!(of("MSP430G2553"), None);
+    }
+
+    #[test]
+    fn pins_are_needed_by_their_parts() {
+        let pins = |mcu| {
+            let roles = pin_roles(mcu).into_iter();
+            roles.map(|(pin, role)| format!("{pin} {role:?}")).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(pins("STM32F407VGT6"), "PA13 Debug, PA14 Debug, PB2 Boot");
+        assert_eq!(pins("stm32g431kb"), "PA13 Debug, PA14 Debug, PB8 Boot, PG10 Reset");
+        assert_eq!(pins("STM32L432KC"), "PA13 Debug, PA14 Debug, PH3 Boot");
+        assert_eq!(pins("ATmega328P-PU"), "PC6 Reset");
+        assert_eq!(pins("RP2040"), "");
     }
 }

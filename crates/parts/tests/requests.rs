@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::remap::Blocks;
+use sensedsl_board::silicon::pin_roles;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::find;
 use sensedsl_wiring::{Solved, Wiring};
@@ -92,6 +93,11 @@ impl Files for NoFiles {
 /// The solver's cost of the best wiring of devices on the pins of a part.
 fn cost(part: &str, devices: &str) -> Option<u32> {
     let mut text = format!("board X on {part} {{\n");
+    // The search knows of pins alone, not of what they are needed for.
+    let sheet = find(part).unwrap().sheet;
+    for pin in pin_roles(part).keys().filter(|pin| sheet.pin(pin).is_some()) {
+        text.push_str(&format!("    release {pin};\n"));
+    }
     for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
         let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
         let extra = match kind {

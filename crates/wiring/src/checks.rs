@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_board::signal::UnitName;
-use sensedsl_board::table::{Occupation, Pin};
+use sensedsl_board::silicon::PinRole;
+use sensedsl_board::table::Occupation;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
@@ -18,7 +19,7 @@ use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
-use crate::offer::{Offer, Withheld};
+use crate::offer::{Offer, Withheld, roles};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
@@ -102,11 +103,15 @@ fn withheld(
         Withheld::Link => {
             ("the USB link".to_owned(), None, "take another pin, or another link".to_owned())
         }
-        Withheld::Debug => (
-            "the debugger".to_owned(),
-            None,
-            format!("take another pin, or write `release {name};` and give up debugging"),
-        ),
+        Withheld::Needed(role) => {
+            let (by, price) = match role {
+                PinRole::Debug => ("the debugger", "give up debugging"),
+                PinRole::Reset => ("the reset input", "make it a GPIO in the option bytes"),
+                PinRole::Boot => ("BOOT, which the MCU reads at reset", "leave it alone at reset"),
+            };
+            let help = format!("take another pin, or write `release {name};` and {price}");
+            (by.to_owned(), None, help)
+        }
     };
     Some(e0316_pin_not_available::pin_not_available(pin.span, name, &by, place, &help))
 }
@@ -350,13 +355,12 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
 /// Releases that give nothing free: nothing has the pin, or the link keeps it.
 fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
     let offer = Offer::new(index, board);
-    let debug =
-        |pin: &Pin| board.profile().is_some_and(|profile| profile.debug.pins.contains(&pin.name));
+    let roles = roles(board);
     // By what names a pin that is taken: whether the link keeps any of them.
     let (mut names, mut parts) = (BTreeMap::<&str, bool>::new(), BTreeMap::<String, bool>::new());
     for (at, pin) in board.table.pins.iter().enumerate() {
         let linked = offer.why_withheld(at) == Some(&Withheld::Link);
-        if pin.onboard.is_some() || debug(pin) {
+        if pin.onboard.is_some() || roles.contains_key(&pin.name) {
             *names.entry(pin.name.as_str()).or_default() |= linked;
         }
         if let Some(part) = &pin.onboard {

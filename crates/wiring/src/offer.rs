@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
+use sensedsl_board::silicon::{self, PinRole};
 use sensedsl_board::table::{Occupation, Pin, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
@@ -18,8 +19,8 @@ pub(crate) enum Withheld {
     Onboard(String),
     /// The link to the host has it.
     Link,
-    /// The debugger has it.
-    Debug,
+    /// The MCU needs it for itself.
+    Needed(PinRole),
 }
 
 /// The `reserve` and `release` rules of a board by what they name, so that each pin is looked up.
@@ -75,7 +76,9 @@ impl<'a> Offer<'a> {
     pub(crate) fn new(index: BoardIndex, board: &'a Board) -> Self {
         let rules = Rules::of(board);
         let pins = &board.table.pins;
-        let mut withheld: Vec<_> = pins.iter().map(|pin| withheld(board, &rules, pin)).collect();
+        let roles = roles(board);
+        let why = |pin| withheld(board, &rules, &roles, pin);
+        let mut withheld: Vec<_> = pins.iter().map(why).collect();
         let pads = shared_pads(pins);
         keep_pads_free(pins, &rules, &pads, &mut withheld);
         Self { index, board, rules, withheld, pads, remaps: remaps(pins) }
@@ -203,7 +206,12 @@ fn keep_pads_free(
     }
 }
 
-fn withheld(board: &Board, rules: &Rules<'_>, pin: &Pin) -> Option<Withheld> {
+fn withheld(
+    board: &Board,
+    rules: &Rules<'_>,
+    roles: &BTreeMap<PinName, PinRole>,
+    pin: &Pin,
+) -> Option<Withheld> {
     if let Some(rule) = rules.reserved.get(&pin.name) {
         return Some(Withheld::Reserved(*rule));
     }
@@ -220,7 +228,15 @@ fn withheld(board: &Board, rules: &Rules<'_>, pin: &Pin) -> Option<Withheld> {
     {
         return Some(Withheld::Onboard(part.part.clone()));
     }
-    profile?.debug.pins.contains(&pin.name).then_some(Withheld::Debug)
+    roles.get(&pin.name).copied().map(Withheld::Needed)
+}
+
+/// The pins that the board's MCU needs for itself.
+pub(crate) fn roles(board: &Board) -> BTreeMap<PinName, PinRole> {
+    let mut roles = board.mcu.as_deref().map(silicon::pin_roles).unwrap_or_default();
+    let debug = board.profile().into_iter().flat_map(|profile| &profile.debug.pins);
+    roles.extend(debug.map(|pin| (pin.clone(), PinRole::Debug)));
+    roles
 }
 
 /// Whether the link to the host takes the pin: no rule can give it away.
