@@ -2,6 +2,11 @@
 //!
 //! The other tests of the program are in `tests/` of the repository. That Cargo builds the program
 //! for this one spares them building it.
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test may panic, and runs the program"
+)]
 
 use std::process::Command;
 
