@@ -112,8 +112,46 @@ struct Scan {
 enum Value {
     /// A number by which a reader takes memory in advance, and its digits so far.
     Strings(usize),
-    /// The place of a cell (`AB12`, `A1:B2`): the last run of letters or of digits, and its length.
-    Cell { digits: bool, run: usize },
+    /// The place of a cell (`AB12`) or a range of them (`A1:B2`).
+    Cells(Cells),
+}
+
+/// The places of cells as far as they are read.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cells {
+    /// Column and row of the place before the colon, and of the one that is being read.
+    first: Option<(u32, u32)>,
+    column: u32,
+    row: u32,
+    /// Letters and digits of the place.
+    letters: usize,
+    digits: usize,
+}
+
+impl Cells {
+    fn and(mut self, byte: u8) -> Result<Self, Refused> {
+        let what = "letters or digits in the place of a cell";
+        match byte {
+            b':' => return Ok(Self { first: Some((self.column, self.row)), ..Self::default() }),
+            b'0'..=b'9' => {
+                self.digits += 1;
+                at_most(self.digits, ROW_DIGITS_MAX, what)?;
+                self.row = self.row * 10 + u32::from(byte - b'0');
+            }
+            b'A'..=b'Z' | b'a'..=b'z' => {
+                self.letters += 1;
+                at_most(self.letters, COLUMN_LETTERS_MAX, what)?;
+                self.column = self.column * 26 + u32::from(byte.to_ascii_uppercase() - b'A') + 1;
+            }
+            _ => {}
+        }
+        Ok(self)
+    }
+
+    /// Whether it is no range, or one that ends behind its beginning.
+    fn is_forward(self) -> bool {
+        self.first.is_none_or(|(column, row)| column <= self.column && row <= self.row)
+    }
 }
 
 impl Value {
@@ -121,7 +159,7 @@ impl Value {
     fn of(name: &[u8]) -> Option<Self> {
         match name {
             b"uniqueCount" => Some(Self::Strings(0)),
-            b"r" | b"ref" => Some(Self::Cell { digits: false, run: 0 }),
+            b"r" | b"ref" => Some(Self::Cells(Cells::default())),
             _ => None,
         }
     }
@@ -133,17 +171,17 @@ impl Value {
                 at_most(count, DIGITS_MAX, "digits in the number of its strings")?;
                 Ok(Self::Strings(count + 1))
             }
-            Self::Cell { digits, run } => {
-                let is_digit = byte.is_ascii_digit();
-                let run = match byte {
-                    _ if !byte.is_ascii_alphanumeric() => 0,
-                    _ if is_digit == digits => run + 1,
-                    _ => 1,
-                };
-                let most = if is_digit { ROW_DIGITS_MAX } else { COLUMN_LETTERS_MAX };
-                at_most(run, most, "letters or digits in the place of a cell")?;
-                Ok(Self::Cell { digits: is_digit, run })
+            Self::Cells(cells) => cells.and(byte).map(Self::Cells),
+        }
+    }
+
+    /// At the quote behind it.
+    fn end(self) -> Result<(), Refused> {
+        match self {
+            Self::Cells(cells) if !cells.is_forward() => {
+                Err(Refused::Why("it has a range of cells that ends before it begins".to_owned()))
             }
+            Self::Cells(_) | Self::Strings(_) => Ok(()),
         }
     }
 }
@@ -226,7 +264,8 @@ impl Scan {
     fn tag(&mut self, quote: Option<u8>, byte: u8) -> Result<(), Refused> {
         if let Some(quote) = quote {
             let ends = byte == quote;
-            self.value = match self.value.filter(|_| !ends) {
+            self.value = match self.value {
+                Some(value) if ends => value.end().map(|()| None)?,
                 Some(value) => Some(value.and(byte)?),
                 None => None,
             };
@@ -309,6 +348,8 @@ mod tests {
                 other => panic!("{what}: {other:?}"),
             }
         }
-        assert!(matches!(scanned("<!DOCTYPE a [<!ENTITY b 'c'>]>"), Err(Refused::Why(_))));
+        for text in ["<!DOCTYPE a [<!ENTITY b 'c'>]>", "<a ref='B1:A2'/>", "<a ref='A2:B1'/>"] {
+            assert!(matches!(scanned(text), Err(Refused::Why(_))), "{text}");
+        }
     }
 }
