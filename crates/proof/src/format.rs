@@ -14,7 +14,7 @@ use std::ops::Deref;
 pub const NAME: &str = "SenseDSL certificate 1";
 
 /// Things by name, no name twice.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Map<T>(BTreeMap<String, T>);
 
 impl<T> Deref for Map<T> {
@@ -88,7 +88,7 @@ pub struct Problem {
 }
 
 /// One way to connect a device.
-#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alternative {
     /// Where it is.
@@ -104,7 +104,7 @@ pub struct Alternative {
 }
 
 /// One way to connect a wire.
-#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Candidate {
     /// The pin.

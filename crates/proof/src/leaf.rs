@@ -30,6 +30,8 @@ struct Account<'a, 'o> {
     open: &'o Open<'a>,
     weights: Objective,
     leaf: &'a Leaf,
+    /// What the requests of each peripheral weigh.
+    dma: BTreeMap<&'a str, i128>,
     /// Who could pay for a thing, by behalf.
     payers: BTreeMap<Thing<'a>, BTreeMap<Behalf<'a>, BTreeSet<&'a str>>>,
 }
@@ -42,7 +44,8 @@ pub(crate) fn bound<'a>(
     leaf: &'a Leaf,
 ) -> Result<Option<i128>, Refuted> {
     ensure(leaf.scale > 0, || "a leaf's scale is 0".into())?;
-    let mut account = Account { problem, open, weights, leaf, payers: BTreeMap::new() };
+    let dma = requests(problem, leaf);
+    let mut account = Account { problem, open, weights, leaf, dma, payers: BTreeMap::new() };
     let streams = leaf.prices.get("stream").into_iter().flat_map(|all| all.values());
     let streams: i128 = streams.map(|price| i128::from(*price)).sum();
     let paid = open.violated.len() as i128 * i128::from(weights.violated);
@@ -132,17 +135,20 @@ impl<'a> Account<'a, '_> {
             "moved" => i128::from(moved),
             "rule" => i128::from(violated),
             "spare" => i128::from(spares),
-            "dma" => {
-                let prices = self.leaf.prices.get("stream");
-                let price = |stream| prices.and_then(|all| all.get(stream)).copied().unwrap_or(0);
-                let requests = known(&self.problem.dma, kind, name)?;
-                let least = requests.iter().map(|one| one.iter().map(price).min().unwrap_or(0));
-                return Ok(least.map(i128::from).sum());
-            }
+            "dma" => return known(&self.dma, kind, name).copied(),
             _ => 0,
         };
         Ok(weight * i128::from(self.leaf.scale))
     }
+}
+
+/// What the requests of each peripheral weigh: the price of the cheapest stream for each.
+fn requests<'a>(problem: &'a Problem, leaf: &Leaf) -> BTreeMap<&'a str, i128> {
+    let prices = leaf.prices.get("stream");
+    let price = |stream: &String| prices.and_then(|all| all.get(stream)).copied().unwrap_or(0);
+    let least = |request: &BTreeSet<String>| request.iter().map(price).min().unwrap_or(0);
+    let all = |requests: &[_]| requests.iter().map(least).map(i128::from).sum();
+    problem.dma.iter().map(|(user, requests)| (user.as_str(), all(requests))).collect()
 }
 
 /// What an alternative uses: first whatever wires are chosen, then for each role by candidate.

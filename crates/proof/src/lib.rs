@@ -7,17 +7,21 @@
 //! 3. `leaf` computes, from the tolls that the certificate proposes, a weight below which no
 //!    wiring of that case can be.
 //!
+//! `budget` bounds how much it reads and how many steps it takes.
+//!
 //! The objective is (moved, violated, cost, spares), the first difference decides. There is a
 //! proof for each part that is not 0: no wiring that equals the claim in the parts before is lower
 //! in this one. It gives each part a weight, none to the parts after, and shows that every wiring
 //! weighs more than one that were lower by 1 in its part. Any weights do: with unsuitable ones the
 //! proof does not come out.
 
+pub mod budget;
 pub mod format;
 mod leaf;
 mod tree;
 mod wiring;
 
+use budget::Budget;
 use format::{Alternative, Answer, Certificate, Objective, Part, Problem, Proof};
 use serde::Deserialize;
 use std::borrow::Borrow;
@@ -77,6 +81,7 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
     struct Head {
         format: String,
     }
+    budget::fits(text)?;
     let unusable = |error: serde_json::Error| Unusable(error.to_string());
     let Head { format } = serde_json::from_str(text).map_err(unusable)?;
     if format != format::NAME {
@@ -92,13 +97,19 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
 pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
     let Certificate { format: _, problem, answer, proofs } = certificate;
     named(problem)?;
+    let budget = &mut Budget::new();
     match answer {
-        Some(answer) => best(problem, answer, proofs),
-        None => no_wiring(problem, proofs),
+        Some(answer) => best(problem, answer, proofs, budget),
+        None => no_wiring(problem, proofs, budget),
     }
 }
 
-fn best(problem: &Problem, answer: &Answer, proofs: &[Proof]) -> Result<Verified, Refuted> {
+fn best(
+    problem: &Problem,
+    answer: &Answer,
+    proofs: &[Proof],
+    budget: &mut Budget,
+) -> Result<Verified, Refuted> {
     let claimed = answer.objective;
     let actual = wiring::objective(problem, answer)?;
     ensure(actual == claimed, || format!("the wiring has {actual}, not {claimed}"))?;
@@ -115,16 +126,20 @@ fn best(problem: &Problem, answer: &Answer, proofs: &[Proof]) -> Result<Verified
         ensure(after.all(|weight| *weight == 0), || {
             format!("the proof of {part} weighs later parts")
         })?;
-        tree::check(problem, proof, proof.weights.weigh(claimed) - own)?;
+        tree::check(problem, proof, proof.weights.weigh(claimed) - own, budget)?;
     }
     Ok(Verified::Best(claimed))
 }
 
 /// Without weights every wiring weighs 0: a proof that all weigh more leaves none.
-fn no_wiring(problem: &Problem, proofs: &[Proof]) -> Result<Verified, Refuted> {
+fn no_wiring(
+    problem: &Problem,
+    proofs: &[Proof],
+    budget: &mut Budget,
+) -> Result<Verified, Refuted> {
     let proof = find(proofs, Part::Existence)?;
     ensure(proof.weights == Objective::default(), || "a proof of existence has weights".into())?;
-    tree::check(problem, proof, 0)?;
+    tree::check(problem, proof, 0, budget)?;
     Ok(Verified::NoWiring)
 }
 

@@ -4,6 +4,7 @@
 //! nothing else changes. So it is enough to look at the wirings in which such *alike* devices, in
 //! the order of their names, take alternatives in the order of their names.
 
+use crate::budget::{self, Budget};
 use crate::format::{Alternative, Candidate, Case, Map, Node, Problem, Proof};
 use crate::{Refuted, ensure, known, leaf};
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,6 +36,9 @@ enum Step<'a> {
     Kept(&'a str),
     Violated(&'a str),
 }
+
+/// What can be taken in a case whose parts wait, and how many steps it takes to go through it.
+type Waiting<'a> = Rc<(Open<'a>, usize)>;
 
 fn named<T>(map: &Map<T>) -> impl Iterator<Item = (&str, &T)> {
     map.iter().map(|(name, one)| (name.as_str(), one))
@@ -108,58 +112,84 @@ impl<'a> Open<'a> {
 
 /// Devices that can change places, in groups, each in the order of names.
 fn alike(problem: &Problem) -> Vec<Vec<&str>> {
-    let mut groups: Vec<(&Map<Alternative>, Vec<&str>)> = Vec::new();
+    let mut groups: BTreeMap<&Map<Alternative>, Vec<&str>> = BTreeMap::new();
     for (name, device) in named(&problem.devices) {
-        match groups.iter_mut().find(|(same, _)| *same == device) {
-            Some((_, group)) => group.push(name),
-            None => groups.push((device, vec![name])),
-        }
+        groups.entry(device).or_default().push(name);
     }
-    groups.into_iter().map(|(_, group)| group).collect()
+    groups.into_values().collect()
 }
 
 /// Checks that all wirings weigh more than `limit`.
-pub(crate) fn check(problem: &Problem, proof: &Proof, limit: i128) -> Result<(), Refuted> {
+pub(crate) fn check(
+    problem: &Problem,
+    proof: &Proof,
+    limit: i128,
+    budget: &mut Budget,
+) -> Result<(), Refuted> {
     let alike = alike(problem);
+    let of_dma = budget::of_dma(problem);
     // A node is taken out when it is reached, so a second way to it, or a circle, is found.
     let mut nodes: Vec<Option<&Node>> = proof.nodes.iter().map(Some).collect();
-    let mut cases = vec![(0, Rc::new(Open::new(problem)), Step::Nothing)];
+    let all = Open::new(problem);
+    let size = budget::of_case(&all);
+    budget.wait(size)?;
+    let mut cases = vec![(0, Rc::new((all, size)), Step::Nothing)];
     while let Some((at, above, step)) = cases.pop() {
         let node = nodes.get_mut(at).and_then(Option::take);
         let node = node.ok_or_else(|| Refuted(format!("node {at} is not there, or not new")))?;
-        let mut open = Rc::unwrap_or_clone(above);
+        budget.step(above.1)?;
+        let mut open = match Rc::try_unwrap(above) {
+            Ok((open, size)) => {
+                budget.resume(size);
+                open
+            }
+            Err(above) => above.0.clone(),
+        };
         open.step(&step);
         open.prune();
         alike.iter().for_each(|group| open.sort(group));
-        let open = Rc::new(open);
-        match node {
-            Node::Device { device, cases: parts } => {
-                covered(at, parts, known(&open.devices, "device", device)?)?;
-                for Case { keep, then } in parts {
-                    cases.push((*then, Rc::clone(&open), Step::Takes(device, keep)));
-                }
-            }
-            Node::Role { device, role, cases: parts } => {
-                let all = only(&open, device).and_then(|one| one.roles.get(role.as_str()));
-                let all = all.ok_or_else(|| Refuted(format!("node {at} has no such role")))?;
-                covered(at, parts, all)?;
-                for Case { keep, then } in parts {
-                    cases.push((*then, Rc::clone(&open), Step::Wires(device, role, keep)));
-                }
-            }
-            Node::Rule { rule, kept, violated } => {
-                cases.push((*kept, Rc::clone(&open), Step::Kept(rule)));
-                cases.push((*violated, open, Step::Violated(rule)));
-            }
-            Node::Leaf(leaf) => {
-                let weight = leaf::bound(problem, &open, proof.weights, leaf)?;
-                let least = limit * i128::from(leaf.scale);
-                let enough = weight.is_none_or(|weight| weight > least);
-                ensure(enough, || format!("leaf {at} does not show what it has to"))?;
-            }
+        if let Node::Leaf(leaf) = node {
+            budget.step(of_dma)?;
+            let weight = leaf::bound(problem, &open, proof.weights, leaf)?;
+            let least = limit * i128::from(leaf.scale);
+            let enough = weight.is_none_or(|weight| weight > least);
+            ensure(enough, || format!("leaf {at} does not show what it has to"))?;
+            continue;
         }
+        let size = budget::of_case(&open);
+        let more = distinguished(at, node, &Rc::new((open, size)))?;
+        if !more.is_empty() {
+            budget.wait(size)?;
+        }
+        cases.extend(more);
     }
     Ok(())
+}
+
+/// The cases of a node with their nodes, none of which is left out.
+fn distinguished<'a>(
+    at: usize,
+    node: &'a Node,
+    open: &Waiting<'a>,
+) -> Result<Vec<(usize, Waiting<'a>, Step<'a>)>, Refuted> {
+    let with = |case: &'a Case, step| (case.then, Rc::clone(open), step);
+    Ok(match node {
+        Node::Device { device, cases } => {
+            covered(at, cases, known(&open.0.devices, "device", device)?)?;
+            cases.iter().map(|case| with(case, Step::Takes(device, &case.keep))).collect()
+        }
+        Node::Role { device, role, cases } => {
+            let all = only(&open.0, device).and_then(|one| one.roles.get(role.as_str()));
+            let all = all.ok_or_else(|| Refuted(format!("node {at} has no such role")))?;
+            covered(at, cases, all)?;
+            cases.iter().map(|case| with(case, Step::Wires(device, role, &case.keep))).collect()
+        }
+        Node::Rule { rule, kept, violated } => vec![
+            (*kept, Rc::clone(open), Step::Kept(rule)),
+            (*violated, Rc::clone(open), Step::Violated(rule)),
+        ],
+        Node::Leaf(_) => Vec::new(),
+    })
 }
 
 /// The one alternative that a device has left.

@@ -2,13 +2,11 @@
 //! 2 when there is no certificate to be read.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "the binary says the result")]
 
+use sensedsl_proof::budget::BYTES_MAX;
 use sensedsl_proof::{read, verify};
 use std::ffi::OsStr;
 use std::io::Read as _;
 use std::process::ExitCode;
-
-/// Bytes of a certificate; those of a hundred devices on eight boards have a few MiB.
-const BYTES_MAX: u64 = 32 << 20;
 
 /// The text of a file. A pipe or a device may never end, and a file that is far too large is not a
 /// certificate.
@@ -19,10 +17,8 @@ fn text(path: &OsStr) -> Result<String, String> {
     }
     let mut text = String::new();
     let file = std::fs::File::open(path).map_err(refused)?;
-    file.take(BYTES_MAX + 1).read_to_string(&mut text).map_err(refused)?;
-    if text.len() as u64 > BYTES_MAX {
-        return Err(format!("it has more than {} MiB", BYTES_MAX >> 20));
-    }
+    // One byte more, so that it is seen to be too large.
+    file.take(BYTES_MAX as u64 + 1).read_to_string(&mut text).map_err(refused)?;
     Ok(text)
 }
 

@@ -159,12 +159,18 @@ impl Wiring<'_> {
             Ok(text) => text,
             Err(why) => return Some(Err(self.uncertified(why))),
         };
+        if sensedsl_proof::budget::fits(&text).is_err() {
+            return Some(Err(self.uncertified(Uncertified::GivenUp)));
+        }
         // What is handed out has been verified.
         let certificate = sensedsl_proof::read(&text).map_err(|error| error.0);
         let verified =
             certificate.and_then(|one| sensedsl_proof::verify(&one).map_err(|refuted| refuted.0));
         Some(match verified {
             Ok(_) => Ok(text),
+            Err(why) if why == sensedsl_proof::budget::TOO_LONG => {
+                Err(self.uncertified(Uncertified::GivenUp))
+            }
             Err(why) => Err(Box::new(self.disagrees(&why))),
         })
     }
