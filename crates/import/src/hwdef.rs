@@ -52,6 +52,12 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
     project::made(&project, source, whole, log)
 }
 
+/// The input of a converter, by pin and converter.
+type Inputs = BTreeMap<(PinName, u8), String>;
+
+/// How many lines and families of MCUs are looked up; a file is about one of each.
+const STARTS_MAX: usize = 4;
+
 /// A line about something else than a pin.
 struct Line {
     words: Vec<String>,
@@ -72,8 +78,8 @@ struct Reader<'a> {
     includes_left: usize,
     /// How many more lines are read.
     lines_left: usize,
-    /// Inputs of converters that were looked up, by MCU, pin and unit.
-    inputs: BTreeMap<(String, PinName, String), Option<String>>,
+    /// Inputs of converters, by what the names of their parts begin with.
+    inputs: BTreeMap<String, Inputs>,
 }
 
 /// Lines by their first word and number: what is undefined goes without a search.
@@ -218,33 +224,17 @@ impl<'a> Reader<'a> {
 
     /// The input of a converter at a pin, as parts of the MCU's line have it, or of its family.
     fn converter_input(&mut self, pin: &PinName, unit: &str) -> Option<String> {
-        let key = (self.mcu.clone()?, pin.clone(), unit.to_owned());
-        if let Some(known) = self.inputs.get(&key) {
-            return known.clone();
-        }
-        let found = self.found_input(pin, unit);
-        self.inputs.insert(key, found.clone());
-        found
-    }
-
-    fn found_input(&self, pin: &PinName, unit: &str) -> Option<String> {
         const FAMILY: usize = "STM32F4".len();
-        let mcu = self.mcu.as_deref()?;
         let unit: u8 = unit.strip_prefix("ADC")?.parse().ok()?;
-        let input = |(signal, _): &(String, Option<u8>)| {
-            let (signal, _) = Signal::parse(signal);
-            let Function::Adc { units, channel } = signal.function() else { return None };
-            units.contains(&unit).then(|| format!("ADC{unit}_IN{channel}"))
-        };
+        let mcu = self.mcu.clone()?;
         // A line is named with letters that stand for any: STM32F405xx.
         let line = mcu.trim_end_matches(['x', 'X']);
+        let key = (pin.clone(), unit);
         [line, mcu.get(..FAMILY)?].into_iter().find_map(|start| {
-            let parts = sensedsl_parts::all().filter(|part| part.base().starts_with(start));
-            parts.into_iter().find_map(|part| {
-                let sheet = sensedsl_parts::Sheet::of(part);
-                let (_, usages) = sheet.pin(pin)?;
-                usages.iter().find_map(input)
-            })
+            if self.inputs.len() < STARTS_MAX && !self.inputs.contains_key(start) {
+                self.inputs.insert(start.to_owned(), inputs(start));
+            }
+            self.inputs.get(start)?.get(&key).cloned()
         })
     }
 
@@ -302,4 +292,23 @@ impl<'a> Reader<'a> {
         let lines = words.iter().filter_map(|word| self.lines.get(*word));
         lines.flatten().collect::<BTreeMap<_, _>>().into_values()
     }
+}
+
+/// The converter inputs of all parts whose names begin so; of several parts the first decides.
+fn inputs(start: &str) -> Inputs {
+    let mut inputs = Inputs::new();
+    for part in sensedsl_parts::all().filter(|part| part.base().starts_with(start)) {
+        let sheet = sensedsl_parts::Sheet::of(part);
+        for (pin, _, usages) in sheet.pins() {
+            for (spelled, _) in usages.iter().filter(|(spelled, _)| spelled.contains("ADC")) {
+                let (signal, _) = Signal::parse(spelled);
+                let Function::Adc { units, channel } = signal.function() else { continue };
+                for unit in units {
+                    let input = inputs.entry((pin.clone(), *unit));
+                    input.or_insert_with(|| format!("ADC{unit}_IN{channel}"));
+                }
+            }
+        }
+    }
+    inputs
 }

@@ -26,10 +26,10 @@ pub(crate) enum Withheld {
 /// The `reserve` and `release` rules of a board by what they name, so that each pin is looked up.
 struct Rules<'a> {
     /// The first rule that reserves the pin.
-    reserved: BTreeMap<PinName, Span>,
+    reserved: BTreeMap<String, Span>,
     /// What is reserved, as it is spelled: a peripheral has one spelling.
     reserved_units: BTreeSet<&'a str>,
-    released: BTreeSet<PinName>,
+    released: BTreeSet<String>,
     /// What is released, in lower case: on-board parts are.
     released_parts: BTreeSet<String>,
 }
@@ -39,14 +39,16 @@ impl<'a> Rules<'a> {
         let mut reserved = BTreeMap::new();
         for rule in &board.reserved {
             if let Some(pin) = PinName::parse(&rule.value) {
-                reserved.entry(pin).or_insert(rule.span);
+                reserved.entry(pin.as_str().to_owned()).or_insert(rule.span);
             }
         }
         let released = || board.released.iter().map(|rule| &rule.value);
         Self {
             reserved,
             reserved_units: board.reserved.iter().map(|rule| rule.value.as_str()).collect(),
-            released: released().filter_map(|name| PinName::parse(name)).collect(),
+            released: released()
+                .filter_map(|name| Some(PinName::parse(name)?.as_str().to_owned()))
+                .collect(),
             released_parts: released().map(|name| name.to_ascii_lowercase()).collect(),
         }
     }
@@ -54,7 +56,7 @@ impl<'a> Rules<'a> {
     /// Whether a rule gives the pin free from its on-board part.
     fn release(&self, pin: &Pin) -> bool {
         let by_part = |part: &str| self.released_parts.contains(&part.to_ascii_lowercase());
-        self.released.contains(&pin.name)
+        self.released.contains(pin.name.as_str())
             || pin.onboard.as_ref().is_some_and(|onboard| by_part(&onboard.part))
     }
 }
@@ -200,7 +202,7 @@ fn keep_pads_free(
         .filter_map(|(pad, why)| Some((pad.as_deref()?, why.clone()?)))
         .collect();
     for ((pad, why), pin) in pads.iter().zip(withheld).zip(pins) {
-        if why.is_none() && !rules.released.contains(&pin.name) {
+        if why.is_none() && !rules.released.contains(pin.name.as_str()) {
             *why = pad.as_deref().and_then(|pad| reasons.get(pad)).cloned();
         }
     }
@@ -212,7 +214,7 @@ fn withheld(
     roles: &BTreeMap<PinName, PinRole>,
     pin: &Pin,
 ) -> Option<Withheld> {
-    if let Some(rule) = rules.reserved.get(&pin.name) {
+    if let Some(rule) = rules.reserved.get(pin.name.as_str()) {
         return Some(Withheld::Reserved(*rule));
     }
     let profile = board.profile();
