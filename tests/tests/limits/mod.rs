@@ -2,7 +2,7 @@
 //! time or memory, a file is made, the real program runs on it, and its status and code are those
 //! that `docs/limits.md` promises.
 //!
-//! Nothing is timed and then judged. The kernel holds the limits: a run that takes more than
+//! Nothing is timed and then judged, but for ratios within one run (`scaling`). The kernel holds the limits: a run that takes more than
 //! [`CPU_S_MAX`] of the processor is ended by a signal, one that takes more than
 //! [`MEMORY_KIB_MAX`] of memory gets no more and aborts, and both are another status than the
 //! expected one. [`WALL`] ends what waits for ever.
@@ -11,6 +11,7 @@
 
 mod answers;
 mod files;
+mod scaling;
 mod sources;
 mod tables;
 mod texts;
@@ -23,6 +24,8 @@ use std::time::{Duration, Instant};
 
 use sensedsl_tests::{Scratch, binary};
 
+/// The head of a board with an MCU.
+const BOARD: &str = "board STM32F4DiscoveryBoard {\n";
 /// Seconds of the processor in a build that is hardly optimised, on a machine that does other
 /// things too; a release build takes less than one.
 const CPU_S_MAX: u32 = 5;

@@ -2,10 +2,8 @@
 
 use sensedsl_tests::Scratch;
 
-use super::{expect, refuses, repeat};
+use super::{BOARD, expect, refuses, repeat};
 
-/// The head of a board with an MCU.
-const BOARD: &str = "board STM32F4DiscoveryBoard {\n";
 const MI: usize = 4_000_000;
 
 fn devices(n: usize) -> String {
