@@ -213,6 +213,11 @@ pub fn content(raw: &str, quoted: bool) -> String {
     }
 }
 
+/// Whether a cell is empty or a dash, which means the same.
+pub(crate) fn says_nothing(content: &str) -> bool {
+    matches!(content, "" | "-" | "–" | "—")
+}
+
 /// Where a cell begins behind its guard; 0 where it has none.
 pub(crate) fn guard_bytes(raw: &str, quoted: bool) -> usize {
     let text = inner(raw, quoted);

@@ -71,9 +71,8 @@ struct Word {
 }
 
 impl Word {
-    /// Whether it is more than nothing or a dash.
     fn is_filled(&self) -> bool {
-        !matches!(self.text.as_str(), "" | "-" | "–" | "—")
+        !cells::says_nothing(&self.text)
     }
 }
 

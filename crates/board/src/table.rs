@@ -5,7 +5,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::cells::{bare, guarded, inner};
+use crate::cells::{bare, guarded, inner, says_nothing};
 use crate::finding::Finding;
 use crate::pin::PinName;
 use crate::remap::Blocks;
@@ -247,7 +247,10 @@ impl Table {
 
 /// The content of one cell.
 fn cell(pin: &Pin, column: &Column) -> String {
-    let text = |text: &Option<String>| text.clone().unwrap_or_default();
+    // A dash would be read as nothing.
+    let plain =
+        |text: String| if says_nothing(&inner(&text, false)) { String::new() } else { text };
+    let text = |text: &Option<String>| text.clone().map(plain).unwrap_or_default();
     match column.role {
         Role::Pin => pin.spelled.clone(),
         Role::Position => text(&pin.position),
@@ -256,7 +259,7 @@ fn cell(pin: &Pin, column: &Column) -> String {
         Role::Label => text(&pin.label),
         Role::Voltage => text(&pin.voltage),
         Role::Note => text(&pin.note),
-        Role::Onboard => pin.onboard.as_ref().map(Onboard::to_string).unwrap_or_default(),
+        Role::Onboard => text(&pin.onboard.as_ref().map(Onboard::to_string)),
         Role::Alternate => String::new(),
         Role::Usages => {
             let usages = pin.usages.iter().filter(|usage| usage.column == column.header);
