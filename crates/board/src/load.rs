@@ -3,21 +3,19 @@
 //! Every mistake costs as little as possible: a cell, a row or a column is left out and the rest
 //! is read, so that one run reports them all.
 
+mod usages;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use sensedsl_diagnostics::nearest;
-use sensedsl_limits::{
-    COLUMNS_MAX, DIAGNOSTICS_MAX, PIN_USAGES_MAX, PINS_MAX, TABLE_PROPERTIES_MAX, USAGES_MAX,
-};
+use sensedsl_limits::{COLUMNS_MAX, DIAGNOSTICS_MAX, PINS_MAX, TABLE_PROPERTIES_MAX, USAGES_MAX};
 
 use crate::cells::{self, Cell, Sheet, is_zero_width};
 use crate::finding::{Finding, FindingKind};
 use crate::mcu;
 use crate::pin::PinName;
-use crate::remap::Blocks;
-use crate::signal::Signal;
-use crate::table::{Column, Loaded, Occupation, Onboard, Pin, Property, Role, Table, Usage};
+use crate::table::{Column, Loaded, Pin, Property, Role, Table};
 
 /// See [`crate::table::load`].
 pub(crate) fn load(text: &str) -> Loaded {
@@ -355,141 +353,12 @@ impl<'a> Loader<'a> {
             range,
         })
     }
-
-    /// Reads a cell of usages.
-    fn usages(&mut self, cell: &Cell, column: &Column, pin: &mut Pin, known: &mut Known) {
-        for Word { text, range } in self.words(cell) {
-            if pin.usages.len() == PIN_USAGES_MAX {
-                return self.too_large("usages of one pin", PIN_USAGES_MAX, &range);
-            }
-            if self.usages_left == 0 {
-                return self.too_large("usages", USAGES_MAX, &range);
-            }
-            let (spelled, alternate) = match text.split_once('@') {
-                Some((spelled, number)) => (spelled.to_owned(), Some(number)),
-                None => (text.clone(), None),
-            };
-            let (spelled, remap) = match spelled.split_once('#') {
-                Some((spelled, remap)) => (spelled.to_owned(), Some(remap.to_owned())),
-                None => (spelled, None),
-            };
-            let number = alternate.and_then(alternate_number);
-            let blocks = remap.as_deref().and_then(Blocks::parse);
-            let unnamed = matches!(spelled.as_str(), "" | "-");
-            let unread =
-                alternate.is_some() && number.is_none() || remap.is_some() && blocks.is_none();
-            if unnamed || unread {
-                let kind = FindingKind::BadAlternate { spelled: text.clone() };
-                self.report(kind, &range, Some(&column.header));
-            }
-            if unnamed {
-                continue;
-            }
-            let (signal, malformed) = Signal::parse(&spelled);
-            if let Some(malformed) = malformed {
-                let kind = FindingKind::MalformedSignal {
-                    spelled: spelled.clone(),
-                    nearest: malformed.nearest,
-                };
-                self.report(kind, &range, Some(&column.header));
-            }
-            if let Some((_, first)) = known.get(signal.name()).cloned() {
-                let kind = FindingKind::DuplicateUsage { spelled, first };
-                self.report(kind, &range, Some(&column.header));
-                continue;
-            }
-            let column = column.header.clone();
-            known.insert(signal.name().to_owned(), (pin.usages.len(), range.clone()));
-            self.usages_left -= 1;
-            pin.usages.push(Usage { spelled, signal, alternate: number, blocks, column, range });
-        }
-    }
-
-    /// Reads an `Onboard` cell: `PART` or `PART:HOW`.
-    fn onboard(&mut self, cell: &Cell, column: &Column) -> Option<Onboard> {
-        let Word { text, range } = self.value(cell)?;
-        let Some((part, word)) = text.rsplit_once(':') else {
-            return Some(Onboard { part: text, how: Occupation::Taken });
-        };
-        let (part, word) = (part.trim().to_owned(), word.trim());
-        let known = Occupation::WORDS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
-        if let Some((_, how)) = known {
-            return Some(Onboard { part, how: *how });
-        }
-        let words = Occupation::WORDS.iter().map(|(name, _)| *name);
-        let nearest = nearest(word, words).map(str::to_owned);
-        let kind = FindingKind::BadOccupation { spelled: word.to_owned(), nearest };
-        self.report(kind, &range, Some(&column.header));
-        // The careful reading: what nobody understands is not offered.
-        Some(Onboard { part, how: Occupation::Taken })
-    }
-
-    /// Reads an `AF` cell: `SIGNAL=n` each, or one number for each usage that has one.
-    fn alternates(&mut self, cell: &Cell, column: &Column, pin: &mut Pin, known: &Known) {
-        let words = self.words(cell);
-        let (named, bare): (Vec<&Word>, Vec<&Word>) =
-            words.iter().partition(|word| word.text.contains('='));
-        for word in named {
-            self.named_alternate(word, column, pin, known);
-        }
-        if bare.is_empty() {
-            return;
-        }
-        let digital = |usage: &&mut Usage| !usage.signal.function().is_analog();
-        let expected = pin.usages.iter_mut().filter(digital).count();
-        if bare.len() != expected {
-            let kind = FindingKind::AlternateCount { expected, found: bare.len() };
-            let range = self.content(cell).range;
-            self.report(kind, &range, Some(&column.header));
-            return;
-        }
-        for (word, usage) in bare.into_iter().zip(pin.usages.iter_mut().filter(digital)) {
-            self.set_alternate(&word.text, word, column, usage);
-        }
-    }
-
-    fn named_alternate(&mut self, word: &Word, column: &Column, pin: &mut Pin, known: &Known) {
-        let Some((spelled, number)) = word.text.split_once('=') else { return };
-        let (signal, _) = Signal::parse(spelled);
-        let known = known.get(signal.name()).and_then(|(at, _)| pin.usages.get_mut(*at));
-        if let Some(usage) = known {
-            return self.set_alternate(number, word, column, usage);
-        }
-        let usages = pin.usages.iter().map(|usage| usage.spelled.as_str());
-        // What is not listed needs no suggestion.
-        let listed = self.findings.len() < DIAGNOSTICS_MAX;
-        let nearest = if listed { nearest(spelled, usages) } else { None }.map(str::to_owned);
-        let kind = FindingKind::UnknownAlternate { signal: spelled.to_owned(), nearest };
-        self.report(kind, &word.range, Some(&column.header));
-    }
-
-    fn set_alternate(&mut self, number: &str, word: &Word, column: &Column, usage: &mut Usage) {
-        let spelled = word.text.clone();
-        let kind = match (alternate_number(number), usage.alternate) {
-            (None, _) => FindingKind::BadAlternate { spelled },
-            (Some(cell), Some(usage)) if cell != usage => {
-                FindingKind::AlternateConflict { spelled, usage, cell }
-            }
-            (Some(cell), _) => {
-                usage.alternate = Some(cell);
-                return;
-            }
-        };
-        self.report(kind, &word.range, Some(&column.header));
-    }
 }
 
 /// From the first cell to the last.
 fn header_range(row: &[Cell]) -> Range<usize> {
     let start = row.first().map_or(0, |cell| cell.range.start);
     start..row.last().map_or(start, |cell| cell.range.end)
-}
-
-/// The alternate functions of all multiplexers known are numbered 0 to 15, with or without `AF`.
-fn alternate_number(text: &str) -> Option<u8> {
-    let digits = text.strip_prefix("AF").unwrap_or(text);
-    let plain = digits.bytes().all(|b| b.is_ascii_digit());
-    digits.parse().ok().filter(|number| plain && *number < 16)
 }
 
 /// Reads ` key = value`; a comment of another shape is a comment.
