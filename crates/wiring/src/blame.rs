@@ -120,8 +120,11 @@ impl Rule {
     }
 }
 
-/// The rules without which the devices could be wired, minimal; empty where nothing but the
-/// hardware stands in the way.
+/// So many rules are tried; each costs a search. Robots have a few dozen.
+const TRIED_MAX: usize = 256;
+
+/// The rules without which the devices could be wired; empty where nothing but the hardware stands
+/// in the way. Minimal where there are at most [`TRIED_MAX`]; of more, the rest is named untried.
 pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
     let mut left = design.clone();
     let mut numbers = (0..design.devices.len()).map(DeviceIndex);
@@ -133,7 +136,8 @@ pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
         return Vec::new();
     }
     let mut needed = Vec::new();
-    for rule in all {
+    let mut all = all.into_iter();
+    for rule in all.by_ref().take(TRIED_MAX) {
         let mut without = left.clone();
         rule.lift(&mut without);
         if is_hopeless(&without) {
@@ -142,6 +146,7 @@ pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
             needed.push(rule);
         }
     }
+    needed.extend(all);
     needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect()
 }
 
