@@ -210,3 +210,34 @@ fn formats_are_told_by_content() {
         assert_eq!(sensedsl_import::detect(&fs::read(path).unwrap()), Some(Format::Ioc));
     }
 }
+
+/// What ST's names of pins tell of reset and BOOT (`PF2-NRST`, `PH3-BOOT0`) is in `silicon/`.
+#[test]
+fn pins_that_the_mcu_needs_are_known() {
+    let Some(data) = data() else { return };
+    let mut seen = 0;
+    for path in files(&data.join("mcu"), "xml") {
+        let text = fs::read_to_string(&path).unwrap();
+        let Some(mcu) = text.split("RefName=\"").nth(1).and_then(|rest| rest.split('"').next())
+        else {
+            continue;
+        };
+        // Parts that the table does not have.
+        if mcu.starts_with("STM32MP") {
+            continue;
+        }
+        let roles = sensedsl_board::silicon::pin_roles(mcu);
+        for spelled in text.split("<Pin Name=\"").skip(1).filter_map(|rest| rest.split('"').next())
+        {
+            let needed = spelled.contains("NRST") || spelled.contains("BOOT");
+            let Some(pin) = sensedsl_board::pin::PinName::parse(spelled).filter(|_| needed) else {
+                continue;
+            };
+            if pin.as_str().starts_with('P') {
+                assert!(roles.contains_key(&pin), "{mcu}: {spelled}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 500, "{seen} pins");
+}
