@@ -1,5 +1,6 @@
 //! One place where a frame may start, and how far it has been looked at.
 
+use super::leap::{Ids, Leap, Leaps};
 use super::memo::Memo;
 use super::table::Table;
 use crate::checksum::crc16_ccitt_false;
@@ -35,6 +36,16 @@ impl Rules {
     }
 }
 
+/// What candidates that failed have left behind.
+pub(super) struct Past<'m> {
+    /// Where the candidate's first byte stands in the stream.
+    pub(super) place: u64,
+    /// There when an earlier candidate has been through the same bytes.
+    pub(super) memo: Option<&'m mut Memo>,
+    /// There when an earlier candidate has been through the same identifiers.
+    pub(super) leaps: Option<&'m mut Leaps>,
+}
+
 /// All places are counted from the candidate's first byte.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidate {
@@ -43,13 +54,13 @@ pub(super) struct Candidate {
     /// Where the checksum or the comma stands.
     pub(super) values_end: usize,
     pub(super) frame_bytes: usize,
-    /// Where the next identifier stands.
-    at: usize,
+    /// Where the next identifier stands; 0 as long as the length has not been read.
+    pub(super) at: usize,
     /// Up to here values and checksum were gone through byte by byte.
     pub(super) looked_at: usize,
     is_checksum_right: bool,
     /// A bit for each identifier of this payload.
-    seen: [u64; 4],
+    seen: Ids,
 }
 
 impl Candidate {
@@ -58,21 +69,14 @@ impl Candidate {
     pub(super) fn restart(&mut self) {
         self.payload_start = 0;
         self.frame_bytes = 0;
+        self.at = 0;
         self.looked_at = 0;
         self.is_checksum_right = false;
     }
 
-    /// Looks at the bytes from the candidate's first on, and at none twice. `memo` is there when
-    /// an earlier candidate has been through the same bytes; `place` is where they stand in the
-    /// stream.
+    /// Looks at the bytes from the candidate's first on, and at none twice.
     #[inline]
-    pub(super) fn look(
-        &mut self,
-        rules: &Rules,
-        bytes: &[u8],
-        place: u64,
-        mut memo: Option<&mut Memo>,
-    ) -> Verdict {
+    pub(super) fn look(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         if self.payload_start == 0 {
             match self.read_length(rules, bytes) {
                 Verdict::Complete => {}
@@ -89,18 +93,18 @@ impl Candidate {
             return Verdict::Invalid;
         }
         // By sums the checksum costs less than a walk.
-        if has_checksum && comma.is_some() && memo.is_some() && !self.is_checksum_right {
-            match self.compare_checksum(bytes, place, memo.as_deref_mut()) {
+        if has_checksum && comma.is_some() && past.memo.is_some() && !self.is_checksum_right {
+            match self.compare_checksum(bytes, past) {
                 Verdict::Complete => {}
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
         }
-        match self.walk(rules, bytes, place, memo.as_deref_mut()) {
+        match self.walk(rules, bytes, past) {
             Verdict::Complete => {}
             verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
         }
         if has_checksum && !self.is_checksum_right {
-            match self.compare_checksum(bytes, place, memo) {
+            match self.compare_checksum(bytes, past) {
                 Verdict::Complete => {}
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
@@ -134,59 +138,99 @@ impl Candidate {
 
     /// From identifier to identifier up to the end of the values.
     #[inline]
-    fn walk(
-        &mut self,
-        rules: &Rules,
-        bytes: &[u8],
-        place: u64,
-        mut memo: Option<&mut Memo>,
-    ) -> Verdict {
+    fn walk(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
+        if let Some(leaps) = past.leaps.take() {
+            return self.leap(rules, bytes, past, leaps);
+        }
         while self.at < self.values_end {
-            let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
-            if id == ID_HELLO {
-                // It stands alone, and exactly as long as its direction wants it.
-                let is_hello = self.at == self.payload_start
-                    && self.values_end - self.payload_start == rules.hello_bytes;
-                if !is_hello {
-                    return Verdict::Invalid;
-                }
-                self.at = self.values_end;
-                break;
+            match self.step(rules, bytes, past) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
-            let slot = rules.table.slot(id);
-            let end = self.at + 1 + slot.value_bytes();
-            let bit = 1_u64 << (id % 64);
-            let seen = self.seen.get(usize::from(id / 64)).copied().unwrap_or_default();
-            if slot.value_bytes() == 0 || seen & bit != 0 || end > self.values_end {
-                return Verdict::Invalid;
-            }
-            if slot.is_bool() {
-                match self.look_at_bools(bytes, end, place, memo.as_deref_mut()) {
-                    Verdict::Complete => {}
-                    verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
-                }
-            }
-            if let Some(word) = self.seen.get_mut(usize::from(id / 64)) {
-                *word |= bit;
-            }
-            self.at = end;
         }
         Verdict::Complete
     }
 
-    /// The elements of the value before `end`, as many as are there.
-    fn look_at_bools(
+    /// The same with the leaps of others, and leaves leaps for others.
+    fn leap(
         &mut self,
+        rules: &Rules,
         bytes: &[u8],
-        end: usize,
-        place: u64,
-        memo: Option<&mut Memo>,
+        past: &mut Past<'_>,
+        leaps: &mut Leaps,
     ) -> Verdict {
+        let mut steps = Leap::new(past.place + self.at as u64);
+        let mut is_behind_leap = false;
+        while self.at < self.values_end {
+            let from = self.at;
+            let leap = leaps.at(past.place + from as u64);
+            if let Some(leap) = leap.filter(|leap| from + leap.bytes() <= self.values_end) {
+                self.at += leap.bytes();
+                if !leap.see(&mut self.seen) {
+                    return Verdict::Invalid;
+                }
+                // Else every candidate would make these few steps between two leaps.
+                if is_behind_leap && steps.bytes() > 0 {
+                    leaps.put(steps);
+                }
+            } else {
+                match self.step(rules, bytes, past) {
+                    Verdict::Complete => {}
+                    verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+                }
+                let id = bytes.get(from).copied().unwrap_or_default();
+                if !steps.add(id, self.at - from) {
+                    continue;
+                }
+                leaps.put(steps);
+            }
+            steps = Leap::new(past.place + self.at as u64);
+            is_behind_leap = true;
+        }
+        Verdict::Complete
+    }
+
+    /// To the next identifier.
+    #[inline]
+    fn step(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
+        let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
+        if id == ID_HELLO {
+            // It stands alone, and exactly as long as its direction wants it.
+            let is_hello = self.at == self.payload_start
+                && self.values_end - self.payload_start == rules.hello_bytes;
+            if !is_hello {
+                return Verdict::Invalid;
+            }
+            self.at = self.values_end;
+            return Verdict::Complete;
+        }
+        let slot = rules.table.slot(id);
+        let end = self.at + 1 + slot.value_bytes();
+        let bit = 1_u64 << (id % 64);
+        let seen = self.seen.get(usize::from(id / 64)).copied().unwrap_or_default();
+        if slot.value_bytes() == 0 || seen & bit != 0 || end > self.values_end {
+            return Verdict::Invalid;
+        }
+        if slot.is_bool() {
+            match self.look_at_bools(bytes, end, past) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+            }
+        }
+        if let Some(word) = self.seen.get_mut(usize::from(id / 64)) {
+            *word |= bit;
+        }
+        self.at = end;
+        Verdict::Complete
+    }
+
+    /// The elements of the value before `end`, as many as are there.
+    fn look_at_bools(&mut self, bytes: &[u8], end: usize, past: &mut Past<'_>) -> Verdict {
         let from = self.looked_at.max(self.at + 1);
         let to = end.min(bytes.len());
         if from < to {
-            let are_bools = match memo {
-                Some(memo) => memo.all_bools(place, bytes, from, to),
+            let are_bools = match &mut past.memo {
+                Some(memo) => memo.all_bools(past.place, bytes, from, to),
                 None => bytes.get(from..to).unwrap_or_default().iter().all(|&byte| byte <= 1),
             };
             self.looked_at = to;
@@ -197,11 +241,11 @@ impl Candidate {
         if to == end { Verdict::Complete } else { Verdict::Incomplete }
     }
 
-    fn compare_checksum(&mut self, bytes: &[u8], place: u64, memo: Option<&mut Memo>) -> Verdict {
+    fn compare_checksum(&mut self, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         let sent = bytes.get(self.values_end + 1..self.values_end + 3);
         let Some(sent) = sent else { return Verdict::Incomplete };
-        let crc = match memo {
-            Some(memo) => memo.crc16(place, bytes, self.payload_start, self.values_end),
+        let crc = match &mut past.memo {
+            Some(memo) => memo.crc16(past.place, bytes, self.payload_start, self.values_end),
             None => crc16_ccitt_false(
                 bytes.get(self.payload_start..self.values_end).unwrap_or_default(),
             ),

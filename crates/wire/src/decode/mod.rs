@@ -4,18 +4,21 @@
 //! is looked at again: so the first valid frame is found wherever it starts. A frame that lies
 //! whole in the bytes of one call is read there; only what a call leaves unfinished is copied.
 //!
-//! The time is linear in the bytes, whatever they are and however long a frame may be. A candidate
-//! costs at most one step for each identifier of the schema (none stands twice in a payload): its
-//! comma is looked at first, values are stepped over, and where checksums or arrays of bools were
-//! gone through for a candidate that failed, `memo` answers for the others in constant time.
+//! The time is linear in the bytes, whatever they are and however long a frame may be: a candidate
+//! costs at most some dozens of steps. Its comma is looked at first, values are stepped over, and
+//! no identifier stands twice in a payload. Where checksums, arrays of bools or identifiers were
+//! gone through for a candidate that failed, the others do not go through them again: `memo`
+//! answers for the bytes in constant time, `leap` for sixteen identifiers at once.
 
 mod candidate;
+mod leap;
 mod memo;
 mod table;
 
 use alloc::vec::Vec;
 
-use self::candidate::{Candidate, Rules, Verdict};
+use self::candidate::{Candidate, Past, Rules, Verdict};
+use self::leap::Leaps;
 use self::memo::Memo;
 pub(crate) use self::table::Table;
 use crate::frame::{Event, Frame, Report};
@@ -35,6 +38,9 @@ pub struct Decoder<'a> {
     /// Up to here a candidate that failed was gone through byte by byte.
     spent: u64,
     memo: Memo,
+    /// Up to here a candidate that failed went from identifier to identifier.
+    walked: u64,
+    leaps: Leaps,
     frames: u64,
     dropped_bytes: u64,
 }
@@ -54,6 +60,8 @@ impl<'a> Decoder<'a> {
             place: 0,
             spent: 0,
             memo: Memo::new(schema.frame_bytes_max(direction)),
+            walked: 0,
+            leaps: Leaps::new(schema.frame_bytes_max(direction)),
             frames: 0,
             dropped_bytes: 0,
         }
@@ -132,8 +140,12 @@ impl<'a> Decoder<'a> {
     ) -> usize {
         while at < limit {
             let frame = bytes.get(at..).unwrap_or_default();
-            let memo = (self.place < self.spent).then_some(&mut self.memo);
-            match self.candidate.look(&self.rules, frame, self.place, memo) {
+            let mut past = Past {
+                place: self.place,
+                memo: (self.place < self.spent).then_some(&mut self.memo),
+                leaps: (self.place < self.walked).then_some(&mut self.leaps),
+            };
+            match self.candidate.look(&self.rules, frame, &mut past) {
                 Verdict::Incomplete => return at,
                 Verdict::Complete => {
                     on_frame(self.read(frame));
@@ -143,6 +155,7 @@ impl<'a> Decoder<'a> {
                 }
                 Verdict::Invalid => {
                     self.spent = self.spent.max(self.place + self.candidate.looked_at as u64);
+                    self.walked = self.walked.max(self.place + self.candidate.at as u64);
                     let rest = bytes.get(at + 1..limit).unwrap_or_default();
                     let is_digit = |byte: &u8| matches!(byte, b'1'..=b'9');
                     let skipped = 1 + rest.iter().position(is_digit).unwrap_or(rest.len());
