@@ -4,7 +4,7 @@ use sensedsl_tests::{Random, is_thorough};
 use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
 use super::program::{Program, rust, schema_bytes};
-use super::streams::{frame, hard_schemas, hard_stream, schema};
+use super::streams::{frame, hard_schemas, hard_stream, overlapping_walks, schema, wide_schema};
 use super::{naive, scratch, tools};
 
 /// How often; the variable is for long runs.
@@ -32,6 +32,13 @@ fn cases(seed: u64, rounds: usize, mut check: impl FnMut(&Schema, Direction, &[u
                 let stream = hard_stream(&mut random, &schema, direction, 9, depth);
                 check(&schema, direction, &stream, &cuts(&mut random));
             }
+        }
+        let schema = wide_schema(checksum);
+        for _ in 0..rounds {
+            let parts = 1 + random.below(3);
+            let stream: Vec<u8> =
+                (0..parts).flat_map(|_| overlapping_walks(&mut random, &schema)).collect();
+            check(&schema, Direction::Sensor, &stream, &cuts(&mut random));
         }
     }
 }

@@ -46,6 +46,53 @@ pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
     ]
 }
 
+/// A schema of all identifiers, some of them wide, so that candidates overlap and are long.
+pub(crate) fn wide_schema(checksum: Checksum) -> Schema {
+    let item = |id| match id {
+        b'a' => (id, ScalarType::Uint8, 341),
+        b'b' => (id, ScalarType::Uint8, 200),
+        b'c' => (id, ScalarType::Bool, 1),
+        b'd' => (id, ScalarType::Uint16, 1),
+        _ => (id, ScalarType::Uint8, 1),
+    };
+    schema(checksum, &(1..=254).map(item).collect::<Vec<_>>())
+}
+
+/// Candidates that come from many places upon the same identifiers, and end at some comma there;
+/// now and then an identifier is unknown, out of turn or a byte late.
+pub(crate) fn overlapping_walks(random: &mut Random, schema: &Schema) -> Vec<u8> {
+    let heads = 10 + random.below(50);
+    let mut pad = Vec::new();
+    let (rounds, first) = (1 + random.below(3), random.below(254));
+    let step = [1, 3, 253][random.below(3)];
+    let damage = [30, 300, 3000][random.below(3)];
+    for turn in 0..rounds * 254 {
+        let id = 1 + ((first + turn * step) % 254) as u8;
+        let is_wide = matches!(id, b'a'..=b'd');
+        match random.below(damage) {
+            0 => pad.push(likely(random, schema)),
+            1 => pad.extend([likely(random, schema), 1]),
+            _ if is_wide => {}
+            _ => pad.extend([id, if random.below(3) == 0 { likely(random, schema) } else { b',' }]),
+        }
+    }
+    let mut stream = Vec::new();
+    for _ in 0..heads {
+        let payload = stream.len() + 4;
+        let commas = (0..pad.len()).filter(|&at| pad.get(at) == Some(&b','));
+        let lengths = commas.map(|at| heads * 5 + at - payload);
+        let lengths: Vec<usize> = lengths.filter(|length| (400..1000).contains(length)).collect();
+        let length = match lengths.len() {
+            0 => 999,
+            count => lengths[random.below(count)],
+        };
+        stream.extend(format!("{length}:").as_bytes());
+        stream.push(b"aaaabbcd,1"[random.below(10)]);
+    }
+    stream.extend(pad);
+    stream
+}
+
 /// The frame of a payload, with the checksum the schema asks for.
 pub(crate) fn frame(schema: &Schema, payload: &[u8]) -> Vec<u8> {
     let mut payload = payload.to_vec();

@@ -53,12 +53,13 @@ mod runtime {
     }
 
     /// From C++98 on: what every host is made of.
-    const EVERY_HOST: [(&str, &str); 12] = [
+    const EVERY_HOST: [(&str, &str); 13] = [
         shared!("cause.hpp"),
         shared!("connection.hpp"),
         shared!("decode.hpp"),
         shared!("difference.hpp"),
         shared!("link.hpp"),
+        shared!("memo.hpp"),
         shared!("options.hpp"),
         shared!("serial.hpp"),
         shared!("session.hpp"),

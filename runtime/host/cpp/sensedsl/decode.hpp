@@ -14,6 +14,7 @@
 
 #include <vector>
 
+#include "sensedsl/memo.hpp"
 #include "sensedsl/wire.hpp"
 
 namespace sensedsl {
@@ -32,109 +33,23 @@ public:
     virtual void on_frame_end() {}
 };
 
-/// What is known of every window of the stream once it has been gone through: its checksum, and
-/// whether all of it are bools.
-///
-/// Candidates for a frame overlap where one stands in the payload of another. Each would go through
-/// the same bytes again; with sums over everything since one place, a window costs the same whatever
-/// its length. It needs memory for one frame, and only after a candidate has failed.
-class Memo {
-public:
-    explicit Memo(size_t frame_bytes_max)
-        : frame_bytes_max_(frame_bytes_max), mask_(0), sums_(), powers_(), frontier_(0) {}
-
-    /// The CRC of the bytes [from, to) of a candidate that stands at `place` in the stream. Asked
-    /// with places that never go back, each byte is gone through once.
-    uint16_t crc16(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
-        extend(place, frame, to);
-        // A CRC is linear: a start of 0xFFFF and what stood before the window shift through it.
-        const unsigned before = at(place + from).crc ^ 0xFFFFU;
-        return static_cast<uint16_t>(at(place + to).crc ^ product(before, powers_[to - from]));
-    }
-
-    bool all_bools(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
-        extend(place, frame, to);
-        return at(place + to).bools >= to - from;
-    }
-
-private:
-    struct Sums {
-        Sums() : crc(0), bools(0) {}
-        /// The CRC's register of the bytes before this place, from a start of 0.
-        uint16_t crc;
-        /// How many bytes before this place are 0 or 1 without a gap.
-        size_t bools;
-    };
-
-    /// Of two registers as polynomials over GF(2), modulo the one of the CRC.
-    static unsigned product(unsigned left, unsigned right) {
-        unsigned result = 0;
-        for (int bit = 15; bit >= 0; --bit) {
-            result = ((result << 1) & 0xFFFFU) ^ (0x1021U & (0U - (result >> 15)));
-            result ^= left & (0U - ((right >> bit) & 1U));
-        }
-        return result;
-    }
-
-    /// A ring, so that nothing moves when the stream goes on; longer than a frame.
-    Sums &at(uint64_t place) { return sums_[static_cast<size_t>(place) & mask_]; }
-
-    void reserve() {
-        size_t size = 1;
-        while (size <= frame_bytes_max_) {
-            size *= 2;
-        }
-        mask_ = size - 1;
-        sums_.resize(size);
-        uint16_t power = 1;
-        for (size_t i = 0; i <= frame_bytes_max_; ++i) {
-            powers_.push_back(power);
-            power = crc16_tables().step(power, 0);
-        }
-    }
-
-    void extend(uint64_t place, const uint8_t *frame, size_t to) {
-        if (sums_.empty()) {
-            reserve();
-        }
-        if (frontier_ < place) {
-            frontier_ = place;
-            at(place) = Sums();
-        }
-        const Crc16Tables &tables = crc16_tables();
-        Sums sums = at(frontier_);
-        for (size_t i = static_cast<size_t>(frontier_ - place); i < to; ++i) {
-            sums.crc = tables.step(sums.crc, frame[i]);
-            sums.bools = frame[i] <= 1 ? sums.bools + 1 : 0;
-            at(++frontier_) = sums;
-        }
-    }
-
-    size_t frame_bytes_max_;
-    size_t mask_;
-    std::vector<Sums> sums_;
-    /// By a number of bytes: what that many zero bytes multiply a register by.
-    std::vector<uint16_t> powers_;
-    /// Place behind the last byte that is in the sums.
-    uint64_t frontier_;
-};
-
 /// Decoder of one direction of one link. Its sink must not feed it.
 ///
 /// A candidate for a frame that cannot become a valid one loses its first byte only, and the rest is
 /// looked at again: so the first valid frame is found wherever it starts. A frame that lies whole in
 /// the bytes of one call is read there; only what a call leaves unfinished is copied.
 ///
-/// The time is linear in the bytes, whatever they are and however long a frame may be. A candidate
-/// costs at most one step for each identifier of the schema (none stands twice in a payload): its
-/// comma is looked at first, values are stepped over, and where checksums or arrays of bools were
-/// gone through for a candidate that failed, `Memo` answers for the others in constant time.
+/// The time is linear in the bytes, whatever they are and however long a frame may be: a candidate
+/// costs at most some dozens of steps. Its comma is looked at first, values are stepped over, and no
+/// identifier stands twice in a payload. Where checksums, arrays of bools or identifiers were gone
+/// through for a candidate that failed, the others do not go through them again: `Memo` answers for
+/// the bytes in constant time, `Leaps` for sixteen identifiers at once.
 class Decoder {
 public:
     Decoder(const Schema &schema, const Direction &direction, Sink &sink)
         : direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0), held_(),
           start_(0), candidate_(), place_(0), spent_(0), memo_(direction.payload_bytes_max + 22),
-          frames_(0), dropped_bytes_(0) {
+          walked_(0), leaps_(direction.payload_bytes_max + 22), frames_(0), dropped_bytes_(0) {
         memset(slots_, 0, sizeof slots_);
         for (size_t i = direction.item_count; i-- > 0;) {
             const Item &item = direction.items[i];
@@ -193,13 +108,12 @@ private:
     struct Candidate {
         Candidate()
             : payload_start(0), values_end(0), frame_bytes(0), at(0), looked_at(0),
-              is_checksum_right(false) {
-            memset(seen, 0, sizeof seen);
-        }
+              is_checksum_right(false), seen() {}
         /// Another place, of which nothing is known; the rest is set when its length has been read.
         void restart() {
             payload_start = 0;
             frame_bytes = 0;
+            at = 0;
             looked_at = 0;
             is_checksum_right = false;
         }
@@ -208,13 +122,13 @@ private:
         /// Where the checksum or the comma stands.
         size_t values_end;
         size_t frame_bytes;
-        /// Where the next identifier stands.
+        /// Where the next identifier stands; 0 as long as the length has not been read.
         size_t at;
         /// Up to here values and checksum were gone through byte by byte.
         size_t looked_at;
         bool is_checksum_right;
-        /// A bit for each identifier of this payload.
-        uint32_t seen[8];
+        /// Identifiers of this payload.
+        Ids seen;
     };
 
     /// How many bytes the held candidate lacks; while its length is read, one at a time.
@@ -244,6 +158,9 @@ private:
             }
             if (place_ + candidate_.looked_at > spent_) {
                 spent_ = place_ + candidate_.looked_at;
+            }
+            if (place_ + candidate_.at > walked_) {
+                walked_ = place_ + candidate_.at;
             }
             candidate_.restart();
             const size_t from = at++;
@@ -290,7 +207,7 @@ private:
                 candidate_.at = i + 1;
                 candidate_.frame_bytes = i + 1 + payload_bytes + 1;
                 candidate_.values_end = i + 1 + payload_bytes - checksum_bytes_;
-                memset(candidate_.seen, 0, sizeof candidate_.seen);
+                candidate_.seen.clear();
                 return complete;
             }
             if (byte < '0' || byte > '9' || (i == 0 && byte == '0')) {
@@ -306,37 +223,77 @@ private:
 
     /// From identifier to identifier up to the end of the values.
     Verdict walk(const uint8_t *bytes, size_t count) {
-        size_t at = candidate_.at;
-        const size_t values_end = candidate_.values_end;
-        while (at < values_end) {
-            candidate_.at = at;
-            if (at >= count) {
-                return incomplete;
-            }
-            const uint8_t id = bytes[at];
-            if (id == id_hello) {
-                // It stands alone, and exactly as long as its direction wants it.
-                if (at != candidate_.payload_start || values_end - at != direction_->hello_bytes) {
+        if (place_ < walked_) {
+            return leap(bytes, count);
+        }
+        Verdict verdict = complete;
+        while (verdict == complete && candidate_.at < candidate_.values_end) {
+            verdict = step(bytes, count);
+        }
+        return verdict;
+    }
+
+    /// The same with the leaps of others, and leaves leaps for others.
+    Verdict leap(const uint8_t *bytes, size_t count) {
+        Leap steps(place_ + candidate_.at);
+        bool is_behind_leap = false;
+        while (candidate_.at < candidate_.values_end) {
+            const size_t from = candidate_.at;
+            const Leap *const leap = leaps_.at(place_ + from);
+            if (leap != NULL && from + leap->bytes <= candidate_.values_end) {
+                candidate_.at += leap->bytes;
+                if (!candidate_.seen.add_all(leap->ids)) {
                     return invalid;
                 }
-                break;
-            }
-            const Slot slot = slots_[id];
-            const uint32_t bit = uint32_t(1) << (id % 32);
-            const size_t end = at + 1 + slot.value_bytes;
-            if (slot.value_bytes == 0 || (candidate_.seen[id / 32] & bit) != 0 || end > values_end) {
-                return invalid;
-            }
-            if (slot.is_bool) {
-                const Verdict verdict = look_at_bools(bytes, count, end);
+                // Else every candidate would make these few steps between two leaps.
+                if (is_behind_leap && steps.steps > 0) {
+                    leaps_.put(steps);
+                }
+            } else {
+                const Verdict verdict = step(bytes, count);
                 if (verdict != complete) {
                     return verdict;
                 }
+                if (!steps.add(bytes[from], candidate_.at - from)) {
+                    continue;
+                }
+                leaps_.put(steps);
             }
-            candidate_.seen[id / 32] |= bit;
-            at = end;
+            steps = Leap(place_ + candidate_.at);
+            is_behind_leap = true;
         }
-        candidate_.at = values_end;
+        return complete;
+    }
+
+    /// To the next identifier.
+    Verdict step(const uint8_t *bytes, size_t count) {
+        const size_t at = candidate_.at;
+        const size_t values_end = candidate_.values_end;
+        if (at >= count) {
+            return incomplete;
+        }
+        const uint8_t id = bytes[at];
+        if (id == id_hello) {
+            // It stands alone, and exactly as long as its direction wants it.
+            if (at != candidate_.payload_start || values_end - at != direction_->hello_bytes) {
+                return invalid;
+            }
+            candidate_.at = values_end;
+            return complete;
+        }
+        const Slot slot = slots_[id];
+        const size_t end = at + 1 + slot.value_bytes;
+        if (slot.value_bytes == 0 || candidate_.seen.has(id) || end > values_end) {
+            return invalid;
+        }
+        if (slot.is_bool) {
+            const Verdict verdict = look_at_bools(bytes, count, end);
+            if (verdict != complete) {
+                return verdict;
+            }
+        }
+        candidate_.seen.add(id);
+        candidate_.at = end;
         return complete;
     }
 
@@ -409,6 +366,9 @@ private:
     /// Up to here a candidate that failed was gone through byte by byte.
     uint64_t spent_;
     Memo memo_;
+    /// Up to here a candidate that failed went from identifier to identifier.
+    uint64_t walked_;
+    Leaps leaps_;
     uint64_t frames_;
     uint64_t dropped_bytes_;
 };
