@@ -3,7 +3,7 @@
 use sensedsl_tests::{Random, is_thorough};
 use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
-use super::program::{Program, rust, schema_bytes};
+use super::program::{Answer, Program, rust, schema_bytes};
 use super::streams::{frame, hard_schemas, hard_stream, overlapping_walks, schema, wide_schema};
 use super::{naive, scratch, tools};
 
@@ -95,22 +95,69 @@ fn bools_within_a_failed_frame() -> (Schema, Vec<u8>) {
     (schema, stream)
 }
 
+/// All decoders say of the streams what the definition says: at once, byte by byte and in pieces.
+fn all_agree(folder: &str, schema: &Schema, streams: &[Vec<u8>]) {
+    let bytes = schema_bytes(schema, Direction::Sensor);
+    let has_tools = tools(&["gcc", "g++"]);
+    let mut program =
+        has_tools.then(|| Program::build(&scratch(folder), &["-O0", "-DDECODERS_C_FRAMES=1"]));
+    for stream in streams {
+        let wanted = naive::decode(schema, Direction::Sensor, stream);
+        for pieces in [0, 1, 64] {
+            let answer = rust(schema, Direction::Sensor, stream, &[pieces]);
+            assert_eq!(answer, wanted, "{pieces} {stream:02x?}");
+            for who in ["c", "cpp"] {
+                if let Some(program) = &mut program {
+                    let answer = program.say(who, &bytes, stream, &[pieces]);
+                    assert_eq!(answer, wanted, "{who} {pieces} {stream:02x?}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn sums_excuse_no_value() {
     let (schema, stream) = bools_within_a_failed_frame();
-    let wanted = naive::decode(&schema, Direction::Sensor, &stream);
-    assert!(wanted.contains(&b'R'));
-    let bytes = schema_bytes(&schema, Direction::Sensor);
-    let has_tools = tools(&["gcc", "g++"]);
-    let mut program =
-        has_tools.then(|| Program::build(&scratch("sums"), &["-O0", "-DDECODERS_C_FRAMES=1"]));
-    for pieces in [0, 1, 64] {
-        assert_eq!(rust(&schema, Direction::Sensor, &stream, &[pieces]), wanted, "{pieces}");
-        for who in ["c", "cpp"] {
-            if let Some(program) = &mut program {
-                assert_eq!(program.say(who, &bytes, &stream, &[pieces]), wanted, "{who} {pieces}");
-            }
+    assert!(naive::decode(&schema, Direction::Sensor, &stream).contains(&b'R'));
+    all_agree("sums", &schema, &[stream]);
+}
+
+/// A frame of `first` and all of `chain`, within two that fail behind it: the first of them only
+/// walks, the second leaves leaps over the chain, and the frame comes upon these.
+fn frame_over_leaps(schema: &Schema, first: u8, chain: &[u8]) -> Vec<u8> {
+    let mut payload = vec![first, 0];
+    payload.extend(chain.iter().flat_map(|&id| [id, 0]));
+    let inner = frame(schema, &payload);
+    let second = frame(schema, &[b"b", &inner[..]].concat());
+    frame(schema, &[b"a", &second[..]].concat())
+}
+
+#[test]
+fn leaps_excuse_no_repeat() {
+    // None of them the fresh one, `a` or `b`; each leap has some of each quarter of all identifiers.
+    let (chain, fresh): (Vec<u8>, u8) =
+        ((0..49_u16).map(|at| (1 + at * 10 % 49 * 5) as u8).collect(), 2);
+    for (checksum, folder) in [(Checksum::None, "leaps"), (Checksum::Crc16, "leaps-crc")] {
+        // The values of `a` and `b` end where the chain starts.
+        let mut items = vec![(b'a', ScalarType::Uint8, 11), (b'b', ScalarType::Uint8, 6)];
+        items.extend(chain.iter().chain([&fresh]).map(|&id| (id, ScalarType::Uint8, 1)));
+        let schema = schema(checksum, &items);
+        let good = frame_over_leaps(&schema, fresh, &chain);
+        assert!(naive::decode(&schema, Direction::Sensor, &good).contains(&b'R'));
+        // Each identifier of the chain, so wherever in a leap it stands.
+        let mut streams: Vec<Vec<u8>> =
+            chain.iter().map(|&first| frame_over_leaps(&schema, first, &chain)).collect();
+        // And each of them once more behind the leaps.
+        let (_, others) = chain.split_last().unwrap();
+        let again = others.iter().map(|&last| [others, &[last]].concat());
+        streams.extend(again.map(|chain| frame_over_leaps(&schema, fresh, &chain)));
+        for stream in &streams {
+            let nothing = Answer::default().end(0, stream.len() as u64);
+            assert_eq!(naive::decode(&schema, Direction::Sensor, stream), nothing);
         }
+        streams.push(good);
+        all_agree(folder, &schema, &streams);
     }
 }
 
