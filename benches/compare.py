@@ -121,11 +121,13 @@ class Model:
     def objective(self, problem, used, rules, boards):
         spare_factor = 1
         cost_factor = len(problem["spares"]) + 1
-        rule_factor = cost_factor * (sum(problem["pins"]) + 1)
-        self.factors = (rule_factor, cost_factor, spare_factor)
+        shared_factor = cost_factor * (sum(problem["pins"]) + 1)
+        rule_factor = shared_factor * (sum(problem["shared"]) + 1)
+        self.factors = (rule_factor, shared_factor, cost_factor, spare_factor)
         for pin, terms in used.items():
+            factor = cost_factor * problem["pins"][pin] + shared_factor * problem["shared"][pin]
             for var, _ in terms:
-                self.add(var, cost_factor * problem["pins"][pin])
+                self.add(var, factor)
         for lits, factor in [(l, rule_factor) for l in rules.values()] + [(l, spare_factor) for l in boards.values()]:
             w = self.var()
             for lit in lits:
@@ -136,9 +138,7 @@ class Model:
         self.cost[var] = self.cost.get(var, 0) + factor
 
     def weight(self, objective):
-        _, violated, cost, spares = objective
-        rule, pin, spare = self.factors
-        return violated * rule + cost * pin + spares * spare
+        return sum(part * factor for part, factor in zip(objective[1:], self.factors))
 
 
 def cp_sat(model):

@@ -46,12 +46,13 @@ fn fig2_on_table1_has_the_known_answer_in_the_fixed_form() {
     let answer = ran.json();
     assert_eq!(
         keys(&answer),
-        ["version", "status", "moved", "violated", "cost", "count", "boards"]
+        ["version", "status", "moved", "violated", "shared", "cost", "count", "boards"]
     );
     assert_eq!(answer["version"], 1);
     assert_eq!(answer["status"], "optimal");
     assert_eq!(answer["moved"], 0);
     assert_eq!(answer["violated"], 0);
+    assert_eq!(answer["shared"], 0);
     assert_eq!(answer["cost"], 5);
     assert_eq!(answer["count"], Value::Null);
     let board = &answer["boards"][0];

@@ -12,8 +12,8 @@ fn call(format: &str) -> Call {
     call.arg(std::env::temp_dir())
 }
 
-/// What `main` of an exported program prints first: rules violated, cost, spare boards.
-fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64)> {
+/// What `main` of an exported program prints first: rules violated, shared pins, cost.
+fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64, u64)> {
     let program = call("prolog").arg(design).run().exits(0).stdout;
     let file = scratch.write("wiring.pl", program);
     let output =
@@ -28,14 +28,14 @@ fn by_prolog(scratch: &Scratch, design: &str) -> Option<(u64, u64)> {
         let line = out.lines().find_map(|line| line.strip_prefix(word));
         line.unwrap_or_else(|| panic!("no {word}in {out}")).parse().unwrap()
     };
-    Some((number("violated "), number("cost ")))
+    Some((number("violated "), number("shared "), number("cost ")))
 }
 
-fn by_us(design: &str) -> Option<(u64, u64)> {
+fn by_us(design: &str) -> Option<(u64, u64, u64)> {
     let ran = call("json").arg(design).run();
     let answer: Value = ran.json();
     match ran.status {
-        0 => Some((answer["violated"].as_u64().unwrap(), answer["cost"].as_u64().unwrap())),
+        0 => Some(["violated", "shared", "cost"].map(|part| answer[part].as_u64().unwrap()).into()),
         _ => {
             assert_eq!(answer["status"], "infeasible");
             None
@@ -44,7 +44,7 @@ fn by_us(design: &str) -> Option<(u64, u64)> {
 }
 
 #[track_caller]
-fn agree(design: &str) -> Option<(u64, u64)> {
+fn agree(design: &str) -> Option<(u64, u64, u64)> {
     let scratch = Scratch::new("prolog");
     let file = scratch.write("robot.sense", design).display().to_string();
     let ours = by_us(&file);
@@ -89,7 +89,7 @@ fn random_table(random: &mut Random) -> String {
 #[test]
 fn fig2() {
     if has("swipl") {
-        assert_eq!(agree(&text("examples/fig2.sense")), Some((0, 5)));
+        assert_eq!(agree(&text("examples/fig2.sense")), Some((0, 0, 5)));
     }
 }
 
@@ -127,7 +127,7 @@ fn with_wishes() {
             "analog: prefer pin = PA1;",
             "icu: prefer unit = TIM8;",
         ];
-        let (violated, cost) = agree(&design("STM32F4DiscoveryBoard", &devices)).unwrap();
+        let (violated, _, cost) = agree(&design("STM32F4DiscoveryBoard", &devices)).unwrap();
         assert_eq!(violated, 1);
         assert!(cost > 3);
     }
@@ -142,6 +142,6 @@ fn on_two_boards_one_spare() {
         assert_eq!(agree(&two), None);
         let floating: String = (1..=2).map(|id| device_block(id, "icu: unit = TIM8;")).collect();
         let two = format!("{floating} board One {board} spare board Two {board}");
-        assert_eq!(agree(&two), Some((0, 4)));
+        assert_eq!(agree(&two), Some((0, 0, 4)));
     }
 }

@@ -57,6 +57,8 @@ pub enum PinRole {
     Reset,
     /// It is read when the MCU starts, and chooses what is started.
     Boot,
+    /// A crystal goes there, where one is fitted.
+    Oscillator,
 }
 
 /// What timers can do, where it differs from most.
@@ -159,13 +161,21 @@ mod tests {
     #[test]
     fn pins_are_needed_by_their_parts() {
         let pins = |mcu| {
-            let roles = pin_roles(mcu).into_iter();
+            let roles = pin_roles(mcu).into_iter().filter(|(_, role)| *role != PinRole::Oscillator);
             roles.map(|(pin, role)| format!("{pin} {role:?}")).collect::<Vec<_>>().join(", ")
+        };
+        let crystals = |mcu| {
+            let roles = pin_roles(mcu).into_iter().filter(|(_, role)| *role == PinRole::Oscillator);
+            roles.map(|(pin, _)| pin.to_string()).collect::<Vec<_>>().join(" ")
         };
         assert_eq!(pins("STM32F407VGT6"), "PA13 Debug, PA14 Debug, PB2 Boot");
         assert_eq!(pins("stm32g431kb"), "PA13 Debug, PA14 Debug, PB8 Boot, PG10 Reset");
         assert_eq!(pins("STM32L432KC"), "PA13 Debug, PA14 Debug, PH3 Boot");
         assert_eq!(pins("ATmega328P-PU"), "PC6 Reset");
         assert_eq!(pins("RP2040"), "");
+        assert_eq!(crystals("STM32F407VGT6"), "PC14 PC15 PH0 PH1");
+        assert_eq!(crystals("STM32F103C8T6"), "PC14 PC15 PD0 PD1");
+        assert_eq!(crystals("STM32F103VET6"), "PC14 PC15");
+        assert_eq!(crystals("ATMEGA328P-PU"), "PB6 PB7");
     }
 }

@@ -9,6 +9,8 @@
     reason = "a test over files of the machine"
 )]
 
+use sensedsl_board::pin::PinName;
+use sensedsl_board::silicon::{self, PinRole};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -115,7 +117,7 @@ fn table_1_is_part_of_its_mcu() {
             assert!(row.usage(&usage.signal).is_some(), "{} {}", pin.name, usage.spelled);
         }
     }
-    let pb10 = chip.pin(&sensedsl_board::pin::PinName::parse("PB10").unwrap()).unwrap();
+    let pb10 = chip.pin(&PinName::parse("PB10").unwrap()).unwrap();
     let scl = pb10.usages.iter().find(|usage| usage.spelled == "I2C2_SCL").unwrap();
     assert_eq!((scl.alternate, pb10.position.as_deref()), (Some(4), Some("47")));
 }
@@ -137,7 +139,7 @@ fn remap_blocks_of_an_f1_are_at_its_usages() {
     let Some(data) = data() else { return };
     let made = imported(&data.join("mcu/STM32F103C(8-B)Tx.xml"));
     let chip = table::load(&made.table.unwrap()).board;
-    let pb6 = chip.pin(&sensedsl_board::pin::PinName::parse("PB6").unwrap()).unwrap();
+    let pb6 = chip.pin(&PinName::parse("PB6").unwrap()).unwrap();
     let blocks = |usage: &table::Usage| Some(format!("{}#{}", usage.signal.name(), usage.blocks?));
     let blocks: Vec<String> = pb6.usages.iter().filter_map(blocks).collect();
     assert_eq!(blocks, ["I2C1_SCL#0", "TIM4_CH1#0", "USART1_TX#1"]);
@@ -211,7 +213,8 @@ fn formats_are_told_by_content() {
     }
 }
 
-/// What ST's names of pins tell of reset and BOOT (`PF2-NRST`, `PH3-BOOT0`) is in `silicon/`.
+/// What ST's names of pins tell of reset, BOOT and oscillators (`PF2-NRST`, `PH3-BOOT0`,
+/// `PH0-OSC_IN`) is in `silicon/`.
 #[test]
 fn pins_that_the_mcu_needs_are_known() {
     let Some(data) = data() else { return };
@@ -226,16 +229,21 @@ fn pins_that_the_mcu_needs_are_known() {
         if mcu.starts_with("STM32MP") {
             continue;
         }
-        let roles = sensedsl_board::silicon::pin_roles(mcu);
+        let roles = silicon::pin_roles(mcu);
         for spelled in text.split("<Pin Name=\"").skip(1).filter_map(|rest| rest.split('"').next())
         {
-            let needed = spelled.contains("NRST") || spelled.contains("BOOT");
-            let Some(pin) = sensedsl_board::pin::PinName::parse(spelled).filter(|_| needed) else {
+            let Some(pin) = PinName::parse(spelled).filter(|pin| pin.as_str().starts_with('P'))
+            else {
                 continue;
             };
-            if pin.as_str().starts_with('P') {
-                assert!(roles.contains_key(&pin), "{mcu}: {spelled}");
+            let says = |words: &[&str]| words.iter().any(|word| spelled.contains(word));
+            if says(&["NRST", "BOOT"]) {
+                let vital = roles.get(&pin).is_some_and(|role| *role != PinRole::Oscillator);
+                assert!(vital, "{mcu}: {spelled}");
                 seen += 1;
+            } else {
+                let oscillator = roles.get(&pin) == Some(&PinRole::Oscillator);
+                assert_eq!(oscillator, says(&["OSC"]), "{mcu}: {spelled}");
             }
         }
     }

@@ -1,4 +1,5 @@
-//! Pins that an MCU needs for itself are never given to a device, whatever the part.
+//! Pins that an MCU needs for itself are never given to a device, whatever the part or the board, and
+//! pins that something else is on only where no others are left.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -10,7 +11,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
-use sensedsl_board::silicon::pin_roles;
+use sensedsl_board::silicon::{PinRole, pin_roles};
+use sensedsl_board::table::Role;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::{Solved, Wiring};
 
@@ -22,25 +24,35 @@ impl Files for NoFiles {
     }
 }
 
-/// The pins of five digital outputs, or none where the part has not so many.
-fn five_outputs(part: &str) -> Option<BTreeSet<PinName>> {
-    let mut text = format!("board X on {part} {{\n");
+/// The pins of five digital outputs on a part or a board, or none where it has not so many; and the
+/// pins that nothing else is on.
+fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, BTreeSet<PinName>) {
+    let mut text = format!("board X on {on} {{\n");
     for id in 1..=5 {
         text.push_str(&format!("actuator D{id} accepts bool {{ id = {id}; type = digital; }}\n"));
     }
     text.push('}');
-    let request = Request { path: "traps.sense", text: &text, board: None, target: Some("none") };
+    let request = Request { path: "traps.sense", text: &text, board: None, target };
     let resolved = resolve(&request, &NoFiles);
-    let design = resolved.design.unwrap_or_else(|| panic!("{part}: {:?}", resolved.diagnostics));
-    match Wiring::new(&design, None).solve(&Default::default()) {
+    let design = resolved.design.unwrap_or_else(|| panic!("{on}: {:?}", resolved.diagnostics));
+    let table = &design.boards[0].table;
+    let mcu = design.boards[0].mcu.as_deref().unwrap_or_default();
+    // A board's table tells where crystals are.
+    let tells = table.columns.iter().any(|column| column.role == Role::Onboard);
+    let held = if tells { needed(mcu) } else { pin_roles(mcu).into_keys().collect() };
+    let clean = table.pins.iter();
+    let clean = clean.filter(|pin| pin.onboard.is_none() && !held.contains(&pin.name));
+    let clean = clean.map(|pin| pin.name.clone()).collect();
+    let pins = match Wiring::new(&design, None).solve(&Default::default()) {
         Solved::Wired(assignment) => {
             let wires = assignment.boards[0].devices.iter().flat_map(|device| &device.wires);
             let pins = &design.boards[0].table.pins;
             Some(wires.map(|wire| pins[wire.pin].name.clone()).collect())
         }
         Solved::Infeasible(_) => None,
-        Solved::Failed(failure) => panic!("{part}: {}", failure.message),
-    }
+        Solved::Failed(failure) => panic!("{on}: {}", failure.message),
+    };
+    (pins, clean)
 }
 
 #[test]
@@ -51,16 +63,44 @@ fn outputs_are_on_pins_that_the_mcu_does_not_need() {
     let (mut wired, mut short) = (0, Vec::new());
     let thorough = std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("1");
     for part in parts.values().step_by(if thorough { 1 } else { 5 }) {
-        let roles = pin_roles(part);
-        match five_outputs(part) {
-            Some(pins) => {
-                let bad: Vec<_> = pins.iter().filter(|pin| roles.contains_key(*pin)).collect();
+        let needed: BTreeSet<PinName> = needed(part);
+        match five_outputs(part, Some("none")) {
+            (Some(pins), clean) => {
+                let bad: Vec<_> = pins.intersection(&needed).collect();
                 assert!(bad.is_empty(), "{part}: {bad:?}");
+                assert_eq!(pins.difference(&clean).count(), 5_usize.saturating_sub(clean.len()));
                 wired += 1;
             }
-            None => short.push(part.as_str()),
+            (None, _) => short.push(part.as_str()),
         }
     }
     assert!(wired > 60, "{wired} parts");
     assert!(short.len() <= 8, "no five outputs on {short:?}");
+}
+
+/// The pins that an MCU cannot do without.
+fn needed(mcu: &str) -> BTreeSet<PinName> {
+    let roles = pin_roles(mcu).into_iter();
+    roles.filter(|(_, role)| *role != PinRole::Oscillator).map(|(pin, _)| pin).collect()
+}
+
+#[test]
+fn outputs_are_on_clean_pins_of_boards() {
+    let (mut wired, mut short) = (0, Vec::new());
+    for board in sensedsl_board::catalog::all() {
+        let name = board.name.replace('-', "_");
+        for target in [None, Some("none")] {
+            match five_outputs(&name, target) {
+                (Some(pins), clean) => {
+                    let bad: Vec<_> = pins.difference(&clean).collect();
+                    let free = clean.len();
+                    assert!(bad.len() <= 5_usize.saturating_sub(free), "{name}: {free}, {bad:?}");
+                    wired += 1;
+                }
+                (None, clean) => short.push((name.clone(), clean.len())),
+            }
+        }
+    }
+    assert!(wired > 150, "{wired} wirings");
+    assert!(short.is_empty(), "no five outputs on {short:?}");
 }

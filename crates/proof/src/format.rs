@@ -11,7 +11,7 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 
 /// Name and version of the format.
-pub const NAME: &str = "SenseDSL certificate 1";
+pub const NAME: &str = "SenseDSL certificate 2";
 
 /// Things by name, no name twice.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,10 +67,16 @@ pub struct Certificate {
     pub format: String,
     /// What was asked.
     pub problem: Problem,
-    /// The claim; none claims that there is no wiring.
+    /// The claim; `null` claims that there is no wiring.
+    #[serde(deserialize_with = "stated")]
     pub answer: Option<Answer>,
-    /// At most one for each part of the objective, or one of existence.
+    /// One for each part of the objective that is not 0, or one of existence.
     pub proofs: Vec<Proof>,
+}
+
+/// A value that may be `null`, but not left out.
+fn stated<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    Option::deserialize(from)
 }
 
 /// What was asked.
@@ -81,6 +87,8 @@ pub struct Problem {
     pub boards: Map<bool>,
     /// Pins, each with the cost of using it.
     pub pins: Map<u32>,
+    /// Pins that something else is on.
+    pub shared: BTreeSet<String>,
     /// Peripherals that need DMA streams: for each request the streams that can serve it.
     pub dma: Map<Vec<BTreeSet<String>>>,
     /// Devices; each takes one of its alternatives.
@@ -154,6 +162,8 @@ pub struct Objective {
     pub moved: u32,
     /// Soft rules violated.
     pub violated: u32,
+    /// Shared pins used.
+    pub shared: u32,
     /// Sum of the costs of the pins used.
     pub cost: u32,
     /// Spare boards used.
@@ -162,8 +172,8 @@ pub struct Objective {
 
 impl Objective {
     /// The parts, the most important first.
-    pub(crate) const fn parts(self) -> [u32; 4] {
-        [self.moved, self.violated, self.cost, self.spares]
+    pub(crate) const fn parts(self) -> [u32; 5] {
+        [self.moved, self.violated, self.shared, self.cost, self.spares]
     }
 
     /// The sum of the parts, each times its weight.
@@ -175,8 +185,9 @@ impl Objective {
 
 impl fmt::Display for Objective {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { moved, violated, cost, spares } = self;
-        write!(f, "moved {moved}, violated {violated}, cost {cost}, spares {spares}")
+        let Self { moved, violated, shared, cost, spares } = self;
+        write!(f, "moved {moved}, violated {violated}, shared {shared}, ")?;
+        write!(f, "cost {cost}, spares {spares}")
     }
 }
 
@@ -187,6 +198,7 @@ impl fmt::Display for Objective {
 pub enum Part {
     Moved,
     Violated,
+    Shared,
     Cost,
     Spares,
     Existence,
@@ -197,6 +209,7 @@ impl fmt::Display for Part {
         f.write_str(match self {
             Self::Moved => "moved",
             Self::Violated => "violated",
+            Self::Shared => "shared",
             Self::Cost => "cost",
             Self::Spares => "spares",
             Self::Existence => "existence",
@@ -206,8 +219,8 @@ impl fmt::Display for Part {
 
 impl Part {
     /// In the order of [`Objective::parts`].
-    pub(crate) const OF_OBJECTIVE: [Self; 4] =
-        [Self::Moved, Self::Violated, Self::Cost, Self::Spares];
+    pub(crate) const OF_OBJECTIVE: [Self; 5] =
+        [Self::Moved, Self::Violated, Self::Shared, Self::Cost, Self::Spares];
 }
 
 /// A proof that all wirings weigh more than some limit.

@@ -126,11 +126,12 @@ impl<'a> Account<'a, '_> {
 
     /// What a thing adds to the weight of a wiring that uses it, times the scale.
     fn weight(&self, (kind, name): Thing<'_>) -> Result<i128, Refuted> {
-        let Objective { moved, violated, cost, spares } = self.weights;
+        let Objective { moved, violated, shared, cost, spares } = self.weights;
         let weight = match kind {
             "pin" => {
                 let pin = known(&self.problem.pins, kind, name)?;
-                i128::from(cost) * i128::from(*pin)
+                let shared = if self.problem.shared.contains(name) { shared } else { 0 };
+                i128::from(cost) * i128::from(*pin) + i128::from(shared)
             }
             "moved" => i128::from(moved),
             "rule" => i128::from(violated),

@@ -9,7 +9,7 @@
 //!
 //! `budget` bounds how much it reads and how many steps it takes.
 //!
-//! The objective is (moved, violated, cost, spares), the first difference decides. There is a
+//! The objective is (moved, violated, shared, cost, spares), the first difference decides. There is a
 //! proof for each part that is not 0: no wiring that equals the claim in the parts before is lower
 //! in this one. It gives each part a weight, none to the parts after, and shows that every wiring
 //! weighs more than one that were lower by 1 in its part. Any weights do: with unsuitable ones the
@@ -97,6 +97,9 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
 pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
     let Certificate { format: _, problem, answer, proofs } = certificate;
     named(problem)?;
+    let mut parts = proofs.iter().enumerate().map(|(at, proof)| (at, proof.of));
+    let twice = parts.find(|(at, of)| proofs.iter().take(*at).any(|before| before.of == *of));
+    ensure(twice.is_none(), || "two proofs are of one part".into())?;
     let budget = &mut Budget::new();
     match answer {
         Some(answer) => best(problem, answer, proofs, budget),
@@ -148,8 +151,11 @@ fn find(proofs: &[Proof], part: Part) -> Result<&Proof, Refuted> {
     found.ok_or_else(|| Refuted(format!("there is no proof of {part}")))
 }
 
-/// Checks that the devices name only boards, pins and peripherals that are there.
+/// Checks that only boards, pins and peripherals are named that are there.
 fn named(problem: &Problem) -> Result<(), Refuted> {
+    for pin in &problem.shared {
+        known(&problem.pins, "pin", pin)?;
+    }
     for Alternative { board, dma, roles, .. } in problem.devices.values().flat_map(|d| d.values()) {
         known(&problem.boards, "board", board)?;
         for user in dma {

@@ -96,6 +96,7 @@ impl<'a> Used<'a> {
         Ok(Objective {
             moved: self.moved.len() as u32,
             violated: self.rules.len() as u32,
+            shared: self.pins.keys().filter(|pin| problem.shared.contains(**pin)).count() as u32,
             cost,
             spares: spares.count() as u32,
         })

@@ -8,10 +8,11 @@ use sensedsl_proof::{Verified, read, verify};
 /// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
 /// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least.
 const TWO_OF_THREE: &str = r#"{
-"format": "SenseDSL certificate 1",
+"format": "SenseDSL certificate 2",
 "problem": {
   "boards": {"B": false},
   "pins": {"PA1": 1, "PA2": 2, "PA3": 5},
+  "shared": [],
   "dma": {},
   "devices": {
     "Left": {"any": {"board": "B", "claims": {}, "violates": [], "dma": [], "roles": {"in": {
@@ -25,14 +26,14 @@ const TWO_OF_THREE: &str = r#"{
   }
 },
 "answer": {
-  "objective": {"moved": 0, "violated": 0, "cost": 3, "spares": 0},
+  "objective": {"moved": 0, "violated": 0, "shared": 0, "cost": 3, "spares": 0},
   "wiring": {
     "Left": {"takes": "any", "wires": {"in": "PA1"}},
     "Right": {"takes": "any", "wires": {"in": "PA2"}}
   },
   "streams": {}
 },
-"proofs": [{"of": "cost", "weights": {"moved": 3, "violated": 3, "cost": 1, "spares": 0}, "nodes": [
+"proofs": [{"of": "cost", "weights": {"moved": 3, "violated": 3, "shared": 3, "cost": 1, "spares": 0}, "nodes": [
   {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}
 ]}]
 }"#;
@@ -57,9 +58,33 @@ fn changed(text: &str, from: &str, to: &str) -> String {
 
 #[test]
 fn a_proof_is_verified() {
-    let objective = Objective { moved: 0, violated: 0, cost: 3, spares: 0 };
+    let objective = Objective { moved: 0, violated: 0, shared: 0, cost: 3, spares: 0 };
     assert_eq!(verified(TWO_OF_THREE), Ok(Verified::Best(objective)));
     assert_eq!(verified(&changed(TWO_OF_THREE, LEAF, SPLIT)), Ok(Verified::Best(objective)));
+}
+
+#[test]
+fn shared_pins_come_before_the_cost() {
+    let shared = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA1\"]");
+    // One shared pin is not needed: PA2 and PA3 are there.
+    let told = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
+    let why = verified(&shared).expect_err("PA1 is shared");
+    assert!(why.starts_with("the wiring has moved 0, violated 0, shared 1, cost 3"), "{why}");
+    assert_eq!(verified(&told), Err("there is no proof of shared".into()));
+    let nowhere = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA4\"]");
+    assert_eq!(verified(&nowhere), Err("there is no pin \"PA4\"".into()));
+}
+
+#[test]
+fn a_claim_is_stated_and_proved_once() {
+    let (before, after) = TWO_OF_THREE.split_once("\"answer\"").expect("two parts");
+    let (_, after) = after.split_once("\"proofs\"").expect("two parts");
+    let error = read(&format!("{before}\"proofs\"{after}")).expect_err("nothing is claimed");
+    assert!(error.0.contains("missing field `answer`"), "{}", error.0);
+    let (start, proof) = TWO_OF_THREE.split_once("\"proofs\": [").expect("two parts");
+    let proof = proof.strip_suffix("]\n}").expect("the end");
+    let twice = format!("{start}\"proofs\": [{proof}, {proof}]\n}}");
+    assert_eq!(verified(&twice), Err("two proofs are of one part".into()));
 }
 
 #[test]
@@ -69,7 +94,7 @@ fn no_wiring_is_verified() {
     let one_pin: String = one_pin.collect();
     let one_pin = one_pin.replace("\"PA3\": {\"pin\": \"PA3\"", "\"PA3\": {\"pin\": \"PA2\"");
     let rest = r#""answer": null, "proofs": [{"of": "existence",
-        "weights": {"moved": 0, "violated": 0, "cost": 0, "spares": 0},
+        "weights": {"moved": 0, "violated": 0, "shared": 0, "cost": 0, "spares": 0},
         "nodes": [{"leaf": {"scale": 1, "prices": {"pin": {"PA2": 1}}, "tolls": {}}}]}]}"#;
     assert_eq!(verified(&format!("{one_pin}{rest}")), Ok(Verified::NoWiring));
     assert!(verified(&format!("{problem}{rest}")).is_err(), "there are wirings");
@@ -112,7 +137,7 @@ fn what_is_not_proved_is_refused() {
 #[test]
 fn what_is_no_certificate_is_told_from_a_wrong_one() {
     for (from, to) in [
-        ("certificate 1", "certificate 2"),
+        ("certificate 2", "certificate 1"),
         ("\"boards\"", "\"board\""),
         ("\"PA3\": 5", "\"PA3\": -5"),
         ("\"PA3\": 5", "\"PA3\": 5.0"),

@@ -60,10 +60,13 @@ fn plain(seed: u64, rng: &mut Rng) -> Problem {
     problem(seed, &tables, devices, mix, rng.below(2) == 0).problem
 }
 
-/// Adds what people write: reserved and fixed pins, sides, things preferred and avoided.
+/// Adds what people write: reserved and fixed pins, sides, things preferred and avoided; and pins
+/// that something else on the board is on.
 fn restricted(mut problem: Problem, rng: &mut Rng) -> Problem {
     let reserved: Vec<bool> = problem.pins.iter().map(|_| rng.below(16) == 0).collect();
     let with_rules = rng.below(2) == 0;
+    let with_shared = rng.below(2) == 0;
+    problem.pins.iter_mut().for_each(|pin| pin.shared = with_shared && rng.below(4) == 0);
     for device in &mut problem.devices {
         let kind = rng.below(10);
         let side = rng.below(2) as u32;
@@ -105,12 +108,12 @@ fn print_instance(seed: u64, problem: &Problem) {
                 numbers(picks.map(|(role, &c)| role.candidates[c].pin.0))
             });
             let o = answer.objective;
-            ("optimal", [o.moved, o.violated, o.cost, o.spares], list(wires))
+            ("optimal", [o.moved, o.violated, o.shared, o.cost, o.spares], list(wires))
         }
         Ok(Outcome::Infeasible(conflict)) => {
-            ("infeasible", [0; 4], numbers(conflict.devices.iter().map(|d| d.0)))
+            ("infeasible", [0; 5], numbers(conflict.devices.iter().map(|d| d.0)))
         }
-        Ok(Outcome::Stopped { .. }) => ("stopped", [0; 4], "null".to_owned()),
+        Ok(Outcome::Stopped { .. }) => ("stopped", [0; 5], "null".to_owned()),
         Err(fault) => panic!("seed {seed}: {fault}"),
     };
     // Small ones are counted too.

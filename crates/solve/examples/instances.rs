@@ -143,11 +143,11 @@ fn print_instance(family: &Family, size: u64, seed: u64) {
     );
 }
 
-/// Status, objective (moved, violated, cost, spares) and the best of a few runs, proof and
+/// Status, objective (moved, violated, shared, cost, spares) and the best of a few runs, proof and
 /// tie-break included.
-fn measured(problem: &Problem) -> (&'static str, [u32; 4], f64) {
+fn measured(problem: &Problem) -> (&'static str, [u32; 5], f64) {
     let mut best = f64::INFINITY;
-    let mut result = ("stopped", [0; 4]);
+    let mut result = ("stopped", [0; 5]);
     for _ in 0..5 {
         let start = Instant::now();
         let stop = || start.elapsed() > LIMIT;
@@ -157,10 +157,10 @@ fn measured(problem: &Problem) -> (&'static str, [u32; 4], f64) {
         result = match outcome {
             Outcome::Solved(answer) => {
                 let o = answer.objective;
-                ("optimal", [o.moved, o.violated, o.cost, o.spares])
+                ("optimal", [o.moved, o.violated, o.shared, o.cost, o.spares])
             }
-            Outcome::Infeasible(_) => ("infeasible", [0; 4]),
-            Outcome::Stopped { .. } => ("stopped", [0; 4]),
+            Outcome::Infeasible(_) => ("infeasible", [0; 5]),
+            Outcome::Stopped { .. } => ("stopped", [0; 5]),
         };
         if micros > 200_000.0 {
             break;

@@ -21,6 +21,8 @@ pub struct Objective {
     pub moved: u32,
     /// Soft rules violated.
     pub violated: u32,
+    /// Shared pins used.
+    pub shared: u32,
     /// Sum of the costs of the pins used.
     pub cost: u32,
     /// Spare boards used.

@@ -132,10 +132,12 @@ impl Ledger {
 
     fn objective(&self, problem: &Problem) -> Objective {
         let cost = |p: &PinId| problem.pins.get(p.0 as usize).map_or(0, |pin| pin.cost);
+        let shared = |p: &&PinId| problem.pins.get(p.0 as usize).is_some_and(|pin| pin.shared);
         let spare = |b: &&u32| problem.boards.get(**b as usize).is_some_and(|board| board.spare);
         Objective {
             moved: self.moved.len() as u32,
             violated: self.rules.len() as u32,
+            shared: self.pins.keys().filter(shared).count() as u32,
             cost: self.pins.keys().map(cost).sum(),
             spares: self.boards.iter().filter(spare).count() as u32,
         }

@@ -7,7 +7,7 @@
 
 use crate::answer::{Choice, Fault, Objective};
 use crate::dma;
-use crate::problem::{Claim, Holder, Problem};
+use crate::problem::{Claim, Holder, Pin, Problem};
 use crate::proper;
 use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,6 +42,7 @@ pub(crate) struct User {
 pub(crate) struct Weights {
     pub(crate) moved: u64,
     pub(crate) rule: u64,
+    pub(crate) shared: u64,
     pub(crate) cost: u64,
 }
 
@@ -50,7 +51,8 @@ impl Weights {
         Objective {
             moved: (weight / self.moved) as u32,
             violated: (weight % self.moved / self.rule) as u32,
-            cost: (weight % self.rule / self.cost) as u32,
+            shared: (weight % self.rule / self.shared) as u32,
+            cost: (weight % self.shared / self.cost) as u32,
             spares: (weight % self.cost) as u32,
         }
     }
@@ -143,8 +145,9 @@ impl Model {
             dma_matters: !dma::all_fit(problem),
             ..Self::default()
         };
-        let unit = model.weights.cost;
-        model.pin_weight = problem.pins.iter().map(|p| u64::from(p.cost) * unit).collect();
+        let Weights { shared, cost, .. } = model.weights;
+        let weight = |p: &Pin| u64::from(p.cost) * cost + u64::from(p.shared) * shared;
+        model.pin_weight = problem.pins.iter().map(weight).collect();
         model.flatten(problem, &contested(problem));
         model.invert(problem);
         model.find_kinds(problem);

@@ -65,6 +65,8 @@ pub struct Pin {
     pub board: BoardId,
     /// Opportunity cost: number of usages in the pin's row of the board table.
     pub cost: u32,
+    /// Something else is on it: it is used only where that violates fewer rules.
+    pub shared: bool,
 }
 
 /// A board that devices may go to.
@@ -143,8 +145,8 @@ pub struct DmaUser {
 /// 2. so is each resource,
 /// 3. the DMA requests of all used [`DmaUser`]s get streams of their own.
 ///
-/// It is best when (moved wires, violated rules, sum of the costs of the distinct pins used,
-/// spare boards used) is lexicographically least, then its list of pins (devices in order, roles
+/// It is best when (moved wires, violated rules, shared pins used, sum of the costs of the distinct
+/// pins used, spare boards used) is lexicographically least, then its list of pins (devices in order, roles
 /// in order), then its list of signals. A wire that devices share as a group counts as one moved
 /// wire. The signals of a group's shared pin agree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -2,24 +2,37 @@
 
 use crate::answer::Fault;
 use crate::model::Weights;
-use crate::problem::{Claim, Problem};
+use crate::problem::{Claim, Device, Problem};
+use std::cmp::Reverse;
 
 /// The weights by which an objective becomes one number; [`Fault::TooLarge`] where it does not fit.
 pub(crate) fn weights(problem: &Problem) -> Result<Weights, Fault> {
     let spares = problem.boards.iter().filter(|b| b.spare).count() as u64;
-    let total: u64 = problem.pins.iter().map(|p| u64::from(p.cost)).sum();
+    let wires = wires(problem).min(problem.pins.len());
+    let shared = problem.pins.iter().filter(|p| p.shared).count().min(wires) as u64;
+    let mut costs: Vec<u64> = problem.pins.iter().map(|p| u64::from(p.cost)).collect();
+    costs.sort_unstable_by_key(|cost| Reverse(*cost));
+    let total: u64 = costs.iter().take(wires).sum();
     if u32::try_from(total).is_err() {
         return Err(Fault::TooLarge);
     }
+    let weight = |below: u64, most: u64| below.checked_mul(most + 1).ok_or(Fault::TooLarge);
     let cost = spares + 1;
-    let rule = (total + 1).checked_mul(cost).ok_or(Fault::TooLarge)?;
-    let moved = rule.checked_mul(u64::from(problem.rules) + 1).ok_or(Fault::TooLarge)?;
-    let most = moved.checked_mul(problem.pins.len() as u64 + 1).ok_or(Fault::TooLarge)?;
+    let of_shared = weight(cost, total)?;
+    let rule = weight(of_shared, shared)?;
+    let moved = weight(rule, u64::from(problem.rules))?;
+    let most = weight(moved, wires as u64)?;
     // The bounds add such numbers up, some of them in fractions.
     if most > 1 << 44 {
         return Err(Fault::TooLarge);
     }
-    Ok(Weights { moved, rule, cost })
+    Ok(Weights { moved, rule, shared: of_shared, cost })
+}
+
+/// More pins than this are never in use.
+fn wires(problem: &Problem) -> usize {
+    let roles = |device: &Device| device.alternatives.iter().map(|a| a.roles.len()).max();
+    problem.devices.iter().filter_map(roles).sum()
 }
 
 /// [`Fault::Malformed`] where the problem names what it does not have.

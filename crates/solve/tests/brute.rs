@@ -93,7 +93,8 @@ fn problem() -> impl Strategy<Value = Problem> {
     let shape = (1..3u32, 3..6u32);
     let devices = move |(boards, pins): (u32, u32)| {
         let device = (device(boards, pins), 1..3usize);
-        let costs = prop::collection::vec(0..4u32, (boards * pins) as usize);
+        let pin = (0..4u32, prop::bool::weighted(0.3));
+        let costs = prop::collection::vec(pin, (boards * pins) as usize);
         let spare = prop::collection::vec(prop::bool::weighted(0.4), boards as usize);
         let user = prop::collection::vec(prop::collection::btree_set(0..4u32, 1..3), 1..3);
         let dma = prop::collection::vec(user, 3);
@@ -106,7 +107,11 @@ fn problem() -> impl Strategy<Value = Problem> {
         Problem {
             pins: (0..)
                 .zip(costs)
-                .map(|(i, cost): (u32, u32)| Pin { board: BoardId(i / pins), cost })
+                .map(|(i, (cost, shared)): (u32, (u32, bool))| Pin {
+                    board: BoardId(i / pins),
+                    cost,
+                    shared,
+                })
                 .collect(),
             boards: spare.into_iter().map(|spare| Board { spare }).collect(),
             devices: devices.into_iter().flat_map(|(d, n)| vec![d; n]).take(4).collect(),

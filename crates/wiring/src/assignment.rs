@@ -33,6 +33,8 @@ pub struct Assignment {
     pub moved: u32,
     /// `prefer` and `avoid` rules that are violated.
     pub violated: u32,
+    /// Pins used that something else on the board is on.
+    pub shared: u32,
     /// Opportunity cost: usages of all pins used, each pin once.
     pub cost: u32,
     /// Proved: no wiring is better than this. Where the search was cut off it lies below what was
@@ -49,6 +51,8 @@ pub struct Bound {
     pub moved: u32,
     /// Violated rules.
     pub violated: u32,
+    /// Shared pins.
+    pub shared: u32,
     /// Opportunity cost.
     pub cost: u32,
 }
@@ -60,12 +64,32 @@ pub struct BoardAssignment {
     pub board: BoardIndex,
     /// Its part of the opportunity cost.
     pub cost: u32,
+    /// The pins in use that something else is on, ascending.
+    pub shared: Vec<SharedPin>,
     /// Its devices, in file order.
     pub devices: Vec<DeviceWiring>,
     /// The wires of a serial link.
     pub link: Option<LinkWiring>,
     /// The DMA streams of the peripherals in use, by unit and request.
     pub dma: Vec<DmaAssignment>,
+}
+
+impl BoardAssignment {
+    /// What else is on the pin of a wire.
+    #[must_use]
+    pub fn shared_with(&self, wire: &Wire) -> Option<&str> {
+        let shared = self.shared.iter().find(|shared| shared.pin == wire.pin)?;
+        Some(&shared.with)
+    }
+}
+
+/// A pin in use that something else on the board is on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedPin {
+    /// Index into the pins of the board's table.
+    pub pin: usize,
+    /// What else is on it: `LED LD2`.
+    pub with: String,
 }
 
 /// The wires of one device.

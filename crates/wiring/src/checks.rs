@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::natural;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::silicon::PinRole;
-use sensedsl_board::table::Occupation;
+use sensedsl_board::table::{Occupation, Onboard};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
@@ -108,6 +108,7 @@ fn withheld(
                 PinRole::Debug => ("the debugger", "give up debugging"),
                 PinRole::Reset => ("the reset input", "make it a GPIO in the option bytes"),
                 PinRole::Boot => ("BOOT, which the MCU reads at reset", "leave it alone at reset"),
+                PinRole::Oscillator => ("the oscillator", "fit no crystal"),
             };
             let help = format!("take another pin, or write `release {name};` and {price}");
             (by.to_owned(), None, help)
@@ -280,14 +281,13 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
             let Some(device) = design.device(wiring.device) else { continue };
             for wire in &wiring.wires {
                 let Some(pin) = wire.pin(board) else { continue };
-                let Some(part) = &pin.onboard else { continue };
-                if part.how == Occupation::Care {
-                    diagnostics.push(w0605_onboard_part::onboard_part(
-                        device.name.span,
-                        &device.name.value,
-                        pin.name.as_str(),
-                        &part.part,
-                    ));
+                let on_bus = |part: &Onboard| part.how == Occupation::Bus;
+                let Some(with) = on.shared_with(wire) else { continue };
+                // Who joins the bus of an on-board part disturbs nobody.
+                if !pin.onboard.as_ref().is_some_and(on_bus) {
+                    let (span, device) = (device.name.span, &device.name.value);
+                    let pin = pin.name.as_str();
+                    diagnostics.push(w0605_onboard_part::onboard_part(span, device, pin, with));
                 }
             }
         }

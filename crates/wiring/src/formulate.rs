@@ -197,7 +197,8 @@ pub(crate) fn formulate<'a>(
     }
     let solver_pins = pins.iter().filter_map(|(board, pin)| {
         let cost = design.board(*board)?.table.pins.get(*pin)?.cost();
-        Some(solver::Pin { board: board_id(*board), cost })
+        let shared = offers.get(board.0)?.shared_with(*pin).is_some();
+        Some(solver::Pin { board: board_id(*board), cost, shared })
     });
     let boards = design.boards.iter().map(|board| solver::Board { spare: board.spare });
     let Builder { names, dma, streams, rules, .. } = builder;

@@ -178,8 +178,8 @@ impl<'a> Wiring<'a> {
             Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
                 let mut solved = self.read(&answer);
                 if let Some(Solved::Wired(wiring)) = &mut solved {
-                    let Objective { moved, violated, cost, .. } = bound;
-                    wiring.bound = Some(Bound { moved, violated, cost });
+                    let Objective { moved, violated, shared, cost, .. } = bound;
+                    wiring.bound = Some(Bound { moved, violated, shared, cost });
                 }
                 Ok(solved)
             }

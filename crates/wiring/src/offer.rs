@@ -6,9 +6,12 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::silicon::{self, PinRole};
-use sensedsl_board::table::{Occupation, Pin, Usage};
+use sensedsl_board::table::{Occupation, Pin, Role, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
+
+/// What may be on the pins of an oscillator.
+const CRYSTAL: &str = "the oscillator's crystal";
 
 /// Why a pin is not offered.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,6 +71,8 @@ pub(crate) struct Offer<'a> {
     rules: Rules<'a>,
     /// For each pin of the table why it is withheld.
     withheld: Vec<Option<Withheld>>,
+    /// For each pin of the table what else is on it, where devices may use it all the same.
+    shared: Vec<Option<String>>,
     /// For each pin of the table the contact that it shares with others.
     pads: Vec<Option<String>>,
     /// For each peripheral that remaps its signals the sets of blocks they are in.
@@ -83,7 +88,13 @@ impl<'a> Offer<'a> {
         let mut withheld: Vec<_> = pins.iter().map(why).collect();
         let pads = shared_pads(pins);
         keep_pads_free(pins, &rules, &pads, &mut withheld);
-        Self { index, board, rules, withheld, pads, remaps: remaps(pins) }
+        let shared = pins.iter().map(|pin| shared(board, &rules, &roles, pin)).collect();
+        Self { index, board, rules, withheld, shared, pads, remaps: remaps(pins) }
+    }
+
+    /// What else is on a pin that devices may use all the same.
+    pub(crate) fn shared_with(&self, pin: usize) -> Option<&str> {
+        self.shared.get(pin)?.as_deref()
     }
 
     /// The contact of a pin where other pins are on it as well.
@@ -230,7 +241,27 @@ fn withheld(
     {
         return Some(Withheld::Onboard(part.part.clone()));
     }
-    roles.get(&pin.name).copied().map(Withheld::Needed)
+    let role = roles.get(&pin.name).copied().filter(|role| *role != PinRole::Oscillator);
+    role.map(Withheld::Needed)
+}
+
+/// What else is on the pin, whatever withholds it. The board's table tells whether a crystal is
+/// fitted; a table that has no column for it is a bare part.
+fn shared(
+    board: &Board,
+    rules: &Rules<'_>,
+    roles: &BTreeMap<PinName, PinRole>,
+    pin: &Pin,
+) -> Option<String> {
+    if rules.release(pin) || board.link.pins.contains(&pin.name) {
+        return None;
+    }
+    if let Some(part) = &pin.onboard {
+        return Some(part.part.clone());
+    }
+    let is_bare = board.table.columns.iter().all(|column| column.role != Role::Onboard);
+    let crystal = is_bare && roles.get(&pin.name) == Some(&PinRole::Oscillator);
+    crystal.then(|| CRYSTAL.to_owned())
 }
 
 /// The pins that the board's MCU needs for itself.

@@ -19,10 +19,11 @@ pub(crate) fn program(design: &Design, formulation: &Formulation<'_>) -> String 
          %   swipl -q -g main -t halt wiring.pl\n\
          % prints the least opportunity cost and one wiring that has it.\n\n",
     );
-    out.push_str("% pin(Pin, Usages).\n");
+    out.push_str("% pin(Pin, Usages, Shared): 1 where something else is on it.\n");
     for (number, pin) in formulation.problem.pins.iter().enumerate() {
         // Writing to a String cannot fail.
-        let _ = writeln!(out, "pin({}, {}).", pin_name(formulation, number), pin.cost);
+        let (name, shared) = (pin_name(formulation, number), u32::from(pin.shared));
+        let _ = writeln!(out, "pin({name}, {}, {shared}).", pin.cost);
     }
     out.push_str("\n% device(Name), in file order.\n");
     for asker in &formulation.askers {

@@ -16,8 +16,8 @@ main :-
     ;   true
     ),
     best(Found, Answer),
-    (   Found = o(Violated, Cost, Spares)
-    ->  format("violated ~w~ncost ~w~nspares ~w~n", [Violated, Cost, Spares]),
+    (   Found = o(Violated, Shared, Cost, Spares)
+    ->  format("violated ~w~nshared ~w~ncost ~w~nspares ~w~n", [Violated, Shared, Cost, Spares]),
         forall(member(D-Pin-Signal, Answer), format("~w ~w ~w~n", [D, Pin, Signal]))
     ;   format("infeasible~n")
     ).
@@ -64,14 +64,16 @@ take_claims([Resource-Holder | More], Device, Claims0, Claims) :-
     ),
     take_claims(More, Device, [Resource-Holder-Device | Claims0], Claims).
 
-% o(Violated, Cost, Spares) in the standard order of terms.
-objective(state(Pins, _, Rules, _, Spares), o(Violated, Cost, Count)) :-
+% o(Violated, Shared, Cost, Spares) in the standard order of terms.
+objective(state(Pins, _, Rules, _, Spares), o(Violated, Shared, Cost, Count)) :-
     length(Rules, Violated),
     length(Spares, Count),
     findall(Pin, member(Pin-_-_, Pins), All),
     sort(All, Distinct),
-    findall(C, ( member(Pin, Distinct), pin(Pin, C) ), Costs),
-    sum_list(Costs, Cost).
+    findall(C, ( member(Pin, Distinct), pin(Pin, C, _) ), Costs),
+    sum_list(Costs, Cost),
+    findall(S, ( member(Pin, Distinct), pin(Pin, _, S) ), Ones),
+    sum_list(Ones, Shared).
 
 % Each DMA request gets a stream of its own.
 served(state(_, _, _, Users, _)) :-

@@ -6,7 +6,7 @@ use sensedsl_model::kind::{Kind, Role};
 use sensedsl_solve::{Answer, Optimality};
 
 use crate::assignment::{
-    Assignment, BoardAssignment, DeviceWiring, DmaAssignment, LinkWiring, Status, Wire,
+    Assignment, BoardAssignment, DeviceWiring, DmaAssignment, LinkWiring, SharedPin, Status, Wire,
 };
 use crate::converters::{self, Choice};
 use crate::formulate::{Asker, Converters, Formulation};
@@ -23,6 +23,7 @@ pub(crate) fn read_back(
         .map(|index| BoardAssignment {
             board: BoardIndex(index),
             cost: 0,
+            shared: Vec::new(),
             devices: Vec::new(),
             link: None,
             dma: Vec::new(),
@@ -52,7 +53,15 @@ pub(crate) fn read_back(
         let Some(board) = design.board(assignment.board) else { continue };
         name_channels(design, board, &mut assignment.devices);
         assignment.dma = name_converters(design, board, assignment, formulation.converters)?;
-        assignment.cost = cost(board, assignment);
+        let pins = pins(assignment);
+        let cost = pins.iter().filter_map(|pin| board.table.pins.get(*pin)).map(Pin::cost);
+        assignment.cost = cost.sum();
+        let offer = formulation.offers.get(assignment.board.0);
+        let shared = pins.iter().filter_map(|pin| {
+            let with = offer?.shared_with(*pin)?.to_owned();
+            Some(SharedPin { pin: *pin, with })
+        });
+        assignment.shared = shared.collect();
     }
     Some(Assignment {
         status: match answer.optimality {
@@ -61,6 +70,7 @@ pub(crate) fn read_back(
         },
         moved: answer.objective.moved,
         violated: answer.objective.violated,
+        shared: answer.objective.shared,
         cost: answer.objective.cost,
         bound: None,
         boards,
@@ -116,12 +126,12 @@ fn is_analog(design: &Design, device: DeviceIndex) -> bool {
     design.device(device).is_some_and(|device| matches!(device.kind, Kind::Analog(_)))
 }
 
-/// Usages of all pins that the board's devices and its link use, each pin once.
-fn cost(board: &Board, assignment: &BoardAssignment) -> u32 {
+/// The pins that the board's devices and its link use, each once, ascending.
+fn pins(assignment: &BoardAssignment) -> Vec<usize> {
     let of_devices = assignment.devices.iter().flat_map(|wiring| &wiring.wires);
     let of_link = assignment.link.iter().flat_map(|link| &link.wires);
     let mut pins: Vec<usize> = of_devices.chain(of_link).map(|wire| wire.pin).collect();
     pins.sort_unstable();
     pins.dedup();
-    pins.iter().filter_map(|pin| board.table.pins.get(*pin)).map(Pin::cost).sum()
+    pins
 }

@@ -64,6 +64,8 @@ fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
     let mix = [Mix::General, Mix::Dma, Mix::Timers][rng.below(3) as usize];
     let mut problem = generate::problem(seed, &tables, devices, mix, mix == Mix::Dma).problem;
     problem.rules = rng.below(4) as u32;
+    let with_shared = rng.below(2) == 0;
+    problem.pins.iter_mut().for_each(|pin| pin.shared = with_shared && rng.below(3) == 0);
     let (rules, keep) = (problem.rules, rng.below(3) == 0);
     let all = problem.devices.iter_mut().flat_map(|device| &mut device.alternatives);
     for candidate in all.flat_map(|one| &mut one.roles).flat_map(|role| &mut role.candidates) {
@@ -84,9 +86,9 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     match solve(problem, &Options::default()).expect("a proper problem") {
         Outcome::Solved(answer) => {
             let text = certify(problem, &labels, Claim::Best(&answer), None).ok()?;
-            let sensedsl_wiring::solver::Objective { moved, violated, cost, spares } =
+            let sensedsl_wiring::solver::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
-            Some((text, Some(Objective { moved, violated, cost, spares })))
+            Some((text, Some(Objective { moved, violated, shared, cost, spares })))
         }
         Outcome::Infeasible(conflict) => {
             let claim = Claim::NoWiring(&conflict.devices);
@@ -96,8 +98,8 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     }
 }
 
-/// Moved wires, rules violated, cost, spare boards.
-type Parts = (u32, u32, u64, u32);
+/// Moved wires, rules violated, shared pins, cost, spare boards.
+type Parts = (u32, u32, u32, u64, u32);
 
 /// All wirings of a certificate's problem, tried out one by one; the best objective. None where
 /// there are too many.
@@ -165,10 +167,11 @@ impl<'a> Brute<'a> {
             let requests: Vec<_> = used.dma.iter().flat_map(|user| &problem.dma[*user]).collect();
             if serve(&requests, &mut BTreeSet::new()) {
                 let pins = used.held.keys().filter(|(kind, _)| *kind == "pin");
+                let shared = pins.clone().filter(|(_, pin)| problem.shared.contains(*pin)).count();
                 let cost = pins.map(|(_, pin)| u64::from(problem.pins[*pin])).sum();
                 let spares = used.boards.iter().filter(|board| problem.boards[**board]).count();
                 let (moved, violated) = (used.moved.len() as u32, used.rules.len() as u32);
-                let objective = (moved, violated, cost, spares as u32);
+                let objective = (moved, violated, shared as u32, cost, spares as u32);
                 self.best = Some(self.best.map_or(objective, |best| best.min(objective)));
             }
             return;
@@ -279,8 +282,8 @@ fn what_passes_after_a_change_is_true() {
             };
             let Some(best) = Brute::best(&certificate) else { continue };
             let claimed = match verified {
-                Verified::Best(Objective { moved, violated, cost, spares }) => {
-                    Some((moved, violated, u64::from(cost), spares))
+                Verified::Best(Objective { moved, violated, shared, cost, spares }) => {
+                    Some((moved, violated, shared, u64::from(cost), spares))
                 }
                 Verified::NoWiring => None,
             };

@@ -134,8 +134,8 @@ fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
     match (&proved.solved, verified) {
         (Solved::Wired(wiring), Verified::Best(best)) => {
             assert!(wiring.bound.is_none(), "proved and not sure");
-            let claimed = (wiring.moved, wiring.violated, wiring.cost);
-            assert_eq!(claimed, (best.moved, best.violated, best.cost));
+            let claimed = (wiring.moved, wiring.violated, wiring.shared, wiring.cost);
+            assert_eq!(claimed, (best.moved, best.violated, best.shared, best.cost));
         }
         (Solved::Infeasible(_), Verified::NoWiring) => {}
         (solved, verified) => panic!("{solved:?}, but {verified:?}"),

@@ -14,7 +14,7 @@ const WIRINGS_MAX: u64 = 200_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// The best objective.
-    Best([u64; 4]),
+    Best([u64; 5]),
     /// There is no wiring.
     NoWiring,
     /// There are too many wirings to try.
@@ -88,7 +88,7 @@ fn visit<'a>(
     problem: &Problem,
     devices: &'a [Vec<Way<'a>>],
     taken: &mut Vec<&'a Way<'a>>,
-    best: &mut Option<[u64; 4]>,
+    best: &mut Option<[u64; 5]>,
 ) {
     let Some((ways, rest)) = devices.split_first() else {
         let found = objective(problem, taken);
@@ -106,7 +106,7 @@ fn visit<'a>(
 }
 
 /// The objective of a wiring, if it is one.
-fn objective(problem: &Problem, taken: &[&Way<'_>]) -> Option<[u64; 4]> {
+fn objective(problem: &Problem, taken: &[&Way<'_>]) -> Option<[u64; 5]> {
     // Who holds each thing, as what: devices may be several only when all hold it as the same.
     let mut pins: BTreeMap<&str, Vec<(usize, &str, &str)>> = BTreeMap::new();
     let mut things: BTreeMap<&str, Vec<(usize, &str, &str)>> = BTreeMap::new();
@@ -139,7 +139,8 @@ fn objective(problem: &Problem, taken: &[&Way<'_>]) -> Option<[u64; 4]> {
     let cost = |pin: &&str| problem.pins.get(*pin).copied().map_or(0, u64::from);
     let cost = pins.keys().map(cost).sum();
     let spares = boards.iter().filter(|board| problem.boards.get(**board) == Some(&true)).count();
-    Some([moved.len() as u64, rules.len() as u64, cost, spares as u64])
+    let shared = pins.keys().filter(|pin| problem.shared.contains(**pin)).count();
+    Some([moved.len() as u64, rules.len() as u64, shared as u64, cost, spares as u64])
 }
 
 /// Whether all requests can have a stream of their own.
@@ -160,8 +161,9 @@ fn served(problem: &Problem, users: &BTreeSet<&str>) -> bool {
     place(&requests, &mut BTreeSet::new())
 }
 
-/// The four parts, the most important first.
+/// The five parts, the most important first.
 #[must_use]
-pub fn parts(objective: Objective) -> [u64; 4] {
-    [objective.moved, objective.violated, objective.cost, objective.spares].map(u64::from)
+pub fn parts(objective: Objective) -> [u64; 5] {
+    let Objective { moved, violated, shared, cost, spares } = objective;
+    [moved, violated, shared, cost, spares].map(u64::from)
 }

@@ -27,7 +27,7 @@ fn certificates() {
     sparse(&folder, "large.json", 60_000_000);
     folder.write("nested.json", format!("{{\"format\":{}", "[".repeat(100_000)));
     let digits = "9".repeat(1_000_000);
-    let number = format!("{{\"format\":\"SenseDSL certificate 1\",\"problem\":{digits}}}");
+    let number = format!("{{\"format\":\"SenseDSL certificate 2\",\"problem\":{digits}}}");
     folder.write("number.json", number);
     mknodat(CWD, folder.join("pipe"), FileType::Fifo, Mode::RWXU, 0).unwrap();
     for name in ["large.json", "nested.json", "number.json", "pipe"] {
@@ -38,11 +38,11 @@ fn certificates() {
 /// A certificate that claims that there is no wiring.
 fn certificate(devices: &str, dma: &str, nodes: &str) -> String {
     let problem = format!(
-        r#"{{"boards":{{"B":false}},"pins":{{"PA1":1}},"dma":{{{dma}}},"devices":{{{devices}}}}}"#
+        r#"{{"boards":{{"B":false}},"pins":{{"PA1":1}},"shared":[],"dma":{{{dma}}},"devices":{{{devices}}}}}"#
     );
-    let weights = r#"{"moved":0,"violated":0,"cost":0,"spares":0}"#;
+    let weights = r#"{"moved":0,"violated":0,"shared":0,"cost":0,"spares":0}"#;
     format!(
-        r#"{{"format":"SenseDSL certificate 1","problem":{problem},"answer":null,"proofs":[
+        r#"{{"format":"SenseDSL certificate 2","problem":{problem},"answer":null,"proofs":[
         {{"of":"existence","weights":{weights},"nodes":[{nodes}]}}]}}"#
     )
 }

@@ -6,18 +6,31 @@ use sensedsl_wiring::assignment::Assignment;
 
 use super::rows::{Row, rows};
 
-const HEAD: [&str; 10] =
-    ["Board", "Device", "Id", "Kind", "Role", "Pin", "Signal", "Unit", "Place", "Usages"];
+const HEAD: [&str; 11] = [
+    "Board",
+    "Device",
+    "Id",
+    "Kind",
+    "Role",
+    "Pin",
+    "Signal",
+    "Unit",
+    "Place",
+    "Usages",
+    "Shared with",
+];
 
 /// A head and a row for each wire.
 #[must_use]
 pub fn csv(design: &Design, assignment: &Assignment) -> String {
     let mut out = line(&HEAD.map(String::from));
     for row in rows(design, assignment) {
-        let Row { board, device, id, kind, role, pin, signal, unit, place, usages } = row;
+        let Row { board, device, id, kind, role, pin, signal, unit, place, shared, usages } = row;
         let id = id.map_or(String::new(), |id| id.to_string());
         let usages = usages.to_string();
-        out.push_str(&line(&[board, device, id, kind, role, pin, signal, unit, place, usages]));
+        out.push_str(&line(&[
+            board, device, id, kind, role, pin, signal, unit, place, usages, shared,
+        ]));
     }
     out
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
-use sensedsl_wiring::assignment::{Assignment, Status};
+use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
 use super::rows::{Row, rows};
 
@@ -48,6 +48,10 @@ pub fn human(design: &Design, assignment: &Assignment, colour: bool) -> String {
         );
         let mine: Vec<&Row> = rows.iter().filter(|row| row.board == board.name.value).collect();
         table(&mut out, &mine, style);
+        for SharedPin { pin, with } in &on.shared {
+            let Some(pin) = board.table.pins.get(*pin) else { continue };
+            let _ = writeln!(out, "  {} is shared with {}", pin.name, visible(with));
+        }
         if assignment.used(design).count() > 1 {
             let _ = writeln!(out, "  opportunity cost of this board: {}", on.cost);
         }
@@ -141,6 +145,10 @@ fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Sty
     }
     if assignment.violated > 0 {
         let _ = write!(out, ", {} unmet wishes", assignment.violated);
+    }
+    if assignment.shared > 0 {
+        let pins = if assignment.shared == 1 { "pin" } else { "pins" };
+        let _ = write!(out, ", {} shared {pins}", assignment.shared);
     }
     if assignment.moved > 0 {
         let _ = write!(out, ", {} moved wires", assignment.moved);

@@ -21,13 +21,14 @@ pub fn wired(design: &Design, assignment: &Assignment) -> Value {
         "status": assignment.status.name(),
         "moved": assignment.moved,
         "violated": assignment.violated,
+        "shared": assignment.shared,
         "cost": assignment.cost,
         "count": null,
         "boards": boards,
     });
     if let (Some(bound), Some(object)) = (assignment.bound, value.as_object_mut()) {
-        let Bound { moved, violated, cost } = bound;
-        let bound = json!({ "moved": moved, "violated": violated, "cost": cost });
+        let Bound { moved, violated, shared, cost } = bound;
+        let bound = json!({ "moved": moved, "violated": violated, "shared": shared, "cost": cost });
         object.insert("bound".into(), bound);
     }
     value
@@ -44,7 +45,7 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
                 "id": device.id.value,
                 "kind": device.kind.name().name(),
                 "unit": wiring.unit,
-                "wires": wires(board, &wiring.wires),
+                "wires": wires(on, board, &wiring.wires),
             }))
         })
         .collect();
@@ -56,26 +57,28 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     });
     if let (Some(link), Some(object)) = (&on.link, value.as_object_mut()) {
         let link = json!({
-            "transport": "uart", "unit": link.unit, "wires": wires(board, &link.wires),
+            "transport": "uart", "unit": link.unit, "wires": wires(on, board, &link.wires),
         });
         object.insert("link".into(), link);
     }
     value
 }
 
-fn wires(board: &Board, wires: &[Wire]) -> Vec<Value> {
-    wires
-        .iter()
-        .filter_map(|wire| {
-            let pin = wire.pin(board)?;
-            Some(json!({
-                "role": wire.role.name(),
-                "pin": pin.name.as_str(),
-                "signal": wire.signal(board),
-                "usages": pin.cost(),
-            }))
-        })
-        .collect()
+fn wires(on: &BoardAssignment, board: &Board, wires: &[Wire]) -> Vec<Value> {
+    let value = |wire: &Wire| {
+        let pin = wire.pin(board)?;
+        let mut value = json!({
+            "role": wire.role.name(),
+            "pin": pin.name.as_str(),
+            "signal": wire.signal(board),
+            "usages": pin.cost(),
+        });
+        if let (Some(with), Some(object)) = (on.shared_with(wire), value.as_object_mut()) {
+            object.insert("shared".into(), with.into());
+        }
+        Some(value)
+    };
+    wires.iter().filter_map(value).collect()
 }
 
 /// The exact number of wirings, beside the best one where there is one.
@@ -111,6 +114,7 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
         "status": "infeasible",
         "moved": 0,
         "violated": 0,
+        "shared": 0,
         "cost": null,
         "count": null,
         "boards": [],

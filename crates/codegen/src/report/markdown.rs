@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
-use sensedsl_wiring::assignment::{Assignment, Status};
+use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
 use super::rows::rows;
 
@@ -32,6 +32,10 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
                 cell(&row.place),
                 row.usages,
             );
+        }
+        for SharedPin { pin, with } in &on.shared {
+            let Some(pin) = board.table.pins.get(*pin) else { continue };
+            let _ = write!(out, "\n{} is shared with {}.\n", cell(pin.name.as_str()), cell(with));
         }
         let _ = write!(out, "\nOpportunity cost of this board: {}.\n", on.cost);
     }

@@ -24,6 +24,8 @@ pub struct Row {
     pub unit: String,
     /// Where on the board: side, header, position, label, as far as the table says.
     pub place: String,
+    /// What else is on the pin; empty where nothing is.
+    pub shared: String,
     /// Usages of the pin.
     pub usages: u32,
 }
@@ -36,9 +38,9 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
         for wiring in &on.devices {
             let Some(device) = design.device(wiring.device) else { continue };
             for wire in &wiring.wires {
+                let shared = on.shared_with(wire).unwrap_or_default();
                 rows.extend(row(
-                    board,
-                    wire,
+                    (board, wire, shared),
                     (&device.name.value, Some(device.id.value), device.kind.name().name()),
                     wiring.unit.as_deref().unwrap_or_default(),
                 ));
@@ -46,7 +48,8 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
         }
         if let Some(link) = &on.link {
             for wire in &link.wires {
-                rows.extend(row(board, wire, ("link", None, "uart"), &link.unit));
+                let shared = on.shared_with(wire).unwrap_or_default();
+                rows.extend(row((board, wire, shared), ("link", None, "uart"), &link.unit));
             }
         }
     }
@@ -54,8 +57,7 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
 }
 
 fn row(
-    board: &Board,
-    wire: &Wire,
+    (board, wire, shared): (&Board, &Wire, &str),
     (device, id, kind): (&str, Option<u8>, &str),
     unit: &str,
 ) -> Option<Row> {
@@ -83,6 +85,7 @@ fn row(
         signal: wire.signal(board).to_owned(),
         unit: unit.to_owned(),
         place: place.join(" "),
+        shared: shared.to_owned(),
         usages: pin.cost(),
     })
 }

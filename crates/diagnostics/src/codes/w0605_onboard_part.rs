@@ -1,4 +1,4 @@
-//! W0605: the wiring touches an on-board part.
+//! W0605: the wiring uses a shared pin.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,12 +8,13 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "W0605",
     severity: Severity::Warning,
-    title: "the wiring touches an on-board part",
-    explanation: r#"The pin also leads to a part that is soldered to the board. The table says that it may be used all the
-same; the part may disturb the signal, or be disturbed.
+    title: "the wiring uses a shared pin",
+    explanation: r#"Something else is on the pin: a LED, a button or another part of the board, or, on a bare MCU, the crystal of its
+oscillator. The pin may be used all the same, but either may disturb the other. Such pins are used only where no
+others will do, or where the file asks for them.
 
-Way out: look at the board's schematic, `reserve` the pin if it must not be used, or say that you know:
-`allow W0605 "reason";`.
+Way out: look at the board's schematic; `reserve` the pin if it must not be used, `release` it if the part is gone, or
+say that you know: `allow W0605 "reason";`.
 "#,
 };
 
@@ -22,6 +23,6 @@ const CODE: Code = Code(&INFO);
 /// The device, the pin and the part.
 #[must_use]
 pub fn onboard_part(span: Span, device: &str, pin: &str, part: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{device} is on {pin}, which the board also connects to {part}"))
-        .help(format!("`reserve {pin};` if it must stay free"))
+    Diagnostic::new(CODE, span, format!("{device} shares {pin} with {part}"))
+        .help(format!("write `reserve {pin};` if it must stay free, or `release {pin};` if {part} is not there"))
 }

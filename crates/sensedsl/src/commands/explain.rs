@@ -79,6 +79,7 @@ fn value(one: &Alternative) -> Value {
         "usages": one.usages,
         "chosen": one.chosen,
         "violated": one.best.map(|best| best.violated),
+        "shared": one.best.map(|best| best.shared),
         "cost": one.best.map(|best| best.cost),
     })
 }
@@ -91,6 +92,11 @@ fn human(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> 
             format!("{} more unmet wishes", best.violated - wiring.violated)
         }
         Some(best) if best.violated < wiring.violated => "better".to_owned(),
+        Some(best) if best.shared > wiring.shared => match best.shared - wiring.shared {
+            1 => "one more shared pin".to_owned(),
+            more => format!("{more} more shared pins"),
+        },
+        Some(best) if best.shared < wiring.shared => "better".to_owned(),
         Some(best) if best.cost > wiring.cost => {
             format!("costs {} more in all", best.cost - wiring.cost)
         }

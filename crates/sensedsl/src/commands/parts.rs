@@ -9,6 +9,7 @@ use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
 use sensedsl_model::{Request, What, resolve};
 use sensedsl_parts::{Part, Sheet};
+use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Solved, Wiring};
 use serde_json::json;
 
@@ -28,11 +29,19 @@ struct Carrier {
     is_board: bool,
 }
 
+/// How good a wiring is, the better before.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Worth {
+    violated: u32,
+    shared: u32,
+    cost: u32,
+}
+
 /// What became of it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fit {
-    /// Optimal, at that cost and with that many wishes violated.
-    Wired { violated: u32, cost: u32 },
+    /// The best wiring is that good.
+    Wired(Worth),
     /// It cannot carry the devices.
     Not,
     /// The solver failed its own check.
@@ -140,18 +149,18 @@ fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Statu
         }
     }
     let answers = solve_all(&request, &disk, &carriers, terminal);
-    let mut found: Vec<(&Carrier, u32, u32)> = Vec::new();
+    let mut found: Vec<(&Carrier, Worth)> = Vec::new();
     let mut failed = 0;
     for ((carrier, _), fit) in carriers.iter().zip(answers) {
         match fit {
-            Fit::Wired { violated, cost } => found.push((carrier, violated, cost)),
+            Fit::Wired(worth) => found.push((carrier, worth)),
             Fit::Not => {}
             Fit::Failed => failed += 1,
         }
     }
-    found.sort_by_key(|(carrier, violated, cost)| {
+    found.sort_by_key(|(carrier, worth)| {
         let contacts = carrier.contacts.unwrap_or(u32::MAX);
-        (*violated, *cost, contacts, carrier.package.clone(), carrier.name.clone())
+        (*worth, contacts, carrier.package.clone(), carrier.name.clone())
     });
     terminal.result(&printed(args, &found, carriers.len()))?;
     if failed > 0 {
@@ -243,7 +252,10 @@ fn solve(request: &Request<'_>, disk: &Disk, board: &str) -> Fit {
     let resolved = resolve(&Request { board: Some(board), ..*request }, disk);
     let Some(design) = &resolved.design else { return Fit::Not };
     match Wiring::new(design, None).solve_only(false) {
-        Solved::Wired(wiring) => Fit::Wired { violated: wiring.violated, cost: wiring.cost },
+        Solved::Wired(wiring) => {
+            let Assignment { violated, shared, cost, .. } = *wiring;
+            Fit::Wired(Worth { violated, shared, cost })
+        }
         Solved::Infeasible(_) => Fit::Not,
         // The best wiring leaves the converters without a stream: nothing to build, and no fault.
         Solved::Failed(why) if why.code.name() == "E0506" => Fit::Not,
@@ -251,21 +263,22 @@ fn solve(request: &Request<'_>, disk: &Disk, board: &str) -> Fit {
     }
 }
 
-fn printed(args: &PartsArgs, found: &[(&Carrier, u32, u32)], asked: usize) -> String {
+fn printed(args: &PartsArgs, found: &[(&Carrier, Worth)], asked: usize) -> String {
     match args.format {
         TableFormat::Json => {
-            let line = |(carrier, violated, cost): &(&Carrier, u32, u32)| {
+            let line = |(carrier, worth): &(&Carrier, Worth)| {
                 let mut value = json!({
                     "part": carrier.mcu,
                     "package": carrier.package,
                     "board": carrier.is_board.then_some(&carrier.name),
                     "status": "optimal",
-                    "cost": cost,
+                    "cost": worth.cost,
                 });
-                if *violated > 0
-                    && let Some(object) = value.as_object_mut()
-                {
-                    object.insert("violated".to_owned(), json!(violated));
+                let beside = [("violated", worth.violated), ("shared", worth.shared)];
+                for (name, number) in beside.into_iter().filter(|(_, number)| *number > 0) {
+                    if let Some(object) = value.as_object_mut() {
+                        object.insert(name.to_owned(), json!(number));
+                    }
                 }
                 format!("{value}\n")
             };
@@ -274,10 +287,10 @@ fn printed(args: &PartsArgs, found: &[(&Carrier, u32, u32)], asked: usize) -> St
         TableFormat::Human => {
             let rows: Vec<[String; 4]> = found
                 .iter()
-                .map(|(carrier, _, cost)| {
+                .map(|(carrier, worth)| {
                     let board = if carrier.is_board { carrier.name.as_str() } else { "" };
                     let package = carrier.package.clone().unwrap_or_else(|| "-".to_owned());
-                    [cost.to_string(), carrier.mcu.clone(), package, board.to_owned()]
+                    [worth.cost.to_string(), carrier.mcu.clone(), package, board.to_owned()]
                 })
                 .collect();
             let heads = [("Cost", true), ("Part", false), ("Package", false), ("Board", false)];

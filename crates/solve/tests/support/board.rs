@@ -121,7 +121,7 @@ impl Builder {
             let mut usages = Vec::new();
             for row in rows {
                 let pin = PinId(builder.problem.pins.len() as u32);
-                builder.problem.pins.push(Pin { board, cost: row.len() as u32 - 1 });
+                builder.problem.pins.push(Pin { board, cost: row.len() as u32 - 1, shared: false });
                 builder.names.push(row[0].to_owned());
                 usages.extend(row[1..].iter().map(|usage| (pin, (*usage).to_owned())));
                 usages.push((pin, "~GPIO".to_owned()));

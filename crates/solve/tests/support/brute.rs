@@ -149,6 +149,7 @@ fn read(problem: &Problem, chosen: &[(usize, Vec<usize>)]) -> Found {
         objective: Objective {
             moved: moved.len() as u32,
             violated: rules.len() as u32,
+            shared: pins.iter().filter(|&&p| problem.pins[p as usize].shared).count() as u32,
             cost: pins.iter().map(|&p| problem.pins[p as usize].cost).sum(),
             spares: spares.len() as u32,
         },

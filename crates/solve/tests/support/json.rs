@@ -20,6 +20,7 @@ pub fn list(items: impl Iterator<Item = String>) -> String {
 /// The problem with numbers for names; a holder of -1 is the device itself.
 pub fn json(problem: &Problem) -> String {
     let pins = list(problem.pins.iter().map(|pin| pin.cost.to_string()));
+    let shared = list(problem.pins.iter().map(|pin| u32::from(pin.shared).to_string()));
     let spares = list(problem.boards.iter().map(|board| u32::from(board.spare).to_string()));
     let dma = list(problem.dma.iter().map(|user| {
         list(
@@ -52,7 +53,7 @@ pub fn json(problem: &Problem) -> String {
         }))
     }));
     format!(
-        "{{\"pins\":{pins},\"spares\":{spares},\"rules\":{},\"dma\":{dma},\"devices\":{devices}}}",
+        "{{\"pins\":{pins},\"shared\":{shared},\"spares\":{spares},\"rules\":{},\"dma\":{dma},\"devices\":{devices}}}",
         problem.rules
     )
 }

@@ -114,15 +114,15 @@ struct Task {
 /// For each part that is not 0 a proof that no wiring is lower in it while the parts before are
 /// equal. These weigh just so much that nothing is won by giving one up.
 fn tasks(objective: &Objective) -> Option<Vec<Task>> {
-    const NAMES: [&str; 4] = ["moved", "violated", "cost", "spares"];
-    let Objective { moved, violated, cost, spares } = *objective;
-    let parts = [moved, violated, cost, spares];
+    const NAMES: [&str; 5] = ["moved", "violated", "shared", "cost", "spares"];
+    let Objective { moved, violated, shared, cost, spares } = *objective;
+    let parts = [moved, violated, shared, cost, spares];
     let mut tasks = Vec::new();
     for (place, of) in NAMES.into_iter().enumerate() {
         if parts.get(place) == Some(&0) {
             continue;
         }
-        let mut weights = [0_u32; 4];
+        let mut weights = [0_u32; 5];
         // What the parts from here on weigh together.
         let mut together = 0_u32;
         for (at, (weight, part)) in weights.iter_mut().zip(parts).enumerate().take(place + 1).rev()
@@ -130,8 +130,8 @@ fn tasks(objective: &Objective) -> Option<Vec<Task>> {
             *weight = if at == place { 1 } else { together };
             together = together.checked_add(weight.checked_mul(part)?)?;
         }
-        let [moved, violated, cost, spares] = weights;
-        let weights = Objective { moved, violated, cost, spares };
+        let [moved, violated, shared, cost, spares] = weights;
+        let weights = Objective { moved, violated, shared, cost, spares };
         let most = i64::from(together);
         tasks.push(Task { of, weights, limit: most - 1, most });
     }

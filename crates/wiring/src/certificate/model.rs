@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_solve::Objective;
-use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Problem, RuleId};
+use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Pin, Problem, RuleId};
 
 use super::labels::{AlternativeLabels, Labels};
 
@@ -109,7 +109,9 @@ impl Model {
     pub(super) fn weight(&self, problem: &Problem, weights: &Objective, thing: usize) -> u64 {
         u64::from(match self.things[thing] {
             Thing::Pin(pin) => {
-                return u64::from(weights.cost) * u64::from(problem.pins[pin].cost);
+                let Pin { cost, shared, .. } = problem.pins[pin];
+                let shared = u64::from(shared) * u64::from(weights.shared);
+                return u64::from(weights.cost) * u64::from(cost) + shared;
             }
             Thing::Moved(_) => weights.moved,
             Thing::Rule(_) => weights.violated,

@@ -45,6 +45,8 @@ impl Writer<'_> {
         let boards = object(boards.map(|(name, board)| (name.clone(), board.spare.into())));
         let pins = labels.pins.iter().zip(&problem.pins);
         let pins = object(pins.map(|(name, pin)| (name.clone(), pin.cost.into())));
+        let shared = labels.pins.iter().zip(&problem.pins).filter(|(_, pin)| pin.shared);
+        let shared: Value = shared.map(|(name, _)| name.as_str()).collect();
         let dma = labels.dma.iter().zip(&problem.dma).map(|(name, user)| {
             let streams = user.requests.iter().map(|request| {
                 request.streams.iter().map(|one| self.stream(one.0)).collect::<Vec<_>>()
@@ -53,11 +55,11 @@ impl Writer<'_> {
         });
         let devices = labels.devices.iter().enumerate();
         let devices = lines(devices.map(|(d, name)| (name.clone(), self.device(d))));
-        let mut text = format!("{{\n\"format\": {},\n", json!("SenseDSL certificate 1"));
+        let mut text = format!("{{\n\"format\": {},\n", json!(sensedsl_proof::format::NAME));
         // Writing to a String cannot fail.
         let _ = write!(
             text,
-            "\"problem\": {{\n\"boards\": {boards},\n\"pins\": {pins},\n\"dma\": {},\n\
+            "\"problem\": {{\n\"boards\": {boards},\n\"pins\": {pins},\n\"shared\": {shared},\n\"dma\": {},\n\
              \"devices\": {devices}\n}},\n\"answer\": ",
             object(dma)
         );
@@ -243,6 +245,8 @@ fn put<'m>(map: &'m mut Map<String, Value>, kind: &str) -> &'m mut Value {
 }
 
 fn objective(objective: &Objective) -> Value {
-    let Objective { moved, violated, cost, spares } = objective;
-    json!({ "moved": moved, "violated": violated, "cost": cost, "spares": spares })
+    let Objective { moved, violated, shared, cost, spares } = objective;
+    json!({
+        "moved": moved, "violated": violated, "shared": shared, "cost": cost, "spares": spares,
+    })
 }
