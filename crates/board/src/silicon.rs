@@ -61,6 +61,19 @@ pub enum PinRole {
     Oscillator,
 }
 
+impl PinRole {
+    /// Who needs the pin, for people.
+    #[must_use]
+    pub const fn describe(self) -> &'static str {
+        match self {
+            Self::Debug => "the debugger",
+            Self::Reset => "the reset input",
+            Self::Boot => "BOOT, which the MCU reads at reset",
+            Self::Oscillator => "the oscillator",
+        }
+    }
+}
+
 /// What timers can do, where it differs from most.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]

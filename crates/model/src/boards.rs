@@ -25,7 +25,7 @@ use crate::sources::beside;
 use crate::table_findings;
 
 /// The properties of a link.
-const LINK_PROPERTIES: &[&str] = &["transport", "unit", "baud", "checksum", "rate"];
+const LINK_PROPERTIES: &[&str] = &["transport", "unit", "baud", "checksum", "rate", "vbus"];
 /// Bits per second of a serial link where the file says nothing.
 const LINK_BAUD_DEFAULT: u32 = 115_200;
 
@@ -97,7 +97,11 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
     let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
     let target = pins.as_ref().and_then(|p| target(context, name.span, p.file, mcu.as_deref()));
     let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
-    let link = link(file, node, target.as_ref(), &wired.unwrap_or_default(), context.diagnostics);
+    let mut link =
+        link(file, node, target.as_ref(), &wired.unwrap_or_default(), context.diagnostics);
+    if let (Some(pins), Some(target)) = (&pins, &target) {
+        link.vbus &= entry.is_none() || vbus_is_wired(&pins.table, target);
+    }
     let (pins, target) = (pins?, target?);
     let same_mcu = || mcu.as_deref().and_then(catalog::of_mcu);
     let facts = like.filter(|entry| Some(entry.mcu) == mcu.as_deref()).or_else(same_mcu);
@@ -349,6 +353,14 @@ fn link(
     link
 }
 
+/// Whether a built-in board's table says that something is on the USB device's VBUS pin. What it does
+/// not list is taken to be wired.
+fn vbus_is_wired(table: &Table, target: &Target) -> bool {
+    let Target::Profile(profile) = target else { return true };
+    let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
+    vbus.and_then(|vbus| table.pin(&vbus.pin)).is_none_or(|pin| pin.onboard.is_some())
+}
+
 fn default_transport(profile: &TargetProfile, wired: &[catalog::Link]) -> Transport {
     let first = wired.iter().find(|wired| is_driven(profile, wired)).map(|link| link.transport);
     match first {
@@ -375,7 +387,8 @@ fn stated_link(
 ) -> Link {
     let mut links = node.links();
     let Some(link) = links.next() else {
-        return Link { transport: default, baud: LINK_BAUD_DEFAULT, ..Link::default() };
+        let baud = LINK_BAUD_DEFAULT;
+        return Link { transport: default, baud, vbus: true, ..Link::default() };
     };
     let place = |link: &ast::Link| {
         span(file, link.keyword().map_or_else(|| link.range(), |keyword| keyword.text_range()))
@@ -386,13 +399,16 @@ fn stated_link(
     }
     let at = place(&link);
     let mut fields = Fields::new(link.properties(), file, "a link", at, diagnostics);
-    let transports = [("usb", Transport::Usb), ("uart", Transport::Uart)];
+    let transports =
+        [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
     let transport = fields.word("transport", &transports);
     let unit = fields.name("unit", "a peripheral such as USART2");
     let baud = fields.integer("baud", 1_200..=10_000_000);
     let checksums = [("none", Checksum::None), ("crc16", Checksum::Crc16)];
     let checksum = fields.word("checksum", &checksums);
     let rate = fields.frequency_hz("rate", 1..=10_000);
+    let vbus_span = fields.own_span("vbus");
+    let vbus = fields.boolean("vbus").map(|vbus| vbus.value);
     for field in fields.rest() {
         let meant = nearest(&field.name, LINK_PROPERTIES.iter().copied());
         fields.say(e0201_unknown_property::unknown_property(
@@ -402,11 +418,25 @@ fn stated_link(
             meant,
         ));
     }
+    let stated = transport.is_some();
     let transport = transport.map_or(default, |word| word.value);
-    if transport == Transport::Usb
-        && let Some(baud) = baud
-    {
-        fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
+    let of_uart = [baud.as_ref().map(|baud| baud.span), unit.as_ref().map(|unit| unit.span)];
+    match transport {
+        Transport::Usb => {
+            if let Some(baud) = &baud {
+                fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
+            }
+        }
+        Transport::Uart => {
+            if let Some(vbus) = vbus_span {
+                fields.contradiction(vbus, "transport", "a serial link has no VBUS");
+            }
+        }
+        Transport::None => {
+            for span in of_uart.into_iter().chain([vbus_span]).flatten() {
+                fields.contradiction(span, "transport", "there is no link");
+            }
+        }
     }
     Link {
         transport,
@@ -415,5 +445,7 @@ fn stated_link(
         baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
         checksum: checksum.map(|word| word.value).unwrap_or_default(),
         rate_hz: rate.map(|rate| rate.value),
+        vbus: vbus.unwrap_or(true),
+        stated,
     }
 }

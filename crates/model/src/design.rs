@@ -10,6 +10,7 @@ use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 use crate::kind::{Kind, Role};
+use crate::pins::PinRef;
 
 /// Index into [`Design::boards`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -108,6 +109,10 @@ pub struct Link {
     pub checksum: Checksum,
     /// At most that many frames per second; none for as many as become due.
     pub rate_hz: Option<u32>,
+    /// Whether the USB device is told by its VBUS pin that a host is there.
+    pub vbus: bool,
+    /// Whether the file states the medium.
+    pub stated: bool,
 }
 
 /// The medium of a link.
@@ -118,6 +123,20 @@ pub enum Transport {
     Usb,
     /// A UART, mostly to a debugger's virtual COM port.
     Uart,
+    /// None: no pin and no peripheral is taken.
+    None,
+}
+
+impl Transport {
+    /// The word of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Usb => "usb",
+            Self::Uart => "uart",
+            Self::None => "none",
+        }
+    }
 }
 
 /// A sensor or an actuator.
@@ -161,7 +180,7 @@ pub struct Device {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Placement {
     /// Fixed pins by role.
-    pub pins: Vec<(Role, Spanned<PinName>)>,
+    pub pins: Vec<(Role, Spanned<PinRef>)>,
     /// Fixed peripheral instance, upper case (`ADC1`).
     pub unit: Option<Spanned<String>>,
     /// Only pins on that side.
@@ -185,7 +204,7 @@ pub struct Wish {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WishFor {
     /// A pin, of one role or of any.
-    Pin(Option<Role>, PinName),
+    Pin(Option<Role>, PinRef),
     /// A peripheral instance.
     Unit(String),
     /// A side of the board.

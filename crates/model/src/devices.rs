@@ -1,9 +1,9 @@
 //! One device: from its block to a checked [`Device`].
 
-use sensedsl_board::pin::PinName;
+use crate::pins::PinRef;
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0207_unknown_kind, e0208_unknown_type, e0209_wrong_value,
-    e0211_out_of_range, e0213_property_of_other_kind, e0214_wrong_direction, e0220_impossible_type,
+    e0201_unknown_property, e0207_unknown_kind, e0208_unknown_type, e0211_out_of_range,
+    e0213_property_of_other_kind, e0214_wrong_direction, e0220_impossible_type,
     h0703_default_protocol,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
@@ -221,16 +221,9 @@ fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Plac
     }
 }
 
-fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinName>> {
-    let written = fields.name(property, "a pin such as PA1")?;
-    match PinName::parse(&written.value) {
-        Some(value) => Some(Spanned { value, span: written.span }),
-        None => {
-            let (span, takes) = (written.span, "a pin such as PA1");
-            fields.say(e0209_wrong_value::wrong_value(span, property, takes, "another name"));
-            None
-        }
-    }
+fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinRef>> {
+    let Spanned { value, span } = fields.name(property, "a pin such as PA1")?;
+    Some(Spanned { value: PinRef::unbound(&value), span })
 }
 
 fn presentation(fields: &mut Fields<'_>) -> Presentation {

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
-    e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0310_unknown_pin,
-    e0312_unknown_place, e0315_no_board,
+    e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0312_unknown_place,
+    e0315_no_board,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::DIAGNOSTICS_MAX;
 
 use crate::boards::{self, Context, Left};
@@ -16,6 +16,7 @@ use crate::devices;
 use crate::drivers::Drivers;
 use crate::files::Files;
 use crate::names;
+use crate::pins;
 use crate::sources::{Items, Reader};
 
 /// What is asked for.
@@ -60,8 +61,9 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         diagnostics.push(e0315_no_board::no_board(at));
     }
     let boards: Option<Vec<Board>> = boards.into_iter().collect();
-    let design = boards.map(|boards| Design { file, boards, devices });
-    if let Some(design) = &design {
+    let mut design = boards.map(|boards| Design { file, boards, devices });
+    if let Some(design) = &mut design {
+        pins::bind(design, &mut diagnostics);
         check_places(design, &mut diagnostics);
         checks::run(design, &mut diagnostics);
     }
@@ -164,17 +166,6 @@ fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
             Some(index) => design.board(index).into_iter().collect(),
             None => design.boards.iter().collect(),
         };
-        let Some(first) = boards.first() else { continue };
-        for (_, pin) in &device.placement.pins {
-            if boards.iter().any(|board| board.table.pin(&pin.value).is_some()) {
-                continue;
-            }
-            let all = first.table.pins.iter().map(|pin| pin.name.as_str());
-            let meant = nearest(pin.value.as_str(), all);
-            let board = &first.name.value;
-            let pin_name = pin.value.as_str();
-            diagnostics.push(e0310_unknown_pin::unknown_pin(pin.span, pin_name, board, meant));
-        }
         let side = (&device.placement.side, "side");
         let header = (&device.placement.header, "header");
         for (wanted, what) in [side, header] {

@@ -3,7 +3,6 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0110_misplaced_item, e0201_unknown_property, e0209_wrong_value,
     w0604_unused_rule,
@@ -14,6 +13,7 @@ use sensedsl_syntax::ast::{self, AstNode as _, DeviceItem, Rule};
 use crate::design::{Allow, Design, Spanned, Wish, WishFor};
 use crate::fields::{name_or_text, span};
 use crate::kind::Role;
+use crate::pins::PinRef;
 
 /// The properties that can be wished for beside the pins of the roles.
 const WISHES: [&str; 4] = ["pin", "unit", "side", "header"];
@@ -117,20 +117,7 @@ fn wish(
         "unit" => WishFor::Unit(text.to_uppercase()),
         "side" => WishFor::Side(text),
         "header" => WishFor::Header(text),
-        property => match PinName::parse(&text) {
-            Some(pin) => WishFor::Pin(Role::from_property(property), pin),
-            None => {
-                let place = span(file, value.range());
-                let takes = "a pin such as PA1";
-                diagnostics.push(e0209_wrong_value::wrong_value(
-                    place,
-                    property,
-                    takes,
-                    "another name",
-                ));
-                return None;
-            }
-        },
+        property => WishFor::Pin(Role::from_property(property), PinRef::unbound(&text)),
     };
     Some(Wish { prefer, what, span: at })
 }

@@ -10,6 +10,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_model::design::{BoardIndex, Device, Placement, Wish};
 use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
 use sensedsl_wire::Direction;
 
@@ -25,7 +26,7 @@ pub(crate) struct Wanted<'a> {
     pub(crate) direction: Direction,
     /// The boards it may go to.
     pub(crate) boards: Vec<BoardIndex>,
-    pub(crate) pins: Vec<(Role, PinName)>,
+    pub(crate) pins: Vec<(Role, PinRef)>,
     pub(crate) unit: Option<&'a str>,
     pub(crate) side: Option<&'a str>,
     pub(crate) header: Option<&'a str>,
@@ -56,12 +57,13 @@ impl<'a> Wanted<'a> {
     ) -> Self {
         let boards = vec![board];
         let direction = Direction::Sensor;
-        let pins = [Role::Tx, Role::Rx].into_iter().zip(pins.iter().cloned()).collect();
+        let pins = pins.iter().map(|pin| PinRef::of_board(board, pin.clone()));
+        let pins = [Role::Tx, Role::Rx].into_iter().zip(pins).collect();
         let (side, header) = (None, None);
         Self { kind, direction, boards, pins, unit, side, header, wishes: &[] }
     }
 
-    pub(crate) fn fixed(&self, role: Role) -> Option<&PinName> {
+    pub(crate) fn fixed(&self, role: Role) -> Option<&PinRef> {
         self.pins.iter().find(|(fixed, _)| *fixed == role).map(|(_, pin)| pin)
     }
 }

@@ -6,6 +6,7 @@
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{BoardIndex, Design, Device, Placement, Presentation, Spanned};
 use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::pins::PinRef;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::assignment::Assignment;
@@ -58,7 +59,7 @@ fn fix(design: &mut Design, wiring: &Assignment) {
                 .wires
                 .iter()
                 .filter_map(|wire| {
-                    let value = wire.pin(board)?.name.clone();
+                    let value = PinRef::of_board(on.board, wire.pin(board)?.name.clone());
                     Some((wire.role, Spanned { value, span }))
                 })
                 .collect();

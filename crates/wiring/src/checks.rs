@@ -14,6 +14,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, Spanned, WishFor};
 use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::pins::PinRef;
 
 use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
@@ -78,17 +79,15 @@ fn offers<'f, 'a>(formulation: &'f Formulation<'a>, device: &Device) -> Vec<&'f 
 }
 
 /// The report for a fixed pin that is withheld on every board that has it.
-fn withheld(
-    offers: &[&Offer<'_>],
-    pin: &Spanned<sensedsl_board::pin::PinName>,
-) -> Option<Diagnostic> {
+fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> {
     let at = |offer: &&Offer<'_>| {
-        let index = offer.board.table.pins.iter().position(|one| one.name == pin.value)?;
+        let name = pin.value.on(offer.index)?;
+        let index = offer.board.table.pins.iter().position(|one| one.name == *name)?;
         Some(offer.why_withheld(index).cloned())
     };
     let all: Option<Vec<Withheld>> = offers.iter().filter_map(at).collect();
     let first = all?.into_iter().next()?;
-    let name = pin.value.as_str();
+    let name = pin.value.name();
     let (by, place, help) = match &first {
         Withheld::Reserved(rule) => (
             "a `reserve` rule".to_owned(),
@@ -101,20 +100,35 @@ fn withheld(
             format!("take another pin, or write `release {name};` if {part} is not needed"),
         ),
         Withheld::Link => {
-            ("the USB link".to_owned(), None, "take another pin, or another link".to_owned())
+            let vbus = offers.iter().any(|offer| {
+                let usb = offer.board.profile().and_then(|profile| profile.usb(None));
+                usb.and_then(|usb| usb.vbus.as_ref()).is_some_and(|vbus| vbus.pin.as_str() == name)
+            });
+            let help = if vbus {
+                "take another pin, or write `link { vbus = false; }` where the MCU need not notice the host"
+            } else {
+                "take another pin, or another link"
+            };
+            ("the USB link".to_owned(), None, help.to_owned())
         }
         Withheld::Needed(role) => {
-            let (by, price) = match role {
-                PinRole::Debug => ("the debugger", "give up debugging"),
-                PinRole::Reset => ("the reset input", "make it a GPIO in the option bytes"),
-                PinRole::Boot => ("BOOT, which the MCU reads at reset", "leave it alone at reset"),
-                PinRole::Oscillator => ("the oscillator", "fit no crystal"),
+            let price = match role {
+                PinRole::Debug => "give up debugging",
+                PinRole::Reset => "make it a GPIO in the option bytes",
+                PinRole::Boot => "leave it alone at reset",
+                PinRole::Oscillator => "fit no crystal",
             };
             let help = format!("take another pin, or write `release {name};` and {price}");
-            (by.to_owned(), None, help)
+            (role.describe().to_owned(), None, help)
         }
     };
-    Some(e0316_pin_not_available::pin_not_available(pin.span, name, &by, place, &help))
+    Some(e0316_pin_not_available::pin_not_available(
+        pin.span,
+        &pin.value.shown(),
+        &by,
+        place,
+        &help,
+    ))
 }
 
 /// The report for a kind that the silicon of no board in question can do.
@@ -137,21 +151,21 @@ fn by_silicon(
     offers: &[&Offer<'_>],
     device: &Device,
     role: Role,
-    pin: &Spanned<sensedsl_board::pin::PinName>,
+    pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
     if let Some(report) = without_silicon(offers, device) {
         return Some(report);
     }
     let ability = offers.iter().find_map(|offer| {
         let ability = ability(offer.board, device.kind.name())?;
-        let usages = &offer.board.table.pin(&pin.value)?.usages;
+        let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
         let mut channels = usages.iter().filter_map(channel);
         channels.any(|(_, channel)| !ability.channels.contains(&channel)).then_some(ability)
     })?;
     let needs = format!("`{role}` of {}", device.kind.name().with_article());
     let pins = pins_of(design, offers, device, role).join(", ");
-    let (name, because) = (pin.value.as_str(), &ability.because);
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, name, &needs, because, &pins))
+    let (name, because) = (pin.value.shown(), &ability.because);
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
 }
 
 fn cannot_serve(
@@ -159,17 +173,17 @@ fn cannot_serve(
     offers: &[&Offer<'_>],
     device: &Device,
     role: Role,
-    pin: &Spanned<sensedsl_board::pin::PinName>,
+    pin: &Spanned<PinRef>,
 ) -> Diagnostic {
     let row = offers.iter().find_map(|offer| {
-        let row = offer.board.table.pin(&pin.value)?;
+        let row = offer.board.table.pin(pin.value.on(offer.index)?)?;
         Some(offer.board.table_span(row.range.clone()))
     });
     let needs = format!("`{role}` of {}", device.kind.name().with_article());
     let pins = pins_of(design, offers, device, role);
     e0314_pin_cannot_serve::pin_cannot_serve(
         pin.span,
-        pin.value.as_str(),
+        &pin.value.shown(),
         &needs,
         row,
         &pins.join(", "),
@@ -182,11 +196,12 @@ fn bus_only(
     design: &Design,
     device: &Device,
     role: Role,
-    pin: &Spanned<sensedsl_board::pin::PinName>,
+    pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
-    let parts = design.boards.iter().filter_map(|board| board.table.pin(&pin.value));
+    let boards = (0..design.boards.len()).map(BoardIndex);
+    let parts = boards.filter_map(|index| design.board(index)?.table.pin(pin.value.on(index)?));
     let part = parts.filter_map(|pin| pin.onboard.as_ref()).next()?;
-    let name = pin.value.as_str();
+    let name = pin.value.name();
     let mut released = design.clone();
     for board in &mut released.boards {
         board.released.push(Spanned { value: name.to_owned(), span: pin.span });
@@ -204,7 +219,9 @@ fn bus_only(
     let help =
         format!("take another pin, or write `release {name};` if {} is not needed", part.part);
     let by = format!("{} on the board", part.part);
-    free.then(|| e0316_pin_not_available::pin_not_available(pin.span, name, &by, None, &help))
+    free.then(|| {
+        e0316_pin_not_available::pin_not_available(pin.span, &pin.value.shown(), &by, None, &help)
+    })
 }
 
 /// Whether the device could be connected to one of the boards with its placement relaxed.
@@ -283,8 +300,12 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
                 let Some(pin) = wire.pin(board) else { continue };
                 let on_bus = |part: &Onboard| part.how == Occupation::Bus;
                 let Some(with) = on.shared_with(wire) else { continue };
-                // Who joins the bus of an on-board part disturbs nobody.
-                if !pin.onboard.as_ref().is_some_and(on_bus) {
+                // Who names the part wants it, and who joins its bus disturbs nobody.
+                let named =
+                    device.placement.pins.iter().any(|(role, pin)| {
+                        *role == wire.role && names_part(&pin.value.spelled, with)
+                    });
+                if !named && !pin.onboard.as_ref().is_some_and(on_bus) {
                     let (span, device) = (device.name.span, &device.name.value);
                     let pin = pin.name.as_str();
                     diagnostics.push(w0605_onboard_part::onboard_part(span, device, pin, with));
@@ -294,6 +315,12 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
         diagnostics.extend(same_addresses(design, on));
     }
     diagnostics
+}
+
+/// Whether a pin is named by the part on it: `LED` or `LD2` for `LED LD2`.
+fn names_part(name: &str, part: &str) -> bool {
+    let is = |word: &str| word.eq_ignore_ascii_case(name);
+    is(part) || part.split_whitespace().any(is)
 }
 
 /// Devices of one address that are on two buses although the file asks for no bus.

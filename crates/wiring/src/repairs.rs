@@ -2,11 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use sensedsl_board::pin::PinName;
+use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::Occupation;
-use sensedsl_model::design::{BoardIndex, Design, Device, DeviceIndex, Placement, Spanned};
+use sensedsl_model::design::{
+    Board, BoardIndex, Design, Device, DeviceIndex, Link, Placement, Spanned, Transport,
+};
 use sensedsl_model::kind::Kind;
 
 use crate::names::list;
+use crate::offer::roles;
 use crate::{Solved, Wiring};
 
 /// A change after which there is a wiring.
@@ -24,6 +29,8 @@ pub enum Repair {
     Unreserve(BoardIndex, String),
     /// Do without an on-board part.
     Release(BoardIndex, String),
+    /// Let the board talk to its host in another way, or not at all.
+    Relink(BoardIndex, Transport),
     /// Leave the device out.
     Drop(DeviceIndex),
 }
@@ -48,6 +55,7 @@ impl Repair {
             Self::Move(..) => "move",
             Self::Unreserve(..) => "unreserve",
             Self::Release(..) => "release",
+            Self::Relink(..) => "link",
             Self::Drop(_) => "drop",
         }
     }
@@ -64,7 +72,7 @@ impl Repair {
                 [device] => Some(*device),
                 _ => None,
             },
-            Self::Unreserve(..) | Self::Release(..) => None,
+            Self::Unreserve(..) | Self::Release(..) | Self::Relink(..) => None,
         }
     }
 
@@ -86,7 +94,16 @@ impl Repair {
             Self::Retune(index, hz) => format!("run {} at {hz} Hz", device(index)),
             Self::Move(index, to) => format!("move {} to {}", device(index), board(to)),
             Self::Unreserve(_, name) => format!("do not reserve {name}"),
-            Self::Release(_, part) => format!("release {part}"),
+            Self::Release(on, part) => match needed(design, *on, part) {
+                Some(role) => format!("release {part}, a pin of {}", role.describe()),
+                None => format!("release {part}"),
+            },
+            Self::Relink(on, to) => {
+                let to = to.name();
+                let unasked = design.board(*on).is_some_and(|board| !board.link.stated);
+                let why = if unasked { ": nothing in the file asks for the link" } else { "" };
+                format!("write `link {{ transport = {to}; }}` in {}{why}", board(on))
+            }
             Self::Drop(index) => format!("leave out {}", device(index)),
         }
     }
@@ -132,6 +149,12 @@ impl Repair {
                     board.released.push(Spanned { value: part.to_uppercase(), span });
                 }
             }
+            Self::Relink(on, to) => {
+                if let Some(board) = design.boards.get_mut(on.0) {
+                    board.link = Link { transport: *to, unit: None, ..board.link.clone() };
+                    board.link.pins.clear();
+                }
+            }
             Self::Drop(index) => {
                 if index.0 < design.devices.len() {
                     design.devices.remove(index.0);
@@ -142,15 +165,15 @@ impl Repair {
     }
 }
 
-/// The repairs that work, the gentlest first: freeing what was fixed, then sharing, then moving,
-/// then doing without something, then leaving a device out; within each the cheapest wiring first.
+/// The repairs that work, the gentlest first: another link where the file asks for none, then
+/// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a device out; within each the cheapest wiring first.
 pub(crate) fn find(design: &Design, devices: &[DeviceIndex]) -> Vec<Repaired> {
     let mut found: Vec<Repaired> =
         proposals(design, devices).into_iter().filter_map(|repair| tried(design, repair)).collect();
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
         found.extend(sharing(design, devices));
     }
-    found.sort_by_key(|one| (rank(&one.repair), one.cost));
+    found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
     found
 }
 
@@ -178,15 +201,17 @@ fn sharing(design: &Design, devices: &[DeviceIndex]) -> Option<Repaired> {
     pairs.chain([exclusive.clone()]).find_map(|some| tried(design, Repair::Share(some)))
 }
 
-const fn rank(repair: &Repair) -> usize {
+fn rank(design: &Design, repair: &Repair) -> usize {
     match repair {
+        Repair::Relink(on, _) if design.board(*on).is_some_and(|board| !board.link.stated) => 0,
         Repair::Free(_) => 0,
         Repair::Share(_) => 1,
         Repair::Retune(..) => 2,
         Repair::Move(..) => 3,
         Repair::Unreserve(..) => 4,
         Repair::Release(..) => 5,
-        Repair::Drop(_) => 6,
+        Repair::Relink(..) => 6,
+        Repair::Drop(_) => 7,
     }
 }
 
@@ -212,6 +237,22 @@ fn frequencies<'a>(
     let all = devices.iter().filter_map(move |index| hz(design.device(*index)?));
     let others: BTreeSet<u32> = all.filter(|hz| own.is_some_and(|own| own != *hz)).collect();
     others.into_iter()
+}
+
+/// What the MCU needs a pin for that is named so.
+fn needed(design: &Design, on: BoardIndex, pin: &str) -> Option<PinRole> {
+    let pin = PinName::parse(pin)?;
+    roles(design.board(on)?).get(&pin).copied()
+}
+
+/// Other links that the board could have; only none where the file asks for the one it has.
+fn links(board: &Board) -> impl Iterator<Item = Transport> {
+    let has_usb = board.profile().is_some_and(|profile| profile.usb(None).is_some());
+    let others = [(Transport::Usb, has_usb), (Transport::Uart, board.profile().is_some())];
+    let (now, stated) = (board.link.transport, board.link.stated);
+    let linked = board.profile().is_some() && now != Transport::None;
+    let others = others.into_iter().filter(move |(_, can)| *can && !stated).map(|(to, _)| to);
+    others.chain([Transport::None]).filter(move |to| linked && *to != now)
 }
 
 /// Changes that could help the devices of a conflict.
@@ -240,6 +281,10 @@ fn proposals(design: &Design, devices: &[DeviceIndex]) -> Vec<Repair> {
     boards.dedup();
     for on in boards {
         let Some(board) = design.board(on) else { continue };
+        proposals.extend(links(board).map(|to| Repair::Relink(on, to)));
+        let needed = roles(board).into_iter().filter(|(_, role)| *role != PinRole::Oscillator);
+        let needed = needed.filter(|(pin, _)| board.table.pin(pin).is_some());
+        proposals.extend(needed.map(|(pin, _)| Repair::Release(on, pin.to_string())));
         let names = board.reserved.iter().map(|rule| rule.value.clone());
         proposals.extend(names.map(|name| Repair::Unreserve(on, name)));
         let mut parts: Vec<String> = board

@@ -61,7 +61,7 @@ impl Rules<'_> {
             WishFor::Pin(Some(of), _) if *of != role => false,
             // One pin for a device of several wires: nothing to prefer, but something to avoid.
             WishFor::Pin(None, _) if wish.prefer && !self.single => false,
-            WishFor::Pin(_, name) => (pin.name == *name) != wish.prefer,
+            WishFor::Pin(_, name) => (name.on(board) == Some(&pin.name)) != wish.prefer,
             WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
             WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
             WishFor::Unit(unit) => self.wire_violates(usage, channels, unit, wish.prefer),

@@ -20,6 +20,8 @@ use crate::reached::{Stage, count};
 /// Questions of the search after which it is told to stop: the bound is a count and no time, so
 /// that an input does the same everywhere.
 const STEPS_MAX: u32 = 2_000;
+/// The same where a certificate is wanted: each step of its search is a long one.
+const STEPS_PROOF_MAX: u32 = 300;
 
 /// What is done with an input besides the plain way; each costs as much as that.
 #[derive(Clone, Copy, Debug)]
@@ -116,14 +118,15 @@ fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 }
 
 /// A stop after so many questions.
-fn stop_after(steps: &Cell<u32>) -> bool {
+fn stop_after(steps: &Cell<u32>, most: u32) -> bool {
     steps.set(steps.get() + 1);
-    steps.get() > STEPS_MAX
+    steps.get() > most
 }
 
 fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
     let steps = Cell::new(0);
-    let stop = || stop_after(&steps);
+    let most = if ask.proof { STEPS_PROOF_MAX } else { STEPS_MAX };
+    let stop = || stop_after(&steps, most);
     if !ask.proof {
         return wiring.solve(&Search { any: ask.any, stop: Some(&stop) });
     }
@@ -199,7 +202,7 @@ fn checked(files: &FileSet) {
 fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnostic>) {
     let before: Option<Keep> = json::keep(&json::wired(design, assignment));
     let steps = Cell::new(0);
-    let stop = || stop_after(&steps);
+    let stop = || stop_after(&steps, STEPS_MAX);
     let wiring = Wiring::new(design, before.as_ref());
     match wiring.solve(&Search { any: false, stop: Some(&stop) }) {
         Solved::Wired(again) if again.bound.is_none() => {
@@ -240,7 +243,7 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let resolved = resolved(input, &formatted);
     let design = resolved.design.expect("a file that is laid out still resolves");
     let steps = Cell::new(0);
-    let stop = || stop_after(&steps);
+    let stop = || stop_after(&steps, STEPS_MAX);
     let wiring = Wiring::new(&design, None);
     let Solved::Wired(again) = wiring.solve(&Search { any: false, stop: Some(&stop) }) else {
         panic!("a file that is laid out has no wiring");

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::types::{
     Adc, Adcs, Cycles, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, StreamId, Timer,
-    TimerDriver, Unit, Usb, pins,
+    TimerDriver, Unit, Usb, Vbus, pin, pins,
 };
 use crate::pin::PinName;
 
@@ -316,9 +316,18 @@ pub(crate) struct UsbEntry {
     pins: Vec<PinName>,
     #[serde(default)]
     needs: Vec<String>,
+    vbus: Option<VbusEntry>,
     #[serde(default)]
     excludes: Vec<String>,
     endpoints: u8,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VbusEntry {
+    #[serde(deserialize_with = "pin")]
+    pin: PinName,
+    without: String,
 }
 
 impl UsbEntry {
@@ -331,6 +340,7 @@ impl UsbEntry {
             alternate: self.alternate,
             pins: self.pins,
             needs: self.needs,
+            vbus: self.vbus.map(|vbus| Vbus { pin: vbus.pin, without: vbus.without }),
             excludes: self.excludes,
             endpoints: self.endpoints,
             source: source.to_owned(),

@@ -392,6 +392,15 @@ pub struct DacOutput {
     pub switch: String,
 }
 
+/// How a USB device is told that a host is there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Vbus {
+    /// The pin.
+    pub pin: PinName,
+    /// The option under which it takes a host for granted and leaves the pin alone.
+    pub without: String,
+}
+
 /// A USB device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usb {
@@ -409,6 +418,8 @@ pub struct Usb {
     pub pins: Vec<PinName>,
     /// Options that must be on as well.
     pub needs: Vec<String>,
+    /// The pin by which it is told that a host is there, and the option that does without.
+    pub vbus: Option<Vbus>,
     /// Units that cannot work beside it.
     pub excludes: Vec<String>,
     /// Endpoints beside the control endpoint.

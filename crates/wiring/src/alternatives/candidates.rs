@@ -8,6 +8,7 @@ use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, Rule
 use super::{Maker, Wanted};
 use crate::formulate::{Chosen, GPIO};
 use crate::names::{Group, Resource};
+use crate::offer::Offer;
 
 impl Maker<'_, '_> {
     /// The candidates of one role. `bus` is set for a wire that devices share.
@@ -19,7 +20,7 @@ impl Maker<'_, '_> {
     ) -> (SolverRole, Vec<Chosen>) {
         let mut made: Vec<(Candidate, Chosen)> = Vec::new();
         let (offer, wanted) = (self.offer, self.wanted);
-        for (index, pin) in offer.pins().filter(|(_, pin)| pin_fits(wanted, role, pin)) {
+        for (index, pin) in offer.pins().filter(|(_, pin)| pin_fits(offer, wanted, role, pin)) {
             match need {
                 Need::Usage(serves) => {
                     for (at, usage) in pin.usages.iter().enumerate() {
@@ -138,11 +139,11 @@ pub(super) enum Need<'n> {
 }
 
 /// Whether the pin is where the device is bound to be.
-pub(super) fn pin_fits(wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
+pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
     let same = |wanted: Option<&str>, has: Option<&str>| {
         wanted.is_none_or(|wanted| has.is_some_and(|has| has.eq_ignore_ascii_case(wanted)))
     };
-    wanted.fixed(role).is_none_or(|fixed| *fixed == pin.name)
+    wanted.fixed(role).is_none_or(|fixed| fixed.on(offer.index) == Some(&pin.name))
         && same(wanted.side, pin.side.as_deref())
         && same(wanted.header, pin.header.as_deref())
 }

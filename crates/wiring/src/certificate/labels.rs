@@ -240,8 +240,8 @@ impl Namer<'_> {
 fn describe(wish: &Wish) -> String {
     let verb = if wish.prefer { "prefer" } else { "avoid" };
     match &wish.what {
-        WishFor::Pin(Some(role), pin) => format!("{verb} {} = {pin}", role.name()),
-        WishFor::Pin(None, pin) => format!("{verb} pin = {pin}"),
+        WishFor::Pin(Some(role), pin) => format!("{verb} {} = {}", role.name(), pin.spelled),
+        WishFor::Pin(None, pin) => format!("{verb} pin = {}", pin.spelled),
         WishFor::Unit(unit) => format!("{verb} unit = {unit}"),
         WishFor::Side(side) => format!("{verb} side = {side}"),
         WishFor::Header(header) => format!("{verb} header = {header}"),

@@ -64,10 +64,14 @@ pub(super) fn plan(
     let plan = match context.board.link.transport {
         Transport::Usb => usb(context, pads),
         Transport::Uart => uart(context, pads, diagnostics),
+        Transport::None => None,
     };
     if plan.is_none() {
         let name = &context.board.name;
-        let why = "its target has no driver for the link";
+        let why = match context.board.link.transport {
+            Transport::None => "it has no link to send reports over (`transport = none`)",
+            Transport::Usb | Transport::Uart => "its target has no driver for the link",
+        };
         diagnostics.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why));
     }
     plan
@@ -79,7 +83,9 @@ fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
         let mode = alternate_mode(number, Drive::Fast);
         pads.extend(usb.pins.iter().map(|pin| pad(pin, &mode)));
     }
-    let switches = std::iter::once(&usb.switch).chain(&usb.needs).cloned();
+    let vbus = usb.vbus.as_ref().filter(|_| !context.board.link.vbus);
+    let without = vbus.map(|vbus| &vbus.without);
+    let switches = std::iter::once(&usb.switch).chain(&usb.needs).chain(without).cloned();
     Some(LinkPlan::Usb { driver: usb.driver.clone(), switches: switches.collect() })
 }
 

@@ -1,0 +1,26 @@
+//! H0704: the name of a pin is printed at another.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "H0704",
+    severity: Severity::Hint,
+    title: "the name of a pin is printed at another",
+    explanation: r#"The MCU has a pin of that name, and the board has the same name printed beside another pin. The MCU's name is what is
+meant.
+
+Way out: if the other pin is meant, write its name in the MCU.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// `other` is the pin that the name is printed at.
+#[must_use]
+pub fn printed_elsewhere(span: Span, pin: &str, board: &str, other: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{pin} is the MCU's pin; {board} has {pin} printed at {other}"))
+        .help(format!("write {other} if that pin is meant"))
+}

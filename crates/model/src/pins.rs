@@ -1,0 +1,243 @@
+//! Names of pins: what the file writes in, the pin of each board out.
+//!
+//! A pin is named as the MCU names it (`PA5`), as the board is printed (`D13`, `"CN7.3"`), or by the
+//! on-board part on it (`LED`). What it stands for is a matter of each board's table.
+
+use sensedsl_board::pin::{PinName, natural};
+use sensedsl_board::table::{Pin, Table};
+
+use sensedsl_diagnostics::codes::{e0310_unknown_pin, e0318_several_pins, h0704_printed_elsewhere};
+use sensedsl_diagnostics::{Diagnostic, Span, nearest};
+
+use crate::design::{Board, BoardIndex, Design, Spanned, Wish, WishFor};
+
+/// A pin as the file names it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PinRef {
+    /// As it is written.
+    pub spelled: String,
+    /// On each board that has such a pin which one it is, by the board.
+    on: Vec<(BoardIndex, PinName)>,
+}
+
+impl PinRef {
+    /// A name that stands for no pin yet.
+    pub(crate) fn unbound(spelled: &str) -> Self {
+        Self { spelled: spelled.to_owned(), on: Vec::new() }
+    }
+
+    /// A pin of one board.
+    #[must_use]
+    pub fn of_board(board: BoardIndex, pin: PinName) -> Self {
+        Self { spelled: pin.to_string(), on: vec![(board, pin)] }
+    }
+
+    /// The first pin that it stands for, by its name in the MCU; as it is written where there is none.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.on.first().map_or(&self.spelled, |(_, pin)| pin.as_str())
+    }
+
+    /// For people: `PA5`, or `PA5 (D13)` where the file names it otherwise.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        let name = self.name();
+        if PinName::parse(&self.spelled).is_some_and(|pin| pin.as_str() == name) {
+            return name.to_owned();
+        }
+        format!("{name} ({})", self.spelled)
+    }
+
+    /// The pin on a board.
+    #[must_use]
+    pub fn on(&self, board: BoardIndex) -> Option<&PinName> {
+        self.on.iter().find(|(index, _)| *index == board).map(|(_, pin)| pin)
+    }
+}
+
+/// Binds the names of pins to the pins of the boards, and reports those that stand for none or for
+/// several.
+pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
+    let Design { boards, devices, .. } = design;
+    for device in devices {
+        let range = device.board.map_or(0..boards.len(), |board| board.0..board.0 + 1);
+        let mut binder = Binder { boards, range, diagnostics };
+        for (_, Spanned { value, span }) in &mut device.placement.pins {
+            binder.pin(value, *span, true);
+        }
+        binder.wishes(&mut device.wishes);
+    }
+    for index in 0..boards.len() {
+        let Some(board) = boards.get_mut(index) else { continue };
+        let mut wishes = std::mem::take(&mut board.wishes);
+        for rule in board.reserved.iter_mut().chain(&mut board.released) {
+            rename(&board.table, rule);
+        }
+        Binder { boards, range: index..index + 1, diagnostics }.wishes(&mut wishes);
+        if let Some(board) = boards.get_mut(index) {
+            board.wishes = wishes;
+        }
+    }
+}
+
+/// Gives a rule that names a pin by its label the name of the MCU.
+fn rename(table: &Table, rule: &mut Spanned<String>) {
+    let mut labelled = table.pins.iter().filter(|pin| has_label(pin, &rule.value));
+    if PinName::parse(&rule.value).is_none_or(|name| table.pin(&name).is_none())
+        && let (Some(pin), None) = (labelled.next(), labelled.next())
+    {
+        rule.value = pin.name.to_string();
+    }
+}
+
+/// Looks names up in the tables of some boards.
+struct Binder<'a> {
+    boards: &'a [Board],
+    range: std::ops::Range<usize>,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Binder<'_> {
+    fn wishes(&mut self, wishes: &mut [Wish]) {
+        for wish in wishes {
+            if let WishFor::Pin(_, pin) = &mut wish.what {
+                // A pin of the MCU that the board has not brought out is no mistake of a wish.
+                let must = PinName::parse(&pin.spelled).is_none();
+                self.pin(pin, wish.span, must);
+            }
+        }
+    }
+
+    fn pin(&mut self, pin: &mut PinRef, span: Span, must: bool) {
+        let name = pin.spelled.as_str();
+        let mut report = None;
+        let range = self.range.clone();
+        for (index, board) in range.clone().zip(self.boards.get(range).unwrap_or_default()) {
+            let on = board.name.value.as_str();
+            match find(&board.table, name) {
+                Meant::Pin { name: found, printed } => {
+                    if let Some(other) = printed {
+                        let other = other.as_str();
+                        let hint = h0704_printed_elsewhere::printed_elsewhere;
+                        self.diagnostics.push(hint(span, found.as_str(), on, other));
+                    }
+                    pin.on.push((BoardIndex(index), found));
+                }
+                Meant::Several(pins) => {
+                    let pins: Vec<&str> = pins.iter().map(PinName::as_str).collect();
+                    let pins = pins.join(", ");
+                    report = Some(e0318_several_pins::several_pins(span, name, on, &pins));
+                }
+                Meant::None if report.is_none() && must => {
+                    let pins = board.table.pins.iter().map(|pin| pin.name.as_str());
+                    let meant = nearest(name, pins.chain(printed(&board.table)));
+                    let shown = PinName::parse(name);
+                    let shown = shown.as_ref().map_or(name, PinName::as_str);
+                    report = Some(e0310_unknown_pin::unknown_pin(span, shown, on, meant));
+                }
+                Meant::None => {}
+            }
+        }
+        self.diagnostics.extend(report.filter(|_| pin.on.is_empty()));
+    }
+}
+
+fn has_label(pin: &Pin, name: &str) -> bool {
+    pin.label.as_deref().is_some_and(|label| is(label, name))
+}
+
+/// What a name stands for in a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Meant {
+    /// One pin; `printed` is another, which the board has that name printed at.
+    Pin { name: PinName, printed: Option<PinName> },
+    /// Pins that have the same label, or lead to parts of that name.
+    Several(Vec<PinName>),
+    /// Nothing.
+    None,
+}
+
+/// What a name stands for: the MCU's name comes first, then what is printed, then on-board parts.
+fn find(table: &Table, spelled: &str) -> Meant {
+    let labelled = |pin: &&Pin| has_label(pin, spelled);
+    if let Some(pin) = PinName::parse(spelled).and_then(|name| table.pin(&name)) {
+        let mut others = table.pins.iter().filter(labelled).filter(|other| other.name != pin.name);
+        let printed = others.next().map(|pin| pin.name.clone());
+        return Meant::Pin { name: pin.name.clone(), printed };
+    }
+    let at_place = |pin: &&Pin| place(pin).is_some_and(|place| is(&place, spelled));
+    let part = |pin: &&Pin| {
+        let part = pin.onboard.as_ref().map(|onboard| onboard.part.as_str()).unwrap_or_default();
+        is(part, spelled) || part.split_whitespace().any(|word| is(word, spelled))
+    };
+    let all = |pins: Vec<&Pin>| pins.into_iter().map(|pin| pin.name.clone()).collect::<Vec<_>>();
+    let by_label = all(table.pins.iter().filter(labelled).collect());
+    let by_place = || all(table.pins.iter().filter(at_place).collect());
+    let by_part = || all(table.pins.iter().filter(part).collect());
+    let first = |one: Vec<PinName>, next: &dyn Fn() -> Vec<PinName>| {
+        if one.is_empty() { next() } else { one }
+    };
+    let mut found = first(first(by_label, &by_place), &by_part);
+    match found.len() {
+        0 => Meant::None,
+        1 => found.pop().map_or(Meant::None, |name| Meant::Pin { name, printed: None }),
+        _ => Meant::Several(found),
+    }
+}
+
+/// What a pin may be called beside the MCU's name.
+fn printed(table: &Table) -> Vec<&str> {
+    let mut labels: Vec<&str> = table.pins.iter().filter_map(|pin| pin.label.as_deref()).collect();
+    labels.sort_by(|a, b| natural(a, b));
+    labels.dedup();
+    labels
+}
+
+fn is(one: &str, other: &str) -> bool {
+    one.eq_ignore_ascii_case(other)
+}
+
+/// Connector and contact: `CN7.3`.
+fn place(pin: &Pin) -> Option<String> {
+    Some(format!("{}.{}", pin.header.as_ref()?, pin.position.as_ref()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: &str = "Pin,Label,Header,Position,Onboard\nPA4,A2,CN7,32,\nPA2,D1,CN10,35,\n\
+        PA5,D13,CN10,11,LED LD2:care\nPB1,PA4,CN10,24,LED LD3:care\nPC8,LCD,,,\nPC9,LCD,,,\n";
+
+    fn meant(spelled: &str) -> String {
+        match find(&sensedsl_board::table::load(TABLE).board, spelled) {
+            Meant::Pin { name, printed: None } => name.to_string(),
+            Meant::Pin { name, printed: Some(other) } => format!("{name}, not {other}"),
+            Meant::Several(pins) => format!("{pins:?}").replace("PinName", ""),
+            Meant::None => "none".into(),
+        }
+    }
+
+    #[test]
+    fn the_name_of_the_mcu_comes_first() {
+        assert_eq!(meant("PA2"), "PA2");
+        assert_eq!(meant("pa02"), "PA2");
+        assert_eq!(meant("PA4"), "PA4, not PB1");
+    }
+
+    #[test]
+    fn what_is_printed_is_a_name() {
+        assert_eq!(meant("A2"), "PA4");
+        assert_eq!(meant("d13"), "PA5");
+        assert_eq!(meant("CN7.32"), "PA4");
+        assert_eq!(meant("LD2"), "PA5");
+        assert_eq!(meant("LED LD3"), "PB1");
+    }
+
+    #[test]
+    fn names_of_several_pins_are_told() {
+        assert_eq!(meant("LED"), "[(\"PA5\"), (\"PB1\")]");
+        assert_eq!(meant("LCD"), "[(\"PC8\"), (\"PC9\")]");
+        assert_eq!(meant("D14"), "none");
+    }
+}
