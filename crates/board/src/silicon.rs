@@ -31,6 +31,26 @@ pub struct Silicon {
     /// Pins that it needs for itself.
     #[serde(default)]
     pub pins: Vec<Needed>,
+    /// What its pins stand.
+    #[serde(default)]
+    pub volts: Vec<Volts>,
+}
+
+/// What the pins of some MCUs of a family stand.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Volts {
+    /// Starts of the part numbers.
+    pub parts: Vec<String>,
+    /// The usual supply, which is what converters measure up to, in millivolts.
+    pub supply_mv: u32,
+    /// What an input stands at that supply, in millivolts; none where that is not known.
+    pub stands_mv: Option<u32>,
+    /// Pins that stand no more than the supply and 0.3 V.
+    #[serde(default)]
+    pub except: Vec<String>,
+    /// Where it was read.
+    pub source: String,
 }
 
 /// Pins that some MCUs of a family need for themselves.
@@ -116,6 +136,22 @@ pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
     of_part.flat_map(pins).collect()
 }
 
+/// What the pins of an MCU stand: the first entry that has its part.
+#[must_use]
+pub fn volts(mcu: &str) -> Option<&'static Volts> {
+    let name = mcu::normalise(mcu);
+    of(mcu)?.volts.iter().find(|volts| covers(&volts.parts, &name))
+}
+
+impl Volts {
+    /// What a pin stands as an input, in millivolts; none where that is not known.
+    #[must_use]
+    pub fn stands_mv(&self, pin: &PinName) -> Option<u32> {
+        let except = self.except.iter().any(|name| PinName::parse(name).as_ref() == Some(pin));
+        self.stands_mv.map(|mv| if except { self.supply_mv + 300 } else { mv })
+    }
+}
+
 fn covers(parts: &[String], name: &str) -> bool {
     parts.iter().any(|part| name.starts_with(part))
 }
@@ -150,6 +186,10 @@ mod tests {
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {
                 assert!(!ability.because.is_empty() && !ability.source.is_empty());
             }
+            for volts in &silicon.volts {
+                assert!(!volts.parts.is_empty() && !volts.source.is_empty(), "{volts:?}");
+                assert!(volts.except.iter().all(|name| PinName::parse(name).is_some()));
+            }
             for needed in &silicon.pins {
                 assert!(!needed.parts.is_empty() && !needed.source.is_empty(), "{needed:?}");
                 assert!(needed.names.iter().all(|name| PinName::parse(name).is_some()));
@@ -169,6 +209,20 @@ mod tests {
         assert_eq!(capture("ATmega328P-PU"), Some(&[][..]));
         assert_eq!(encoder("STM32F407VGT6"), None);
         assert_eq!(of("MSP430G2553"), None);
+    }
+
+    #[test]
+    fn pins_stand_what_their_parts_say() {
+        let stands = |mcu, pin| volts(mcu)?.stands_mv(&PinName::parse(pin)?);
+        assert_eq!(stands("STM32F407VGT6", "PB4"), Some(5_500));
+        assert_eq!(stands("STM32F407VGT6", "PA4"), Some(3_600));
+        assert_eq!(stands("STM32F103C8T6", "PB5"), Some(3_600));
+        assert_eq!(stands("RP2040", "GP2"), Some(3_600));
+        assert_eq!(stands("RP2350A", "GP2"), Some(5_500));
+        assert_eq!(stands("ATMEGA328P-PU", "PB0"), Some(5_500));
+        assert_eq!(stands("STM32G474RET6", "PB4"), None);
+        assert_eq!(volts("STM32G474RET6").map(|volts| volts.supply_mv), Some(3_300));
+        assert_eq!(volts("MSP430G2553"), None);
     }
 
     #[test]

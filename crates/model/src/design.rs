@@ -170,10 +170,35 @@ pub struct Device {
     pub wishes: Vec<Wish>,
     /// How a host shows the value.
     pub shown: Presentation,
+    /// The voltage on its wires, where it is stated.
+    pub level: Option<Level>,
     /// The driver its protocol was taken from.
     pub driver: Option<String>,
     /// Warnings that are not given for this device.
     pub allows: Vec<Allow>,
+}
+
+/// The voltage that a device puts on its wires.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level {
+    /// At the device, in millivolts; of an analog device the highest there is.
+    pub mv: u32,
+    /// The resistors that divide it, in ohms: from the device to the pin, and from there to ground.
+    pub divider: Option<[u32; 2]>,
+    /// Where it is stated.
+    pub span: Span,
+}
+
+impl Level {
+    /// What arrives at the pin, in millivolts, rounded up.
+    #[must_use]
+    pub fn at_pin_mv(&self) -> u32 {
+        let Some([upper, lower]) = self.divider.map(|divider| divider.map(u64::from)) else {
+            return self.mv;
+        };
+        let divided = (u64::from(self.mv) * lower).div_ceil((upper + lower).max(1));
+        u32::try_from(divided).unwrap_or(self.mv)
+    }
 }
 
 /// What the user fixed of a device's wiring.

@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::design::{BoardIndex, Device, Placement, Presentation, Spanned};
+use crate::design::{BoardIndex, Device, Level, Placement, Presentation, Spanned};
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
 use crate::kind::{Kind, KindName, analog, can, dac, digital, encoder, i2c, icu, pwm, spi, uart};
@@ -18,7 +18,7 @@ use crate::rules;
 
 /// The properties of every device, but for those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] =
-    &["id", "type", "driver", "delay", "prio", "unit", "side", "header"];
+    &["id", "type", "driver", "delay", "prio", "unit", "side", "header", "level", "divider"];
 /// The properties by which a host shows a value.
 pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset", "min", "max"];
 
@@ -26,6 +26,8 @@ pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset
 const DELAY_DEFAULT_MS: u32 = 1_000;
 /// Longest cycle time: an hour.
 const DELAY_MAX_MS: u32 = 3_600_000;
+/// Highest voltage that may stand in a file.
+const LEVEL_MAX_MV: u32 = 1_000_000;
 /// Most elements of an array.
 const ARRAY_MAX: u64 = 1_024;
 
@@ -61,7 +63,12 @@ pub(crate) fn read(
     let prio_span = fields.own_span("prio");
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
     let placement = placement(&mut fields, &kind, direction);
-    let shown = presentation(&mut fields);
+    let mut shown = presentation(&mut fields);
+    let level = level(&mut fields);
+    if let Some([upper, lower]) = level.as_ref().and_then(|level| level.divider) {
+        let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
+        shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
+    }
     leftovers(&mut fields, kind_name.value);
     Some(Device {
         name,
@@ -79,6 +86,7 @@ pub(crate) fn read(
         placement,
         wishes,
         shown,
+        level,
         driver,
         allows,
     })
@@ -224,6 +232,18 @@ fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Plac
 fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinRef>> {
     let Spanned { value, span } = fields.name(property, "a pin such as PA1")?;
     Some(Spanned { value: PinRef::unbound(&value), span })
+}
+
+/// The voltage that the device puts on its wires.
+fn level(fields: &mut Fields<'_>) -> Option<Level> {
+    let divider = fields.resistances_ohm("divider");
+    let level = fields.voltage_mv("level", 1..=LEVEL_MAX_MV);
+    if let (Some(divider), None) = (&divider, &level) {
+        let what = "a divider needs the voltage that it divides: `level = 5 V;`";
+        fields.contradiction(divider.span, "level", what);
+    }
+    let Spanned { value: mv, span } = level?;
+    Some(Level { mv, divider: divider.map(|divider| divider.value), span })
 }
 
 fn presentation(fields: &mut Fields<'_>) -> Presentation {

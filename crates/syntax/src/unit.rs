@@ -3,7 +3,7 @@
 use crate::suggest;
 use std::fmt;
 
-/// The unit of a time or a frequency.
+/// The unit of a time, a frequency, a voltage or a resistance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// `us`
@@ -18,17 +18,29 @@ pub enum Unit {
     Kilohertz,
     /// `MHz`
     Megahertz,
+    /// `mV`
+    Millivolts,
+    /// `V`
+    Volts,
+    /// `Ohm`
+    Ohms,
+    /// `kOhm`
+    Kiloohms,
 }
 
 impl Unit {
     /// All units.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 10] = [
         Self::Microseconds,
         Self::Milliseconds,
         Self::Seconds,
         Self::Hertz,
         Self::Kilohertz,
         Self::Megahertz,
+        Self::Millivolts,
+        Self::Volts,
+        Self::Ohms,
+        Self::Kiloohms,
     ];
 
     /// The unit as it is written.
@@ -41,6 +53,10 @@ impl Unit {
             Self::Hertz => "Hz",
             Self::Kilohertz => "kHz",
             Self::Megahertz => "MHz",
+            Self::Millivolts => "mV",
+            Self::Volts => "V",
+            Self::Ohms => "Ohm",
+            Self::Kiloohms => "kOhm",
         }
     }
 

@@ -31,6 +31,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) side: Option<&'a str>,
     pub(crate) header: Option<&'a str>,
     pub(crate) wishes: &'a [Wish],
+    /// What the device puts on the pins, in millivolts, where it is stated.
+    pub(crate) level_mv: Option<u32>,
 }
 
 impl<'a> Wanted<'a> {
@@ -45,6 +47,7 @@ impl<'a> Wanted<'a> {
             side: side.as_ref().map(|side| side.value.as_str()),
             header: header.as_ref().map(|header| header.value.as_str()),
             wishes: &device.wishes,
+            level_mv: device.level.map(|level| level.at_pin_mv()),
         }
     }
 
@@ -60,7 +63,7 @@ impl<'a> Wanted<'a> {
         let pins = pins.iter().map(|pin| PinRef::of_board(board, pin.clone()));
         let pins = [Role::Tx, Role::Rx].into_iter().zip(pins).collect();
         let (side, header) = (None, None);
-        Self { kind, direction, boards, pins, unit, side, header, wishes: &[] }
+        Self { kind, direction, boards, pins, unit, side, header, wishes: &[], level_mv: None }
     }
 
     pub(crate) fn fixed(&self, role: Role) -> Option<&PinRef> {

@@ -161,6 +161,7 @@ fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: 
         placement: Placement::default(),
         wishes: Vec::new(),
         shown: Presentation::default(),
+        level: None,
         driver: None,
         allows: Vec::new(),
     }

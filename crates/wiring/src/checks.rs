@@ -10,9 +10,10 @@ use sensedsl_board::table::{Occupation, Onboard};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
-    w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
+    e0321_too_much_voltage, w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
+    w0610_level_not_known,
 };
-use sensedsl_model::design::{Board, BoardIndex, Design, Device, Spanned, WishFor};
+use sensedsl_model::design::{Board, BoardIndex, Design, Device, Level, Spanned, WishFor};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 
@@ -20,6 +21,7 @@ use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
+use crate::levels::{Stands, divider, is_driven_by_device, shown_mv, shown_ohm, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
@@ -39,6 +41,11 @@ fn why_hopeless(
     device: &Device,
 ) -> Option<Diagnostic> {
     let offers = offers(formulation, device);
+    if let Some(level) = device.level
+        && possible(design, &offers, device, |wanted| wanted.level_mv = None)
+    {
+        return Some(too_much_voltage(&offers, device, level));
+    }
     for (role, pin) in &device.placement.pins {
         if let Some(withheld) = withheld(&offers, pin) {
             return Some(withheld);
@@ -129,6 +136,40 @@ fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> 
         place,
         &help,
     ))
+}
+
+/// The report for a device whose level no pin stands that it could have.
+fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Diagnostic {
+    let most = |offer: &&Offer<'_>| {
+        let pins = offer.pins().map(|(_, pin)| pin).filter(|pin| {
+            device
+                .placement
+                .pins
+                .iter()
+                .all(|(_, fixed)| fixed.value.on(offer.index) == Some(&pin.name))
+        });
+        let of_pin = |pin| match stands(offer.board, pin, &device.kind, level.at_pin_mv()) {
+            Stands::No(most) => Some(most),
+            Stands::Yes | Stands::Unknown => None,
+        };
+        pins.filter_map(of_pin).max()
+    };
+    let supply = offers.iter().filter_map(|offer| supply_mv(offer.board)).max().unwrap_or(3_300);
+    let most = offers.iter().filter_map(most).max().unwrap_or(supply);
+    let help = match device.kind {
+        Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => {
+            format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
+        }
+        _ => {
+            let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
+            format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
+        }
+    };
+    let at_pin = level.at_pin_mv();
+    let (name, shown) = (&device.name.value, shown_mv(at_pin));
+    let most = if most < at_pin { most } else { supply };
+    let (device, stated) = ((device.name.span, name.as_str()), (level.span, shown.as_str()));
+    e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
 }
 
 /// The report for a kind that the silicon of no board in question can do.
@@ -298,6 +339,14 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
             let Some(device) = design.device(wiring.device) else { continue };
             for wire in &wiring.wires {
                 let Some(pin) = wire.pin(board) else { continue };
+                if let Some(level) = device.level
+                    && is_driven_by_device(wire.role)
+                    && stands(board, pin, &device.kind, level.at_pin_mv()) == Stands::Unknown
+                {
+                    let (name, level) = (&device.name.value, shown_mv(level.at_pin_mv()));
+                    let report = w0610_level_not_known::level_not_known;
+                    diagnostics.push(report(device.name.span, name, &level, pin.name.as_str()));
+                }
                 let on_bus = |part: &Onboard| part.how == Occupation::Bus;
                 let Some(with) = on.shared_with(wire) else { continue };
                 // Who names the part wants it, and who joins its bus disturbs nobody.

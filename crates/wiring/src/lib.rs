@@ -10,6 +10,7 @@ mod conflict;
 mod converters;
 mod formulate;
 mod keep;
+mod levels;
 mod names;
 mod offer;
 mod prolog;

@@ -1,4 +1,4 @@
-//! Numbers with units: a property in, microseconds, milliseconds or hertz out.
+//! Numbers with units: a property in, microseconds, milliseconds, hertz, millivolts or ohms out.
 
 use std::ops::RangeInclusive;
 
@@ -58,6 +58,12 @@ impl Fields<'_> {
         let hz = match factor(unit) {
             (Dimension::Time, us) => 1_000_000.0 / (value * us),
             (Dimension::Frequency, hz) => value * hz,
+            (Dimension::Voltage | Dimension::Resistance, _) => {
+                let takes = "Hz, kHz, MHz, us, ms or s";
+                let wrong = e0210_wrong_unit::wrong_unit;
+                self.diagnostics.push(wrong(field.value_span, &field.name, unit.name(), takes));
+                return None;
+            }
         };
         self.whole(&field, hz, range, "Hz")
     }
@@ -67,6 +73,39 @@ impl Fields<'_> {
         let field = self.take(name)?;
         let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
         Some((field, us))
+    }
+
+    /// A voltage in millivolts; a bare number is volts.
+    pub(crate) fn voltage_mv(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u32>,
+    ) -> Option<Spanned<u32>> {
+        let field = self.take(name)?;
+        let mv = self.quantity(&field, Unit::Volts, &VOLTAGES, "a voltage such as 5 V")?;
+        self.whole(&field, mv, range, "mV")
+    }
+
+    /// Two resistances in ohms; bare numbers are ohms.
+    pub(crate) fn resistances_ohm(&mut self, name: &str) -> Option<Spanned<[u32; 2]>> {
+        const TAKES: &str = "two resistances such as [10 kOhm, 20 kOhm]";
+        let field = self.take(name)?;
+        let Value::List(list) = &field.value else {
+            self.wrong(&field, TAKES);
+            return None;
+        };
+        let values: Vec<Value> = list.values().collect();
+        let [upper, lower] = values.as_slice() else {
+            self.wrong(&field, TAKES);
+            return None;
+        };
+        let mut ohms = [0; 2];
+        for (value, ohm) in [upper, lower].into_iter().zip(&mut ohms) {
+            let one = Field { value: value.clone(), ..field.clone() };
+            let found = self.quantity(&one, Unit::Ohms, &RESISTANCES, TAKES)?;
+            *ohm = self.whole(&one, found, 1..=100_000_000, "Ohm")?.value;
+        }
+        Some(Spanned { value: ohms, span: field.value_span })
     }
 
     fn quantity(
@@ -125,12 +164,17 @@ impl Fields<'_> {
 enum Dimension {
     Time,
     Frequency,
+    Voltage,
+    Resistance,
 }
 
 const TIMES: (Dimension, &str) = (Dimension::Time, "us, ms or s");
 const FREQUENCIES: (Dimension, &str) = (Dimension::Frequency, "Hz, kHz or MHz");
 
-/// A unit's dimension and its factor to microseconds or hertz.
+const VOLTAGES: (Dimension, &str) = (Dimension::Voltage, "mV or V");
+const RESISTANCES: (Dimension, &str) = (Dimension::Resistance, "Ohm or kOhm");
+
+/// A unit's dimension and its factor to microseconds, hertz, millivolts or ohms.
 fn factor(unit: Unit) -> (Dimension, f64) {
     match unit {
         Unit::Microseconds => (Dimension::Time, 1.0),
@@ -139,5 +183,9 @@ fn factor(unit: Unit) -> (Dimension, f64) {
         Unit::Hertz => (Dimension::Frequency, 1.0),
         Unit::Kilohertz => (Dimension::Frequency, 1e3),
         Unit::Megahertz => (Dimension::Frequency, 1e6),
+        Unit::Millivolts => (Dimension::Voltage, 1.0),
+        Unit::Volts => (Dimension::Voltage, 1e3),
+        Unit::Ohms => (Dimension::Resistance, 1.0),
+        Unit::Kiloohms => (Dimension::Resistance, 1e3),
     }
 }

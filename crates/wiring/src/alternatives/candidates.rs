@@ -7,6 +7,7 @@ use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, Rule
 
 use super::{Maker, Wanted};
 use crate::formulate::{Chosen, GPIO};
+use crate::levels::{Stands, is_driven_by_device, stands};
 use crate::names::{Group, Resource};
 use crate::offer::Offer;
 
@@ -146,6 +147,12 @@ pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: 
     wanted.fixed(role).is_none_or(|fixed| fixed.on(offer.index) == Some(&pin.name))
         && same(wanted.side, pin.side.as_deref())
         && same(wanted.header, pin.header.as_deref())
+        && stands_level(offer, wanted, role, pin)
+}
+
+fn stands_level(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
+    let Some(mv) = wanted.level_mv.filter(|_| is_driven_by_device(role)) else { return true };
+    !matches!(stands(offer.board, pin, wanted.kind, mv), Stands::No(_))
 }
 
 /// A pin on an on-board bus is for devices that join the bus.

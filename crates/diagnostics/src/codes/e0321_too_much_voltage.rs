@@ -1,0 +1,33 @@
+//! E0321: a device puts more voltage on a pin than it stands.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0321",
+    severity: Severity::Error,
+    title: "too much voltage for the pins",
+    explanation: r#"The device puts a voltage (`level`, its own or its driver's) on its wire that no pin it could have stands. An analog
+input measures up to the MCU's supply alone; a digital input stands what its data sheet says (on STM32: FT pins 5 V).
+
+Way out: two resistors, which the file then knows of (`divider = [5.6 kOhm, 10 kOhm];`: from the device to the pin, and from
+there to ground); a level shifter, where wires are driven from both ends; or other pins.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// The device and where it is, its level and where that is stated, what the pins stand, and what helps.
+#[must_use]
+pub fn too_much_voltage(
+    (span, device): (Span, &str),
+    (stated, level): (Span, &str),
+    most: &str,
+    help: &str,
+) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{device} puts {level} on its wire, but its pins stand {most}"))
+        .label(stated, "stated here")
+        .help(help)
+}
