@@ -5,13 +5,13 @@
 //! `PD7 BARO_CS CS`. `include` reads a further file, `undef` takes pins back, `SPIDEV` ties chip
 //! selects to buses, and the lines of sensors name buses and addresses (`BARO MS5611 I2C:0:0x77`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_diagnostics::codes::e0808_too_many_includes;
 use sensedsl_diagnostics::{FileId, Span};
-use sensedsl_limits::{HWDEF_LINES_MAX, INCLUDE_DEPTH_MAX, INCLUDES_MAX};
+use sensedsl_limits::{HWDEF_LINES_MAX, HWDEF_MCUS_MAX, INCLUDE_DEPTH_MAX, INCLUDES_MAX};
 use sensedsl_model::Unread;
 
 use crate::log::Log;
@@ -55,9 +55,6 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
 /// The input of a converter, by pin and converter.
 type Inputs = BTreeMap<(PinName, u8), String>;
 
-/// How many lines and families of MCUs are looked up; a file is about one of each.
-const STARTS_MAX: usize = 4;
-
 /// A line about something else than a pin.
 struct Line {
     words: Vec<String>,
@@ -67,6 +64,8 @@ struct Line {
 struct Reader<'a> {
     source: &'a Source<'a>,
     mcu: Option<String>,
+    /// All that `MCU` lines have named so far, in this file and in those that it includes.
+    mcus: BTreeSet<String>,
     /// The I2C units in the order of their numbers.
     orders: Vec<String>,
     wires: BTreeMap<PinName, Wire>,
@@ -90,6 +89,7 @@ impl<'a> Reader<'a> {
         Self {
             source,
             mcu: None,
+            mcus: BTreeSet::new(),
             orders: Vec::new(),
             wires: BTreeMap::new(),
             lines: Lines::new(),
@@ -118,8 +118,18 @@ impl<'a> Reader<'a> {
             match (first.as_str(), second) {
                 ("include", Some(path)) => self.include(path, folder, (depth, span), log),
                 ("MCU", Some(family)) => {
-                    let name = words.get(2).map_or(family, String::as_str);
-                    self.mcu = Some(name.to_ascii_uppercase());
+                    let name = words.get(2).map_or(family, String::as_str).to_ascii_uppercase();
+                    self.mcus.insert(name.clone());
+                    // Each is looked for among all parts.
+                    if self.mcus.len() > HWDEF_MCUS_MAX {
+                        return log.too_large(
+                            span,
+                            self.source.name,
+                            "names of MCUs",
+                            HWDEF_MCUS_MAX,
+                        );
+                    }
+                    self.mcu = Some(name);
                 }
                 ("I2C_ORDER", Some(_)) => self.orders = words.into_iter().skip(1).collect(),
                 ("undef", Some(_)) => self.undefine(&words),
@@ -231,7 +241,7 @@ impl<'a> Reader<'a> {
         let line = mcu.trim_end_matches(['x', 'X']);
         let key = (pin.clone(), unit);
         [line, mcu.get(..FAMILY)?].into_iter().find_map(|start| {
-            if self.inputs.len() < STARTS_MAX && !self.inputs.contains_key(start) {
+            if !self.inputs.contains_key(start) {
                 self.inputs.insert(start.to_owned(), inputs(start));
             }
             self.inputs.get(start)?.get(&key).cloned()

@@ -99,6 +99,8 @@ struct Scan {
     namespaces: usize,
     /// The tag closes an element.
     closing: bool,
+    /// A place of cells may be in the tag.
+    places: Places,
     last: u8,
     /// The word in a tag that is being read, as far as it is of interest, and its length.
     word: [u8; WORD_BYTES],
@@ -156,10 +158,10 @@ impl Cells {
 
 impl Value {
     /// Of the attribute of that name, where it is of interest.
-    fn of(name: &[u8]) -> Option<Self> {
-        match name {
-            b"uniqueCount" => Some(Self::Strings(0)),
-            b"r" | b"ref" => Some(Self::Cells(Cells::default())),
+    fn of(name: &[u8], places: Places) -> Option<Self> {
+        match (name, places) {
+            (b"uniqueCount", _) => Some(Self::Strings(0)),
+            (b"r" | b"ref", Places::Yes) => Some(Self::Cells(Cells::default())),
             _ => None,
         }
     }
@@ -186,6 +188,29 @@ impl Value {
     }
 }
 
+/// Whether the attributes `r` and `ref` of an element are places of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Places {
+    /// Its name is still being read.
+    Unknown,
+    Yes,
+    No,
+}
+
+impl Places {
+    /// Of an element whose name is that long and begins so. The reader of workbooks goes by the name
+    /// behind the prefix, in whatever file a sheet is said to be.
+    fn of(name: &[u8], length: usize) -> Self {
+        let local = name.rsplit(|byte| *byte == b':').next().unwrap_or_default();
+        match local {
+            b"c" | b"row" | b"f" | b"dimension" | b"mergeCell" => Self::Yes,
+            // A long prefix leaves no room for the name.
+            _ if length > name.len() => Self::Yes,
+            _ => Self::No,
+        }
+    }
+}
+
 /// Bytes of the longest name that is of interest.
 const WORD_BYTES: usize = b"uniqueCount".len();
 /// Digits of a number of strings that is believed.
@@ -204,6 +229,7 @@ impl Scan {
             attributes: 0,
             namespaces: 0,
             closing: false,
+            places: Places::No,
             last: 0,
             word: [0; WORD_BYTES],
             length: 0,
@@ -250,6 +276,8 @@ impl Scan {
         }
         self.closing = byte == b'/';
         (self.attributes, self.length, self.last) = (0, 0, byte);
+        self.places = Places::Unknown;
+        self.put(byte);
         if self.closing {
             self.depth = self.depth.saturating_sub(1);
             return Ok(());
@@ -281,30 +309,43 @@ impl Scan {
                 }
                 self.state = State::Text;
             }
-            byte if byte.is_ascii_whitespace() => {}
+            byte if byte.is_ascii_whitespace() => {
+                if self.places == Places::Unknown {
+                    self.places = Places::of(self.read_word(), self.length);
+                }
+            }
             byte => {
                 if self.last.is_ascii_whitespace() || matches!(self.last, b'"' | b'\'') {
                     self.length = 0;
                 }
-                if let Some(place) = self.word.get_mut(self.length) {
-                    *place = byte;
-                }
-                self.length += 1;
+                self.put(byte);
             }
         }
         self.last = byte;
         Ok(())
     }
 
+    /// One more byte of the word.
+    fn put(&mut self, byte: u8) {
+        if let Some(place) = self.word.get_mut(self.length) {
+            *place = byte;
+        }
+        self.length += 1;
+    }
+
+    /// The word so far, as much of it as is kept.
+    fn read_word(&self) -> &[u8] {
+        self.word.get(..self.length.min(WORD_BYTES)).unwrap_or_default()
+    }
+
     /// The `=` of an attribute.
     fn attribute(&mut self) -> Result<(), Refused> {
         self.attributes += 1;
         at_most(self.attributes, XML_ATTRIBUTES_MAX, "attributes of one element")?;
-        let word = self.word.get(..self.length.min(WORD_BYTES)).unwrap_or_default();
-        if word.starts_with(b"xmlns") {
-            self.namespaces += 1;
-        }
-        self.value = Value::of(word);
+        let word = self.read_word();
+        let is_namespace = word.starts_with(b"xmlns");
+        self.value = Value::of(word, self.places);
+        self.namespaces += usize::from(is_namespace);
         at_most(self.namespaces, XML_NAMESPACES_MAX, "namespaces")
     }
 }
@@ -328,7 +369,12 @@ mod tests {
         let text = "<?xml version='1.0'?><!-- > <x ' --><a b='>' c=\"/\"><d/><![CDATA[<e>]]]></a>";
         assert_eq!(scanned(text), Ok((2, 0)));
         assert_eq!(scanned("<a><b><c x='1'/>"), Ok((3, 2)));
-        assert_eq!(scanned("<c r='XFD1048576'/><d ref='A1:XFD1048576'/>"), Ok((2, 0)));
+        assert_eq!(scanned("<c r='XFD1048576'/><f ref='A1:XFD1048576'/>"), Ok((2, 0)));
+        // No sheet, or none that is read as one: what stands there is no place of a cell.
+        assert_eq!(
+            scanned("<a ref='B1:A1'/><author r='Somebody'/><cr r='A12345678901'/>"),
+            Ok((3, 0))
+        );
     }
 
     #[test]
@@ -348,7 +394,13 @@ mod tests {
                 other => panic!("{what}: {other:?}"),
             }
         }
-        for text in ["<!DOCTYPE a [<!ENTITY b 'c'>]>", "<a ref='B1:A2'/>", "<a ref='A2:B1'/>"] {
+        for text in [
+            "<!DOCTYPE a [<!ENTITY b 'c'>]>",
+            "<f ref='B1:A2'/>",
+            "<dimension\nref='A2:B1'/>",
+            "<x:row spans='1:2' r = 'A2:B1'>",
+            "<averylongprefix:mergeCell ref='A2:B1'/>",
+        ] {
             assert!(matches!(scanned(text), Err(Refused::Why(_))), "{text}");
         }
     }

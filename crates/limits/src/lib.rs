@@ -79,6 +79,8 @@ pub const INCLUDE_DEPTH_MAX: usize = 8;
 
 /// Lines of all files of an `hwdef`.
 pub const HWDEF_LINES_MAX: usize = 50_000;
+/// MCUs that all files of an `hwdef` name; a board has one, and a file that is included may name another.
+pub const HWDEF_MCUS_MAX: usize = 4;
 
 /// A budget as the documentation shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,4 +139,5 @@ limits! {
     INCLUDES_MAX: "files that an `hwdef.dat` includes", "E0808";
     INCLUDE_DEPTH_MAX: "files of `hwdef` that include each other in a chain", "E0808";
     HWDEF_LINES_MAX: "lines of all files of an `hwdef`", "E0807";
+    HWDEF_MCUS_MAX: "MCUs that all files of an `hwdef` name", "E0807";
 }

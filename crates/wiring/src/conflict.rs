@@ -24,7 +24,8 @@ pub struct NoWiring {
     pub links: Vec<BoardIndex>,
     /// Pins and other resources that they fight for.
     pub resources: Vec<Contested>,
-    /// The rules without which the devices could be wired; minimal like the devices.
+    /// The rules without which the devices could be wired. Minimal like the devices where at most
+    /// 256 are in force for them; of more, the others are in the list without having been tried.
     pub rules: Vec<Rule>,
     /// What would help; each was checked by solving.
     pub repairs: Vec<Repaired>,

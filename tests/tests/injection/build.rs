@@ -1,7 +1,7 @@
 //! Make and `CMake` in a folder whose name they would take for something else.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 
 use sensedsl_tests::{Scratch, has, text, tree};
 
@@ -68,6 +68,14 @@ fn make_takes_a_folder_of_any_name() {
     assert!(!is_owned(scratch.path()));
 }
 
+/// What `CMake` says of a host's folder in that output; it builds in a folder of the scratch.
+fn configured(output: &Path, host: &str, scratch: &Scratch) -> Output {
+    let mut command = Command::new("cmake");
+    command.arg("-S").arg(output.join("host").join(host));
+    command.arg("-B").arg(scratch.join(&format!("build-{host}")));
+    command.output().unwrap()
+}
+
 #[test]
 fn cmake_takes_a_folder_of_any_name_and_words_as_names() {
     if !has("cmake") || !has("g++") {
@@ -77,9 +85,7 @@ fn cmake_takes_a_folder_of_any_name_and_words_as_names() {
     let source = scratch.write("words.sense", words_design());
     let output = scratch.join(FOLDER_OF_CMAKE);
     let _ = generate(&source, &output);
-    let mut command = Command::new("cmake");
-    command.arg("-S").arg(output.join("host/cpp")).arg("-B").arg(scratch.join("build"));
-    let output = command.output().unwrap();
+    let output = configured(&output, "cpp", &scratch);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(!is_owned(scratch.path()));
 }
@@ -94,9 +100,7 @@ fn a_folder_that_cmake_cannot_take_is_told() {
     let output = scratch.join("a;b");
     let _ = generate(&source, &output);
     for host in ["cpp", "libcluon", "opendavinci", "opendavinci2014"] {
-        let mut command = Command::new("cmake");
-        command.arg("-S").arg(output.join("host").join(host)).arg("-B").arg(scratch.join(host));
-        let output = command.output().unwrap();
+        let output = configured(&output, host, &scratch);
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(!output.status.success() && said.contains("has a semicolon"), "{host}: {said}");
     }
@@ -116,10 +120,7 @@ fn a_file_of_any_name_is_a_design() {
         let source = scratch.write(&format!("{name}.sense"), words_design());
         let output = scratch.join("out");
         let _ = generate(&source, &output);
-        let build = scratch.join("build");
-        let mut command = Command::new("cmake");
-        command.arg("-S").arg(output.join("host/cpp")).arg("-B").arg(&build);
-        let output = command.output().unwrap();
+        let output = configured(&output, "cpp", &scratch);
         assert!(output.status.success(), "{name:?}: {}", String::from_utf8_lossy(&output.stderr));
         assert!(!is_owned(scratch.path()));
     }

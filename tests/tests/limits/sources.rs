@@ -30,6 +30,17 @@ fn hwdef_lines() {
 }
 
 #[test]
+fn hwdef_mcus() {
+    // Each name begins those of hundreds of parts, which are looked through for the pin's input.
+    let lines = ["", "F", "L", "H", "G", "U"];
+    let mcu = |at: usize| format!("MCU STM32 STM32{}XX\nPA0 X ADC1\n", lines[at]);
+    refuses("hwdef.dat", repeat(6, mcu), "E0807");
+    let folder = Scratch::new("limits");
+    folder.write("four.hwdef.dat", format!("{}PA1 UART4_RX UART4\n", repeat(4, mcu)));
+    expect(&folder, &["import", "four.hwdef.dat"], 0, "");
+}
+
+#[test]
 fn ioc_keys() {
     let keys = repeat(160_000, |at| format!("P{at}.Signal=GPIO_Input\nX{at}.Signal=A\n"));
     refuses("a.ioc", format!("Mcu.Name=STM32F407VGTx\n{keys}"), "E0807");

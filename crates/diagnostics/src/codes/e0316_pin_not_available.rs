@@ -9,9 +9,10 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0316",
     severity: Severity::Error,
     title: "a fixed pin is taken",
-    explanation: r#"The pin is reserved by a rule, carries an on-board part, or belongs to the link or to the debugger.
+    explanation: r#"The pin is reserved by a rule, carries an on-board part, belongs to the link, or is one that the MCU
+needs for itself: a pin of the debugger, the reset input, or a BOOT pin, which it reads at reset.
 
-Way out: choose another pin, or `release` it where the part is not needed.
+Way out: choose another pin, or `release` it where the part is not needed or the pin may be used.
 "#,
 };
 

@@ -12,8 +12,9 @@ pub const INFO: CodeInfo = CodeInfo {
     explanation: r#"The devices that the message names cannot all be connected, whatever pins are chosen, and the set is
 minimal: without any one of them the others can. The message lists the pins and resources they fight
 for; a resource is more than a pin: a whole timer, a bus, a DMA stream, an interrupt line. Marked with
-"because of this" are the rules without which it would work, a minimal set as well. Where time ran
-out before all that was known, the message says so.
+"because of this" are the rules without which it would work: a minimal set as well where up to 256
+rules apply to these devices; of more, those beyond are marked without having been tried. Where time
+ran out before all that was known, the message says so.
 
 Way out: one of the changes that the message proposes; each was tried by solving. Otherwise drop or
 move one of the devices, or use a kind that needs something else.
