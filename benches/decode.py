@@ -129,7 +129,7 @@ def build(folder):
     for compiler, source in [
         ("gcc -std=c99 -O2 -D_POSIX_C_SOURCE=199309L -DDECODERS_C_FRAMES=2", "tests/decoders/c.c"),
         ("gcc -std=c99 -O2 -D_POSIX_C_SOURCE=199309L", "tests/decoders/main.c"),
-        *(("gcc -std=c99 -O2", f"runtime/core/up_{name}.c") for name in ["decode", "encode", "schema"]),
+        *(("gcc -std=c99 -O2", f"runtime/core/up_{name}.c") for name in ["decode", "encode", "memo", "schema"]),
         ("g++ -std=c++98 -O2", "tests/decoders/cpp.cpp"),
     ]:
         objects.append(f"{folder}/{pathlib.Path(source).stem}.o")

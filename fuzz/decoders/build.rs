@@ -18,7 +18,10 @@ fn main() {
     let (core, cpp) = (root.join("runtime/core"), root.join("runtime/host/cpp"));
     let mut c = cc::Build::new();
     c.compiler("clang").file("src/decode.c").file(core.join("up_decode.c"));
-    c.file(core.join("up_encode.c")).file(core.join("up_schema.c")).include(&core).opt_level(2);
+    for name in ["up_encode.c", "up_memo.c", "up_schema.c"] {
+        c.file(core.join(name));
+    }
+    c.include(&core).opt_level(2);
     for flag in SANITIZERS {
         c.flag(flag);
     }

@@ -2,145 +2,15 @@
 
 #include <string.h>
 
-#include "up_encode.h"
+#include "up_memo.h"
 
 typedef enum { VERDICT_INVALID, VERDICT_INCOMPLETE, VERDICT_COMPLETE } verdict_t;
 
 #define HELLO_BYTES 5U
 #define HELLO_REQUEST_BYTES 1U
 #define CHECKSUM_BYTES 3U
-#define BLOCK_BYTES UP_DECODER_BLOCK_BYTES
-#define BLOCKS_MAX 0xFFFFU
-
-/* Of the stream up to where a block begins. */
-typedef struct {
-  uint16_t crc;   /* register, from a start of 0 somewhere before */
-  uint16_t bools; /* how many whole blocks before are bools without a gap */
-} sums_t;
-
-/* Of two registers as polynomials over GF(2), modulo the one of the CRC. */
-static uint16_t product(uint16_t left, uint16_t right) {
-  uint32_t result = 0U;
-  unsigned bit;
-
-  for (bit = 16U; bit > 0U; bit--) {
-    result = (result << 1) ^ (0x11021U & (0U - ((result >> 15) & 1U)));
-    result ^= left & (0U - (((uint32_t)right >> (bit - 1U)) & 1U));
-  }
-  return (uint16_t)result;
-}
-
-/* What `blocks` blocks of zeros multiply a register by. */
-static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
-  return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(uint16_t)];
-}
-
-static void init_sums(up_decoder_t *decoder, size_t frame_bytes) {
-  static const uint8_t zeros[BLOCK_BYTES];
-  const size_t blocks = UP_DECODER_BLOCKS(frame_bytes);
-  uint16_t power = 1U;
-  size_t i;
-
-  decoder->sums = &decoder->buffer[decoder->buffer_bytes];
-  decoder->ring_bytes = blocks * BLOCK_BYTES;
-  for (i = 0U; i < blocks; i++) {
-    memcpy(power_of(decoder, i), &power, sizeof power);
-    power = up_crc16(power, zeros, sizeof zeros);
-  }
-}
-
-static uint8_t *sums_at(const up_decoder_t *decoder, size_t place) {
-  size_t at = decoder->ring_at + place;
-
-  if (at >= decoder->ring_bytes) {
-    at -= decoder->ring_bytes;
-  }
-  return &decoder->sums[at / BLOCK_BYTES * sizeof(sums_t)];
-}
-
-static size_t count_bools(const uint8_t *bytes, size_t size) {
-  size_t i = 0U;
-
-  while (i < size && bytes[i] <= 1U) {
-    i++;
-  }
-  return i;
-}
-
-/* What overlaps with a candidate that failed is in blocks: where the first whole one of the window starts and the
- * last one ends. False when there is none; otherwise there are sums up to the last. */
-static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to, size_t *first,
-                      size_t *last) {
-  sums_t sums = {0U, 0U};
-
-  *first = from + (0U - (decoder->ring_at + from)) % BLOCK_BYTES;
-  *last = to - (decoder->ring_at + to) % BLOCK_BYTES;
-  if (decoder->spent == 0U || to < *first + BLOCK_BYTES) {
-    return false;
-  }
-  if (decoder->summed == 0U) {
-    decoder->summed = BLOCK_BYTES - decoder->ring_at % BLOCK_BYTES;
-    memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
-  }
-  memcpy(&sums, sums_at(decoder, decoder->summed), sizeof sums);
-  while (decoder->summed < *last) {
-    const uint8_t *block = &bytes[decoder->summed];
-    const bool are_bools = count_bools(block, BLOCK_BYTES) == BLOCK_BYTES;
-    sums.crc = up_crc16(sums.crc, block, BLOCK_BYTES);
-    sums.bools = are_bools ? (uint16_t)(sums.bools + (sums.bools < BLOCKS_MAX)) : 0U;
-    decoder->summed += BLOCK_BYTES;
-    memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
-  }
-  return true;
-}
-
-/* A CRC is linear: what stood before a block shifts through it. */
-static uint16_t crc_of(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
-  uint16_t crc = UP_CRC16_INIT;
-  size_t first, last;
-
-  if (in_blocks(decoder, bytes, from, to, &first, &last)) {
-    sums_t before, sums;
-    uint16_t power;
-    memcpy(&before, sums_at(decoder, first), sizeof before);
-    memcpy(&sums, sums_at(decoder, last), sizeof sums);
-    memcpy(&power, power_of(decoder, (last - first) / BLOCK_BYTES), sizeof power);
-    crc = up_crc16(crc, &bytes[from], first - from);
-    crc = (uint16_t)(sums.crc ^ product((uint16_t)(crc ^ before.crc), power));
-    from = last;
-  }
-  return up_crc16(crc, &bytes[from], to - from);
-}
-
-static bool all_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
-  size_t first, last;
-
-  if (in_blocks(decoder, bytes, from, to, &first, &last)) {
-    sums_t sums;
-    memcpy(&sums, sums_at(decoder, last), sizeof sums);
-    if (sums.bools < (last - first) / BLOCK_BYTES ||
-        count_bools(&bytes[from], first - from) < first - from) {
-      return false;
-    }
-    from = last;
-  }
-  return count_bools(&bytes[from], to - from) == to - from;
-}
-
-/* The candidate starts so many bytes further on in the stream. */
-static void advance(up_decoder_t *decoder, size_t bytes) {
-  if (decoder->spent <= bytes) {
-    decoder->spent = 0U;
-    decoder->summed = 0U;
-    return;
-  }
-  decoder->spent -= bytes;
-  decoder->summed = (decoder->summed > bytes) ? decoder->summed - bytes : 0U;
-  decoder->ring_at += bytes;
-  if (decoder->ring_at >= decoder->ring_bytes) {
-    decoder->ring_at %= decoder->ring_bytes;
-  }
-}
+/* The way of a candidate that takes fewer is not kept. */
+#define STEPS_MIN 16U
 
 static void restart(up_decoder_t *decoder) {
   decoder->payload_start = 0U;
@@ -164,11 +34,14 @@ bool up_decoder_init(up_decoder_t *decoder, const up_schema_t *schema, up_direct
   if (fits) {
     decoder->payload_bytes_max = up_payload_bytes_max(schema, direction);
     decoder->buffer_bytes = buffer_bytes - (UP_DECODER_BYTES(frame_bytes) - frame_bytes);
-    init_sums(decoder, frame_bytes);
+    up_memo_init(decoder, frame_bytes);
   }
   for (i = 0U; i < schema->fields_count; i++) {
     if (schema->fields[i].direction == (uint8_t)direction) {
       decoder->field_of[schema->fields[i].id] = (uint8_t)(i + 1U);
+#if UP_DECODER_SIZES
+      decoder->bytes_of[schema->fields[i].id] = (uint16_t)up_field_bytes(&schema->fields[i]);
+#endif
     }
   }
   return fits;
@@ -193,6 +66,11 @@ static verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, size_t
       decoder->values_end = i + 1U + length - decoder->checksum_bytes;
       decoder->frame_bytes = i + 1U + length + 1U;
       memset(decoder->seen, 0, sizeof decoder->seen);
+#if UP_DECODER_WALKS > 0U
+      decoder->steps = 0U;
+      decoder->joined = false;
+      decoder->alone = false;
+#endif
       return VERDICT_COMPLETE;
     }
     length = length * 10U + (size_t)(bytes[i] - (uint8_t)'0');
@@ -214,20 +92,64 @@ static const up_field_t *field_of(const up_decoder_t *decoder, uint8_t id) {
   return (decoder->field_of[id] == 0U) ? NULL : &decoder->schema->fields[decoder->field_of[id] - 1U];
 }
 
-/* The elements of the value before `end`, as many as are there. */
-static verdict_t look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t end) {
-  const size_t value = decoder->at + 1U;
+size_t up_decoder_value_bytes(const up_decoder_t *decoder, uint8_t id) {
+#if UP_DECODER_SIZES
+  return decoder->bytes_of[id];
+#else
+  return (decoder->field_of[id] == 0U) ? 0U : up_field_bytes(field_of(decoder, id));
+#endif
+}
+
+/* The elements of the value [value, end), as many as are there. */
+static verdict_t look_at_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t value, size_t end) {
   const size_t from = (decoder->looked_at > value) ? decoder->looked_at : value;
   const size_t to = (end < size) ? end : size;
 
   if (from < to) {
     decoder->looked_at = to;
-    if (!all_bools(decoder, bytes, from, to)) {
+    if (!up_memo_bools(decoder, bytes, from, to)) {
       return VERDICT_INVALID;
     }
   }
   return (to < end) ? VERDICT_INCOMPLETE : VERDICT_COMPLETE;
 }
+
+#if UP_DECODER_WALKS > 0U
+/* To the end of the values by a walk of others, which goes on where it has not come so far. */
+static verdict_t join(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t size) {
+  up_step_t leap;
+
+  decoder->joined = true;
+  while (walk->head < decoder->values_end) {
+    const up_field_t *field;
+    size_t end;
+
+    if (walk->head >= size) {
+      return VERDICT_INCOMPLETE;
+    }
+    field = field_of(decoder, bytes[walk->head]);
+    end = walk->head + 1U + up_decoder_value_bytes(decoder, bytes[walk->head]);
+    if (field == NULL || end > decoder->values_end) {
+      return VERDICT_INVALID;
+    }
+    if (field->type == UP_TYPE_BOOL) {
+      const verdict_t verdict = look_at_bools(decoder, bytes, size, walk->head + 1U, end);
+      if (verdict != VERDICT_COMPLETE) {
+        return verdict;
+      }
+    }
+    if (up_memo_step(decoder, walk, bytes, end) != UP_STEP_TAKEN) {
+      return VERDICT_INVALID;
+    }
+  }
+  leap = up_memo_leap(decoder, walk, bytes);
+  if (leap == UP_STEP_TAKEN) {
+    decoder->at = decoder->values_end;
+  }
+  decoder->alone = leap == UP_STEP_UNKNOWN;
+  return (leap == UP_STEP_TAKEN || decoder->alone) ? VERDICT_COMPLETE : VERDICT_INVALID;
+}
+#endif
 
 /* From identifier to identifier up to the end of the values. */
 static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
@@ -237,6 +159,18 @@ static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) 
     size_t end;
     uint8_t id;
 
+#if UP_DECODER_WALKS > 0U
+    if (decoder->has_walks && !decoder->alone) {
+      up_walk_t *known = up_memo_walk(decoder, decoder->at);
+      if (known != NULL) {
+        const verdict_t verdict = join(decoder, known, bytes, size);
+        if (verdict != VERDICT_COMPLETE) {
+          return verdict;
+        }
+        continue;
+      }
+    }
+#endif
     if (decoder->at >= size) {
       return VERDICT_INCOMPLETE;
     }
@@ -254,18 +188,21 @@ static verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t size) 
     if (field == NULL || (*seen & bit) != 0U) {
       return VERDICT_INVALID;
     }
-    end = decoder->at + 1U + up_field_bytes(field);
+    end = decoder->at + 1U + up_decoder_value_bytes(decoder, id);
     if (end > decoder->values_end) {
       return VERDICT_INVALID;
     }
     if (field->type == UP_TYPE_BOOL) {
-      const verdict_t verdict = look_at_bools(decoder, bytes, size, end);
+      const verdict_t verdict = look_at_bools(decoder, bytes, size, decoder->at + 1U, end);
       if (verdict != VERDICT_COMPLETE) {
         return verdict;
       }
     }
     *seen |= bit;
     decoder->at = end;
+#if UP_DECODER_WALKS > 0U
+    decoder->steps++;
+#endif
   }
   return VERDICT_COMPLETE;
 }
@@ -280,7 +217,7 @@ static verdict_t compare_checksum(up_decoder_t *decoder, const uint8_t *bytes, s
   if (size < end + CHECKSUM_BYTES) {
     return VERDICT_INCOMPLETE;
   }
-  crc = crc_of(decoder, bytes, decoder->payload_start, end);
+  crc = up_memo_crc(decoder, bytes, decoder->payload_start, end);
   decoder->checksum_right = bytes[end + 1U] == (uint8_t)(crc >> 8) && bytes[end + 2U] == (uint8_t)crc;
   /* Values that have not been walked through may still hold what is not a bool. */
   if (!decoder->checksum_right || decoder->at == end) {
@@ -355,6 +292,15 @@ static void deliver(const up_decoder_t *decoder, const uint8_t *frame) {
   }
 }
 
+/* Anything of candidates that failed. */
+static bool has_memory(const up_decoder_t *decoder) {
+#if UP_DECODER_WALKS > 0U
+  return decoder->spent != 0U || decoder->has_walks;
+#else
+  return decoder->spent != 0U;
+#endif
+}
+
 /* Looks for frames that start at `at` or behind it and before `limit`. Returns where the candidate starts that
  * lacks bytes, or where to go on. */
 static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size_t at, size_t limit) {
@@ -377,8 +323,15 @@ static size_t run(up_decoder_t *decoder, const uint8_t *bytes, size_t size, size
       if (decoder->looked_at > decoder->spent) {
         decoder->spent = decoder->looked_at;
       }
+#if UP_DECODER_WALKS > 0U
+      if (decoder->payload_start != 0U && decoder->steps >= STEPS_MIN) {
+        up_memo_keep(decoder, &bytes[from]);
+      }
+#endif
     }
-    advance(decoder, at - from);
+    if (has_memory(decoder)) {
+      up_memo_advance(decoder, &bytes[from], at - from);
+    }
     restart(decoder);
   }
   return at;

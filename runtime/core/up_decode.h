@@ -9,20 +9,32 @@
  * candidate starts at a digit, and it costs at most one step for each field of the schema, because no identifier
  * stands twice in a payload and values are stepped over; its comma is looked at before that. Where a candidate
  * failed whose checksum or arrays of bools had been gone through, sums over blocks of the stream are kept, so that
- * the others that overlap with it cost no more than the bytes of three blocks.
+ * the others that overlap with it cost no more than the bytes of three blocks. Where one failed behind many
+ * identifiers, its walk is kept, so that those that come upon it cost a few steps.
  *
- * Memory: one buffer for a frame and the sums over it. With another frame's room a byte is moved once on average,
- * however often candidates fail; without it the rest of a frame moves whenever one fails.
+ * Memory: one buffer for a frame and the sums and walks over it. With another frame's room a byte is moved once on
+ * average, however often candidates fail; without it the rest of a frame moves whenever one fails.
  */
 #ifndef UP_DECODE_H
 #define UP_DECODE_H
 
 #include "up_schema.h"
 
+/* How many walks from identifier to identifier are kept, 0 to 255: each takes an eighth of a frame and 44 bytes (on
+ * a machine of 32 bits). With 0 a candidate costs a step for each identifier. */
+#ifndef UP_DECODER_WALKS
+#define UP_DECODER_WALKS 1U
+#endif
+
+/* 1 for a table of sizes by identifier, 512 bytes, that makes a step quicker. */
+#ifndef UP_DECODER_SIZES
+#define UP_DECODER_SIZES 0
+#endif
+
 /* The buffer of a decoder whose longest frame is of so many bytes. Sums take 6 bytes for a block of 32. */
 #define UP_DECODER_BLOCK_BYTES 32U
 #define UP_DECODER_BLOCKS(frame_bytes) ((frame_bytes) / UP_DECODER_BLOCK_BYTES + 1U)
-#define UP_DECODER_BYTES(frame_bytes) ((frame_bytes) + 6U * UP_DECODER_BLOCKS(frame_bytes))
+#define UP_DECODER_BYTES(frame_bytes) ((frame_bytes) + (6U + 4U * UP_DECODER_WALKS) * UP_DECODER_BLOCKS(frame_bytes))
 
 /* What a delivered frame says; each callback may be NULL. The values of one frame come in the order of its
  * payload, then on_frame closes them. A frame that is not valid to its last byte delivers nothing. */
@@ -33,6 +45,15 @@ typedef struct {
   void (*on_hello)(void *context, uint32_t hash);
   void *context;
 } up_sink_t;
+
+/* Identifiers from place to place of the stream, none of them twice; places are counted from the candidate's first
+ * byte. */
+typedef struct {
+  size_t tail;
+  size_t head; /* behind the value of the last one; 0 for no walk */
+  uint32_t ids[UP_FIELD_BITMAP_BYTES / 4U];
+  uint8_t *places; /* a bit for each byte of the stream, in a ring: an identifier of the walk stands there */
+} up_walk_t;
 
 typedef struct {
   const up_schema_t *schema;
@@ -57,6 +78,17 @@ typedef struct {
   size_t ring_at;    /* where in the ring the candidate starts */
   size_t summed;     /* up to here there are sums; 0 for none */
   size_t spent;      /* up to here a candidate that failed was gone through; 0 for none */
+#if UP_DECODER_WALKS > 0U
+  up_walk_t walks[UP_DECODER_WALKS];
+  uint8_t walks_put; /* which one the next takes the place of */
+  bool has_walks;    /* one at least */
+  uint8_t steps;     /* from identifier to identifier that the candidate has taken by itself */
+  bool joined;       /* the candidate has come upon a walk */
+  bool alone;        /* and goes on without it */
+#endif
+#if UP_DECODER_SIZES
+  uint16_t bytes_of[256]; /* by identifier, of its value; 0 for an unknown one */
+#endif
   uint8_t direction; /* up_direction_t */
   uint8_t field_of[256]; /* by identifier: 1 + index of the field; 0 for none */
   uint32_t frames;

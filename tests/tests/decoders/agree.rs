@@ -63,10 +63,22 @@ fn c_and_cpp_say_what_the_definition_says() {
     if !tools(&["gcc", "g++"]) {
         return;
     }
-    // The buffer of the decoder in C is one frame here: the least it works with.
+    for (folder, more) in BUILDS.iter().take(if is_thorough() { BUILDS.len() } else { 1 }) {
+        c_and_cpp_agree(folder, more);
+    }
+}
+
+/// What can be chosen of the decoder in C, as it comes first. Its buffer is one frame here: the
+/// least it works with.
+const BUILDS: [(&str, &[&str]); 3] = [
+    ("agree", &["-DDECODERS_C_FRAMES=1"]),
+    ("agree-more", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=3U", "-DUP_DECODER_SIZES=1"]),
+    ("agree-none", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=0U"]),
+];
+
+fn c_and_cpp_agree(folder: &str, more: &[&str]) {
     let flags = ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
-    let flags = [&flags[..], &["-DDECODERS_C_FRAMES=1"]].concat();
-    let mut program = Program::build(&scratch("agree"), &flags);
+    let mut program = Program::build(&scratch(folder), &[&flags, more].concat());
     cases(2, rounds(if is_thorough() { 25 } else { 12 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let schema_bytes = schema_bytes(schema, direction);
@@ -159,6 +171,50 @@ fn leaps_excuse_no_repeat() {
         streams.push(good);
         all_agree(folder, &schema, &streams);
     }
+}
+
+/// The identifiers of two ways through the same bytes: one byte and its value, and one byte behind.
+const WAYS: (std::ops::Range<u8>, std::ops::Range<u8>) = (150..168, 170..187);
+
+fn schema_of_ways() -> Schema {
+    // The values of `a` and `b` end where the ways start.
+    let mut items = vec![(b'a', ScalarType::Uint8, 8), (b'b', ScalarType::Uint8, 5)];
+    let others = WAYS.0.chain(WAYS.1).chain([b',', b'f', 200]);
+    items.extend(others.map(|id| (id, ScalarType::Uint8, 1)));
+    schema(Checksum::None, &items)
+}
+
+#[test]
+fn one_walk_does_not_stand_for_another() {
+    let schema = schema_of_ways();
+    // `a` goes the first way and `b` the second, each until its length ends within an item; `f` is a
+    // frame that goes on by the second, to an identifier of the first.
+    let mut bytes: Vec<u8> = WAYS.0.zip(WAYS.1.chain(*b",")).flat_map(<[u8; 2]>::from).collect();
+    assert_eq!(bytes.pop(), Some(b','), "{bytes:?}");
+    let ends_a = bytes.len();
+    bytes.extend([b',', 0, 200, b',']);
+    let ends_b = bytes.len() - 1;
+    bytes.extend([150, 0, b',']);
+    let [a, b, f] = [("a", 1 + 8, ends_a), ("b", 1 + 4, ends_b), ("f", 1, bytes.len() - 1)]
+        .map(|(id, head, end)| format!("{}:{id}", head + end).into_bytes());
+    let stream = [a, b, f, bytes].concat();
+    assert!(naive::decode(&schema, Direction::Sensor, &stream).contains(&b'R'));
+    all_agree("walks", &schema, &[stream]);
+}
+
+#[test]
+fn what_stands_behind_a_frame_is_not_in_it() {
+    // Behind the frame of `f` the way of `a` goes on, by the comma and another `f`, to nothing.
+    let schema = schema_of_ways();
+    let items: Vec<u8> = WAYS.0.flat_map(|id| [id, 0]).collect();
+    let inner = frame(&schema, &[b"f\0", &items[..]].concat());
+    let (head, way) = inner.split_at(inner.iter().position(|&byte| byte == b'f').unwrap() + 2);
+    // The value of `a` is what stands before the way.
+    let mut value = vec![7; 8 - head.len()];
+    value.extend(head);
+    let outer = frame(&schema, &[b"a", &value[..], way, b"\0f\0\x03\0"].concat());
+    assert!(naive::decode(&schema, Direction::Sensor, &outer).contains(&b'R'));
+    all_agree("behind", &schema, &[outer]);
 }
 
 /// Nanoseconds a byte where a candidate starts every few bytes, stays right up to the last one and

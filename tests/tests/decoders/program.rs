@@ -97,6 +97,7 @@ impl Program {
             ("gcc", "-std=c99", "tests/decoders/main.c"),
             ("gcc", "-std=c99", "runtime/core/up_decode.c"),
             ("gcc", "-std=c99", "runtime/core/up_encode.c"),
+            ("gcc", "-std=c99", "runtime/core/up_memo.c"),
             ("gcc", "-std=c99", "runtime/core/up_schema.c"),
             ("g++", "-std=c++98", "tests/decoders/cpp.cpp"),
         ] {

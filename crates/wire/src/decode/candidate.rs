@@ -163,8 +163,13 @@ impl Candidate {
         let mut is_behind_leap = false;
         while self.at < self.values_end {
             let from = self.at;
-            let leap = leaps.at(past.place + from as u64);
-            if let Some(leap) = leap.filter(|leap| from + leap.bytes() <= self.values_end) {
+            let mut leap = leaps.at(past.place + from as u64);
+            if let Some(longer) = leap.take_if(|leap| from + leap.bytes() > self.values_end)
+                && longer.misses(self.values_end - from)
+            {
+                return Verdict::Invalid;
+            }
+            if let Some(leap) = leap {
                 self.at += leap.bytes();
                 if !leap.see(&mut self.seen) {
                     return Verdict::Invalid;

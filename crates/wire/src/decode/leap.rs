@@ -23,6 +23,8 @@ pub(super) struct Leap {
     bytes: u32,
     steps: u32,
     ids: Ids,
+    /// Bit k: an identifier of it stands k bytes behind its place.
+    stands: u64,
 }
 
 impl Leap {
@@ -42,9 +44,16 @@ impl Leap {
         if let Some(word) = self.ids.get_mut(usize::from(id / 64)) {
             *word |= 1 << (id % 64);
         }
+        self.stands |= 1_u64.checked_shl(self.bytes).unwrap_or_default();
         self.bytes += bytes as u32;
         self.steps += 1;
         self.steps == STEPS
+    }
+
+    /// Whether it is known that an item reaches past `bytes` bytes, fewer than it has.
+    #[inline]
+    pub(super) fn misses(&self, bytes: usize) -> bool {
+        bytes < 64 && self.stands >> bytes & 1 == 0
     }
 
     /// Adds its identifiers to `seen`. False when one of them is there already.

@@ -240,7 +240,11 @@ private:
         while (candidate_.at < candidate_.values_end) {
             const size_t from = candidate_.at;
             const Leap *const leap = leaps_.at(place_ + from);
-            if (leap != NULL && from + leap->bytes <= candidate_.values_end) {
+            const bool fits = leap != NULL && from + leap->bytes <= candidate_.values_end;
+            if (leap != NULL && !fits && leap->misses(candidate_.values_end - from)) {
+                return invalid;
+            }
+            if (fits) {
                 candidate_.at += leap->bytes;
                 if (!candidate_.seen.add_all(leap->ids)) {
                     return invalid;

@@ -122,18 +122,23 @@ struct Ids {
 
 /// Several steps from identifier to identifier taken as one.
 struct Leap {
-    explicit Leap(uint64_t from = 0) : ids(), place(from), bytes(0), steps(0) {}
+    explicit Leap(uint64_t from = 0) : ids(), place(from), stands(0), bytes(0), steps(0) {}
     /// One step more. True when that is as far as a leap goes.
     bool add(uint8_t id, size_t step_bytes) {
         ids.add(id);
+        stands |= bytes < 64 ? uint64_t(1) << bytes : 0;
         bytes += static_cast<uint32_t>(step_bytes);
         // A candidate makes fewer steps than these before it meets a leap, and fewer behind the
         // last one; in between it leaps, in 254 steps as often as this is contained in them.
         return ++steps == 16;
     }
+    /// Whether it is known that an item reaches past `count` bytes, fewer than it has.
+    bool misses(size_t count) const { return count < 64 && ((stands >> count) & 1U) == 0; }
     Ids ids;
     /// Of the identifier it starts at.
     uint64_t place;
+    /// Bit k: an identifier of it stands k bytes behind its place.
+    uint64_t stands;
     uint32_t bytes;
     uint32_t steps;
 };

@@ -12,6 +12,8 @@ pub(super) const FILES: &[(&str, &str)] = &[
     ("core/up_encode.h", include_str!("../../../../../runtime/core/up_encode.h")),
     ("core/up_i2c.c", include_str!("../../../../../runtime/core/up_i2c.c")),
     ("core/up_i2c.h", include_str!("../../../../../runtime/core/up_i2c.h")),
+    ("core/up_memo.c", include_str!("../../../../../runtime/core/up_memo.c")),
+    ("core/up_memo.h", include_str!("../../../../../runtime/core/up_memo.h")),
     ("core/up_report.c", include_str!("../../../../../runtime/core/up_report.c")),
     ("core/up_report.h", include_str!("../../../../../runtime/core/up_report.h")),
     ("core/up_schema.c", include_str!("../../../../../runtime/core/up_schema.c")),

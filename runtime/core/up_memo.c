@@ -1,0 +1,287 @@
+#include "up_memo.h"
+
+#include <string.h>
+
+#include "up_encode.h"
+
+#define BLOCK_BYTES UP_DECODER_BLOCK_BYTES
+#define BLOCKS_MAX 0xFFFFU
+
+/* Of the stream up to where a block begins. */
+typedef struct {
+  uint16_t crc;   /* register, from a start of 0 somewhere before */
+  uint16_t bools; /* how many whole blocks before are bools without a gap */
+} sums_t;
+
+/* Of two registers as polynomials over GF(2), modulo the one of the CRC. */
+static uint16_t product(uint16_t left, uint16_t right) {
+  uint32_t result = 0U;
+  unsigned bit;
+
+  for (bit = 16U; bit > 0U; bit--) {
+    result = (result << 1) ^ (0x11021U & (0U - ((result >> 15) & 1U)));
+    result ^= left & (0U - (((uint32_t)right >> (bit - 1U)) & 1U));
+  }
+  return (uint16_t)result;
+}
+
+/* What `blocks` blocks of zeros multiply a register by. */
+static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
+  return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(uint16_t)];
+}
+
+void up_memo_init(up_decoder_t *decoder, size_t frame_bytes) {
+  static const uint8_t zeros[BLOCK_BYTES];
+  const size_t blocks = UP_DECODER_BLOCKS(frame_bytes);
+  uint16_t power = 1U;
+  size_t i;
+
+  decoder->sums = &decoder->buffer[decoder->buffer_bytes];
+  decoder->ring_bytes = blocks * BLOCK_BYTES;
+  for (i = 0U; i < blocks; i++) {
+    memcpy(power_of(decoder, i), &power, sizeof power);
+    power = up_crc16(power, zeros, sizeof zeros);
+  }
+#if UP_DECODER_WALKS > 0U
+  for (i = 0U; i < UP_DECODER_WALKS; i++) {
+    decoder->walks[i].places = power_of(decoder, blocks) + i * (decoder->ring_bytes / 8U);
+  }
+#endif
+}
+
+static uint8_t *sums_at(const up_decoder_t *decoder, size_t place) {
+  size_t at = decoder->ring_at + place;
+
+  if (at >= decoder->ring_bytes) {
+    at -= decoder->ring_bytes;
+  }
+  return &decoder->sums[at / BLOCK_BYTES * sizeof(sums_t)];
+}
+
+static size_t count_bools(const uint8_t *bytes, size_t size) {
+  size_t i = 0U;
+
+  while (i < size && bytes[i] <= 1U) {
+    i++;
+  }
+  return i;
+}
+
+/* What overlaps with a candidate that failed is in blocks: where the first whole one of the window starts and the
+ * last one ends. False when there is none; otherwise there are sums up to the last. */
+static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to, size_t *first,
+                      size_t *last) {
+  sums_t sums = {0U, 0U};
+
+  *first = from + (0U - (decoder->ring_at + from)) % BLOCK_BYTES;
+  *last = to - (decoder->ring_at + to) % BLOCK_BYTES;
+  if (decoder->spent == 0U || to < *first + BLOCK_BYTES) {
+    return false;
+  }
+  if (decoder->summed == 0U) {
+    decoder->summed = BLOCK_BYTES - decoder->ring_at % BLOCK_BYTES;
+    memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
+  }
+  memcpy(&sums, sums_at(decoder, decoder->summed), sizeof sums);
+  while (decoder->summed < *last) {
+    const uint8_t *block = &bytes[decoder->summed];
+    const bool are_bools = count_bools(block, BLOCK_BYTES) == BLOCK_BYTES;
+    sums.crc = up_crc16(sums.crc, block, BLOCK_BYTES);
+    sums.bools = are_bools ? (uint16_t)(sums.bools + (sums.bools < BLOCKS_MAX)) : 0U;
+    decoder->summed += BLOCK_BYTES;
+    memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
+  }
+  return true;
+}
+
+/* A CRC is linear: what stood before a block shifts through it. */
+uint16_t up_memo_crc(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
+  uint16_t crc = UP_CRC16_INIT;
+  size_t first, last;
+
+  if (in_blocks(decoder, bytes, from, to, &first, &last)) {
+    sums_t before, sums;
+    uint16_t power;
+    memcpy(&before, sums_at(decoder, first), sizeof before);
+    memcpy(&sums, sums_at(decoder, last), sizeof sums);
+    memcpy(&power, power_of(decoder, (last - first) / BLOCK_BYTES), sizeof power);
+    crc = up_crc16(crc, &bytes[from], first - from);
+    crc = (uint16_t)(sums.crc ^ product((uint16_t)(crc ^ before.crc), power));
+    from = last;
+  }
+  return up_crc16(crc, &bytes[from], to - from);
+}
+
+bool up_memo_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
+  size_t first, last;
+
+  if (in_blocks(decoder, bytes, from, to, &first, &last)) {
+    sums_t sums;
+    memcpy(&sums, sums_at(decoder, last), sizeof sums);
+    if (sums.bools < (last - first) / BLOCK_BYTES ||
+        count_bools(&bytes[from], first - from) < first - from) {
+      return false;
+    }
+    from = last;
+  }
+  return count_bools(&bytes[from], to - from) == to - from;
+}
+
+#if UP_DECODER_WALKS > 0U
+
+static bool has_id(const uint32_t *ids, uint8_t id) {
+  return ((ids[id / 32U] >> (id % 32U)) & 1U) != 0U;
+}
+
+static bool have_common(const uint32_t *ids, const uint32_t *others) {
+  uint32_t common = 0U;
+  size_t i;
+
+  for (i = 0U; i < UP_FIELD_BITMAP_BYTES / 4U; i++) {
+    common |= ids[i] & others[i];
+  }
+  return common != 0U;
+}
+
+/* The bit of a place, in the byte that comes back. */
+static uint8_t *place_at(const up_decoder_t *decoder, const up_walk_t *walk, size_t place, uint8_t *bit) {
+  size_t at = decoder->ring_at + place;
+
+  if (at >= decoder->ring_bytes) {
+    at -= decoder->ring_bytes;
+  }
+  *bit = (uint8_t)(1U << (at % 8U));
+  return &walk->places[at / 8U];
+}
+
+static bool has_place(const up_decoder_t *decoder, const up_walk_t *walk, size_t place) {
+  uint8_t bit;
+
+  return (*place_at(decoder, walk, place, &bit) & bit) != 0U;
+}
+
+/* The identifier that it ends with, and where the next one stands. */
+static void lengthen(const up_decoder_t *decoder, up_walk_t *walk, uint8_t id, size_t next) {
+  uint8_t bit;
+
+  *place_at(decoder, walk, walk->head, &bit) |= bit;
+  walk->ids[id / 32U] |= (uint32_t)1U << (id % 32U);
+  walk->head = next;
+}
+
+/* Without the identifier that it starts with. */
+static void shorten(const up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
+  const uint8_t id = bytes[walk->tail];
+  uint8_t bit, *byte = place_at(decoder, walk, walk->tail, &bit);
+
+  *byte = (uint8_t)(*byte & ~bit);
+  walk->ids[id / 32U] &= ~((uint32_t)1U << (id % 32U));
+  walk->tail += 1U + up_decoder_value_bytes(decoder, id);
+}
+
+up_walk_t *up_memo_walk(up_decoder_t *decoder, size_t place) {
+  size_t i;
+
+  for (i = 0U; i < UP_DECODER_WALKS; i++) {
+    if (decoder->walks[i].head != 0U && has_place(decoder, &decoder->walks[i], place)) {
+      return &decoder->walks[i];
+    }
+  }
+  return NULL;
+}
+
+up_step_t up_memo_step(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t next) {
+  const uint8_t id = bytes[walk->head];
+
+  while (has_id(walk->ids, id)) {
+    if (walk->tail == decoder->at) {
+      return UP_STEP_REPEATS;
+    }
+    shorten(decoder, walk, bytes);
+  }
+  lengthen(decoder, walk, id, next);
+  return UP_STEP_TAKEN;
+}
+
+up_step_t up_memo_leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
+  const size_t end = decoder->values_end;
+
+  if (end != walk->head && !has_place(decoder, walk, end)) {
+    return UP_STEP_MISSES;
+  }
+  if (have_common(decoder->seen, walk->ids)) {
+    /* Some may stand before the candidate comes upon the walk, or behind its end. */
+    while (walk->tail < decoder->at) {
+      shorten(decoder, walk, bytes);
+    }
+    if (have_common(decoder->seen, walk->ids)) {
+      return (end == walk->head) ? UP_STEP_REPEATS : UP_STEP_UNKNOWN;
+    }
+  }
+  return UP_STEP_TAKEN;
+}
+
+void up_memo_keep(up_decoder_t *decoder, const uint8_t *bytes) {
+  up_walk_t *walk = &decoder->walks[decoder->walks_put];
+
+  if (decoder->joined) {
+    return;
+  }
+  decoder->has_walks = true;
+  decoder->walks_put = (uint8_t)((decoder->walks_put + 1U) % UP_DECODER_WALKS);
+  memset(walk->places, 0, decoder->ring_bytes / 8U);
+  memset(walk->ids, 0, sizeof walk->ids);
+  walk->tail = decoder->payload_start;
+  walk->head = walk->tail;
+  while (walk->head < decoder->at) {
+    const uint8_t id = bytes[walk->head];
+    lengthen(decoder, walk, id, walk->head + 1U + up_decoder_value_bytes(decoder, id));
+  }
+}
+
+/* The walks without what stands before the new candidate. True when one of them is left. */
+static bool advance_walks(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
+  bool any = false;
+  size_t i;
+
+  for (i = 0U; i < UP_DECODER_WALKS; i++) {
+    up_walk_t *walk = &decoder->walks[i];
+    if (walk->head == 0U) {
+      continue;
+    }
+    while (walk->tail < skipped && walk->tail < walk->head) {
+      shorten(decoder, walk, bytes);
+    }
+    if (walk->tail >= walk->head) {
+      walk->head = 0U;
+      continue;
+    }
+    walk->tail -= skipped;
+    walk->head -= skipped;
+    any = true;
+  }
+  return any;
+}
+
+#endif
+
+void up_memo_advance(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
+  bool moves = decoder->spent > skipped;
+
+  decoder->spent = moves ? decoder->spent - skipped : 0U;
+  decoder->summed = (moves && decoder->summed > skipped) ? decoder->summed - skipped : 0U;
+#if UP_DECODER_WALKS > 0U
+  if (decoder->has_walks) {
+    decoder->has_walks = advance_walks(decoder, bytes, skipped);
+    moves = moves || decoder->has_walks;
+  }
+#else
+  (void)bytes;
+#endif
+  if (moves) {
+    decoder->ring_at += skipped;
+    if (decoder->ring_at >= decoder->ring_bytes) {
+      decoder->ring_at %= decoder->ring_bytes;
+    }
+  }
+}
