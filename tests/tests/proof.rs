@@ -1,7 +1,8 @@
 //! What `solve --proof` writes, `sensedsl-verify` accepts; what was changed, it refuses.
 
+use std::io::Write as _;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use sensedsl_tests::{Scratch, design, read, sensedsl, verifier};
 
@@ -131,5 +132,20 @@ fn without_a_proof_there_is_an_answer_or_a_word() {
         let ran = more.iter().fold(call, |call, argument| call.arg(argument)).run();
         assert_eq!((ran.status, path.exists()), (2, false), "{more:?}");
     }
-    assert_eq!(sensedsl(["solve", "examples/fig2.sense", "--proof", "-"]).run().status, 2);
+}
+
+#[test]
+fn a_certificate_is_the_result_where_it_goes_to_the_standard_output() {
+    let scratch = Scratch::new("proof-stdout");
+    let path = scratch.join("fig2.json");
+    let to_file = sensedsl(["solve", "examples/fig2.sense", "--proof"]).arg(&path).run();
+    let ran = sensedsl(["solve", "examples/fig2.sense", "--proof", "-"]).run();
+    assert_eq!((to_file.status, ran.status), (0, 0), "{}", ran.stderr);
+    assert_eq!(ran.stdout, read(&path));
+    assert!(!std::path::Path::new("-").exists());
+    let mut verify = Command::new(verifier());
+    let mut child = verify.arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(ran.stdout.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() && output.stdout.starts_with(b"verified"), "{output:?}");
 }

@@ -168,12 +168,16 @@ impl<'a> Reader<'a> {
             Ok(text) => {
                 self.read(&target, text);
             }
-            Err(unread) => self.diagnostics.push(unread.diagnostic(at, &wanted)),
+            Err(unread) => {
+                self.items.broken = true;
+                self.diagnostics.push(unread.diagnostic(at, &wanted));
+            }
         }
     }
 
     /// Says once what would be said of each further file.
     fn refuse(&mut self, report: Diagnostic) {
+        self.items.broken = true;
         if self.diagnostics.iter().all(|one| one.code != report.code) {
             self.diagnostics.push(report);
         }

@@ -140,8 +140,8 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["all", "limit", "count"])]
     pub(crate) timeout: Option<f64>,
     /// Write a certificate beside the answer, for sensedsl-verify: that the wiring is valid and none
-    /// is better, or that there is none
-    #[arg(long, value_name = "FILE", value_parser = file, conflicts_with_all = ["any", "all", "limit", "count"])]
+    /// is better, or that there is none. With `-` it is the result, in place of the answer
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["any", "all", "limit", "count"])]
     pub(crate) proof: Option<PathBuf>,
     /// With --proof: replace a file that is no certificate
     #[arg(long, requires = "proof")]
@@ -341,11 +341,6 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The folder for one page a command
     pub(crate) dir: Option<PathBuf>,
-}
-
-/// A file proper: the answer goes to the standard output already.
-fn file(text: &str) -> Result<PathBuf, String> {
-    if text == "-" { Err("the name of a file".into()) } else { Ok(text.into()) }
 }
 
 /// A time that a clock can be set to.

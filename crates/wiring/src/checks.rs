@@ -56,7 +56,7 @@ fn why_hopeless(
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
         }) {
-            let report = bus_only(design, device, *role, pin);
+            let report = bus_only(design, &offers, device, *role, pin);
             let report = report.or_else(|| by_silicon(design, &offers, device, *role, pin));
             return Some(
                 report.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
@@ -235,31 +235,28 @@ fn cannot_serve(
 /// device could have the pin without the part.
 fn bus_only(
     design: &Design,
+    offers: &[&Offer<'_>],
     device: &Device,
     role: Role,
     pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
-    let boards = (0..design.boards.len()).map(BoardIndex);
-    let parts = boards.filter_map(|index| design.board(index)?.table.pin(pin.value.on(index)?));
-    let part = parts.filter_map(|pin| pin.onboard.as_ref()).next()?;
-    let name = pin.value.name();
-    let mut released = design.clone();
-    for board in &mut released.boards {
-        board.released.push(Spanned { value: name.to_owned(), span: pin.span });
-    }
-    let boards = released.boards.iter().enumerate();
-    let offers: Vec<Offer<'_>> =
-        boards.map(|(index, board)| Offer::new(BoardIndex(index), board)).collect();
-    let offers: Vec<&Offer<'_>> = offers.iter().collect();
-    let free = possible(&released, &offers, device, |wanted| {
+    let row = |offer: &&Offer<'_>| {
+        let table = &offer.board.table;
+        let name = pin.value.on(offer.index)?;
+        Some((name.clone(), table.pin(name)?.onboard.as_ref()?.part.clone()))
+    };
+    let (name, part) = offers.iter().find_map(|offer| row(&offer))?;
+    let released: Vec<Offer<'_>> = offers.iter().map(|offer| offer.with_released(&name)).collect();
+    let meanings = relaxed_on(design, &released, device, |wanted| {
         wanted.unit = None;
         wanted.side = None;
         wanted.header = None;
         wanted.pins.retain(|(fixed, _)| *fixed == role);
     });
+    let free = !meanings.is_empty();
     let help =
-        format!("take another pin, or write `release {name};` if {} is not needed", part.part);
-    let by = format!("{} on the board", part.part);
+        format!("take another pin, or write `release {name};` if {part} is not needed");
+    let by = format!("{part} on the board");
     free.then(|| {
         e0316_pin_not_available::pin_not_available(pin.span, &pin.value.shown(), &by, None, &help)
     })
@@ -281,14 +278,22 @@ fn relaxed(
     device: &Device,
     relax: impl Fn(&mut Wanted<'_>),
 ) -> Vec<crate::formulate::Meaning> {
+    let fresh: Vec<Offer<'_>> =
+        offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
+    relaxed_on(design, &fresh, device, relax)
+}
+
+fn relaxed_on(
+    design: &Design,
+    offers: &[Offer<'_>],
+    device: &Device,
+    relax: impl Fn(&mut Wanted<'_>),
+) -> Vec<crate::formulate::Meaning> {
     let mut wanted = wanted(design, device);
     relax(&mut wanted);
     let mut builder = Builder::new(design, Converters::Later);
-    let boards: Vec<BoardIndex> = offers.iter().map(|offer| offer.index).collect();
-    wanted.boards.retain(|board| boards.contains(board));
-    let fresh: Vec<Offer<'_>> =
-        offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
-    alternatives(&mut builder, &fresh, &wanted).1
+    wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
+    alternatives(&mut builder, offers, &wanted).1
 }
 
 fn free(wanted: &mut Wanted<'_>) {

@@ -27,7 +27,7 @@ pub struct NoWiring {
     /// The rules without which the devices could be wired. Minimal like the devices where at most
     /// 256 are in force for them; of more, the others are in the list without having been tried.
     pub rules: Vec<Rule>,
-    /// What would help; each was checked by solving.
+    /// What would help; each was checked by solving. Of more than 256 changes the first are tried.
     pub repairs: Vec<Repaired>,
     /// False when time ran out before it was known that each of the devices is needed for the
     /// conflict; nothing is known of rules and repairs then.

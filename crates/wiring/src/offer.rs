@@ -81,7 +81,17 @@ pub(crate) struct Offer<'a> {
 
 impl<'a> Offer<'a> {
     pub(crate) fn new(index: BoardIndex, board: &'a Board) -> Self {
-        let rules = Rules::of(board);
+        Self::by_rules(index, board, Rules::of(board))
+    }
+
+    /// The same board as it would be with one more `release`.
+    pub(crate) fn with_released(&self, pin: &PinName) -> Self {
+        let mut rules = Rules::of(self.board);
+        rules.released.insert(pin.as_str().to_owned());
+        Self::by_rules(self.index, self.board, rules)
+    }
+
+    fn by_rules(index: BoardIndex, board: &'a Board, rules: Rules<'a>) -> Self {
         let pins = &board.table.pins;
         let roles = roles(board);
         let why = |pin| withheld(board, &rules, &roles, pin);

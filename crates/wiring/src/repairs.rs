@@ -165,11 +165,19 @@ impl Repair {
     }
 }
 
+/// So many changes are tried; each costs a search for the best wiring. Of a conflict in a robot
+/// there are a few dozen.
+const TRIED_MAX: usize = 256;
+
 /// The repairs that work, the gentlest first: another link where the file asks for none, then
-/// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a device out; within each the cheapest wiring first.
+/// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a
+/// device out; within each the cheapest wiring first. At most [`TRIED_MAX`] are tried: before all
+/// others what concerns a link or one device alone, of which there are three each.
 pub(crate) fn find(design: &Design, devices: &[DeviceIndex]) -> Vec<Repaired> {
-    let mut found: Vec<Repaired> =
-        proposals(design, devices).into_iter().filter_map(|repair| tried(design, repair)).collect();
+    let mut proposals = proposals(design, devices);
+    proposals.sort_by_key(|repair| !is_of_one_device(repair));
+    let proposals = proposals.into_iter().take(TRIED_MAX);
+    let mut found: Vec<Repaired> = proposals.filter_map(|repair| tried(design, repair)).collect();
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
         found.extend(sharing(design, devices));
     }
@@ -198,7 +206,19 @@ fn sharing(design: &Design, devices: &[DeviceIndex]) -> Option<Repaired> {
     let exclusive: Vec<DeviceIndex> = devices.iter().filter(exclusive).copied().collect();
     let (first, others) = exclusive.split_first()?;
     let pairs = others.iter().map(|other| vec![*first, *other]);
-    pairs.chain([exclusive.clone()]).find_map(|some| tried(design, Repair::Share(some)))
+    pairs
+        .take(TRIED_MAX)
+        .chain([exclusive.clone()])
+        .find_map(|some| tried(design, Repair::Share(some)))
+}
+
+const fn is_of_one_device(repair: &Repair) -> bool {
+    match repair {
+        Repair::Relink(..) | Repair::Free(_) | Repair::Share(_) | Repair::Drop(_) => true,
+        Repair::Retune(..) | Repair::Move(..) | Repair::Unreserve(..) | Repair::Release(..) => {
+            false
+        }
+    }
 }
 
 fn rank(design: &Design, repair: &Repair) -> usize {

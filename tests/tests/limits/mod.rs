@@ -41,8 +41,22 @@ fn expect(folder: &Scratch, arguments: &[&str], status: i32, code: &str) {
     expect_of(binary(), folder, arguments, status, code);
 }
 
+/// It must be wrong, and say that code and no other error.
 #[track_caller]
-fn expect_of(program: &Path, folder: &Scratch, arguments: &[&str], status: i32, code: &str) {
+fn expect_alone(folder: &Scratch, arguments: &[&str], code: &str) {
+    let said = expect_of(binary(), folder, arguments, 1, code);
+    let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error[")).collect();
+    assert!(matches!(errors.as_slice(), [one] if one.contains(code)), "{arguments:?}: {errors:?}");
+}
+
+#[track_caller]
+fn expect_of(
+    program: &Path,
+    folder: &Scratch,
+    arguments: &[&str],
+    status: i32,
+    code: &str,
+) -> String {
     let limits =
         format!("ulimit -c 0; ulimit -t {CPU_S_MAX}; ulimit -d {MEMORY_KIB_MAX}; exec \"$@\"");
     let (out, err) = (folder.join(".out"), folder.join(".err"));
@@ -69,6 +83,7 @@ fn expect_of(program: &Path, folder: &Scratch, arguments: &[&str], status: i32, 
     let start: String = said.chars().take(600).collect();
     assert_eq!(ended.code(), Some(status), "{arguments:?}: {ended}\n{start}");
     assert!(said.contains(code), "{arguments:?} does not say {code}\n{start}");
+    said.into_owned()
 }
 
 /// `check` on one text refuses it with that code.

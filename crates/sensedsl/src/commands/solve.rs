@@ -1,5 +1,6 @@
 //! `sensedsl solve`: the best wiring, all wirings, or their number.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, ensure};
@@ -34,7 +35,9 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
         return Ok(Status::Done);
     }
-    if let Some(path) = &args.proof
+    // On the standard output the certificate is the result.
+    let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
+    if let Some(path) = file
         && !args.force
         && is_in_the_way(path, b"")?
         && !begins_with(path, CERTIFICATE)?
@@ -59,16 +62,28 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         answer.diagnostics.push(report);
     }
     terminal.diagnostics(&answer.diagnostics, &sources)?;
-    let status = print_answer(args, terminal, design, &answer, keep.as_ref(), &sources)?;
-    match (&args.proof, answer.certificate) {
-        (Some(path), Some(Ok(text))) => write_whole(path, text.as_bytes())?,
-        (Some(_), Some(Err(report))) => {
+    let status = if args.proof.is_some() && file.is_none() {
+        status(&answer)
+    } else {
+        print_answer(args, terminal, design, &answer, keep.as_ref(), &sources)?
+    };
+    match (answer.certificate, file) {
+        (Some(Ok(text)), Some(path)) => write_whole(path, text.as_bytes())?,
+        (Some(Ok(text)), None) => terminal.result(&text)?,
+        (Some(Err(report)), _) => {
             terminal.diagnostics(&[*report], &sources)?;
             return Ok(Status::Wrong);
         }
-        (Some(_), None) | (None, _) => {}
+        (None, _) => {}
     }
     Ok(status)
+}
+
+fn status(answer: &Answer) -> Status {
+    match &answer.solved {
+        Some(Solved::Wired(_)) if !input::has_errors(&answer.diagnostics) => Status::Done,
+        Some(_) | None => Status::Wrong,
+    }
 }
 
 fn print_answer(

@@ -19,7 +19,7 @@ std::atomic<bool> stopped{false};
 extern "C" void stop(int) { stopped = true; }
 
 const sensedsl::Option known[] = {
-    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
     {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
     {"version", nullptr, "the design and its schema hash"},
     {"help", nullptr, "this text"},

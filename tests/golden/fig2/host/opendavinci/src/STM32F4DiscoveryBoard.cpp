@@ -31,7 +31,7 @@ const sensedsl::Option known[] = {
     {"freq", "HZ", "how often the module looks at its own state"},
     {"device", "DEVICE", "serial device of the board; without it the configuration's key\n"
                          "                        fig2_STM32F4DiscoveryBoard.device"},
-    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
     {"id", "NUMBER", "tells several modules of one name apart"},
     {"verbose", "1", "print each value"},
     {"profiling", "1", "OpenDaVINCI's own"},

@@ -25,7 +25,7 @@ const sensedsl::BoardFacts &facts() { return ::sense::miniature_car::facts::STM3
 const sensedsl::Option known[] = {
     {"cid", "SESSION", "OD4 session, 1 to 254"},
     {"device", "DEVICE", "serial device of the board, for example /dev/ttyACM0"},
-    {"baud", "RATE", "of a serial link; of no effect over USB (115200)"},
+    {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
     {"id", "STAMP", "sender stamp of all messages; without it a sensor's identifier"},
     {"freq", "HZ", "send the latest values that often; without it each when it comes"},
     {"verbose", nullptr, "print each value"},
