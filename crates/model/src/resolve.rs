@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
     e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0312_unknown_place,
-    e0315_no_board,
+    e0315_no_board, e0317_table_too_large,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::DIAGNOSTICS_MAX;
@@ -82,8 +82,11 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
 pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
     let more = diagnostics.len().saturating_sub(DIAGNOSTICS_MAX);
     if more > 0 {
-        diagnostics.truncate(DIAGNOSTICS_MAX);
+        let rest = diagnostics.split_off(DIAGNOSTICS_MAX);
         let at = diagnostics.last().map(|last| last.primary.span);
+        // Where a table ends is said whatever stands before.
+        let ends = |one: &Diagnostic| one.code.info() == &e0317_table_too_large::INFO;
+        diagnostics.extend(rest.into_iter().filter(ends).take(1));
         let report = |at| e0117_more_mistakes::more_mistakes(at, DIAGNOSTICS_MAX, more);
         diagnostics.extend(at.map(report));
     }
