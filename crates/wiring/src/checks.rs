@@ -254,8 +254,7 @@ fn bus_only(
         wanted.pins.retain(|(fixed, _)| *fixed == role);
     });
     let free = !meanings.is_empty();
-    let help =
-        format!("take another pin, or write `release {name};` if {part} is not needed");
+    let help = format!("take another pin, or write `release {name};` if {part} is not needed");
     let by = format!("{part} on the board");
     free.then(|| {
         e0316_pin_not_available::pin_not_available(pin.span, &pin.value.shown(), &by, None, &help)
