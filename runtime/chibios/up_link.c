@@ -4,9 +4,6 @@
 #include "up_link.h"
 #include "up_shell.h"
 
-/* How long the rest of a frame may take once its first byte was accepted. */
-#define FINISH_MS 50U
-
 static up_decoder_t decoder;
 /* Two frames, so that what is left of a failed one moves once on average. */
 static uint8_t decoder_buffer[UP_FRAME_BYTES_MAX_TO_BOARD + UP_DECODER_BYTES(UP_FRAME_BYTES_MAX_TO_BOARD)];
@@ -41,7 +38,7 @@ static bool send(const uint8_t *bytes, size_t size) {
     return false;
   }
   if (sent < size) {
-    sent += chnWriteTimeout(up_channel(), &bytes[sent], size - sent, TIME_MS2I(FINISH_MS));
+    sent += chnWriteTimeout(up_channel(), &bytes[sent], size - sent, TIME_MS2I(UP_LINK_FINISH_MS));
   }
   if (sent < size) {
     counters.frames_torn++;

@@ -11,6 +11,8 @@ static mutex_t store_lock;
 static uint32_t sequences[UP_FIELDS_COUNT];
 static uint32_t errors[UP_FIELDS_COUNT];
 static uint32_t read_ms[UP_FIELDS_COUNT];
+/* All threads count from here, so that those of a group keep apart. */
+static systime_t start;
 
 __attribute__((weak)) void up_user_init(void) {
 }
@@ -80,21 +82,28 @@ void up_restore_report(const uint8_t *taken) {
   chMtxUnlock(&store_lock);
 }
 
-/* Fixed rate: a late cycle does not shift the following ones, and lost ones are not made up for in a burst. */
+/* Fixed rate: a late cycle does not shift the following ones, and lost ones are left out, so that threads which keep
+ * apart do so for good. */
 static void sleep_cycle(systime_t *previous, sysinterval_t cycle) {
   const systime_t next = chTimeAddX(*previous, cycle);
-  systime_t now;
+  sysinterval_t late;
 
   (void)chThdSleepUntilWindowed(*previous, next);
-  now = chVTGetSystemTime();
-  *previous = chTimeIsInRangeX(now, next, chTimeAddX(next, cycle)) ? next : now;
+  late = chTimeDiffX(next, chVTGetSystemTime());
+  *previous = chTimeAddX(next, late - late % cycle);
 }
 
 static THD_FUNCTION(run_task, argument) {
   const up_task_t *task = argument;
-  systime_t previous = chVTGetSystemTime();
+  systime_t previous = start;
 
   chRegSetThreadName(task->name);
+  if (task->start_ms > 0U) {
+    const systime_t first = chTimeAddX(start, TIME_MS2I(task->start_ms));
+
+    (void)chThdSleepUntilWindowed(start, first);
+    previous = first;
+  }
   for (;;) {
     task->cycle(task->work);
     sleep_cycle(&previous, TIME_MS2I(task->delay_ms));
@@ -127,6 +136,7 @@ static void start_drivers(void) {
 static void start_tasks(void) {
   size_t i;
 
+  start = chVTGetSystemTime();
   for (i = 0U; i < up_config.tasks_count; i++) {
     const up_task_t *task = &up_config.tasks[i];
     /* The argument is a const table; the kernel's signature knows only void pointers. */

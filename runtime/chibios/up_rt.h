@@ -32,6 +32,7 @@ typedef struct {
   size_t stack_bytes;
   uint32_t delay_ms;
   int16_t prio; /* relative to NORMALPRIO */
+  uint32_t start_ms; /* the first cycle comes so much later: devices of a group take turns */
 } up_task_t;
 
 #if HAL_USE_ADC == TRUE

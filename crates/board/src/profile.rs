@@ -14,9 +14,9 @@ use crate::mcu;
 use crate::registry::TARGETS;
 use file::{File, starts};
 pub use types::{
-    Adc, Adcs, Cycles, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
-    Fallback, I2cMode, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver,
-    Transport, Tree, Unit, Usb,
+    Adc, Adcs, Costs, Cycles, Dac, DacOutput, Dacs, Debug, Dividers, DmaRequest, Drivers,
+    Exception, Exti, ExtiRule, Fallback, I2cMode, I2cTiming, I2cs, Kernel, Off, Stream, StreamId,
+    TargetProfile, Timer, TimerDriver, Transport, Tree, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
 

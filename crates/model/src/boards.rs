@@ -442,6 +442,7 @@ fn stated_link(
         transport,
         pins: Vec::new(),
         unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
+        baud_span: baud.map(|baud| baud.span),
         baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
         checksum: checksum.map(|word| word.value).unwrap_or_default(),
         rate_hz: rate.map(|rate| rate.value),

@@ -2,8 +2,10 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
-    w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
+    e0506_hardware_limit, w0601_unused_property, w0602_slower_than_asked, w0603_narrow_type,
 };
+
+use sensedsl_wire::Direction;
 
 use crate::design::{Design, Device};
 use crate::kind::Kind;
@@ -11,12 +13,16 @@ use crate::kind::Kind;
 /// Bits of one conversion of the ADCs there are profiles for; wider ones are scaled by the driver.
 const ADC_BITS: u32 = 12;
 
+/// Widest number the runtime takes from a device.
+const ELEMENT_BYTES_MAX: usize = 8;
+
 /// Adds the warnings for all devices.
 pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     for device in &design.devices {
         diagnostics.extend(unused_pace(device));
         diagnostics.extend(too_slow(device));
         diagnostics.extend(narrow(device));
+        diagnostics.extend(impossible_length(device));
     }
 }
 
@@ -46,6 +52,25 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
     let delay_ms = device.delay_ms.to_string();
     let source = i2c.wait_span.filter(|wait| Some(*wait) != Some(at));
     Some(w0602_slower_than_asked::slower_than_asked(at, name, &needs_ms, &delay_ms, source))
+}
+
+/// The bytes of an I2C device must make whole elements that a value can hold.
+fn impossible_length(device: &Device) -> Option<Diagnostic> {
+    let Kind::I2c(i2c) = &device.kind else { return None };
+    let value = device.value.value;
+    let length = usize::from(i2c.length_bytes);
+    let element = length.checked_div(value.count()).unwrap_or_default();
+    let element_max = match device.direction {
+        Direction::Sensor => ELEMENT_BYTES_MAX,
+        Direction::Actuator => value.scalar.size_bytes(),
+    };
+    if element > 0 && element <= element_max && element * value.count() == length {
+        return None;
+    }
+    let name = &device.name.value;
+    let message = format!("{length} bytes of {name} do not make a {value}");
+    let help = format!("each element takes 1 to {element_max} bytes: change `length` or the type");
+    Some(e0506_hardware_limit::hardware_limit(device.value.span, &message, &help))
 }
 
 fn narrow(device: &Device) -> Option<Diagnostic> {

@@ -105,6 +105,8 @@ pub struct Link {
     pub pins: Vec<PinName>,
     /// Bits per second of `transport = uart`.
     pub baud: u32,
+    /// Where they are given.
+    pub baud_span: Option<Span>,
     /// Whether frames end with a checksum.
     pub checksum: Checksum,
     /// At most that many frames per second; none for as many as become due.
@@ -162,6 +164,8 @@ pub struct Device {
     pub prio: i8,
     /// Where the device itself gives the priority.
     pub prio_span: Option<Span>,
+    /// The devices that it never measures together with.
+    pub group: Option<Group>,
     /// The board it is bound to; none where it may go to any.
     pub board: Option<BoardIndex>,
     /// What the user fixed of its wiring.
@@ -199,6 +203,17 @@ impl Level {
         let divided = (u64::from(self.mv) * lower).div_ceil((upper + lower).max(1));
         u32::try_from(divided).unwrap_or(self.mv)
     }
+}
+
+/// Devices of one group never measure at the same time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// The device names it itself, not its driver.
+    pub own: bool,
 }
 
 /// What the user fixed of a device's wiring.
@@ -273,6 +288,23 @@ impl Design {
     #[must_use]
     pub fn board(&self, index: BoardIndex) -> Option<&Board> {
         self.boards.get(index.0)
+    }
+
+    /// How long a measurement of the device lasts once it has begun, in microseconds.
+    #[must_use]
+    pub fn measuring_us(device: &Device) -> u32 {
+        match &device.kind {
+            Kind::I2c(i2c) => i2c.wait_us,
+            Kind::Icu(icu) => icu.wait_us,
+            Kind::Analog(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => 0,
+        }
     }
 
     /// The device at `index`.

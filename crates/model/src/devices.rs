@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::design::{BoardIndex, Device, Level, Placement, Presentation, Spanned};
+use crate::design::{BoardIndex, Device, Group, Level, Placement, Presentation, Spanned};
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
 use crate::kind::{Kind, KindName, analog, can, dac, digital, encoder, i2c, icu, pwm, spi, uart};
@@ -18,7 +18,7 @@ use crate::rules;
 
 /// The properties of every device, but for those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] =
-    &["id", "type", "driver", "delay", "prio", "unit", "side", "header", "level", "divider"];
+    &["id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "level", "divider"];
 /// The properties by which a host shows a value.
 pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset", "min", "max"];
 
@@ -62,6 +62,7 @@ pub(crate) fn read(
     let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
     let prio_span = fields.own_span("prio");
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
+    let group = group(&mut fields);
     let placement = placement(&mut fields, &kind, direction);
     let mut shown = presentation(&mut fields);
     let level = level(&mut fields);
@@ -82,6 +83,7 @@ pub(crate) fn read(
         delay_span,
         prio: prio.unwrap_or(0),
         prio_span,
+        group,
         board,
         placement,
         wishes,
@@ -227,6 +229,13 @@ fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Plac
         side: fields.name("side", "the name of a side"),
         header: fields.name("header", "the name of a header"),
     }
+}
+
+/// The devices that never measure at the same time; `none` takes a driver's group back.
+fn group(fields: &mut Fields<'_>) -> Option<Group> {
+    let own = fields.own_span("group").is_some();
+    let name = fields.name("group", "the name of a group, or none")?;
+    (name.value != "none").then(|| Group { name: name.value, span: name.span, own })
 }
 
 fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinRef>> {

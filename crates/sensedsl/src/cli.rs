@@ -31,7 +31,7 @@ pub(crate) enum Command {
     Solve(SolveArgs),
     /// Write firmware, host applications, wiring sheet and picture
     Generate(GenerateArgs),
-    /// Explain a diagnostic, or why a device is on its pin and not on another
+    /// Explain a diagnostic, why a device is on its pin, or what the hardware has to do in a second
     Explain(ExplainArgs),
     /// Say what can still be added to a wiring, and what blocks the next device
     Capacity(CapacityArgs),
@@ -187,15 +187,15 @@ pub(crate) struct GenerateArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
-    /// A code such as E0203, or the word `wiring`; none lists all codes
+    /// A code such as E0203, or the word `wiring` or `timing`; none lists all codes
     pub(crate) subject: Option<String>,
-    /// With `wiring`: the file
+    /// With `wiring` and `timing`: the file
     pub(crate) file: Option<PathBuf>,
     /// With `wiring`: the device's name
     pub(crate) device: Option<String>,
     #[command(flatten)]
     pub(crate) on: On,
-    /// With `wiring`: how to print it
+    /// With `wiring` and `timing`: how to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
 }

@@ -157,6 +157,7 @@ fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: 
         delay_span: None,
         prio: 0,
         prio_span: None,
+        group: None,
         board: Some(board),
         placement: Placement::default(),
         wishes: Vec::new(),

@@ -6,8 +6,8 @@
 use serde::Deserialize;
 
 use super::types::{
-    Adc, Adcs, Cycles, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, StreamId, Timer,
-    TimerDriver, Unit, Usb, Vbus, pin, pins,
+    Adc, Adcs, Cycles, Dac, DacOutput, Dacs, Dividers, DmaRequest, Exception, I2cs, Stream,
+    StreamId, Timer, TimerDriver, Unit, Usb, Vbus, pin, pins,
 };
 use crate::pin::PinName;
 
@@ -192,6 +192,7 @@ pub(crate) struct I2cGroup {
 #[serde(deny_unknown_fields)]
 pub(crate) struct BusGroup {
     pub(crate) rules: UnitRules,
+    pub(crate) dividers: Option<Dividers>,
     pub(crate) units: Vec<UnitEntry>,
     pub(crate) source: String,
 }

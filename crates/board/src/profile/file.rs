@@ -12,7 +12,7 @@ use super::entries::{
     AdcGroup, BusGroup, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerGroup, UsbGroup,
 };
 use super::types::{
-    Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
+    Costs, Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
 };
 
 /// A file of `targets/`.
@@ -31,6 +31,7 @@ pub(crate) struct File {
     tree: Tree,
     drivers: Drivers,
     kernel: Kernel,
+    costs: Option<Costs>,
     exti: Exti,
     debug: Debug,
     off: Off,
@@ -161,6 +162,8 @@ impl File {
         let adcs = of_line(self.adcs.units, line).map(|unit| unit.adc(&adc_rules, &streams));
         let i2cs = of_line(self.i2cs.units, line).map(|unit| unit.unit(&i2c_rules, &streams));
         let serials = self.serials.rules;
+        let (spi_dividers, serial_dividers) = (self.spis.dividers.clone(), self.serials.dividers);
+        let can_dividers = self.cans.as_ref().and_then(|group| group.dividers.clone());
         TargetProfile {
             name: self.target,
             family: self.family,
@@ -170,6 +173,7 @@ impl File {
             tree,
             drivers: self.drivers,
             kernel,
+            costs: self.costs,
             exti: self.exti,
             debug: self.debug,
             off: self.off,
@@ -179,6 +183,9 @@ impl File {
             i2c,
             i2cs: i2cs.collect(),
             spis: buses(self.spis),
+            spi_dividers,
+            serial_dividers,
+            can_dividers,
             serials: of_line(self.serials.units, line)
                 .map(|unit| unit.unit(&serials, &streams))
                 .collect(),
@@ -279,10 +286,18 @@ impl File {
             self.cans.as_ref().map(|group| group.source.as_str()),
             self.dacs.as_ref().map(|group| group.facts.source.as_str()),
             self.usbs.as_ref().map(|group| group.source.as_str()),
+            self.costs.as_ref().map(|costs| costs.source.as_str()),
+            self.spis.dividers.as_ref().map(|dividers| dividers.source.as_str()),
+            self.serials.dividers.as_ref().map(|dividers| dividers.source.as_str()),
+            dividers_of(self.cans.as_ref()),
         ];
         let multiplexers = self.multiplexer.iter().map(|mux| mux.source.as_str());
         groups.into_iter().chain(lines).chain(optional.into_iter().flatten()).chain(multiplexers)
     }
+}
+
+fn dividers_of(group: Option<&BusGroup>) -> Option<&str> {
+    Some(group?.dividers.as_ref()?.source.as_str())
 }
 
 fn push<'a, E: Entry + 'a>(

@@ -26,6 +26,8 @@ pub struct TargetProfile {
     pub drivers: Drivers,
     /// What the kernel takes.
     pub kernel: Kernel,
+    /// What the runtime costs the processor, where it was counted.
+    pub costs: Option<Costs>,
     /// Pin interrupts.
     pub exti: Exti,
     /// Pins of the debug port.
@@ -44,10 +46,16 @@ pub struct TargetProfile {
     pub i2cs: Vec<Unit>,
     /// SPI units.
     pub spis: Vec<Unit>,
+    /// How an SPI unit divides its clock, where it is known.
+    pub spi_dividers: Option<Dividers>,
     /// U(S)ARTs with a serial driver.
     pub serials: Vec<Unit>,
+    /// How a serial port divides its clock, where it is known.
+    pub serial_dividers: Option<Dividers>,
     /// CAN controllers.
     pub cans: Vec<Unit>,
+    /// How a CAN controller divides its clock, where it is known.
+    pub can_dividers: Option<Dividers>,
     /// What all digital-analog converters have in common, where there are any.
     pub dac: Option<Dacs>,
     /// Digital-analog converters.
@@ -244,6 +252,12 @@ impl Cycles {
         Self { halves: cycles.saturating_mul(2).saturating_add(1) }
     }
 
+    /// Twice the cycles, which is whole.
+    #[must_use]
+    pub const fn halves(self) -> u32 {
+        self.halves
+    }
+
     /// The whole cycles.
     #[must_use]
     pub const fn whole(self) -> u32 {
@@ -270,6 +284,15 @@ pub struct Adcs {
     pub resolution_bits: u8,
     /// Inputs in one conversion group.
     pub channels_max: u8,
+    /// The macro of the clock that drives the converters, where it is known.
+    pub clock: Option<String>,
+    /// What that clock is divided by.
+    #[serde(default = "one")]
+    pub clock_divider: u32,
+    /// The option that chooses the divider, and its value.
+    pub clock_option: Option<[String; 2]>,
+    /// Cycles of a conversion behind those of sampling, where they are known.
+    pub conversion_cycles: Option<Cycles>,
     /// Where in the system's source the facts were read.
     pub source: String,
 }
@@ -311,6 +334,8 @@ pub struct I2cs {
     /// How the driver makes the bus clock; empty where it is told register values.
     #[serde(default)]
     pub modes: Vec<I2cMode>,
+    /// How register values make the bus clock, where the driver is told them.
+    pub timing: Option<I2cTiming>,
     /// Where in the system's source the facts were read.
     pub source: String,
 }
@@ -328,6 +353,82 @@ pub struct I2cMode {
     pub clocks: u32,
     /// The least and the greatest divider.
     pub dividers: [u32; 2],
+}
+
+/// The timing register of an I²C unit: the unit's clock, divided by the prescaler, is counted for the
+/// low and the high part of a bus clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct I2cTiming {
+    /// The greatest prescaler.
+    pub prescaler_max: u32,
+    /// The least and the greatest number of steps in one bus clock, both parts together.
+    pub steps: [u32; 2],
+}
+
+/// How a unit's clock is divided to the one on its wires.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dividers {
+    /// The least and the greatest divider.
+    pub range: [u32; 2],
+    /// Only the powers of two among them.
+    #[serde(default)]
+    pub powers_of_two: bool,
+    /// The least and the greatest number of steps that a bit is made of beside the divider; 1 where
+    /// the divider alone makes it.
+    #[serde(default = "one_step")]
+    pub steps: [u32; 2],
+    /// Where in the system's source the facts were read.
+    pub source: String,
+}
+
+/// What the runtime costs the processor, in instructions.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Costs {
+    /// The macro of the core's clock.
+    pub clock: String,
+    /// Clock cycles of a hundred instructions.
+    pub cycles_per_hundred: u32,
+    /// A thread wakes for its cycle and sleeps again.
+    pub wake: u32,
+    /// A conversion is started, and its end is noticed.
+    pub convert: u32,
+    /// An analog value is stored.
+    pub convert_value: u32,
+    /// A sample is added to a mean.
+    pub convert_sample: u32,
+    /// A device on a bus is looked at.
+    pub bus_device: u32,
+    /// A transfer on a bus, with its interrupts.
+    pub bus_transfer: u32,
+    /// A byte of a transfer.
+    pub bus_byte: u32,
+    /// A line gets a pulse.
+    pub pulse: u32,
+    /// An interrupt of a capture.
+    pub capture: u32,
+    /// A capture is looked at by the reporter.
+    pub capture_look: u32,
+    /// The reporter looks whether anything is due.
+    pub report: u32,
+    /// A value goes into a report.
+    pub report_value: u32,
+    /// A byte of a report is encoded.
+    pub report_byte: u32,
+    /// A byte goes out of a serial port.
+    pub serial_byte: u32,
+    /// How it was counted.
+    pub source: String,
+}
+
+fn one() -> u32 {
+    1
+}
+
+fn one_step() -> [u32; 2] {
+    [1, 1]
 }
 
 /// A unit with one driver: I²C, SPI, serial, CAN.

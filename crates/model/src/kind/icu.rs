@@ -5,7 +5,7 @@ use sensedsl_syntax::Unit;
 use crate::fields::Fields;
 
 /// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["mode", "edge", "resolution", "pulse", "pin", "trigger"];
+pub const PROPERTIES: &[&str] = &["mode", "edge", "resolution", "pulse", "wait", "pin", "trigger"];
 
 /// What is made of the edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,6 +62,8 @@ pub struct Icu {
     pub tick_span: Option<sensedsl_diagnostics::Span>,
     /// Length of the pulse on the role `trigger` that makes the device measure.
     pub pulse_us: Option<u32>,
+    /// How long the device measures after that pulse.
+    pub wait_us: u32,
 }
 
 /// Ticks per second where the file says nothing: counting needs none, so what the car's firmware
@@ -87,12 +89,17 @@ pub(crate) fn read(fields: &mut Fields<'_>) -> Icu {
     }
     let tick = fields.rate_hz("resolution", 1..=100_000_000, Unit::Hertz);
     let pulse = fields.time_us("pulse", 1..=10_000);
+    let wait = fields.time_us("wait", 0..=60_000_000);
+    if let (Some(wait), None) = (wait, pulse) {
+        fields.contradiction(wait.span, "type", "`wait` is for a device with a `pulse` only");
+    }
     Icu {
         mode,
         edge: edge.map(|word| word.value).unwrap_or_default(),
         tick_hz: tick.map_or(tick_default_hz(mode), |tick| tick.value),
         tick_span: tick.map(|tick| tick.span),
         pulse_us: pulse.map(|pulse| pulse.value),
+        wait_us: wait.map_or(0, |wait| wait.value),
     }
 }
 
@@ -100,6 +107,6 @@ impl Default for Icu {
     fn default() -> Self {
         let mode = Mode::default();
         let tick_hz = tick_default_hz(mode);
-        Self { mode, edge: Edge::default(), tick_hz, tick_span: None, pulse_us: None }
+        Self { mode, edge: Edge::default(), tick_hz, tick_span: None, pulse_us: None, wait_us: 0 }
     }
 }

@@ -15,6 +15,8 @@ const CLOCK_DEFAULT_HZ: u32 = 1_000_000;
 pub struct Spi {
     /// Highest clock the device takes.
     pub clock_hz: u32,
+    /// Where it is given.
+    pub clock_span: Option<sensedsl_diagnostics::Span>,
     /// 0 to 3: clock polarity and phase.
     pub mode: u8,
     /// Bytes sent before the value is read; may be empty.
@@ -31,6 +33,7 @@ pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> Spi {
     let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
     Spi {
         clock_hz: clock.map_or(CLOCK_DEFAULT_HZ, |clock| clock.value),
+        clock_span: clock.map(|clock| clock.span),
         mode: mode.unwrap_or(0),
         read,
         length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
@@ -39,6 +42,12 @@ pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> Spi {
 
 impl Default for Spi {
     fn default() -> Self {
-        Self { clock_hz: CLOCK_DEFAULT_HZ, mode: 0, read: Vec::new(), length_bytes: 1 }
+        Self {
+            clock_hz: CLOCK_DEFAULT_HZ,
+            clock_span: None,
+            mode: 0,
+            read: Vec::new(),
+            length_bytes: 1,
+        }
     }
 }

@@ -28,6 +28,8 @@ pub enum Parity {
 pub struct Uart {
     /// Bits per second.
     pub baud: u32,
+    /// Where they are given.
+    pub baud_span: Option<sensedsl_diagnostics::Span>,
     /// Data bits per character: 7 or 8.
     pub data_bits: u8,
     /// Parity.
@@ -45,7 +47,8 @@ pub struct Uart {
 }
 
 pub(crate) fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Uart {
-    let baud = fields.integer("baud", 300..=10_000_000).and_then(|n| u32::try_from(n.value).ok());
+    let rate = fields.integer("baud", 300..=10_000_000);
+    let baud = rate.and_then(|n| u32::try_from(n.value).ok());
     let frames = [
         ("8N1", (8, Parity::None, 1)),
         ("8N2", (8, Parity::None, 2)),
@@ -63,6 +66,7 @@ pub(crate) fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueTy
     let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
     Uart {
         baud: baud.unwrap_or(BAUD_DEFAULT),
+        baud_span: rate.map(|rate| rate.span),
         data_bits,
         parity,
         stop_bits,
@@ -79,6 +83,7 @@ impl Uart {
     pub fn link(baud: u32) -> Self {
         Self {
             baud,
+            baud_span: None,
             data_bits: 8,
             parity: Parity::None,
             stop_bits: 1,

@@ -1,4 +1,4 @@
-//! `sensedsl explain`: the long text of a diagnostic, or why a device is on its pin.
+//! `sensedsl explain`: the long text of a diagnostic, why a device is on its pin, or what takes how long.
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
@@ -17,6 +17,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(args: &ExplainArgs, terminal: &mut Terminal) -> Result<Status> {
     match args.subject.as_deref() {
         Some("wiring") => wiring(args, terminal),
+        Some("timing") => super::timing::run(args, terminal),
         Some(name) if args.file.is_none() => code(name, terminal),
         Some(name) => bail!("`explain {name}` takes no file; did you mean `explain wiring`?"),
         None => {

@@ -119,7 +119,10 @@ fn answer(
         None => (None, None),
     };
     match &solved {
-        Some(Solved::Wired(assignment)) => diagnostics.extend(wiring.warnings(assignment)),
+        Some(Solved::Wired(assignment)) => {
+            diagnostics.extend(wiring.warnings(assignment));
+            diagnostics.extend(sensedsl_timing::check(design, assignment));
+        }
         Some(Solved::Infeasible(conflict)) => diagnostics.push(conflict.diagnostic(design)),
         Some(Solved::Failed(failure)) => diagnostics.push((**failure).clone()),
         None => {}

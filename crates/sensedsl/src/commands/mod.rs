@@ -17,3 +17,4 @@ pub(crate) mod parts;
 pub(crate) mod solve;
 mod starter;
 mod table;
+mod timing;

@@ -4,9 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::profile::Cycles;
 use sensedsl_board::signal::{Function, UnitName};
-use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::kind::{Kind, Role};
+use sensedsl_timing::{depth, sampling};
 
 use super::context::{Context, PadPlan, Wired, pad};
 use super::tasks::Cycle;
@@ -25,7 +24,7 @@ pub(super) struct GroupPlan {
     pub(super) index: usize,
     pub(super) driver: String,
     pub(super) cycle: Cycle,
-    /// Rows of samples: the largest number any sensor averages.
+    /// Rows of samples: the largest number any sensor averages, made even.
     pub(super) depth: u16,
     /// In the order of conversion, that is by channel.
     pub(super) sensors: Vec<AnalogSensorPlan>,
@@ -47,16 +46,12 @@ pub(super) struct AnalogSensorPlan {
     cycles: Cycles,
 }
 
-pub(super) fn plan(
-    context: &Context<'_>,
-    pads: &mut Vec<PadPlan>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> AnalogPlan {
+pub(super) fn plan(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> AnalogPlan {
     let mut classes: BTreeMap<(UnitName, Cycle), Vec<AnalogSensorPlan>> = BTreeMap::new();
     for wired in &context.devices {
-        let Some((unit, sensor)) = sensor(context, wired, diagnostics) else { continue };
+        let Some((unit, sensor)) = sensor(context, wired) else { continue };
         pads.extend(context.pin(wired, Role::In).map(|pin| pad(pin, "PAL_MODE_INPUT_ANALOG")));
-        let cycle = Cycle::of(unit.as_str(), wired.device);
+        let cycle = context.cycle(unit.as_str(), wired);
         classes.entry((unit, cycle)).or_default().push(sensor);
     }
     let mut drivers = BTreeSet::new();
@@ -74,28 +69,11 @@ pub(super) fn plan(
     AnalogPlan { drivers: drivers.into_iter().map(|(_, driver)| driver).collect(), groups }
 }
 
-fn sensor(
-    context: &Context<'_>,
-    wired: &Wired<'_>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<(UnitName, AnalogSensorPlan)> {
+fn sensor(context: &Context<'_>, wired: &Wired<'_>) -> Option<(UnitName, AnalogSensorPlan)> {
     let Kind::Analog(analog) = &wired.device.kind else { return None };
     let usage = context.wire(wired, Role::In)?.usage(context.board)?;
     let Function::Adc { channel, .. } = usage.signal.function() else { return None };
-    let facts = &context.profile.adc;
-    let asked = analog
-        .sampling_cycles
-        .map_or(facts.sample_cycles_default, |asked| Cycles::new(asked.into()));
-    // Rather a little longer than asked: too short a time spoils the reading.
-    let Some(&cycles) = facts.sample_cycles.iter().find(|&&cycles| cycles >= asked) else {
-        let most = facts.sample_cycles.iter().max().map_or(0, |most| most.whole());
-        let name = &wired.device.name.value;
-        let message = format!("{name} asks for {asked} cycles of sampling, the ADC has {most}");
-        let help = format!("use `sampling = {most};` or less");
-        let span = wired.device.kind_span;
-        diagnostics.push(e0506_hardware_limit::hardware_limit(span, &message, &help));
-        return None;
-    };
+    let cycles = sampling(&context.profile.adc, analog.sampling_cycles)?;
     let sensor = AnalogSensorPlan {
         name: wired.device.name.value.clone(),
         column: 0,
@@ -129,7 +107,7 @@ impl GroupPlan {
             index,
             driver,
             cycle,
-            depth: sensors.iter().map(|sensor| sensor.samples).max().unwrap_or(1),
+            depth: depth(sensors.iter().map(|sensor| sensor.samples)),
             smpr1: samples(1),
             smpr2: samples(2),
             sqr1: sum(std::iter::once(count).chain(sequence(1, 13..=16))),

@@ -6,9 +6,13 @@ use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::design::{Board, Design, Device};
+use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::Role;
+use sensedsl_timing::{Starts, starts};
 use sensedsl_wire::Schema;
 use sensedsl_wiring::assignment::{BoardAssignment, DeviceWiring, Wire};
+
+use super::tasks::Cycle;
 
 /// One board on its way to a plan.
 pub(super) struct Context<'a> {
@@ -19,6 +23,7 @@ pub(super) struct Context<'a> {
     /// In file order; the order of the schema.
     pub(super) devices: Vec<Wired<'a>>,
     pub(super) schema: Schema,
+    starts: Starts,
 }
 
 /// A device with its wires.
@@ -71,7 +76,26 @@ impl<'a> Context<'a> {
             wiring,
             devices: devices.collect(),
             schema: design.schema(wiring.board, &indices),
+            starts: starts(design, wiring),
         })
+    }
+
+    /// What the device has in common with others of one thread.
+    pub(super) fn cycle(&self, unit: &str, wired: &Wired<'_>) -> Cycle {
+        let Wired { device, wiring } = wired;
+        let start_ms = self.starts.get(&wiring.device).copied().unwrap_or_default();
+        let (delay_ms, prio) = (device.delay_ms, device.prio);
+        Cycle { unit: unit.to_owned(), delay_ms, prio, start_ms }
+    }
+
+    /// The macros of clocks that the computed times are true for.
+    pub(super) fn clocks(&self) -> impl Iterator<Item = &str> {
+        let has_analog =
+            self.devices.iter().any(|wired| matches!(wired.device.kind, Kind::Analog(_)));
+        let adc = self.profile.adc.clock.as_deref().filter(|_| has_analog);
+        let core = self.profile.costs.as_ref().map(|costs| costs.clock.as_str());
+        let link = self.wiring.link.as_ref().and_then(|link| self.profile.unit(&link.unit));
+        adc.into_iter().chain(core).chain(link.and_then(|unit| unit.clock.as_deref()))
     }
 
     /// The pin of a role.

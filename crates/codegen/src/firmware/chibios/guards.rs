@@ -1,8 +1,9 @@
 //! What the C compiler is asked to check against the user's tree, because nothing else would.
 
+use sensedsl_timing::i2c_clock::BusClock;
+
 use super::context::Context;
 use super::i2c::I2cPlan;
-use super::i2c_clock::BusClock;
 use super::icu::IcuPlan;
 use super::settings::SettingsPlan;
 
@@ -44,8 +45,10 @@ pub(super) fn plan(
             message: format!("{timer} cannot measure with channel {channel}"),
         });
     }
-    let clocks = context.chibios.clocks_hz.iter();
-    let needed = clocks.filter(|(name, _)| icus.iter().any(|icu| icu.clock == **name));
+    let needed = context.chibios.clocks_hz.iter().filter(|(name, _)| {
+        let icu = icus.iter().any(|icu| icu.clock == **name);
+        icu || context.clocks().any(|clock| clock == name.as_str())
+    });
     guards.extend(needed.map(|(name, hz)| GuardPlan {
         condition: format!("{name} == {hz}U"),
         message: format!("{name} is not what this wiring was made for"),

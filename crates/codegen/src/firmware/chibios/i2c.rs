@@ -5,13 +5,11 @@ use std::collections::BTreeMap;
 use sensedsl_board::profile::Unit;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::kind::i2c::{ByteOrder, I2c};
 use sensedsl_model::kind::{Kind, Role};
-use sensedsl_wire::Direction;
+use sensedsl_timing::i2c_clock::{self, BusClock};
 
 use super::context::{Context, Drive, PadPlan, Wired};
-use super::i2c_clock::{self, BusClock};
 use super::tasks::Cycle;
 
 /// Time for a device to think, beside the bits.
@@ -19,8 +17,6 @@ const TIMEOUT_BASE_MS: u32 = 10;
 /// Bus clocks that the end of a transfer takes: the last acknowledge, the stop condition, and the
 /// time until the next start.
 const STOP_CLOCKS: u32 = 4;
-/// Widest number the runtime takes from a device.
-const ELEMENT_BYTES_MAX: usize = 8;
 
 /// All buses.
 #[derive(Clone, Debug)]
@@ -92,18 +88,11 @@ pub(super) fn plan(
     let mut plan = I2cPlan { ports: Vec::new(), classes: Vec::new(), read_bytes_min };
     for (unit, bus) in buses(context, diagnostics) {
         let Some(facts) = context.profile.unit(unit.as_str()) else { continue };
-        let port = match PortPlan::new(context, plan.ports.len(), facts, &bus) {
-            Ok(port) => port,
-            Err(diagnostic) => {
-                diagnostics.push(*diagnostic);
-                continue;
-            }
-        };
+        let Some(port) = PortPlan::new(context, plan.ports.len(), facts, &bus) else { continue };
         pads.extend([port.scl.clone(), port.sda.clone()]);
         let mut classes: BTreeMap<Cycle, Vec<ScriptPlan>> = BTreeMap::new();
         for (wired, i2c) in &bus.devices {
-            diagnostics.extend(impossible_length(wired, i2c));
-            let scripts = classes.entry(Cycle::of(unit.as_str(), wired.device)).or_default();
+            let scripts = classes.entry(context.cycle(unit.as_str(), wired)).or_default();
             scripts.push(ScriptPlan::new(scripts.len(), wired, i2c));
         }
         for (cycle, devices) in classes {
@@ -138,33 +127,10 @@ fn buses<'a>(
     buses
 }
 
-/// The bytes of a device must make whole elements that a value can hold.
-fn impossible_length(wired: &Wired<'_>, i2c: &I2c) -> Option<Diagnostic> {
-    let value = wired.device.value.value;
-    let length = usize::from(i2c.length_bytes);
-    let element = length.checked_div(value.count()).unwrap_or_default();
-    let element_max = match wired.device.direction {
-        Direction::Sensor => ELEMENT_BYTES_MAX,
-        Direction::Actuator => value.scalar.size_bytes(),
-    };
-    if element > 0 && element <= element_max && element * value.count() == length {
-        return None;
-    }
-    let name = &wired.device.name.value;
-    let message = format!("{length} bytes of {name} do not make a {value}");
-    let help = format!("each element takes 1 to {element_max} bytes: change `length` or the type");
-    Some(e0506_hardware_limit::hardware_limit(wired.device.value.span, &message, &help))
-}
-
 impl PortPlan {
-    fn new(
-        context: &Context<'_>,
-        index: usize,
-        unit: &Unit,
-        bus: &Bus<'_>,
-    ) -> Result<Self, Box<Diagnostic>> {
+    fn new(context: &Context<'_>, index: usize, unit: &Unit, bus: &Bus<'_>) -> Option<Self> {
         let asked_hz = bus.asked_hz(context);
-        let clock = bus_clock(context, unit, bus, asked_hz)?;
+        let clock = bus_clock(context, unit, asked_hz)?;
         let bytes = bus.devices.iter().map(|(_, i2c)| {
             u32::from(i2c.length_bytes).max(u32::try_from(i2c.trigger.len()).unwrap_or(u32::MAX))
         });
@@ -172,7 +138,7 @@ impl PortPlan {
         // Two addresses and a register go with them; nine clocks a byte, twice the time is patience.
         let clocks = bytes.max().unwrap_or(0).saturating_add(3).saturating_mul(9 * 2);
         let (scl, sda) = bus.pads.clone();
-        Ok(Self {
+        Some(Self {
             index,
             unit: unit.name.clone(),
             driver: unit.driver.clone(),
@@ -199,35 +165,10 @@ impl<'a> Bus<'a> {
     }
 }
 
-/// The clock that a bus gets; what the driver cannot make is a limit of the hardware.
-fn bus_clock(
-    context: &Context<'_>,
-    unit: &Unit,
-    bus: &Bus<'_>,
-    asked_hz: u32,
-) -> Result<BusClock, Box<Diagnostic>> {
-    let modes = &context.profile.i2c.modes;
-    let macro_name = unit.clock.as_deref().unwrap_or_default();
-    let unit_hz = context.chibios.clocks_hz.get(macro_name).copied().unwrap_or_default();
-    i2c_clock::fastest(modes, unit_hz, asked_hz).ok_or_else(|| {
-        let name = &unit.name;
-        let device = bus.slowest().map_or("", |(wired, _)| wired.device.name.value.as_str());
-        let message = format!(
-            "{name} of {device} has a clock of {unit_hz} Hz, which does not divide to {asked_hz} Hz"
-        );
-        let help = match i2c_clock::slowest_hz(modes, unit_hz) {
-            Some(slowest_hz) => {
-                format!(
-                    "use a `speed` of at least {slowest_hz} Hz, the slowest that {name} can make"
-                )
-            }
-            None => format!("the driver can make no bus clock of it: give {name} another clock"),
-        };
-        let spans =
-            bus.slowest().map(|(wired, i2c)| i2c.speed_span.unwrap_or(wired.device.kind_span));
-        let span = spans.unwrap_or(context.board.name.span);
-        Box::new(e0506_hardware_limit::hardware_limit(span, &message, &help))
-    })
+/// The clock that a bus gets; none where there is none, which [`sensedsl_timing::refusals`] has told.
+fn bus_clock(context: &Context<'_>, unit: &Unit, asked_hz: u32) -> Option<BusClock> {
+    let unit_hz = *context.chibios.clocks_hz.get(unit.clock.as_deref()?)?;
+    i2c_clock::fastest(&context.profile.i2c, unit_hz, asked_hz)
 }
 
 impl ClassPlan {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use sensedsl_board::profile::Timer;
 use sensedsl_board::signal::Function;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use sensedsl_model::kind::{Kind, Role};
 
@@ -14,8 +13,6 @@ use super::tasks::Cycle;
 
 /// After that time without an edge a frequency is 0.
 const SILENT_MS: u32 = 1_000;
-/// The prescaler of a timer has 16 bits.
-const PRESCALER_MAX: u32 = 65_536;
 
 /// One capturing timer.
 #[derive(Clone, Debug)]
@@ -60,34 +57,9 @@ pub(super) fn plan(
         let Some(usage) = wire.usage(context.board) else { continue };
         let Function::Timer { timer, channel, .. } = usage.signal.function() else { continue };
         let Some(timer) = context.profile.timer(*timer) else { continue };
-        diagnostics.extend(impossible_tick(context, wired, icu, timer));
         plans.extend(IcuPlan::new(plans.len(), wired, icu, timer, *channel));
     }
     plans
-}
-
-/// The timer's clock must divide to the tick; the clocks are the demo's.
-fn impossible_tick(
-    context: &Context<'_>,
-    wired: &Wired<'_>,
-    icu: &Icu,
-    timer: &Timer,
-) -> Option<Diagnostic> {
-    let clock_hz = *context.chibios.clocks_hz.get(&timer.clock)?;
-    let tick_hz = icu.tick_hz;
-    let divides = clock_hz.checked_rem(tick_hz) == Some(0);
-    if divides && clock_hz / tick_hz <= PRESCALER_MAX {
-        return None;
-    }
-    let Timer { name, .. } = timer;
-    let device = &wired.device.name.value;
-    let message =
-        format!("{name} of {device} runs at {clock_hz} Hz, which does not divide to {tick_hz} Hz");
-    let least = clock_hz.div_ceil(PRESCALER_MAX);
-    let help =
-        format!("use a `resolution` that divides {clock_hz} Hz, at least {least} Hz: 1 us does");
-    let span = icu.tick_span.unwrap_or(wired.device.kind_span);
-    Some(e0506_hardware_limit::hardware_limit(span, &message, &help))
 }
 
 impl IcuPlan {
@@ -128,7 +100,7 @@ pub(super) fn plan_pulses(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Vec
         let Kind::Icu(Icu { pulse_us: Some(pulse_us), .. }) = wired.device.kind else { continue };
         let Some(pin) = context.pin(wired, Role::Trigger) else { continue };
         pads.push(pad(pin, "PAL_MODE_OUTPUT_PUSHPULL"));
-        let cycle = Cycle::of("pulse", wired.device);
+        let cycle = context.cycle("pulse", wired);
         let (lines, names) = classes.entry((cycle, pulse_us)).or_default();
         lines.push(line(pin));
         names.push(wired.device.name.value.clone());

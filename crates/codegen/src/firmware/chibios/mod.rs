@@ -10,7 +10,6 @@ mod board;
 mod context;
 mod guards;
 mod i2c;
-mod i2c_clock;
 mod icu;
 mod link;
 mod plan;

@@ -47,6 +47,7 @@ pub(super) struct BoardPlan {
     pub(super) link: LinkPlan,
     pub(super) button: Option<ButtonPlan>,
     pub(super) report_ms: u32,
+    pub(super) finish_ms: u32,
     pub(super) guards: Vec<GuardPlan>,
 }
 
@@ -97,9 +98,10 @@ fn plan_board(
         diagnostics.push(report);
         return None;
     }
+    diagnostics.extend(sensedsl_timing::refusals_of(design, board, wiring));
     let mut pads = Vec::new();
     let link = link::plan(&context, &mut pads, diagnostics)?;
-    let analog = analog::plan(&context, &mut pads, diagnostics);
+    let analog = analog::plan(&context, &mut pads);
     let i2c = i2c::plan(&context, &mut pads, diagnostics);
     let icus = icu::plan(&context, &mut pads, diagnostics);
     let pulses = icu::plan_pulses(&context, &mut pads);
@@ -112,6 +114,7 @@ fn plan_board(
         tree: board::plan(&context),
         schema: SchemaPlan::new(&context),
         report_ms: link::report_ms(&context, &tasks),
+        finish_ms: link::finish_ms(&context, &link),
         button: link::button(&context),
         guards: guards::plan(&context, &settings, &i2c, &icus),
         settings,

@@ -44,6 +44,7 @@ pub(super) fn plan(context: &Context<'_>, i2c: &I2cPlan, link: &LinkPlan) -> Set
         mcu.push(setting(&context.profile.kernel.option, number));
     }
     mcu.extend(used.iter().map(|switch| setting(switch, "TRUE")));
+    mcu.extend(converter_clock(context));
     mcu.extend(busy(context, i2c, kernel_timer.is_none()));
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
@@ -116,6 +117,14 @@ fn busy(context: &Context<'_>, i2c: &I2cPlan, is_systick: bool) -> Option<Settin
     let option = context.profile.i2c.busy_option.as_deref()?;
     let stop_ms = i2c.ports.iter().map(|port| port.stop_ms).max()?;
     Some(setting(option, &(stop_ms + u32::from(is_systick)).to_string()))
+}
+
+/// The converters' clock is told, so that it is what their times were computed with.
+fn converter_clock(context: &Context<'_>) -> Option<Setting> {
+    let has_analog =
+        context.devices.iter().any(|wired| matches!(wired.device.kind, Kind::Analog(_)));
+    let [option, value] = context.profile.adc.clock_option.as_ref().filter(|_| has_analog)?;
+    Some(setting(option, value))
 }
 
 fn hal(context: &Context<'_>, link: &LinkPlan) -> Vec<Setting> {

@@ -1,7 +1,5 @@
 //! Threads: one for each driver, cycle time and priority.
 
-use sensedsl_model::design::Device;
-
 use super::analog::AnalogPlan;
 use super::i2c::I2cPlan;
 use super::icu::PulsePlan;
@@ -16,6 +14,8 @@ pub(super) struct Cycle {
     pub(super) unit: String,
     pub(super) delay_ms: u32,
     pub(super) prio: i8,
+    /// When the first cycle begins, so that devices of a group take turns.
+    pub(super) start_ms: u32,
 }
 
 /// One thread.
@@ -29,22 +29,17 @@ pub(super) struct TaskPlan {
     pub(super) work: String,
     pub(super) delay_ms: u32,
     pub(super) prio: i8,
+    pub(super) start_ms: u32,
     pub(super) stack_bytes: u32,
 }
 
 impl Cycle {
-    pub(super) fn of(unit: &str, device: &Device) -> Self {
-        Self { unit: unit.to_owned(), delay_ms: device.delay_ms, prio: device.prio }
-    }
-
     /// For a comment and a thread's name.
     pub(super) fn title(&self) -> String {
-        let Self { unit, delay_ms, prio } = self;
-        if *prio == 0 {
-            format!("{unit} {delay_ms} ms")
-        } else {
-            format!("{unit} {delay_ms} ms {prio:+}")
-        }
+        let Self { unit, delay_ms, prio, start_ms } = self;
+        let cycle =
+            sensedsl_timing::Cycle { delay_ms: *delay_ms, prio: *prio, start_ms: *start_ms };
+        cycle.title(unit)
     }
 }
 
@@ -62,6 +57,7 @@ pub(super) fn plan(analog: &AnalogPlan, i2c: &I2cPlan, pulses: &[PulsePlan]) -> 
         work: format!("{table}_{number}"),
         delay_ms: cycle.delay_ms,
         prio: cycle.prio,
+        start_ms: cycle.start_ms,
         stack_bytes: STACK_BYTES,
     })
     .collect()

@@ -3,27 +3,30 @@
 //!
 //! The driver divides its unit's clock by whole numbers and halts the board where something is left
 //! over. A device names the fastest clock it stands, so the bus gets the fastest that the driver can
-//! make and that is not above it.
+//! make and that is not above it. Units with a timing register count the same way in one register.
 
 use std::ops::RangeInclusive;
 
-use sensedsl_board::profile::I2cMode;
+use sensedsl_board::profile::{I2cMode, I2cTiming, I2cs};
 
 /// The clock that a bus gets.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct BusClock {
-    pub(super) speed_hz: u32,
-    /// The driver's word for the duty cycle.
-    pub(super) duty: String,
+pub struct BusClock {
+    /// Bus clocks a second.
+    pub speed_hz: u32,
+    /// The driver's word for the duty cycle; empty where it is told register values.
+    pub duty: String,
     /// Steps of the divider in one bus clock.
-    pub(super) clocks: u32,
-    pub(super) dividers: RangeInclusive<u32>,
+    pub clocks: u32,
+    /// The dividers that the driver takes.
+    pub dividers: RangeInclusive<u32>,
 }
 
 /// The fastest clock up to `speed_max_hz` that a unit can make of its own.
-pub(super) fn fastest(modes: &[I2cMode], unit_hz: u32, speed_max_hz: u32) -> Option<BusClock> {
+#[must_use]
+pub fn fastest(facts: &I2cs, unit_hz: u32, speed_max_hz: u32) -> Option<BusClock> {
     let mut best: Option<BusClock> = None;
-    for clock in all(modes, unit_hz).filter(|clock| clock.speed_hz <= speed_max_hz) {
+    for clock in all(facts, unit_hz).filter(|clock| clock.speed_hz <= speed_max_hz) {
         if best.as_ref().is_none_or(|best| best.speed_hz < clock.speed_hz) {
             best = Some(clock);
         }
@@ -32,15 +35,34 @@ pub(super) fn fastest(modes: &[I2cMode], unit_hz: u32, speed_max_hz: u32) -> Opt
 }
 
 /// The slowest clock that a unit can make of its own.
-pub(super) fn slowest_hz(modes: &[I2cMode], unit_hz: u32) -> Option<u32> {
-    all(modes, unit_hz).map(|clock| clock.speed_hz).min()
+#[must_use]
+pub fn slowest_hz(facts: &I2cs, unit_hz: u32) -> Option<u32> {
+    all(facts, unit_hz).map(|clock| clock.speed_hz).min()
 }
 
 /// All clocks that the driver accepts.
-fn all(modes: &[I2cMode], unit_hz: u32) -> impl Iterator<Item = BusClock> + '_ {
-    modes.iter().flat_map(move |mode| {
+fn all(facts: &I2cs, unit_hz: u32) -> impl Iterator<Item = BusClock> + '_ {
+    let divided = facts.modes.iter().flat_map(move |mode| {
         let [least, greatest] = mode.dividers;
         (least..=greatest).filter_map(move |divider| clock(mode, unit_hz, divider))
+    });
+    let counted = facts.timing.iter().flat_map(move |timing| counted(*timing, unit_hz));
+    divided.chain(counted)
+}
+
+/// What a timing register makes, to the next lower hertz.
+fn counted(timing: I2cTiming, unit_hz: u32) -> impl Iterator<Item = BusClock> {
+    let [few, many] = timing.steps;
+    (1..=timing.prescaler_max).flat_map(move |prescaler| {
+        (few..=many).filter_map(move |steps| {
+            let clocks = prescaler.checked_mul(steps)?;
+            Some(BusClock {
+                speed_hz: unit_hz.checked_div(clocks)?,
+                duty: String::new(),
+                clocks,
+                dividers: 1..=1,
+            })
+        })
     })
 }
 
@@ -101,13 +123,13 @@ mod tests {
 
     #[test]
     fn every_speed_is_one_that_the_driver_accepts_or_too_slow() {
-        let modes = profile("STM32F407VG").i2c.modes;
+        let facts = profile("STM32F407VG").i2c;
         let clocks_hz = unit_clocks_hz();
         assert!(clocks_hz.len() >= 4, "{clocks_hz:?}");
         for unit_hz in clocks_hz {
-            let slowest_hz = slowest_hz(&modes, unit_hz).unwrap();
+            let slowest_hz = slowest_hz(&facts, unit_hz).unwrap();
             for asked_hz in (1_000..=400_000).step_by(250).chain([99_999, 100_001, 399_999]) {
-                let Some(clock) = fastest(&modes, unit_hz, asked_hz) else {
+                let Some(clock) = fastest(&facts, unit_hz, asked_hz) else {
                     assert!(asked_hz < slowest_hz, "{asked_hz} of {unit_hz}");
                     continue;
                 };
@@ -117,7 +139,7 @@ mod tests {
                 );
                 assert!(clock.speed_hz <= asked_hz);
                 // What can be had as asked for, is.
-                for mode in &modes {
+                for mode in &facts.modes {
                     let as_asked = driver_accepts(unit_hz, asked_hz, &mode.duty);
                     assert!(!as_asked || clock.speed_hz == asked_hz, "{asked_hz} of {unit_hz}");
                 }
@@ -127,13 +149,23 @@ mod tests {
 
     #[test]
     fn the_discovery_board_gets_the_next_slower_clock() {
-        let modes = profile("STM32F407VG").i2c.modes;
-        let speed_hz = |asked_hz| fastest(&modes, 42_000_000, asked_hz).map(|clock| clock.speed_hz);
+        let facts = profile("STM32F407VG").i2c;
+        let speed_hz = |asked_hz| fastest(&facts, 42_000_000, asked_hz).map(|clock| clock.speed_hz);
         assert_eq!(speed_hz(400_000), Some(400_000));
         assert_eq!(speed_hz(300_000), Some(280_000));
         assert_eq!(speed_hz(100_000), Some(100_000));
         assert_eq!(speed_hz(5_250), Some(5_250));
         assert_eq!(speed_hz(5_249), None);
         assert_eq!(speed_hz(1_000), None);
+    }
+
+    #[test]
+    fn a_timing_register_counts_to_any_speed_in_reach() {
+        let facts = profile("STM32G071RB").i2c;
+        let speed_hz = |asked_hz| fastest(&facts, 48_000_000, asked_hz).map(|clock| clock.speed_hz);
+        assert_eq!(speed_hz(400_000), Some(400_000));
+        assert_eq!(speed_hz(300_000), Some(300_000));
+        assert_eq!(speed_hz(5_000), None);
+        assert_eq!(slowest_hz(&facts, 48_000_000), Some(5_859));
     }
 }

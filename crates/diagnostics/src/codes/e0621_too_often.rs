@@ -1,0 +1,26 @@
+//! E0621: the hardware cannot keep this cycle time.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0621",
+    severity: Severity::Error,
+    title: "the hardware cannot keep this cycle time",
+    explanation: r#"A converter, a bus, a serial port or the processor has more to do in a cycle than fits into it, alone or together with what
+else it serves. The time is computed from the exact clocks, the samples and the bytes of each cycle; `sensedsl explain timing FILE`
+prints it part by part.
+
+Way out: write the `delay` that the message names: it is the shortest that can be kept. Fewer samples, a faster bus or another unit help as well.
+"#,
+};
+
+const CODE: Code = Code(&INFO);
+
+/// What is asked for and the shortest that can be kept.
+#[must_use]
+pub fn too_often(span: Span, message: &str, help: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, message).here("asked here").help(help)
+}

@@ -1,0 +1,164 @@
+//! Buses: how long the transfers of their devices take, at the clock that a bus gets.
+//!
+//! An I2C transfer is a start condition, nine clocks a byte, a second start before what is read, and a stop
+//! condition with the time that the bus stays free after it (UM10204, 3.1). The conditions are counted as a clock each:
+//! the specification's least times are between 0.4 and 0.7 of one for each part of them.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::signal::UnitName;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::can::Can;
+use sensedsl_model::kind::i2c::I2c;
+use sensedsl_model::kind::spi::Spi;
+use sensedsl_wire::Direction;
+
+use crate::clocks::{at_most, nearest, unit_hz};
+use crate::i2c_clock::{self, BusClock};
+use crate::processor::{Transfers, Work};
+use crate::rows::{Count, Part, Row, clocks_ns, shortest};
+use crate::{Context, Wired};
+
+/// Clocks of a byte with its acknowledge.
+const I2C_BYTE_CLOCKS: u64 = 9;
+/// Clocks of a start condition, and of a stop with the pause after it.
+const I2C_CONDITION_CLOCKS: u64 = 1;
+/// Clocks of a byte.
+const SPI_BYTE_CLOCKS: u64 = 8;
+/// Bits of a frame with an extended identifier around its data, with the bits that are stuffed in at worst.
+const CAN_FRAME_BITS: u64 = 67 + 13;
+/// Bits of a byte, with those that are stuffed in at worst.
+const CAN_BYTE_BITS: u64 = 10;
+
+/// What a device does on its bus in one of its cycles, and how many milliseconds lie between two such cycles.
+pub(crate) struct Script {
+    pub(crate) transfers: Transfers,
+    pub(crate) clocks: u64,
+    pub(crate) every_ms: u32,
+}
+
+/// From one measurement of an I2C device to the next: it is asked each cycle, and answers once its waiting time is over.
+pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
+    let delay_ms = delay_ms.max(1);
+    wait_us.div_ceil(1_000).div_ceil(delay_ms).max(1).saturating_mul(delay_ms)
+}
+
+pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) -> Script {
+    let device = wired.device;
+    let least = context.board.profile().map_or(1, |profile| profile.i2c.read_bytes_min);
+    let length = u64::from(i2c.length_bytes);
+    let register = u64::from(i2c.register.is_some());
+    let (mut transfers, mut conditions) = (Transfers { count: 1, bytes: 0 }, 2);
+    match device.direction {
+        Direction::Actuator => transfers.bytes = 1 + register + length,
+        Direction::Sensor => {
+            transfers.bytes = 1 + length.max(u64::from(least));
+            if register > 0 {
+                transfers.bytes += 1 + register;
+                conditions += 1;
+            }
+            if !i2c.trigger.is_empty() {
+                transfers.count += 1;
+                transfers.bytes += 1 + i2c.trigger.len() as u64;
+                conditions += 2;
+            }
+        }
+    }
+    let clocks = transfers.bytes * I2C_BYTE_CLOCKS + conditions * I2C_CONDITION_CLOCKS;
+    Script { transfers, clocks, every_ms: i2c_period_ms(device.delay_ms, i2c.wait_us) }
+}
+
+fn spi_script(wired: &Wired<'_>, spi: &Spi) -> Script {
+    let bytes = spi.read.len() as u64 + u64::from(spi.length_bytes);
+    let transfers = Transfers { count: 1, bytes };
+    Script { transfers, clocks: bytes * SPI_BYTE_CLOCKS, every_ms: wired.device.delay_ms }
+}
+
+fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
+    let bytes = u64::from(can.byte) + wired.device.value.value.size_bytes() as u64;
+    let clocks = CAN_FRAME_BITS + bytes * CAN_BYTE_BITS;
+    Script { transfers: Transfers { count: 1, bytes }, clocks, every_ms: wired.device.delay_ms }
+}
+
+/// What a device on a bus does.
+pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script> {
+    match &wired.device.kind {
+        Kind::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
+        Kind::Spi(spi) => Some(spi_script(wired, spi)),
+        Kind::Can(can) => Some(can_script(wired, can)),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => None,
+    }
+}
+
+/// The greatest clock that the devices of a unit stand.
+pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) -> Option<u32> {
+    let asked = on_bus.filter_map(|wired| match &wired.device.kind {
+        Kind::I2c(i2c) => Some(i2c.speed_hz),
+        Kind::Spi(spi) => Some(spi.clock_hz),
+        Kind::Can(can) => Some(can.bitrate_hz),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => None,
+    });
+    asked.min()
+}
+
+/// The exact clock of a bus whose devices stand so much.
+pub(crate) fn exact_hz(context: &Context<'_>, unit: &UnitName, asked_hz: u32) -> Option<u32> {
+    let profile = context.board.profile()?;
+    let facts = profile.unit(unit.as_str())?;
+    let hz = unit_hz(context, facts)?;
+    let is_in = |units: &[sensedsl_board::profile::Unit]| units.iter().any(|one| one == facts);
+    if is_in(&profile.i2cs) {
+        let asked_hz = asked_hz.min(profile.i2c.speed_max_hz);
+        i2c_clock::fastest(&profile.i2c, hz, asked_hz).map(|BusClock { speed_hz, .. }| speed_hz)
+    } else if is_in(&profile.spis) {
+        at_most(profile.spi_dividers.as_ref()?, hz, asked_hz)
+    } else {
+        nearest(profile.can_dividers.as_ref()?, hz, asked_hz)
+    }
+}
+
+pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
+    let mut units: BTreeMap<UnitName, (Vec<Row>, Vec<u64>)> = BTreeMap::new();
+    for ((unit, cycle), devices) in context.classes(|wired| script(context, wired)) {
+        let on_unit = context
+            .devices
+            .iter()
+            .filter(|wired| wired.wiring.unit.as_deref() == Some(unit.as_str()));
+        let hz = asked_hz(on_unit).and_then(|asked| exact_hz(context, &unit, asked));
+        let indices = devices.iter().map(|(wired, _)| wired.index).collect();
+        let mut row = Row::new(Part::Bus, unit.as_str(), indices);
+        let scripts = || devices.iter().map(|(_, script)| script);
+        let clocks = scripts().map(|script| script.clocks).sum();
+        let a_second = |what: fn(&Script) -> u64| -> u64 {
+            scripts().map(|script| what(script) * 1_000 / u64::from(script.every_ms.max(1))).sum()
+        };
+        row.cycle = Some(cycle);
+        row.clock_hz = hz;
+        row.a_second = Some(Count::Bytes(a_second(|script| script.transfers.bytes)));
+        row.cycle_ns = hz.map(|hz| clocks_ns(clocks, hz));
+        // What is asked each cycle; a device that answers late only asks for less.
+        row.busy_ns = hz.map(|hz| clocks_ns(a_second(|script| script.clocks), hz));
+        let transfers = scripts().map(|script| script.transfers);
+        let own_ns = row.cycle_ns.unwrap_or_default() + work.of_bus(transfers);
+        let (rows, own) = units.entry(unit).or_default();
+        rows.push(row);
+        own.push(own_ns);
+    }
+    let finish = |(mut rows, own): (Vec<Row>, Vec<u64>)| {
+        shortest(&mut rows, &own);
+        rows
+    };
+    units.into_values().flat_map(finish).collect()
+}

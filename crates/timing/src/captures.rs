@@ -1,0 +1,88 @@
+//! Interrupts of captures: how many there are at the greatest value that a device states.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::{Edge, Icu, Mode};
+
+use crate::Context;
+use crate::clocks::timer_hz;
+use crate::rows::{Count, Part, Row};
+
+/// A timer counts so many ticks from one overflow to the next.
+const COUNTER: u32 = 65_536;
+
+/// Interrupts a second of a capture, where the device says enough.
+pub(crate) fn interrupts(device: &Device) -> Option<u64> {
+    let Kind::Icu(icu) = &device.kind else { return None };
+    let edges = edges(device, icu)?;
+    let both = icu.mode == Mode::Count && icu.edge == Edge::Both;
+    let has_width = both || matches!(icu.mode, Mode::Width | Mode::Duty);
+    let overflows = match icu.mode {
+        Mode::Count => 0,
+        Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty => {
+            u64::from(icu.tick_hz.div_ceil(COUNTER))
+        }
+    };
+    Some(edges * (1 + u64::from(has_width)) + overflows)
+}
+
+/// Active edges a second.
+fn edges(device: &Device, icu: &Icu) -> Option<u64> {
+    if icu.pulse_us.is_some() {
+        return Some(1_000_u64.div_ceil(u64::from(device.delay_ms.max(1))));
+    }
+    let raw = |shown: f64| {
+        let raw = (shown - device.shown.offset.unwrap_or(0.0)) / device.shown.scale.unwrap_or(1.0);
+        whole(raw.abs())
+    };
+    match icu.mode {
+        Mode::Frequency => raw(device.shown.max?),
+        // The shortest period comes most often.
+        Mode::Period => u64::from(icu.tick_hz).checked_div(raw(device.shown.min?)?),
+        // How often they come is not in the value.
+        Mode::Count | Mode::Width | Mode::Duty => None,
+    }
+}
+
+/// To the next whole number.
+fn whole(value: f64) -> Option<u64> {
+    const MOST: f64 = 1e12;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "compared with what fits just before"
+    )]
+    (0.0..=MOST).contains(&value).then(|| value.ceil() as u64)
+}
+
+pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for wired in &context.devices {
+        let has_edges = match &wired.device.kind {
+            Kind::Icu(_) => true,
+            Kind::Digital(digital) => digital.edge.is_some(),
+            Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Encoder(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => false,
+        };
+        if !has_edges {
+            continue;
+        }
+        let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
+        let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);
+        if let Kind::Icu(icu) = &wired.device.kind {
+            let timers = context.board.profile().map(|profile| &profile.timers);
+            let timer = timers.into_iter().flatten().find(|timer| timer.name == row.name);
+            let known = timer.and_then(|timer| timer_hz(context, timer)).is_some();
+            row.clock_hz = known.then_some(icu.tick_hz);
+        }
+        row.a_second = interrupts(wired.device).map(Count::Interrupts);
+        rows.push(row);
+    }
+    rows
+}

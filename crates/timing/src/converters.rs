@@ -1,0 +1,91 @@
+//! Analog sensors: how long a converter takes for the groups of its threads.
+
+use sensedsl_board::profile::Cycles;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::analog::Analog;
+
+use crate::Context;
+use crate::clocks::{converter_hz, sampling};
+use crate::processor::Work;
+use crate::rows::{Count, Part, Row, clocks_ns, per_second, shortest};
+
+/// Rows of samples that a group converts: as many as its greediest sensor wants, and an even number, which the
+/// driver asks for where it is more than one.
+#[must_use]
+pub fn depth(samples: impl Iterator<Item = u16>) -> u16 {
+    let most = samples.max().unwrap_or(1);
+    if most > 1 { most.next_multiple_of(2) } else { most }
+}
+
+pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
+    let Some(profile) = context.board.profile() else { return Vec::new() };
+    let hz = converter_hz(context);
+    let of = |wired: &crate::Wired<'_>| match &wired.device.kind {
+        Kind::Analog(analog) => Some(analog.clone()),
+        Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    };
+    let mut rows = Vec::new();
+    let (mut unit_rows, mut own_ns, mut last) = (Vec::new(), Vec::new(), None);
+    let classes = context.classes(of);
+    for ((unit, cycle), sensors) in classes {
+        if last.as_ref() != Some(&unit) {
+            finish(&mut rows, &mut unit_rows, &mut own_ns);
+            last = Some(unit.clone());
+        }
+        let devices = sensors.iter().map(|(wired, _)| wired.index).collect();
+        let mut row = Row::new(Part::Converter, unit.as_str(), devices);
+        let analogs: Vec<Analog> = sensors.into_iter().map(|(_, analog)| analog).collect();
+        let depth = depth(analogs.iter().map(|analog| analog.samples));
+        let conversions = u64::from(depth) * analogs.len() as u64;
+        row.cycle = Some(cycle);
+        row.clock_hz = hz;
+        row.a_second = Some(Count::Conversions(per_second(conversions, cycle.delay_ms)));
+        row.cycle_ns = hz.zip(profile.adc.conversion_cycles).and_then(|(hz, conversion)| {
+            let halves: Option<Vec<u64>> = analogs
+                .iter()
+                .map(|analog| {
+                    let sampling = sampling(&profile.adc, analog.sampling_cycles)?;
+                    Some(halves(sampling) + halves(conversion))
+                })
+                .collect();
+            let row_halves: u64 = halves?.into_iter().sum();
+            Some(clocks_ns(row_halves * u64::from(depth), hz.saturating_mul(2)))
+        });
+        row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
+        own_ns.push(row.cycle_ns.unwrap_or_default() + work.of_converter(&analogs));
+        unit_rows.push(row);
+    }
+    finish(&mut rows, &mut unit_rows, &mut own_ns);
+    rows
+}
+
+fn finish(rows: &mut Vec<Row>, unit_rows: &mut Vec<Row>, own_ns: &mut Vec<u64>) {
+    shortest(unit_rows, own_ns);
+    rows.append(unit_rows);
+    own_ns.clear();
+}
+
+fn halves(cycles: Cycles) -> u64 {
+    u64::from(cycles.halves())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::depth;
+
+    #[test]
+    fn a_group_of_several_rows_has_an_even_number() {
+        assert_eq!(depth([1, 1].into_iter()), 1);
+        assert_eq!(depth([1, 3].into_iter()), 4);
+        assert_eq!(depth([1024, 2].into_iter()), 1024);
+        assert_eq!(depth(std::iter::empty()), 1);
+    }
+}

@@ -1,0 +1,156 @@
+//! Groups: devices that never measure at the same time get starts that keep them apart for good.
+//!
+//! Two devices with fixed periods meet again in the same place after their greatest common divisor, so it is enough
+//! that their measurements do not touch within it. Devices are placed in the file's order, each as early as it can be.
+
+use std::collections::BTreeMap;
+
+use sensedsl_model::design::{Design, Device, DeviceIndex};
+use sensedsl_model::kind::Kind;
+use sensedsl_wiring::assignment::BoardAssignment;
+
+use crate::Turn;
+use crate::buses::i2c_period_ms;
+
+/// Milliseconds after the start at which a device begins; 0 for those that are not here.
+pub type Starts = BTreeMap<DeviceIndex, u32>;
+
+/// Places that are tried for one device: more than devices there can be, each moved past a few times.
+const TRIES_MAX: usize = 4_096;
+
+/// Between two measurements: the transfer that starts one, and a tick of the kernel.
+const GAP_MS: u32 = 1;
+
+/// The starts of all devices of a board.
+#[must_use]
+pub fn starts(design: &Design, wiring: &BoardAssignment) -> Starts {
+    turns(design, wiring).into_iter().map(|turn| (turn.device, turn.start_ms)).collect()
+}
+
+/// The turns of the groups on a board, in the file's order.
+pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
+    let mut turns: Vec<Turn> = Vec::new();
+    for index in wiring.devices.iter().map(|wiring| wiring.device) {
+        let Some(device) = design.device(index) else { continue };
+        let (Some(group), Some(period_ms)) = (&device.group, period_ms(device)) else { continue };
+        let mut turn = Turn {
+            group: group.name.clone(),
+            device: index,
+            start_ms: 0,
+            period_ms,
+            measuring_ms: Design::measuring_us(device).div_ceil(1_000) + GAP_MS,
+            overlaps: false,
+        };
+        let others = || turns.iter().filter(|other| other.group == turn.group);
+        match place(&turn, others) {
+            Some(start_ms) => turn.start_ms = start_ms,
+            None => turn.overlaps = true,
+        }
+        turns.push(turn);
+    }
+    turns
+}
+
+/// From one measurement to the next, of what measures when it is told to.
+fn period_ms(device: &Device) -> Option<u32> {
+    match &device.kind {
+        Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
+        Kind::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
+        Kind::Analog(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    }
+}
+
+/// The earliest start that keeps clear of all others.
+fn place<'t, I: Iterator<Item = &'t Turn>>(turn: &Turn, others: impl Fn() -> I) -> Option<u32> {
+    let mut start_ms = 0_u32;
+    for _ in 0..TRIES_MAX {
+        let later = others().find_map(|other| clear_of(turn, start_ms, other).err());
+        match later {
+            None => return Some(start_ms),
+            Some(wait_ms) => start_ms = start_ms.checked_add(wait_ms?)?,
+        }
+        if start_ms >= turn.period_ms {
+            return None;
+        }
+    }
+    None
+}
+
+/// That a start keeps clear of another device; otherwise how much later it has to be, where that helps.
+fn clear_of(turn: &Turn, start_ms: u32, other: &Turn) -> Result<(), Option<u32>> {
+    let common = gcd(turn.period_ms, other.period_ms);
+    if turn.measuring_ms.checked_add(other.measuring_ms).is_none_or(|both| both > common) {
+        return Err(None);
+    }
+    let behind = (start_ms % common + common - other.start_ms % common) % common;
+    if behind < other.measuring_ms {
+        return Err(Some(other.measuring_ms - behind));
+    }
+    let ahead = common - behind;
+    if ahead < turn.measuring_ms {
+        return Err(Some(ahead + other.measuring_ms));
+    }
+    Ok(())
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    let (mut a, mut b) = (a.max(1), b.max(1));
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turn(device: usize, start_ms: u32, period_ms: u32, measuring_ms: u32) -> Turn {
+        let (device, group) = (DeviceIndex(device), String::new());
+        Turn { group, device, start_ms, period_ms, measuring_ms, overlaps: false }
+    }
+
+    /// Whether two devices ever measure at the same time, by going through every millisecond.
+    fn meet(one: &Turn, other: &Turn) -> bool {
+        let measures = |turn: &Turn, at: u32| {
+            at >= turn.start_ms && (at - turn.start_ms) % turn.period_ms < turn.measuring_ms
+        };
+        let end = one.period_ms * other.period_ms + one.start_ms + other.start_ms;
+        (0..end).any(|at| measures(one, at) && measures(other, at))
+    }
+
+    #[test]
+    fn no_two_devices_of_a_group_ever_measure_together() {
+        for periods in [[200, 200, 200], [80, 160, 240], [60, 90, 120], [70, 70, 70], [50, 75, 500]]
+        {
+            for measuring in [[10, 10, 10], [30, 20, 5], [66, 66, 66], [1, 24, 40]] {
+                let mut placed: Vec<Turn> = Vec::new();
+                for (at, (period, measuring)) in periods.into_iter().zip(measuring).enumerate() {
+                    let mut next = turn(at, 0, period, measuring);
+                    let Some(start_ms) = place(&next, || placed.iter()) else { continue };
+                    next.start_ms = start_ms;
+                    let others: Vec<&Turn> = placed.iter().collect();
+                    assert!(others.iter().all(|other| !meet(&next, other)), "{next:?} {placed:?}");
+                    placed.push(next);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn turns_follow_each_other_at_once() {
+        let first = turn(0, 0, 200, 66);
+        let second = turn(1, 66, 200, 66);
+        let start = |others: &[Turn]| place(&turn(9, 0, 200, 66), || others.iter());
+        assert_eq!(start(std::slice::from_ref(&first)), Some(66));
+        assert_eq!(start(&[first.clone(), second.clone()]), Some(132));
+        assert_eq!(start(&[first, second, turn(2, 132, 200, 66)]), None);
+    }
+}

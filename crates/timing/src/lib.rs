@@ -1,0 +1,180 @@
+//! What a wired design asks of its hardware each second, and whether the hardware can do it.
+//!
+//! In: a design with its wiring, and the facts of target profiles and boards. Out: a [`Timing`], which
+//! has for each converter, bus, link, capture and thread the exact clock, the time it takes and its share of what
+//! is possible; and diagnostics for what cannot be. A fact that no profile states makes a figure that is
+//! not known, never a guess.
+
+mod buses;
+mod captures;
+mod clocks;
+mod converters;
+mod groups;
+pub mod i2c_clock;
+mod judge;
+mod limits;
+mod link;
+mod ports;
+mod processor;
+mod rows;
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, DeviceWiring};
+
+pub use clocks::{Tick, sampling};
+pub use converters::depth;
+pub use groups::{Starts, starts};
+pub use judge::shown_time;
+pub use link::finish_ms;
+pub use rows::{Count, Cycle, Part, Row};
+
+/// Nanoseconds of a second.
+pub const SECOND_NS: u64 = 1_000_000_000;
+/// Nanoseconds of a millisecond.
+const MILLISECOND_NS: u64 = 1_000_000;
+/// The reporter's cycle where nothing asks for another.
+const REPORT_MS: u32 = 10;
+
+/// What all boards have to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Timing {
+    /// One for each board that carries a device.
+    pub boards: Vec<BoardTiming>,
+}
+
+/// What one board has to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BoardTiming {
+    /// Which board.
+    pub board: BoardIndex,
+    /// The clock of its processor.
+    pub core_hz: Option<u32>,
+    /// Part by part: converters, buses and ports, the link, captures, threads, the processor as a whole.
+    pub rows: Vec<Row>,
+    /// The devices of groups, with the milliseconds after the start at which each first measures.
+    pub turns: Vec<Turn>,
+}
+
+/// When a device of a group measures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Turn {
+    /// The group.
+    pub group: String,
+    /// The device.
+    pub device: DeviceIndex,
+    /// When it begins, after the start of the board.
+    pub start_ms: u32,
+    /// From one measurement to the next.
+    pub period_ms: u32,
+    /// How long one lasts.
+    pub measuring_ms: u32,
+    /// Another device of the group measures meanwhile, because there is no time for turns.
+    pub overlaps: bool,
+}
+
+/// A device with its wires.
+#[derive(Clone, Copy)]
+pub(crate) struct Wired<'a> {
+    pub(crate) index: DeviceIndex,
+    pub(crate) device: &'a Device,
+    pub(crate) wiring: &'a DeviceWiring,
+}
+
+/// A board with all that its parts are computed from.
+pub(crate) struct Context<'a> {
+    pub(crate) board: &'a Board,
+    pub(crate) wiring: &'a BoardAssignment,
+    pub(crate) devices: Vec<Wired<'a>>,
+    pub(crate) starts: Starts,
+}
+
+impl<'a> Context<'a> {
+    fn new(design: &'a Design, board: &'a Board, wiring: &'a BoardAssignment) -> Self {
+        let devices = wiring.devices.iter().filter_map(|wiring| {
+            Some(Wired { index: wiring.device, device: design.device(wiring.device)?, wiring })
+        });
+        let starts = starts(design, wiring);
+        Self { board, wiring, devices: devices.collect(), starts }
+    }
+
+    /// What the board's clock tree gives, by macro.
+    pub(crate) fn clock_hz(&self, name: &str) -> Option<u32> {
+        let chibios = self.board.facts.as_ref()?.chibios.as_ref()?;
+        chibios.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
+    }
+
+    /// What devices share that one thread serves.
+    pub(crate) fn cycle(&self, wired: &Wired<'_>) -> Cycle {
+        let Wired { index, device, .. } = wired;
+        Cycle {
+            delay_ms: device.delay_ms,
+            prio: device.prio,
+            start_ms: self.starts.get(index).copied().unwrap_or_default(),
+        }
+    }
+
+    /// Devices of a kind by unit and cycle.
+    pub(crate) fn classes<'c, T>(
+        &'c self,
+        of: impl Fn(&'c Wired<'a>) -> Option<T>,
+    ) -> BTreeMap<(sensedsl_board::signal::UnitName, Cycle), Vec<(&'c Wired<'a>, T)>> {
+        let mut classes: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for wired in &self.devices {
+            let Some(what) = of(wired) else { continue };
+            let Some(unit) = wired.wiring.unit.as_deref() else { continue };
+            let key = (sensedsl_board::signal::UnitName::new(unit), self.cycle(wired));
+            classes.entry(key).or_default().push((wired, what));
+        }
+        classes
+    }
+}
+
+/// Computes what every board that carries a device has to do.
+#[must_use]
+pub fn timing(design: &Design, assignment: &Assignment) -> Timing {
+    let boards = assignment.used(design).map(|(wiring, board)| {
+        let context = Context::new(design, board, wiring);
+        let work = processor::Work::of(&context);
+        let mut rows = converters::rows(&context, &work);
+        rows.extend(buses::rows(&context, &work));
+        rows.extend(ports::rows(&context));
+        rows.extend(link::rows(&context));
+        rows.extend(captures::rows(&context));
+        rows.extend(processor::rows(&context, &work));
+        BoardTiming {
+            board: wiring.board,
+            core_hz: processor::core_hz(&context),
+            rows,
+            turns: groups::turns(design, wiring),
+        }
+    });
+    Timing { boards: boards.collect() }
+}
+
+/// What cannot be, and what is close to it.
+#[must_use]
+pub fn check(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
+    let mut diagnostics = refusals(design, assignment);
+    // A load that follows from a clock that there is not says nothing.
+    if diagnostics.is_empty() {
+        diagnostics.extend(judge::judge(design, &timing(design, assignment)));
+        diagnostics.extend(judge::turns(design, assignment));
+    }
+    diagnostics
+}
+
+/// Clocks and sampling times that the hardware cannot make.
+#[must_use]
+pub fn refusals(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
+    let boards = assignment.used(design);
+    boards.flat_map(|(wiring, board)| refusals_of(design, board, wiring)).collect()
+}
+
+/// Clocks and sampling times that the hardware of one board cannot make.
+#[must_use]
+pub fn refusals_of(design: &Design, board: &Board, wiring: &BoardAssignment) -> Vec<Diagnostic> {
+    limits::limits(&Context::new(design, board, wiring))
+}

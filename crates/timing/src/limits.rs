@@ -1,0 +1,174 @@
+//! Clocks that cannot be made of those that there are, each with the nearest that can.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::profile::{Timer, Unit};
+use sensedsl_board::signal::UnitName;
+use sensedsl_diagnostics::codes::e0620_clock_out_of_reach::clock_out_of_reach;
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::analog::Analog;
+use sensedsl_model::kind::icu::Icu;
+
+use crate::clocks::{
+    PRESCALER_MAX, Tick, nearest, off_ppm, sampling, slowest_hz, timer_hz, unit_hz,
+};
+use crate::{Context, Wired, buses, i2c_clock, ports};
+
+/// How far a serial port may be off: half a bit at the end of ten, shared by both ends and the slope of the edges.
+const SERIAL_OFF_PPM_MAX: u64 = 20_000;
+/// How far a CAN bus may be off (Bosch, CAN 2.0, 9.1: 1.58 % over both ends without resynchronising in the arbitration).
+const CAN_OFF_PPM_MAX: u64 = 5_000;
+/// A pulse needs a count for its active and one for its other part.
+const PWM_STEPS_MIN: u32 = 2;
+
+pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    let mut shared: BTreeMap<UnitName, Vec<&Wired<'_>>> = BTreeMap::new();
+    for wired in &context.devices {
+        let unit = wired.wiring.unit.as_deref();
+        match &wired.device.kind {
+            Kind::Analog(analog) => diagnostics.extend(of_sampling(context, wired, analog)),
+            Kind::Icu(icu) => diagnostics.extend(of_tick(context, wired, icu)),
+            Kind::Uart(uart) => {
+                let span = uart.baud_span.unwrap_or(wired.device.kind_span);
+                diagnostics.extend(unit.and_then(|unit| of_baud(context, unit, uart.baud, span)));
+            }
+            Kind::Pwm(pwm) => diagnostics.extend(of_pulses(context, wired, pwm.frequency_hz)),
+            Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => {
+                if let Some(unit) = unit {
+                    shared.entry(UnitName::new(unit)).or_default().push(wired);
+                }
+            }
+            Kind::Encoder(_) | Kind::Digital(_) | Kind::Dac(_) => {}
+        }
+    }
+    for (unit, on_bus) in &shared {
+        diagnostics.extend(of_bus(context, unit, on_bus));
+    }
+    let link = &context.board.link;
+    if link.transport == Transport::Uart
+        && let Some(wiring) = &context.wiring.link
+    {
+        let span = link.baud_span.unwrap_or(context.board.name.span);
+        diagnostics.extend(of_baud(context, &wiring.unit, link.baud, span));
+    }
+    diagnostics
+}
+
+fn of_sampling(context: &Context<'_>, wired: &Wired<'_>, analog: &Analog) -> Option<Diagnostic> {
+    let facts = &context.board.profile()?.adc;
+    let asked = analog.sampling_cycles?;
+    if sampling(facts, Some(asked)).is_some() {
+        return None;
+    }
+    let most = facts.sample_cycles.iter().max().map_or(0, |most| most.whole());
+    let name = &wired.device.name.value;
+    let message =
+        format!("{name} asks for {asked} cycles of sampling, and the ADC has at most {most}");
+    let span = analog.sampling_span.unwrap_or(wired.device.kind_span);
+    Some(clock_out_of_reach(span, &message, &format!("write `sampling = {most};` or less")))
+}
+
+fn timer<'c>(context: &'c Context<'_>, wired: &Wired<'_>) -> Option<&'c Timer> {
+    let name = wired.wiring.unit.as_deref()?;
+    context.board.profile()?.timers.iter().find(|timer| timer.name == name)
+}
+
+fn of_tick(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu) -> Option<Diagnostic> {
+    let timer = timer(context, wired)?;
+    let clock_hz = timer_hz(context, timer)?;
+    let tick = Tick { clock_hz, tick_hz: icu.tick_hz };
+    if tick.is_possible() {
+        return None;
+    }
+    let (name, device, tick_hz) = (&timer.name, &wired.device.name.value, icu.tick_hz);
+    let message =
+        format!("{name} of {device} runs at {clock_hz} Hz, which does not divide to {tick_hz} Hz");
+    let least = clock_hz.div_ceil(PRESCALER_MAX);
+    let nearest = tick.nearest()?;
+    let help = format!(
+        "write `resolution = {nearest} Hz;`, the nearest that it can make, or another from {least} Hz on that divides \
+         {clock_hz} Hz: 1 us does"
+    );
+    let span = icu.tick_span.unwrap_or(wired.device.kind_span);
+    Some(clock_out_of_reach(span, &message, &help))
+}
+
+fn of_pulses(context: &Context<'_>, wired: &Wired<'_>, frequency_hz: u32) -> Option<Diagnostic> {
+    let timer = timer(context, wired)?;
+    let most = timer_hz(context, timer)? / PWM_STEPS_MIN;
+    let (name, device) = (&timer.name, &wired.device.name.value);
+    (frequency_hz > most).then(|| {
+        let message = format!("{name} of {device} makes at most {most} pulses a second");
+        clock_out_of_reach(
+            wired.device.kind_span,
+            &message,
+            &format!("write `frequency = {most} Hz;` or less"),
+        )
+    })
+}
+
+/// A rate that the divider misses by too much.
+fn of_baud(context: &Context<'_>, unit: &str, asked: u32, span: Span) -> Option<Diagnostic> {
+    let exact = ports::exact_baud(context, unit, asked)?;
+    if off_ppm(exact, asked) <= SERIAL_OFF_PPM_MAX {
+        return None;
+    }
+    let message = format!("{unit} makes {exact} baud of its clock, not {asked}");
+    let help = format!(
+        "write a `baud` within 2 % of one that it can make, such as {exact}, or take another port: their clocks differ"
+    );
+    Some(clock_out_of_reach(span, &message, &help))
+}
+
+fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Option<Diagnostic> {
+    let profile = context.board.profile()?;
+    let facts: &Unit = profile.unit(unit.as_str())?;
+    let hz = unit_hz(context, facts)?;
+    let asked_hz = buses::asked_hz(on_bus.iter().copied())?;
+    let exact = buses::exact_hz(context, unit, asked_hz);
+    let asks = |wired: &&&Wired<'_>| buses::asked_hz(std::iter::once(**wired)) == Some(asked_hz);
+    let wired = on_bus.iter().find(asks)?;
+    let (name, device) = (unit.as_str(), &wired.device.name.value);
+    let kind_span = wired.device.kind_span;
+    let (span, property, slowest) = match &wired.device.kind {
+        Kind::I2c(i2c) => (i2c.speed_span, "speed", i2c_clock::slowest_hz(&profile.i2c, hz)),
+        Kind::Spi(spi) => {
+            let dividers = profile.spi_dividers.as_ref()?;
+            (spi.clock_span, "clock", Some(slowest_hz(dividers, hz)))
+        }
+        Kind::Can(can) => {
+            let exact = nearest(profile.can_dividers.as_ref()?, hz, asked_hz)?;
+            if off_ppm(exact, asked_hz) <= CAN_OFF_PPM_MAX {
+                return None;
+            }
+            let message = format!(
+                "{name} of {device} makes {exact} bits a second of its clock, not {asked_hz}"
+            );
+            let help = format!(
+                "write a `bitrate` within 0.5 % of one that it can make: {exact} Hz is the nearest"
+            );
+            return Some(clock_out_of_reach(
+                can.bitrate_span.unwrap_or(kind_span),
+                &message,
+                &help,
+            ));
+        }
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => return None,
+    };
+    // Without facts of its dividers nothing is known of the clock.
+    let slowest = slowest.filter(|_| exact.is_none())?;
+    let message = format!(
+        "{name} of {device} makes no clock of {asked_hz} Hz or less: its slowest is {slowest} Hz"
+    );
+    let help = format!("write `{property} = {slowest} Hz;` or more");
+    Some(clock_out_of_reach(span.unwrap_or(kind_span), &message, &help))
+}

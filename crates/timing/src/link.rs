@@ -1,0 +1,139 @@
+//! The link: what the reports of a second come to, and what the medium carries.
+
+use sensedsl_model::design::{Device, Transport};
+use sensedsl_model::kind::Kind;
+use sensedsl_wire::{Checksum, Direction};
+
+use crate::buses::i2c_period_ms;
+use crate::ports::exact_baud;
+use crate::rows::{Count, Part, Row};
+use crate::{Context, REPORT_MS, SECOND_NS};
+
+/// Bits of a byte on a serial line: start, eight of data, stop.
+const SERIAL_BYTE_BITS: u32 = 10;
+/// What a full-speed device can send at most in bulk: 19 packets of 64 bytes in a frame of a millisecond (USB 2.0, table 5-9).
+const USB_BYTES_A_SECOND: u32 = 1_216_000;
+/// What the rest of a frame may take beside its time on the line.
+const PATIENCE_MS: u32 = 50;
+
+/// What a second's reports come to.
+pub(crate) struct Reports {
+    /// The reporter's cycle.
+    pub(crate) cycle_ms: u32,
+    /// Values a second.
+    pub(crate) values: u64,
+    /// Bytes a second, frames included.
+    pub(crate) bytes: u64,
+    /// Of them what devices send that are asked in cycles.
+    pub(crate) cyclic_bytes: u64,
+}
+
+/// As often as something can become due, at most as often as the link allows.
+pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
+    if let Some(rate_hz) = context.board.link.rate_hz {
+        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    }
+    let served = context.devices.iter().filter(|wired| !wired.device.kind.name().triggers_itself());
+    served.map(|wired| wired.device.delay_ms).fold(REPORT_MS, u32::min).max(1)
+}
+
+/// From one value of a device to the next; none for what measures by itself.
+fn period_ms(device: &Device) -> Option<u32> {
+    match &device.kind {
+        Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
+        Kind::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms),
+        Kind::Encoder(_) => None,
+        Kind::Analog(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => Some(device.delay_ms),
+    }
+}
+
+pub(crate) fn reports(context: &Context<'_>) -> Reports {
+    let cycle_ms = report_ms(context);
+    let most = 1_000_u64.div_ceil(u64::from(cycle_ms));
+    // In thousandths, so that a slow device counts as well.
+    let rate = |device: &Device| {
+        let own = period_ms(device).map(|ms| 1_000_000 / u64::from(ms.max(1)));
+        own.unwrap_or(most * 1_000).min(most * 1_000)
+    };
+    let sensors = || {
+        let all = context.devices.iter().map(|wired| wired.device);
+        all.filter(|device| device.direction == Direction::Sensor)
+    };
+    let item = |device: &Device| 1 + device.value.value.size_bytes() as u64;
+    let sum = |what: &dyn Fn(&Device) -> u64, cyclic: bool| -> u64 {
+        let wanted = sensors().filter(|device| !cyclic || period_ms(device).is_some());
+        wanted.map(|device| rate(device) * what(device)).sum::<u64>().div_ceil(1_000)
+    };
+    let frames = |cyclic: bool| {
+        // Devices of one pace are read together, and go in one report.
+        let mut rates: Vec<u64> =
+            sensors().filter(|device| !cyclic || period_ms(device).is_some()).map(rate).collect();
+        rates.sort_unstable();
+        rates.dedup();
+        rates.iter().sum::<u64>().div_ceil(1_000).min(most)
+    };
+    let bytes = |cyclic: bool| {
+        let (values, frames) = (sum(&item, cyclic), frames(cyclic));
+        values + frames * frame_bytes(context, values.checked_div(frames).unwrap_or_default())
+    };
+    Reports { cycle_ms, values: sum(&|_| 1, false), bytes: bytes(false), cyclic_bytes: bytes(true) }
+}
+
+/// Bytes around a payload of so many.
+fn frame_bytes(context: &Context<'_>, payload: u64) -> u64 {
+    let checksum = match context.board.link.checksum {
+        Checksum::None => 0,
+        Checksum::Crc16 => Checksum::Crc16.size_bytes() as u64,
+    };
+    let digits = u64::from((payload + checksum).checked_ilog10().unwrap_or(0)) + 1;
+    digits + 2 + checksum
+}
+
+/// Bytes that the medium carries in a second.
+pub(crate) fn capacity(context: &Context<'_>) -> (Option<u32>, Option<u32>) {
+    match context.board.link.transport {
+        Transport::Usb => (None, Some(USB_BYTES_A_SECOND)),
+        Transport::Uart => {
+            let unit = context.wiring.link.as_ref().map(|link| link.unit.as_str());
+            let baud = unit.and_then(|unit| exact_baud(context, unit, context.board.link.baud));
+            (baud, baud.map(|baud| baud / SERIAL_BYTE_BITS))
+        }
+    }
+}
+
+pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
+    let name = match (context.board.link.transport, &context.wiring.link) {
+        (Transport::Usb, _) => "USB".to_owned(),
+        (Transport::Uart, Some(link)) => link.unit.clone(),
+        (Transport::Uart, None) => return Vec::new(),
+    };
+    let sensors =
+        context.devices.iter().filter(|wired| wired.device.direction == Direction::Sensor);
+    let mut row = Row::new(Part::Link, name, sensors.map(|wired| wired.index).collect());
+    let reports = reports(context);
+    let (clock_hz, bytes) = capacity(context);
+    row.clock_hz = clock_hz;
+    row.a_second = Some(Count::Bytes(reports.bytes));
+    row.busy_ns = bytes.map(|most| busy_ns(reports.bytes, most));
+    vec![row]
+}
+
+/// How long so many bytes take.
+pub(crate) fn busy_ns(bytes: u64, most_a_second: u32) -> u64 {
+    bytes.saturating_mul(SECOND_NS) / u64::from(most_a_second.max(1))
+}
+
+/// How long the reporter waits until the rest of a frame has gone out: its time on the line and some patience.
+#[must_use]
+pub fn finish_ms(frame_bytes: usize, baud: Option<u32>) -> u32 {
+    let Some(baud) = baud else { return PATIENCE_MS };
+    let bits = u64::try_from(frame_bytes).unwrap_or(u64::MAX) * u64::from(SERIAL_BYTE_BITS);
+    let line_ms = bits.saturating_mul(1_000).div_ceil(u64::from(baud.max(1)));
+    PATIENCE_MS.saturating_add(u32::try_from(line_ms).unwrap_or(u32::MAX))
+}

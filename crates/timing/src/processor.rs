@@ -1,0 +1,266 @@
+//! The processor: what threads, interrupts and reports ask of it, from the instructions that were counted.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::profile::Costs;
+use sensedsl_board::signal::UnitName;
+use sensedsl_model::design::{DeviceIndex, Transport};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::analog::Analog;
+
+use crate::buses::script;
+use crate::captures::interrupts;
+use crate::link::reports;
+use crate::rows::{Count, Cycle, Part, Row, clocks_ns};
+use crate::{Context, MILLISECOND_NS};
+
+/// Pulses from here on are slept through.
+const SLEEP_US: u32 = 1_000;
+
+/// Transfers on a bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Transfers {
+    pub(crate) count: u64,
+    pub(crate) bytes: u64,
+}
+
+/// What work costs on one board; nothing where it is not known.
+pub(crate) struct Work {
+    costs: Option<(Costs, u32)>,
+}
+
+pub(crate) fn core_hz(context: &Context<'_>) -> Option<u32> {
+    context.clock_hz(&context.board.profile()?.costs.as_ref()?.clock)
+}
+
+impl Work {
+    pub(crate) fn of(context: &Context<'_>) -> Self {
+        let costs = context.board.profile().and_then(|profile| profile.costs.clone());
+        Self { costs: costs.zip(core_hz(context)) }
+    }
+
+    fn ns(&self, instructions: impl FnOnce(&Costs) -> u64) -> u64 {
+        self.costs.as_ref().map_or(0, |(costs, hz)| time_ns(costs, *hz, instructions(costs)))
+    }
+
+    /// What a thread needs of the processor for a group of analog sensors.
+    pub(crate) fn of_converter(&self, sensors: &[Analog]) -> u64 {
+        self.ns(|costs| converter(costs, sensors.iter().map(|sensor| sensor.samples)))
+    }
+
+    /// What a thread needs of the processor for devices on a bus.
+    pub(crate) fn of_bus(&self, devices: impl Iterator<Item = Transfers>) -> u64 {
+        self.ns(|costs| u64::from(costs.wake) + bus(costs, devices))
+    }
+}
+
+fn time_ns(costs: &Costs, hz: u32, instructions: u64) -> u64 {
+    let cycles = instructions.saturating_mul(u64::from(costs.cycles_per_hundred)).div_ceil(100);
+    clocks_ns(cycles, hz)
+}
+
+fn converter(costs: &Costs, samples: impl Iterator<Item = u16>) -> u64 {
+    let of_sensors: u64 = samples
+        .map(|samples| {
+            u64::from(costs.convert_value) + u64::from(samples) * u64::from(costs.convert_sample)
+        })
+        .sum();
+    u64::from(costs.wake) + u64::from(costs.convert) + of_sensors
+}
+
+fn bus(costs: &Costs, devices: impl Iterator<Item = Transfers>) -> u64 {
+    devices
+        .map(|transfers| {
+            u64::from(costs.bus_device)
+                + transfers.count * u64::from(costs.bus_transfer)
+                + transfers.bytes * u64::from(costs.bus_byte)
+        })
+        .sum()
+}
+
+/// A thread: what it is called, its cycle, the devices it serves, and its instructions in a second.
+struct Thread {
+    name: String,
+    cycle: Cycle,
+    devices: Vec<DeviceIndex>,
+    /// Of one cycle at most, where they are known.
+    cycle_instructions: Option<u64>,
+    instructions: Option<u64>,
+    /// Waited for with the processor held, in nanoseconds a cycle.
+    held_ns: u64,
+    /// Slept through in a cycle.
+    slept_ns: u64,
+    has_pulses: bool,
+}
+
+/// What one class is made of.
+#[derive(Default)]
+struct Load {
+    devices: Vec<DeviceIndex>,
+    samples: Vec<u16>,
+    /// With the milliseconds between two of them.
+    transfers: Vec<(Transfers, u32)>,
+    /// The length of a pulse.
+    pulses_us: Vec<u32>,
+    /// The runtime has no thread for some of it.
+    is_unknown: bool,
+}
+
+fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
+    let mut loads: BTreeMap<(UnitName, Cycle), Load> = BTreeMap::new();
+    for wired in &context.devices {
+        let unit = match &wired.device.kind {
+            Kind::Icu(icu) if icu.pulse_us.is_some() => "pulse",
+            Kind::Icu(_) | Kind::Encoder(_) => continue,
+            kind @ (Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_)) => wired.wiring.unit.as_deref().unwrap_or(kind.name().name()),
+        };
+        let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
+        load.devices.push(wired.index);
+        match &wired.device.kind {
+            Kind::Analog(analog) => load.samples.push(analog.samples),
+            Kind::Icu(icu) => load.pulses_us.extend(icu.pulse_us),
+            Kind::I2c(_) => {
+                let script = script(context, wired);
+                load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
+            }
+            Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => load.is_unknown = true,
+        }
+    }
+    loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()
+}
+
+impl Load {
+    fn thread(self, unit: &UnitName, cycle: Cycle, costs: Option<&Costs>) -> Thread {
+        let costs = costs.filter(|_| !self.is_unknown);
+        let instructions = costs.map(|costs| {
+            let pulses = self.pulses_us.len() as u64 * u64::from(costs.pulse);
+            let transfers = || self.transfers.iter().map(|(transfers, _)| *transfers);
+            let each = if self.samples.is_empty() {
+                u64::from(costs.wake) + pulses
+            } else {
+                converter(costs, self.samples.iter().copied())
+            };
+            // A device is looked at each cycle and talked to when it is ready.
+            let looked = self.transfers.len() as u64 * u64::from(costs.bus_device);
+            let talked: u64 = self
+                .transfers
+                .iter()
+                .map(|(transfers, every_ms)| {
+                    let once =
+                        bus(costs, std::iter::once(*transfers)) - u64::from(costs.bus_device);
+                    once * 1_000 / u64::from((*every_ms).max(1))
+                })
+                .sum();
+            let cycles = 1_000.0_f64 / f64::from(cycle.delay_ms.max(1));
+            let often = |instructions: u64| times(instructions, cycles);
+            (each + bus(costs, transfers()), often(each + looked) + talked)
+        });
+        let (held_us, slept_us): (Vec<u32>, Vec<u32>) =
+            self.pulses_us.iter().partition(|us| **us < SLEEP_US);
+        let ns = |us: &[u32]| us.iter().map(|us| u64::from(*us) * 1_000).sum();
+        Thread {
+            name: cycle.title(unit.as_str()),
+            cycle,
+            devices: self.devices,
+            cycle_instructions: instructions.map(|(cycle, _)| cycle),
+            instructions: instructions.map(|(_, second)| second),
+            held_ns: ns(&held_us),
+            slept_ns: ns(&slept_us),
+            has_pulses: !self.pulses_us.is_empty(),
+        }
+    }
+}
+
+fn times(instructions: u64, cycles: f64) -> u64 {
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "instructions of a second are far below 2^53"
+    )]
+    let all = (instructions as f64 * cycles).ceil() as u64;
+    all
+}
+
+/// The reporter's instructions of a second.
+fn reporter(context: &Context<'_>, costs: &Costs) -> u64 {
+    let reports = reports(context);
+    let cycles = 1_000_u64.div_ceil(u64::from(reports.cycle_ms.max(1)));
+    let is_capture = |kind: &Kind| kind.name().triggers_itself();
+    let captures = context.devices.iter().filter(|wired| is_capture(&wired.device.kind)).count();
+    let mut instructions = cycles
+        * (u64::from(costs.wake)
+            + u64::from(costs.report)
+            + captures as u64 * u64::from(costs.capture_look))
+        + reports.values * u64::from(costs.report_value)
+        + reports.bytes * u64::from(costs.report_byte);
+    if context.board.link.transport == Transport::Uart {
+        instructions += reports.bytes * u64::from(costs.serial_byte);
+    }
+    instructions
+}
+
+pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
+    let costs = work.costs.as_ref();
+    let ns = |instructions: u64| costs.map(|(costs, hz)| time_ns(costs, *hz, instructions));
+    let mut rows = Vec::new();
+    for thread in threads(context, costs.map(|(costs, _)| costs)) {
+        let mut row = Row::new(Part::Thread, thread.name, thread.devices);
+        let held_ns = crate::rows::per_second(thread.held_ns, thread.cycle.delay_ms);
+        row.cycle = Some(thread.cycle);
+        row.a_second = thread.instructions.map(Count::Instructions);
+        row.cycle_ns = thread.cycle_instructions.and_then(ns).map(|ns| ns + thread.held_ns);
+        row.busy_ns = thread.instructions.and_then(ns).map(|ns| ns + held_ns);
+        let waits_ns =
+            row.cycle_ns.map(|ns| (ns + thread.slept_ns).div_ceil(MILLISECOND_NS).max(1));
+        row.shortest_ms =
+            waits_ns.filter(|_| thread.has_pulses).and_then(|ms| u32::try_from(ms).ok());
+        rows.push(row);
+    }
+    let mut row = Row::new(Part::Thread, "reporter", Vec::new());
+    let report_ms = reports(context).cycle_ms;
+    row.cycle = Some(Cycle { delay_ms: report_ms, prio: 0, start_ms: 0 });
+    let instructions = costs.map(|(costs, _)| reporter(context, costs));
+    row.a_second = instructions.map(Count::Instructions);
+    row.busy_ns = instructions.and_then(ns);
+    rows.push(row);
+    rows.extend(of_captures(context, costs));
+    // What has no figure of its own is not in the sum; it is told beside it.
+    let busy = rows.iter().map(|row| row.busy_ns).collect::<Option<Vec<u64>>>();
+    let mut row = Row::new(Part::Processor, "all of it", Vec::new());
+    row.clock_hz = core_hz(context);
+    row.busy_ns = busy.map(|busy| busy.into_iter().fold(0, u64::saturating_add));
+    rows.push(row);
+    rows
+}
+
+/// All captures of which it is known how often they come.
+fn of_captures(context: &Context<'_>, costs: Option<&(Costs, u32)>) -> Option<Row> {
+    let known: Vec<(DeviceIndex, u64)> = context
+        .devices
+        .iter()
+        .filter_map(|wired| Some((wired.index, interrupts(wired.device)?)))
+        .collect();
+    if known.is_empty() {
+        return None;
+    }
+    let devices = known.iter().map(|(index, _)| *index).collect();
+    let all: u64 = known.iter().map(|(_, count)| count).sum();
+    let mut row = Row::new(Part::Thread, "captures", devices);
+    row.a_second = costs.map(|(costs, _)| Count::Instructions(all * u64::from(costs.capture)));
+    row.busy_ns = costs.map(|(costs, hz)| time_ns(costs, *hz, all * u64::from(costs.capture)));
+    Some(row)
+}
