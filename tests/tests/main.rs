@@ -26,5 +26,6 @@ mod proof;
 mod single_files;
 mod soft_units;
 mod spreadsheets;
+mod timing;
 mod traceability;
 mod wiring;

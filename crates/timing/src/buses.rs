@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
+use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;
 use sensedsl_model::kind::i2c::I2c;
@@ -37,6 +38,14 @@ pub(crate) struct Script {
     pub(crate) every_ms: u32,
 }
 
+impl Transfers {
+    /// One transfer that is only a value, without what is on the bus around it.
+    fn of_value(device: &Device, value_bytes: u64) -> Self {
+        let elements = device.value.value.count() as u64;
+        Self { count: 1, phases: 1, bytes: 0, elements, value_bytes }
+    }
+}
+
 /// From one measurement of an I2C device to the next: it is asked each cycle, and answers once its waiting time is over.
 pub(crate) fn i2c_period_ms(delay_ms: u32, wait_us: u32) -> u32 {
     let delay_ms = delay_ms.max(1);
@@ -48,36 +57,38 @@ pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) ->
     let least = context.board.profile().map_or(1, |profile| profile.i2c.read_bytes_min);
     let length = u64::from(i2c.length_bytes);
     let register = u64::from(i2c.register.is_some());
-    let (mut transfers, mut conditions) = (Transfers { count: 1, bytes: 0 }, 2);
+    let mut transfers = Transfers::of_value(device, length);
     match device.direction {
         Direction::Actuator => transfers.bytes = 1 + register + length,
         Direction::Sensor => {
             transfers.bytes = 1 + length.max(u64::from(least));
             if register > 0 {
                 transfers.bytes += 1 + register;
-                conditions += 1;
+                transfers.phases += 1;
             }
             if !i2c.trigger.is_empty() {
                 transfers.count += 1;
                 transfers.bytes += 1 + i2c.trigger.len() as u64;
-                conditions += 2;
+                transfers.phases += 1;
             }
         }
     }
+    let conditions = transfers.phases + transfers.count;
     let clocks = transfers.bytes * I2C_BYTE_CLOCKS + conditions * I2C_CONDITION_CLOCKS;
     Script { transfers, clocks, every_ms: i2c_period_ms(device.delay_ms, i2c.wait_us) }
 }
 
 fn spi_script(wired: &Wired<'_>, spi: &Spi) -> Script {
     let bytes = spi.read.len() as u64 + u64::from(spi.length_bytes);
-    let transfers = Transfers { count: 1, bytes };
+    let transfers = Transfers { bytes, ..Transfers::of_value(wired.device, bytes) };
     Script { transfers, clocks: bytes * SPI_BYTE_CLOCKS, every_ms: wired.device.delay_ms }
 }
 
 fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
     let bytes = u64::from(can.byte) + wired.device.value.value.size_bytes() as u64;
     let clocks = CAN_FRAME_BITS + bytes * CAN_BYTE_BITS;
-    Script { transfers: Transfers { count: 1, bytes }, clocks, every_ms: wired.device.delay_ms }
+    let transfers = Transfers { bytes, ..Transfers::of_value(wired.device, bytes) };
+    Script { transfers, clocks, every_ms: wired.device.delay_ms }
 }
 
 /// What a device on a bus does.

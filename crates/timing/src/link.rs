@@ -1,5 +1,7 @@
 //! The link: what the reports of a second come to, and what the medium carries.
 
+use std::collections::BTreeSet;
+
 use sensedsl_model::design::{Device, Transport};
 use sensedsl_model::kind::Kind;
 use sensedsl_wire::{Checksum, Direction};
@@ -20,6 +22,8 @@ const PATIENCE_MS: u32 = 50;
 pub(crate) struct Reports {
     /// The reporter's cycle.
     pub(crate) cycle_ms: u32,
+    /// Reports a second, at most.
+    pub(crate) count: u64,
     /// Values a second.
     pub(crate) values: u64,
     /// Bytes a second, frames included.
@@ -71,18 +75,26 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
         wanted.map(|device| rate(device) * what(device)).sum::<u64>().div_ceil(1_000)
     };
     let frames = |cyclic: bool| {
-        // Devices of one pace are read together, and go in one report.
-        let mut rates: Vec<u64> =
-            sensors().filter(|device| !cyclic || period_ms(device).is_some()).map(rate).collect();
-        rates.sort_unstable();
-        rates.dedup();
-        rates.iter().sum::<u64>().div_ceil(1_000).min(most)
+        // Devices of one pace and one start are read together, and go in one report.
+        let wanted = context.devices.iter().filter(|wired| {
+            let is_sensor = wired.device.direction == Direction::Sensor;
+            is_sensor && (!cyclic || period_ms(wired.device).is_some())
+        });
+        let paces: BTreeSet<(u64, u32)> =
+            wanted.map(|wired| (rate(wired.device), context.cycle(wired).start_ms)).collect();
+        paces.iter().map(|(rate, _)| rate).sum::<u64>().div_ceil(1_000).min(most)
     };
     let bytes = |cyclic: bool| {
         let (values, frames) = (sum(&item, cyclic), frames(cyclic));
         values + frames * frame_bytes(context, values.checked_div(frames).unwrap_or_default())
     };
-    Reports { cycle_ms, values: sum(&|_| 1, false), bytes: bytes(false), cyclic_bytes: bytes(true) }
+    Reports {
+        cycle_ms,
+        count: frames(false),
+        values: sum(&|_| 1, false),
+        bytes: bytes(false),
+        cyclic_bytes: bytes(true),
+    }
 }
 
 /// Bytes around a payload of so many.

@@ -20,8 +20,16 @@ const SLEEP_US: u32 = 1_000;
 /// Transfers on a bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Transfers {
+    /// From a start condition to the stop.
     pub(crate) count: u64,
+    /// Start conditions: one that writes and then reads has two.
+    pub(crate) phases: u64,
+    /// Bytes on the bus.
     pub(crate) bytes: u64,
+    /// Elements of the value.
+    pub(crate) elements: u64,
+    /// Bytes of the value.
+    pub(crate) value_bytes: u64,
 }
 
 /// What work costs on one board; nothing where it is not known.
@@ -73,7 +81,9 @@ fn bus(costs: &Costs, devices: impl Iterator<Item = Transfers>) -> u64 {
         .map(|transfers| {
             u64::from(costs.bus_device)
                 + transfers.count * u64::from(costs.bus_transfer)
-                + transfers.bytes * u64::from(costs.bus_byte)
+                + transfers.phases * u64::from(costs.bus_phase)
+                + transfers.elements * u64::from(costs.bus_element)
+                + transfers.value_bytes * u64::from(costs.bus_byte)
         })
         .sum()
 }
@@ -172,7 +182,7 @@ impl Load {
             self.pulses_us.iter().partition(|us| **us < SLEEP_US);
         let ns = |us: &[u32]| us.iter().map(|us| u64::from(*us) * 1_000).sum();
         Thread {
-            name: cycle.title(unit.as_str()),
+            name: name(unit.as_str(), cycle),
             cycle,
             devices: self.devices,
             cycle_instructions: instructions.map(|(cycle, _)| cycle),
@@ -182,6 +192,14 @@ impl Load {
             has_pulses: !self.pulses_us.is_empty(),
         }
     }
+}
+
+/// What a thread is called beside its cycle: its unit, its priority, and its start where that is not at once. What has
+/// no unit has the name of its work.
+fn name(unit: &str, cycle: Cycle) -> String {
+    let has_number = unit.ends_with(|c: char| c.is_ascii_digit());
+    let unit = if has_number { unit.to_owned() } else { unit.to_lowercase() };
+    cycle.named(&unit)
 }
 
 fn times(instructions: u64, cycles: f64) -> u64 {
@@ -202,13 +220,13 @@ fn reporter(context: &Context<'_>, costs: &Costs) -> u64 {
     let is_capture = |kind: &Kind| kind.name().triggers_itself();
     let captures = context.devices.iter().filter(|wired| is_capture(&wired.device.kind)).count();
     let mut instructions = cycles
-        * (u64::from(costs.wake)
-            + u64::from(costs.report)
-            + captures as u64 * u64::from(costs.capture_look))
+        * (u64::from(costs.report) + captures as u64 * u64::from(costs.capture_look))
+        + reports.count * u64::from(costs.report_frame)
         + reports.values * u64::from(costs.report_value)
         + reports.bytes * u64::from(costs.report_byte);
     if context.board.link.transport == Transport::Uart {
-        instructions += reports.bytes * u64::from(costs.serial_byte);
+        instructions += reports.count * u64::from(costs.serial_frame)
+            + reports.bytes * u64::from(costs.serial_byte);
     }
     instructions
 }

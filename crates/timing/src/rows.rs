@@ -57,10 +57,16 @@ impl Cycle {
     /// What a thread is called: `ADC1 60 ms +2`, with its start where that is not at once.
     #[must_use]
     pub fn title(self, unit: &str) -> String {
-        let Self { delay_ms, prio, start_ms } = self;
+        let delay_ms = self.delay_ms;
+        self.named(&format!("{unit} {delay_ms} ms"))
+    }
+
+    /// A name with what tells it from others of the same cycle time.
+    pub(crate) fn named(self, name: &str) -> String {
+        let Self { prio, start_ms, .. } = self;
         let prio = if prio == 0 { String::new() } else { format!(" {prio:+}") };
         let start = if start_ms == 0 { String::new() } else { format!(" @{start_ms}") };
-        format!("{unit} {delay_ms} ms{prio}{start}")
+        format!("{name}{prio}{start}")
     }
 }
 
@@ -93,9 +99,9 @@ impl Count {
     pub const fn short_unit(self) -> &'static str {
         match self {
             Self::Conversions(_) => "conv",
-            Self::Bytes(_) => "bytes",
-            Self::Interrupts(_) => "irqs",
-            Self::Instructions(_) => "instr",
+            Self::Bytes(_) => "B",
+            Self::Interrupts(_) => "irq",
+            Self::Instructions(_) => "ins",
         }
     }
 

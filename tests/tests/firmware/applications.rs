@@ -209,9 +209,8 @@ fn what_cannot_be_generated_is_said() {
         )
     };
     assert_eq!(codes(None, &analog("digital;")), ["E0501"]);
-    assert_eq!(codes(None, &analog("analog; sampling = 481;")), ["E0506"]);
-    assert_eq!(codes(None, &analog("icu; resolution = 13 kHz;")), ["E0506"]);
-    assert_eq!(codes(None, &analog("i2c; address = 0x20; length = 9;")), ["E0506"]);
-    assert_eq!(codes(None, &analog("i2c; address = 0x20; speed = 5 kHz;")), ["E0506"]);
+    assert_eq!(codes(None, &analog("analog; sampling = 481;")), ["E0620"]);
+    assert_eq!(codes(None, &analog("icu; resolution = 13 kHz;")), ["E0620"]);
+    assert_eq!(codes(None, &analog("i2c; address = 0x20; speed = 5 kHz;")), ["E0620"]);
     assert_eq!(codes(Some("none"), FIG2), ["E0504"]);
 }

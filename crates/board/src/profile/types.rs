@@ -401,9 +401,13 @@ pub struct Costs {
     pub convert_sample: u32,
     /// A device on a bus is looked at.
     pub bus_device: u32,
-    /// A transfer on a bus, with its interrupts.
+    /// A transfer on a bus is started, and its end is noticed.
     pub bus_transfer: u32,
-    /// A byte of a transfer.
+    /// An address on a bus with its interrupts: a transfer that writes and then reads has two.
+    pub bus_phase: u32,
+    /// An element of a value is put together.
+    pub bus_element: u32,
+    /// A byte of it.
     pub bus_byte: u32,
     /// A line gets a pulse.
     pub pulse: u32,
@@ -411,13 +415,17 @@ pub struct Costs {
     pub capture: u32,
     /// A capture is looked at by the reporter.
     pub capture_look: u32,
-    /// The reporter looks whether anything is due.
+    /// The reporter wakes, looks whether anything is due, and sleeps again.
     pub report: u32,
+    /// A report is begun and ended.
+    pub report_frame: u32,
     /// A value goes into a report.
     pub report_value: u32,
     /// A byte of a report is encoded.
     pub report_byte: u32,
-    /// A byte goes out of a serial port.
+    /// A report goes out of a serial port.
+    pub serial_frame: u32,
+    /// A byte of it.
     pub serial_byte: u32,
     /// How it was counted.
     pub source: String,

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::{Design, DeviceIndex};
-use sensedsl_timing::{BoardTiming, Row, SECOND_NS, Timing, shown_time, timing};
+use sensedsl_timing::{BoardTiming, Part, Row, SECOND_NS, Timing, shown_time, timing};
 use sensedsl_wiring::{Search, Solved};
 use serde_json::{Value, json};
 
@@ -12,6 +12,13 @@ use super::table::{INDENT, table};
 use crate::Status;
 use crate::cli::{ExplainArgs, TableFormat};
 use crate::terminal::Terminal;
+
+/// What the columns mean.
+const LEGEND: [&str; 3] = [
+    "A second: conversions, bytes (B), interrupts (irq) or instructions (ins).",
+    "Least: the shortest delay that can be kept beside the others.",
+    "not known: no profile, or no `max` of the device, says enough.",
+];
 
 /// What stands where a profile lacks the fact.
 const UNKNOWN: &str = "not known";
@@ -104,7 +111,7 @@ fn human(design: &Design, timing: &Timing) -> String {
             ("Clock", true),
             ("Cycle", true),
             ("Takes", true),
-            ("In a second", true),
+            ("A second", true),
             ("Busy", true),
             ("Least", true),
         ];
@@ -114,9 +121,10 @@ fn human(design: &Design, timing: &Timing) -> String {
             out.push_str(&turns(design, board));
         }
     }
-    out.push_str(&format!(
-        "\n{INDENT}Least is the shortest delay that can be kept beside the others.\n"
-    ));
+    out.push('\n');
+    for line in LEGEND {
+        out.push_str(&format!("{INDENT}{line}\n"));
+    }
     out
 }
 
@@ -152,7 +160,7 @@ fn cells(row: &Row) -> [String; 8] {
     [
         row.part.name().to_owned(),
         row.name.clone(),
-        row.clock_hz.map(frequency).unwrap_or_default(),
+        row.clock_hz.map(|hz| clock(row.part, hz)).unwrap_or_default(),
         row.cycle.map(|cycle| ms(cycle.delay_ms)).unwrap_or_default(),
         row.cycle_ns.map(shown_time).unwrap_or_default(),
         row.a_second.map_or_else(
@@ -163,6 +171,19 @@ fn cells(row: &Row) -> [String; 8] {
             .map_or_else(|| if row.has_share() { unknown() } else { String::new() }, percent),
         row.shortest_ms.map(ms).unwrap_or_default(),
     ]
+}
+
+/// A serial rate in baud, everything else as a frequency.
+fn clock(part: Part, hz: u32) -> String {
+    match part {
+        Part::Link | Part::Port => format!("{hz} Bd"),
+        Part::Converter
+        | Part::Bus
+        | Part::Output
+        | Part::Interrupts
+        | Part::Thread
+        | Part::Processor => frequency(hz),
+    }
 }
 
 /// `0.4 %`
@@ -192,7 +213,7 @@ fn frequency(hz: u32) -> String {
 fn short(number: u64) -> String {
     match number {
         0..10_000 => number.to_string(),
-        10_000..10_000_000 => format!("{} k", number.div_ceil(1_000)),
-        _ => format!("{} M", number.div_ceil(1_000_000)),
+        10_000..10_000_000 => format!("{}k", number.div_ceil(1_000)),
+        _ => format!("{}M", number.div_ceil(1_000_000)),
     }
 }
