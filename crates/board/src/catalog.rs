@@ -175,6 +175,8 @@ pub struct Chibios {
     pub cfg: String,
     /// The linker script.
     pub ldscript: String,
+    /// The memory that the linker script gives to data, where it is known.
+    pub ram_bytes: Option<u32>,
     /// The macro by which the configuration tells its MCU.
     pub mcuconf: String,
     /// What the configuration's clock tree gives, by macro.

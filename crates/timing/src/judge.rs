@@ -96,7 +96,11 @@ fn of_unit(design: &Design, part: Part, unit: &str, rows: &[&Row]) -> Option<Dia
         let device = design.device(*worst.devices.first()?)?;
         return Some(w0623_nearly_busy::nearly_busy(place(device), unit, near / (SECOND_NS / 100)));
     }
-    let takes = shown_time(blamed.cycle_ns?);
+    // A thread that puts out pulses sleeps most of its time.
+    let takes = match blamed.shortest_ms.filter(|_| part == Part::Thread) {
+        Some(ms) => format!("{ms} ms"),
+        None => shown_time(blamed.cycle_ns?),
+    };
     let others = busy_ns.saturating_sub(blamed.busy_ns.unwrap_or_default());
     let message = if others == 0 {
         let delay_ms = cycle.delay_ms;

@@ -14,6 +14,7 @@ pub mod i2c_clock;
 mod judge;
 mod limits;
 mod link;
+mod memory;
 mod ports;
 mod processor;
 mod rows;
@@ -166,15 +167,18 @@ pub fn check(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Clocks and sampling times that the hardware cannot make.
+/// Clocks and sampling times that the hardware cannot make, and values that it cannot hold.
 #[must_use]
 pub fn refusals(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     let boards = assignment.used(design);
     boards.flat_map(|(wiring, board)| refusals_of(design, board, wiring)).collect()
 }
 
-/// Clocks and sampling times that the hardware of one board cannot make.
+/// Clocks and sampling times that the hardware of one board cannot make, and values that it cannot hold.
 #[must_use]
 pub fn refusals_of(design: &Design, board: &Board, wiring: &BoardAssignment) -> Vec<Diagnostic> {
-    limits::limits(&Context::new(design, board, wiring))
+    let context = Context::new(design, board, wiring);
+    let mut diagnostics = limits::limits(&context);
+    diagnostics.extend(memory::full(design, &context));
+    diagnostics
 }

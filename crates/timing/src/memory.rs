@@ -1,0 +1,103 @@
+//! Memory: whether the values, buffers and stacks of a board fit. A program that does not is refused by the linker only.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0626_memory_full::memory_full;
+use sensedsl_model::design::Design;
+use sensedsl_model::kind::Kind;
+use sensedsl_wire::{Direction, ScalarType};
+
+use crate::Context;
+use crate::converters::depth;
+
+/// Kernel, drivers, shell and the stacks of start and interrupts, with some to spare: 5 to 6 KiB are taken.
+const BASE_BYTES: u64 = 8 * 1_024;
+/// A thread with its stack.
+const THREAD_BYTES: u64 = 1_152;
+/// What the runtime keeps of a device beside its value.
+const DEVICE_BYTES: u64 = 128;
+/// A sample of a converter.
+const SAMPLE_BYTES: u64 = 2;
+/// Frames to the board that are kept: one that comes in, and those among which it is looked for.
+const FRAMES_TO_BOARD: u64 = 4;
+
+/// That a board cannot hold what it is asked to.
+pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic> {
+    let ram_bytes = context.board.facts.as_ref()?.chibios.as_ref()?.ram_bytes?;
+    let needed = needed_bytes(design, context);
+    if needed <= u64::from(ram_bytes) {
+        return None;
+    }
+    let greedy = context
+        .devices
+        .iter()
+        .max_by_key(|wired| own_bytes(&wired.device.kind, wired.device.value.value))?;
+    let (name, span) = (&greedy.device.name.value, greedy.device.name.span);
+    let (needed, there) = (needed.div_ceil(1_024), ram_bytes / 1_024);
+    Some(memory_full(span, &context.board.name.value, name, needed, there))
+}
+
+fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
+    let value = value.size_bytes() as u64;
+    match kind {
+        Kind::Analog(analog) => value + u64::from(analog.samples) * SAMPLE_BYTES,
+        Kind::I2c(i2c) => 2 * value + u64::from(i2c.length_bytes),
+        Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => value,
+    }
+}
+
+fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {
+    let indices: Vec<_> = context.devices.iter().map(|wired| wired.index).collect();
+    let schema = design.schema(context.wiring.board, &indices);
+    let word = ScalarType::Float64.size_bytes();
+    let value = |bytes: usize| bytes.next_multiple_of(word) as u64;
+    let values = schema.items.iter().map(|item| value(item.value.size_bytes()));
+    let frames = schema.frame_bytes_max(Direction::Sensor) as u64
+        + FRAMES_TO_BOARD * schema.frame_bytes_max(Direction::Actuator) as u64;
+    let largest = values.clone().max().unwrap_or(0);
+    let groups = context.classes(|wired| match &wired.device.kind {
+        Kind::Analog(analog) => Some(analog.samples),
+        Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    });
+    let samples = groups.values().map(|sensors| {
+        let rows = u64::from(depth(sensors.iter().map(|(_, samples)| *samples)));
+        rows * sensors.len() as u64 * SAMPLE_BYTES
+    });
+    let classes = context.classes(|wired| match &wired.device.kind {
+        Kind::I2c(i2c) => Some(u64::from(i2c.length_bytes) + 1 + largest),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    });
+    let work =
+        classes.values().map(|devices| devices.iter().map(|(_, bytes)| *bytes).max().unwrap_or(0));
+    let threads = (groups.len() + classes.len() + 1) as u64;
+    BASE_BYTES
+        + threads * THREAD_BYTES
+        + context.devices.len() as u64 * DEVICE_BYTES
+        + values.sum::<u64>()
+        + 2 * largest
+        + frames
+        + samples.sum::<u64>()
+        + work.sum::<u64>()
+}
