@@ -6,6 +6,7 @@
 mod entries;
 mod file;
 mod lookup;
+mod rates;
 mod types;
 
 use sensedsl_diagnostics::nearest;
@@ -13,10 +14,11 @@ use sensedsl_diagnostics::nearest;
 use crate::mcu;
 use crate::registry::TARGETS;
 use file::{File, starts};
+pub use rates::{Costs, Cycles, Dividers, I2cTiming};
 pub use types::{
-    Adc, Adcs, Costs, Cycles, Dac, DacOutput, Dacs, Debug, Dividers, DmaRequest, Drivers,
-    Exception, Exti, ExtiRule, Fallback, I2cMode, I2cTiming, I2cs, Kernel, Off, Stream, StreamId,
-    TargetProfile, Timer, TimerDriver, Transport, Tree, Unit, Usb,
+    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
+    Fallback, I2cMode, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver,
+    Transport, Tree, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
 

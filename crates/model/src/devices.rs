@@ -235,7 +235,7 @@ fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Plac
 fn group(fields: &mut Fields<'_>) -> Option<Group> {
     let own = fields.own_span("group").is_some();
     let name = fields.name("group", "the name of a group, or none")?;
-    (name.value != "none").then(|| Group { name: name.value, span: name.span, own })
+    (name.value != "none").then_some(Group { name: name.value, span: name.span, own })
 }
 
 fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinRef>> {

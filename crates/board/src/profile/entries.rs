@@ -5,9 +5,10 @@
 
 use serde::Deserialize;
 
+use super::rates::{Cycles, Dividers};
 use super::types::{
-    Adc, Adcs, Cycles, Dac, DacOutput, Dacs, Dividers, DmaRequest, Exception, I2cs, Stream,
-    StreamId, Timer, TimerDriver, Unit, Usb, Vbus, pin, pins,
+    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, StreamId, Timer,
+    TimerDriver, Unit, Usb, Vbus, pin, pins,
 };
 use crate::pin::PinName;
 

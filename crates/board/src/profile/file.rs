@@ -11,8 +11,9 @@ use serde::Deserialize;
 use super::entries::{
     AdcGroup, BusGroup, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerGroup, UsbGroup,
 };
+use super::rates::Costs;
 use super::types::{
-    Costs, Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
+    Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
 };
 
 /// A file of `targets/`.
@@ -163,7 +164,6 @@ impl File {
         let i2cs = of_line(self.i2cs.units, line).map(|unit| unit.unit(&i2c_rules, &streams));
         let serials = self.serials.rules;
         let (spi_dividers, serial_dividers) = (self.spis.dividers.clone(), self.serials.dividers);
-        let can_dividers = self.cans.as_ref().and_then(|group| group.dividers.clone());
         TargetProfile {
             name: self.target,
             family: self.family,
@@ -185,7 +185,7 @@ impl File {
             spis: buses(self.spis),
             spi_dividers,
             serial_dividers,
-            can_dividers,
+            can_dividers: self.cans.as_ref().and_then(|group| group.dividers.clone()),
             serials: of_line(self.serials.units, line)
                 .map(|unit| unit.unit(&serials, &streams))
                 .collect(),

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::{Design, DeviceIndex};
-use sensedsl_timing::{BoardTiming, Part, Row, SECOND_NS, Timing, shown_time, timing};
+use sensedsl_timing::{BoardTiming, Count, Part, Row, SECOND_NS, Timing, shown_time, timing};
 use sensedsl_wiring::{Search, Solved};
 use serde_json::{Value, json};
 
@@ -73,8 +73,8 @@ fn board_value(design: &Design, board: &BoardTiming) -> Value {
             "start_ms": row.cycle.map(|cycle| cycle.start_ms),
             "clock_hz": row.clock_hz,
             "cycle_ns": row.cycle_ns,
-            "unit": row.a_second.map(|count| count.unit()),
-            "a_second": row.a_second.map(|count| count.number()),
+            "unit": row.a_second.map(Count::unit),
+            "a_second": row.a_second.map(Count::number),
             "busy_ns_a_second": row.busy_ns,
             "shortest_ms": row.shortest_ms,
         })
