@@ -168,7 +168,7 @@ pub(crate) fn of_link(context: &Context<'_>) -> Option<Diagnostic> {
     let most = most?;
     let name = match (context.board.link.transport, &context.wiring.link) {
         (Transport::Uart, Some(link)) => link.unit.clone(),
-        (Transport::Uart | Transport::Usb, _) => "the USB link".to_owned(),
+        (Transport::Uart | Transport::Usb | Transport::None, _) => "the USB link".to_owned(),
     };
     let cyclic = |wired: &&crate::Wired<'_>| !wired.device.kind.name().triggers_itself();
     let rate = |wired: &&crate::Wired<'_>| {

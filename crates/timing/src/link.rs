@@ -59,6 +59,9 @@ fn period_ms(device: &Device) -> Option<u32> {
 
 pub(crate) fn reports(context: &Context<'_>) -> Reports {
     let cycle_ms = report_ms(context);
+    if context.board.link.transport == Transport::None {
+        return Reports { cycle_ms, count: 0, values: 0, bytes: 0, cyclic_bytes: 0 };
+    }
     let most = 1_000_u64.div_ceil(u64::from(cycle_ms));
     // In thousandths, so that a slow device counts as well.
     let rate = |device: &Device| {
@@ -110,6 +113,7 @@ fn frame_bytes(context: &Context<'_>, payload: u64) -> u64 {
 /// Bytes that the medium carries in a second.
 pub(crate) fn capacity(context: &Context<'_>) -> (Option<u32>, Option<u32>) {
     match context.board.link.transport {
+        Transport::None => (None, None),
         Transport::Usb => (None, Some(USB_BYTES_A_SECOND)),
         Transport::Uart => {
             let unit = context.wiring.link.as_ref().map(|link| link.unit.as_str());
@@ -123,7 +127,7 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let name = match (context.board.link.transport, &context.wiring.link) {
         (Transport::Usb, _) => "USB".to_owned(),
         (Transport::Uart, Some(link)) => link.unit.clone(),
-        (Transport::Uart, None) => return Vec::new(),
+        (Transport::Uart, None) | (Transport::None, _) => return Vec::new(),
     };
     let sensors =
         context.devices.iter().filter(|wired| wired.device.direction == Direction::Sensor);
