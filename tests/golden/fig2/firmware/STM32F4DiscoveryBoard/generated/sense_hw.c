@@ -228,5 +228,9 @@ _Static_assert(STM32_TIMCLK1 % 10000U == 0U && STM32_TIMCLK1 / 10000U <= 65536U,
                "the clock of TIM3 does not divide to 10000 Hz");
 _Static_assert(STM32_TIM3_CHANNELS >= 2,
                "TIM3 cannot measure with channel 1");
+_Static_assert(STM32_HCLK == 168000000U,
+               "STM32_HCLK is not what this wiring was made for");
+_Static_assert(STM32_PCLK2 == 84000000U,
+               "STM32_PCLK2 is not what this wiring was made for");
 _Static_assert(STM32_TIMCLK1 == 84000000U,
                "STM32_TIMCLK1 is not what this wiring was made for");

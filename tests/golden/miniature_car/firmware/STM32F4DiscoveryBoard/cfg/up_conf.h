@@ -20,6 +20,9 @@
 /* The shortest read the I2C driver accepts. */
 #define UP_I2C_READ_BYTES_MIN 1
 
+/* How long the rest of a frame may take once its first byte was accepted. */
+#define UP_LINK_FINISH_MS 50U
+
 #define UP_FIELDS_COUNT 13U
 #define UP_VALUE_BYTES_MAX 4U
 #define UP_FRAME_BYTES_MAX_TO_HOST 51U

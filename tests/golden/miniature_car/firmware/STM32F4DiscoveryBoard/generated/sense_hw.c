@@ -401,6 +401,10 @@ _Static_assert(STM32_TIMCLK2 % 1000000U == 0U && STM32_TIMCLK2 / 1000000U <= 655
                "the clock of TIM1 does not divide to 1000000 Hz");
 _Static_assert(STM32_TIM1_CHANNELS >= 2,
                "TIM1 cannot measure with channel 1");
+_Static_assert(STM32_HCLK == 168000000U,
+               "STM32_HCLK is not what this wiring was made for");
+_Static_assert(STM32_PCLK2 == 84000000U,
+               "STM32_PCLK2 is not what this wiring was made for");
 _Static_assert(STM32_TIMCLK1 == 84000000U,
                "STM32_TIMCLK1 is not what this wiring was made for");
 _Static_assert(STM32_TIMCLK2 == 168000000U,
