@@ -18,8 +18,8 @@ from board import CORE_HZ, TIMERS, Board
 
 WARM_UP_S, MEASURED_S = 0.1, 1.0
 OFF_MAX = 0.2
-# What is connected to captures: active edges a second, by design and timer.
-EDGES_HZ = {"fig2": {"TIM4": 120}, "car": {"TIM4": 2000, "TIM9": 10}}
+# What is connected to captures: active edges a second, by design and device.
+EDGES_HZ = {"fig2": {"WheelEncoder": 120}, "car": {"Wheel": 2000, "Echo": 10}}
 # Below that share of a second a figure is a handful of events in the time measured.
 SHARE_MIN = 0.0002
 
@@ -70,8 +70,11 @@ def main():
     print("| design | part | computed | measured | off |\n| --- | --- | --- | --- | --- |")
     for file in designs:
         timing = subprocess.run([binary, "explain", "timing", file, "--format", "json", "-q"], check=True, capture_output=True)
-        found = measured(build(binary, file, folder / file.stem), EDGES_HZ.get(file.stem, {}))
-        for name, unit, wanted, got in figures(json.loads(timing.stdout)["boards"][0], found):
+        computed = json.loads(timing.stdout)["boards"][0]
+        captures = {row["devices"][0]: row["name"] for row in computed["rows"] if row["part"] == "irq"}
+        edges_hz = {captures[device]: hz for device, hz in EDGES_HZ.get(file.stem, {}).items()}
+        found = measured(build(binary, file, folder / file.stem), edges_hz)
+        for name, unit, wanted, got in figures(computed, found):
             off = wanted / got - 1 if got else float("inf")
             small = unit == "busy" and max(wanted, got) < SHARE_MIN
             worst = max(worst, 0.0 if small else abs(off))
