@@ -17,8 +17,9 @@ use crate::kind::{Kind, KindName, analog, can, dac, digital, encoder, i2c, icu, 
 use crate::rules;
 
 /// The properties of every device, but for those that show its value.
-pub(crate) const COMMON_PROPERTIES: &[&str] =
-    &["id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "level", "divider"];
+pub(crate) const COMMON_PROPERTIES: &[&str] = &[
+    "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "level", "divider",
+];
 /// The properties by which a host shows a value.
 pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset", "min", "max"];
 
