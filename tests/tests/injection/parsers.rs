@@ -40,7 +40,7 @@ fn csv_has_a_cell_for_each_and_no_formula() {
         let rows = rows(project);
         assert_eq!(rows.len(), 1 + project.texts.len() + 2);
         for row in &rows {
-            assert_eq!(row.len(), 10, "{row:?}");
+            assert_eq!(row.len(), 11, "{row:?}");
             for cell in row {
                 assert!(cell.len() < 2 || !cell.starts_with(['=', '+', '-', '@']), "{row:?}");
                 assert!(!cell.contains(is_hidden), "{row:?}");
