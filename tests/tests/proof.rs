@@ -1,7 +1,7 @@
 //! What `solve --proof` writes, `sensedsl-verify` accepts; what was changed, it refuses.
 
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use sensedsl_tests::{Scratch, design, read, sensedsl, verifier};
@@ -11,6 +11,14 @@ const BOARD: &str = "STM32F4DiscoveryBoard";
 /// Exit status and words of the verifier.
 fn verify(certificate: &Path) -> (i32, String) {
     let output = Command::new(verifier()).arg(certificate).output().unwrap();
+    let said = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
+}
+
+/// As [`verify`], for some files.
+fn verify_for(certificate: &Path, files: &[&PathBuf]) -> (i32, String) {
+    let call = &mut Command::new(verifier());
+    let output = call.arg(certificate).arg("--for").args(files).output().unwrap();
     let said = [output.stdout, output.stderr].concat();
     (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
 }
@@ -87,6 +95,77 @@ fn moved_wires_are_proved_to_be_needed() {
     let after = design(BOARD, &["analog: pin = PC1;", "icu: avoid unit = TIM3;"]);
     let said = proved(&["-", "--keep", &keep.display().to_string()], &after, 0);
     assert!(said.contains("moved 1, violated 1"), "{said}");
+}
+
+#[test]
+fn a_certificate_is_of_the_files_it_was_made_of() {
+    let scratch = Scratch::new("proof-for");
+    let table = "# mcu = STM32F407VGT6\nPin,Side\nPA1,left\nPA2,left\nPB0,right\n";
+    let sensor = |id: u8| format!("sensor S{id} returns uint16 {{ id = {id}; type = analog; }}\n");
+    let main =
+        format!("use \"parts/arm.sense\";\nboard B on \"tables/own.csv\" {{ {} }}", sensor(1));
+    for folder in ["parts", "tables"] {
+        std::fs::create_dir(scratch.join(folder)).unwrap();
+    }
+    let main = scratch.write("robot.sense", main);
+    let used = scratch.write("parts/arm.sense", sensor(2));
+    let pins = scratch.write("tables/own.csv", table);
+    let answer = sensedsl(["solve", "-q", "--format", "json"]).arg(&main).run().exits(0);
+    let kept = scratch.write("before.json", answer.stdout);
+    let (proof, plain) = (scratch.join("proof.json"), scratch.join("plain.json"));
+    let solve = |proof: &Path| sensedsl(["solve", "-q", "--proof"]).arg(proof).arg(&main);
+    let _ = solve(&plain).run().exits(0);
+    let _ = solve(&proof).arg("--keep").arg(&kept).run().exits(0);
+    let all = [&main, &used, &pins, &kept];
+    let (status, said) = verify_for(&proof, &all);
+    assert_eq!(status, 0, "{said}");
+    for name in ["robot.sense", "parts/arm.sense", "tables/own.csv", "before.json"] {
+        assert!(said.contains(&format!("{name}: the same")), "{name}: {said}");
+    }
+    for missing in 0..4 {
+        let given: Vec<_> = (0..4).filter(|at| *at != missing).map(|at| all[at]).collect();
+        let (status, said) = verify_for(&proof, &given);
+        assert!(status == 1 && said.contains("which is not given"), "{said}");
+    }
+    let (status, said) = verify_for(&plain, &all);
+    assert!(status == 1 && said.contains("not of"), "nothing was kept: {said}");
+    assert_eq!(verify_for(&plain, &all[..3]).0, 0);
+    // What is printed is what was used.
+    let mut texts = Vec::new();
+    for call in [&["--table", "STM32F407VGT6"][..], &["--profile", "STM32F407VGT6"]] {
+        let text = sensedsl(["parts"]).args(call).run().exits(0).stdout;
+        texts.push(scratch.write(&format!("text{}", texts.len()), text));
+    }
+    let (status, said) = verify_for(&plain, &[&main, &used, &pins, &texts[0], &texts[1]]);
+    assert!(status == 0 && !said.contains("not compared"), "{said}");
+    for changed in all {
+        let before = read(changed);
+        std::fs::write(changed, format!("{before} ")).unwrap();
+        let (status, said) = verify_for(&proof, &all);
+        assert!(status == 1 && said.contains("that was solved"), "{}: {said}", changed.display());
+        std::fs::write(changed, before).unwrap();
+    }
+    assert_eq!(verify_for(&proof, &all).0, 0);
+    assert_eq!(verify_for(&proof, &[&scratch.join("nowhere")]).0, 2);
+    assert_eq!(verify_for(&proof, &[]).0, 2);
+}
+
+#[test]
+fn a_certificate_of_a_built_in_board_is_of_its_table() {
+    let scratch = Scratch::new("proof-built-in");
+    let proof = scratch.join("proof.json");
+    let given = scratch.write("given.sense", design("STM32F407G_DISC1", &["analog"]));
+    let call = sensedsl(["solve", "-q", "-", "--target", "none", "--proof"]).arg(&proof);
+    let _ = call.stdin(read(&given)).run().exits(0);
+    let table = sensedsl(["boards", "STM32F407G-DISC1"]).run().exits(0).stdout;
+    let table = scratch.write("table", table);
+    let (status, said) = verify_for(&proof, &[&given, &table]);
+    assert!(status == 0 && said.contains("<stdin>: the same"), "{said}");
+    assert!(said.contains("`sensedsl boards STM32F407G-DISC1`: the same"), "{said}");
+    assert!(said.contains("with --target none") && !said.contains("not compared"), "{said}");
+    let other = sensedsl(["boards", BOARD]).run().exits(0).stdout;
+    let (status, said) = verify_for(&proof, &[&given, &scratch.write("other", other)]);
+    assert!(status == 1 && said.contains("not of"), "{said}");
 }
 
 #[test]

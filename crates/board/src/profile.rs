@@ -127,6 +127,16 @@ pub fn find(target: &str, mcu: &str) -> Result<Target, NoProfile> {
     read(entry.text, &name).map_err(|message| NoProfile::Broken { message })
 }
 
+/// The text of the file with the profile of an MCU under a target.
+#[must_use]
+pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
+    let target = full_name(target)?;
+    let name = mcu::normalise(mcu);
+    let covers = |parts: &[&str]| parts.iter().any(|part| starts(&name, part));
+    let mut entries = TARGETS.iter().filter(|entry| entry.target == target);
+    entries.find(|entry| covers(entry.parts)).map(|entry| entry.text)
+}
+
 /// A line of a profile file: its facts, and how a tree is asked for them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineFacts {

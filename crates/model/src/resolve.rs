@@ -39,8 +39,10 @@ pub struct Resolved {
     pub design: Option<Design>,
     /// What is to be said, in the order of the places.
     pub diagnostics: Vec<Diagnostic>,
-    /// All files that were read.
+    /// All texts that were read, and those of what is built in.
     pub sources: SourceMap,
+    /// Those that are files, each once: the one that was asked for, those it uses, tables.
+    pub files: Vec<FileId>,
 }
 
 /// Reads a file, what it uses and its tables. Never fails on user text.
@@ -51,8 +53,10 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let mut reader = Reader::new(files, &mut sources, &mut diagnostics);
     let file = reader.read(request.path, request.text.to_owned());
     let items = std::mem::take(&mut reader.items);
+    let mut read = std::mem::take(&mut reader.files_read);
     let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
-    let boards = read_boards(request, files, &items, &mut sources, &mut diagnostics);
+    let (boards, tables) = read_boards(request, files, &items, &mut sources, &mut diagnostics);
+    read.extend(tables);
     let devices = read_devices(&items, &drivers, &mut diagnostics);
     check_names(&items, &boards, &devices, &drivers, &mut diagnostics);
     if items.boards.is_empty() && !items.broken {
@@ -75,7 +79,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     sort(&mut diagnostics);
     let wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
     limit(&mut diagnostics);
-    Resolved { design: design.filter(|_| !wrong), diagnostics, sources }
+    Resolved { design: design.filter(|_| !wrong), diagnostics, sources, files: read }
 }
 
 /// Leaves as many diagnostics as are listed, and the number of the others.
@@ -97,13 +101,14 @@ pub fn sort(diagnostics: &mut [Diagnostic]) {
     diagnostics.sort_by_key(|one| (one.primary.span, one.severity, one.code));
 }
 
+/// The boards, and the files of their tables.
 fn read_boards(
     request: &Request<'_>,
     files: &dyn Files,
     items: &Items,
     sources: &mut SourceMap,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Option<Board>> {
+) -> (Vec<Option<Board>>, Vec<FileId>) {
     let mut context = Context {
         request,
         files,
@@ -113,7 +118,9 @@ fn read_boards(
         tables: BTreeMap::new(),
         left: Left::default(),
     };
-    items.boards.iter().map(|(file, node)| boards::read(&mut context, *file, node)).collect()
+    let read = |(file, node): &(FileId, _)| boards::read(&mut context, *file, node);
+    let boards = items.boards.iter().map(read).collect();
+    (boards, context.tables.into_keys().collect())
 }
 
 fn read_devices(

@@ -30,6 +30,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
     pub(crate) items: Items,
+    pub(crate) files_read: Vec<FileId>,
     /// Paths of the files that are being read, outermost first.
     open: Vec<String>,
     /// Paths of all files that were read.
@@ -69,12 +70,14 @@ impl<'a> Reader<'a> {
             statements: STATEMENTS_MAX,
             files: USED_FILES_MAX,
         };
-        Self { files, sources, diagnostics, items: Items::default(), open, done, left }
+        let (items, files_read) = (Items::default(), Vec::new());
+        Self { files, sources, diagnostics, items, files_read, open, done, left }
     }
 
     /// Reads the text of `path` (and what it uses).
     pub(crate) fn read(&mut self, path: &str, text: String) -> FileId {
         let file = self.sources.add(path, text);
+        self.files_read.push(file);
         let parsed = parse_within(self.sources.text(file), self.left.tokens);
         self.left.tokens -= parsed.tokens();
         for error in parsed.errors() {

@@ -65,6 +65,8 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Map<T> {
 pub struct Certificate {
     /// [`NAME`].
     pub format: String,
+    /// What the problem was made of.
+    pub subject: Subject,
     /// What was asked.
     pub problem: Problem,
     /// The claim; `null` claims that there is no wiring.
@@ -77,6 +79,20 @@ pub struct Certificate {
 /// A value that may be `null`, but not left out.
 fn stated<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     Option::deserialize(from)
+}
+
+/// What the problem was made of; the hashes are SHA-256 in lower-case hexadecimal.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subject {
+    /// The program that made it, with its version.
+    pub tool: String,
+    /// The options of its call that change the problem.
+    pub options: Map<String>,
+    /// The hash of each file that was read, by the name that the design gives it.
+    pub files: Map<String>,
+    /// The hash of each built-in text, by the arguments with which the program prints it.
+    pub built_in: Map<String>,
 }
 
 /// What was asked.

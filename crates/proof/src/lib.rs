@@ -7,7 +7,8 @@
 //! 3. `leaf` computes, from the tolls that the certificate proposes, a weight below which no
 //!    wiring of that case can be.
 //!
-//! `budget` bounds how much it reads and how many steps it takes.
+//! `budget` bounds how much it reads and how many steps it takes; `subject` compares files with what
+//! the problem was made of.
 //!
 //! The objective is (moved, violated, shared, cost, spares), the first difference decides. There is a
 //! proof for each part that is not 0: no wiring that equals the claim in the parts before is lower
@@ -18,6 +19,7 @@
 pub mod budget;
 pub mod format;
 mod leaf;
+pub mod subject;
 mod tree;
 mod wiring;
 
@@ -95,7 +97,7 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
 /// # Errors
 /// The first thing that is wrong with it.
 pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
-    let Certificate { format: _, problem, answer, proofs } = certificate;
+    let Certificate { format: _, subject: _, problem, answer, proofs } = certificate;
     named(problem)?;
     let mut parts = proofs.iter().enumerate().map(|(at, proof)| (at, proof.of));
     let twice = parts.find(|(at, of)| proofs.iter().take(*at).any(|before| before.of == *of));

@@ -3,12 +3,14 @@
 #![allow(clippy::indexing_slicing, clippy::expect_used, clippy::panic, reason = "only tests")]
 
 use sensedsl_proof::format::Objective;
+use sensedsl_proof::subject::{compare, sha256};
 use sensedsl_proof::{Verified, read, verify};
 
 /// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
 /// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least.
 const TWO_OF_THREE: &str = r#"{
 "format": "SenseDSL certificate 2",
+"subject": {"tool": "a tool", "options": {}, "files": {}, "built_in": {}},
 "problem": {
   "boards": {"B": false},
   "pins": {"PA1": 1, "PA2": 2, "PA3": 5},
@@ -46,6 +48,18 @@ const SPLIT: &str = r#"{"device": {"device": "Left", "cases": [{"keep": ["any"],
   {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
 const LEAF: &str = r#"{"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
 
+/// What it says of files, each with its content, or why it refuses them.
+fn compared(subject: &str, given: &[(&str, &str)]) -> Result<String, String> {
+    let empty = r#"{"tool": "a tool", "options": {}, "files": {}, "built_in": {}}"#;
+    let certificate = read(&changed(TWO_OF_THREE, empty, subject)).expect("a certificate");
+    let given: Vec<(String, String)> = given
+        .iter()
+        .map(|(path, content)| ((*path).to_owned(), sha256(content.as_bytes())))
+        .collect();
+    let compared = compare(&certificate.subject, &given).map_err(|refuted| refuted.0)?;
+    Ok(compared.to_string())
+}
+
 fn verified(text: &str) -> Result<Verified, String> {
     verify(&read(text).expect("a certificate")).map_err(|refuted| refuted.0)
 }
@@ -61,6 +75,42 @@ fn a_proof_is_verified() {
     let objective = Objective { moved: 0, violated: 0, shared: 0, cost: 3, spares: 0 };
     assert_eq!(verified(TWO_OF_THREE), Ok(Verified::Best(objective)));
     assert_eq!(verified(&changed(TWO_OF_THREE, LEAF, SPLIT)), Ok(Verified::Best(objective)));
+}
+
+#[test]
+fn hashes_are_those_of_the_standard() {
+    // FIPS 180-2, appendix B.
+    let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!(sha256(b"abc"), abc);
+}
+
+#[test]
+fn files_are_told_from_others() {
+    let (one, two, pins) = (sha256(b"one"), sha256(b"two"), sha256(b"pins"));
+    let subject = format!(
+        r#"{{"tool": "a tool", "options": {{"--target": "none"}},
+        "files": {{"robot.sense": "{one}", "../common/robot.sense": "{two}"}},
+        "built_in": {{"boards B": "{pins}"}}}}"#
+    );
+    let compared = |given: &[(&str, &str)]| compared(&subject, given);
+    let all = [("a/robot.sense", "one"), ("/home/common/robot.sense", "two"), ("x.csv", "pins")];
+    let said = compared(&all).expect("all are the same");
+    assert!(!said.contains("not compared") && said.contains("with --target none"), "{said}");
+    let said = compared(&all[..2]).expect("the table may be left out");
+    assert!(said.contains("`sensedsl boards B`: not compared"), "{said}");
+    let renamed = [("other.sense", "one"), ("common\\robot.sense", "two")];
+    assert!(compared(&renamed).is_ok(), "what is no name of the design stands for its content");
+    for (given, why) in [
+        (&[("robot.sense", "one")][..], "also of \"../common/robot.sense\""),
+        (&[("x.csv", "pins")], "which is not given"),
+        (&[("robot.sense", "one "), all[1]], "is not the \"robot.sense\" that was solved"),
+        (&[("robot.sense", "two"), ("common/robot.sense", "one")], "is not the"),
+        (&[all[0], all[1], ("y.csv", "pines")], "not of \"y.csv\""),
+        (&[all[0], all[1], ("c.sense", "")], "not of \"c.sense\""),
+    ] {
+        let said = compared(given).expect_err(why);
+        assert!(said.contains(why), "{given:?}: {said}");
+    }
 }
 
 #[test]
@@ -138,6 +188,8 @@ fn what_is_not_proved_is_refused() {
 fn what_is_no_certificate_is_told_from_a_wrong_one() {
     for (from, to) in [
         ("certificate 2", "certificate 1"),
+        ("\"subject\"", "\"subjects\""),
+        ("\"built_in\": {}", "\"built_in\": {\"boards B\": 1}"),
         ("\"boards\"", "\"board\""),
         ("\"PA3\": 5", "\"PA3\": -5"),
         ("\"PA3\": 5", "\"PA3\": 5.0"),

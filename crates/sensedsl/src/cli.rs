@@ -248,6 +248,9 @@ pub(crate) struct PartsArgs {
     /// Print the table of a part as CSV instead
     #[arg(long, value_name = "PART", conflicts_with = "list")]
     pub(crate) table: Option<String>,
+    /// Print the target profile of a part instead, with the other parts of its family
+    #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"])]
+    pub(crate) profile: Option<String>,
     /// Only parts of this family: STM32F4, G0, RP2040
     #[arg(long)]
     pub(crate) family: Option<String>,

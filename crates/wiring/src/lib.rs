@@ -28,6 +28,7 @@ use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
 use assignment::{Assignment, Bound};
+use certificate::Subject;
 use formulate::{Converters, Formulation, formulate};
 
 pub use blame::Rule;
@@ -144,14 +145,15 @@ impl<'a> Wiring<'a> {
     }
 
     /// As [`Self::solve`], with the certificate that proves the answer; its absence has its reason.
+    /// `of` is what the design was made of.
     #[must_use]
-    pub fn solve_with_proof(&self, stop: Option<&dyn Fn() -> bool>) -> Proved {
+    pub fn solve_with_proof(&self, of: &Subject, stop: Option<&dyn Fn() -> bool>) -> Proved {
         let outcome = self.search(&Search { any: false, stop });
-        let certificate = self.certificate(&outcome, stop);
+        let certificate = self.certificate(&outcome, of, stop);
         let solved = match self.named(outcome) {
             Ok(Some(solved)) => solved,
             Ok(None) => match self.with_converters() {
-                Some(wiring) => return wiring.solve_with_proof(stop),
+                Some(wiring) => return wiring.solve_with_proof(of, stop),
                 None => self.no_streams(),
             },
             Err(conflict) => {

@@ -9,11 +9,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
 use sensedsl_proof::{Verified, read, verify};
-use sensedsl_wiring::certificate::{AlternativeLabels, Claim, Labels, certify};
+use sensedsl_wiring::certificate::{AlternativeLabels, Claim, Labels, Subject, certify, sha256};
 use sensedsl_wiring::solver::problem::{Holder, Problem, RuleId};
 use sensedsl_wiring::solver::{Options, Outcome, solve};
 use serde_json::Value;
 use support::generate::{self, Mix, Rng};
+
+/// A problem that was made of one file whose name needs escapes.
+fn subject() -> Subject {
+    let file = ("a \"quoted\"\n\u{202e}.sense".to_owned(), sha256(b"text"));
+    Subject { tool: "a test".to_owned(), files: vec![file], ..Subject::default() }
+}
 
 /// Names made of numbers alone.
 fn numbered(problem: &Problem) -> Labels {
@@ -85,14 +91,14 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
     match solve(problem, &Options::default()).expect("a proper problem") {
         Outcome::Solved(answer) => {
-            let text = certify(problem, &labels, Claim::Best(&answer), None).ok()?;
+            let text = certify(problem, &labels, &subject(), Claim::Best(&answer), None).ok()?;
             let sensedsl_wiring::solver::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
             Some((text, Some(Objective { moved, violated, shared, cost, spares })))
         }
         Outcome::Infeasible(conflict) => {
             let claim = Claim::NoWiring(&conflict.devices);
-            Some((certify(problem, &labels, claim, None).ok()?, None))
+            Some((certify(problem, &labels, &subject(), claim, None).ok()?, None))
         }
         Outcome::Stopped { .. } => unreachable!("nobody stopped it"),
     }

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_proof::{Verified, read, verify};
+use sensedsl_wiring::certificate::{Subject, sha256};
 use sensedsl_wiring::{Keep, Wiring};
 
 use crate::draw::Draw;
@@ -58,6 +59,13 @@ impl Files for Table {
     }
 }
 
+/// What a design was made of.
+fn subject(text: &str) -> Subject {
+    let file = ("robot.sense".to_owned(), sha256(text.as_bytes()));
+    let table = ("t.csv".to_owned(), sha256(TABLE.as_bytes()));
+    Subject { tool: "sensedsl".to_owned(), files: vec![file, table], ..Subject::default() }
+}
+
 /// A certificate cut into its tokens, and what is true of its problem.
 #[derive(Debug)]
 struct Start {
@@ -80,7 +88,7 @@ fn start(text: &str, keep: bool) -> Start {
     before.add("D2", "scl", "B", "PB10");
     before.add("D2", "sda", "B", "PB7");
     let wiring = Wiring::new(&design, keep.then_some(&before));
-    let certificate = wiring.solve_with_proof(None).certificate;
+    let certificate = wiring.solve_with_proof(&subject(text), None).certificate;
     let certificate = certificate.expect("an answer").expect("a certificate");
     let read = read(&certificate).expect("a certificate is read");
     let truth = truth(&read.problem);

@@ -11,6 +11,7 @@ use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
 use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::certificate::Subject;
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
 use crate::design::{self, Input};
@@ -130,7 +131,7 @@ fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
     if !ask.proof {
         return wiring.solve(&Search { any: ask.any, stop: Some(&stop) });
     }
-    let proved = wiring.solve_with_proof(Some(&stop));
+    let proved = wiring.solve_with_proof(&Subject::default(), Some(&stop));
     let Some(Ok(text)) = &proved.certificate else { return proved.solved };
     let read = sensedsl_proof::read(text).expect("a certificate is read again");
     let verified = sensedsl_proof::verify(&read).expect("a certificate proves its claim");

@@ -35,6 +35,9 @@ fn certificates() {
     }
 }
 
+/// Nothing that it could be of.
+const SUBJECT: &str = r#"{"tool":"","options":{},"files":{},"built_in":{}}"#;
+
 /// A certificate that claims that there is no wiring.
 fn certificate(devices: &str, dma: &str, nodes: &str) -> String {
     let problem = format!(
@@ -42,7 +45,7 @@ fn certificate(devices: &str, dma: &str, nodes: &str) -> String {
     );
     let weights = r#"{"moved":0,"violated":0,"shared":0,"cost":0,"spares":0}"#;
     format!(
-        r#"{{"format":"SenseDSL certificate 2","problem":{problem},"answer":null,"proofs":[
+        r#"{{"format":"SenseDSL certificate 2","subject":{SUBJECT},"problem":{problem},"answer":null,"proofs":[
         {{"of":"existence","weights":{weights},"nodes":[{nodes}]}}]}}"#
     )
 }

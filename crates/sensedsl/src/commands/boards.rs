@@ -21,14 +21,18 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("there is no built-in board {name}{meant} (`sensedsl boards` lists them)");
     };
+    terminal.result(&printed(board))?;
+    Ok(Status::Done)
+}
+
+/// The table of a board with the usages of its MCU.
+pub(crate) fn printed(board: &catalog::Entry) -> String {
     let mut table = board.table();
-    let printed = match sensedsl_parts::complete(&mut table) {
+    match sensedsl_parts::complete(&mut table) {
         Completion::Part { .. } => table.to_csv(),
         // What lists its usages is printed as it stands.
         Completion::Own | Completion::Unknown => board.csv().to_owned(),
-    };
-    terminal.result(&printed)?;
-    Ok(Status::Done)
+    }
 }
 
 /// Prints the boards with all words of `search` somewhere in what is known of them. Scripts read

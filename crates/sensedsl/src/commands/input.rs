@@ -11,6 +11,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, Unread, What, apply_allows, resolve, sort};
+use sensedsl_wiring::certificate::Subject;
 use sensedsl_wiring::{Keep, Proved, Search, Solved, Wiring};
 
 use crate::Status;
@@ -25,7 +26,7 @@ pub(crate) fn load(path: &Path, on: &On) -> Resolved {
     match read_text(path, What::Sense) {
         Ok(text) => resolved(path, &text, on),
         Err(Refused { diagnostic, sources }) => {
-            Resolved { design: None, diagnostics: vec![*diagnostic], sources }
+            Resolved { design: None, diagnostics: vec![*diagnostic], sources, files: Vec::new() }
         }
     }
 }
@@ -41,9 +42,13 @@ pub(crate) fn resolved(path: &Path, text: &str, on: &On) -> Resolved {
 /// The earlier answer of `--keep`.
 pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
     let Some(path) = path else { return Ok(None) };
-    let value = answer_in(path, &read_text(path, What::Answer)?)?;
-    let keep = sensedsl_codegen::report::json::keep(&value);
-    Ok(Some(keep.ok_or_else(|| not_an_answer(path, "boards, devices or wires are missing"))?))
+    Ok(Some(keep_in(path, &read_text(path, What::Answer)?)?))
+}
+
+/// The earlier answer in a text.
+pub(crate) fn keep_in(path: &Path, text: &str) -> Result<Keep, Refused> {
+    let keep = sensedsl_codegen::report::json::keep(&answer_in(path, text)?);
+    keep.ok_or_else(|| not_an_answer(path, "boards, devices or wires are missing"))
 }
 
 /// An earlier answer in JSON.
@@ -100,9 +105,10 @@ pub(crate) fn prove(
     design: &Design,
     diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
+    of: &Subject,
     stop: Option<&dyn Fn() -> bool>,
 ) -> Answer {
-    answer(design, diagnostics, keep, |wiring| wiring.solve_with_proof(stop))
+    answer(design, diagnostics, keep, |wiring| wiring.solve_with_proof(of, stop))
 }
 
 fn answer(

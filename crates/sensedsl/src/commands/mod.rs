@@ -16,5 +16,6 @@ mod output;
 pub(crate) mod parts;
 pub(crate) mod solve;
 mod starter;
+mod subject;
 mod table;
 mod timing;

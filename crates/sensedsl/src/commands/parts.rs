@@ -58,6 +58,14 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.result(&found.csv())?;
         return Ok(Status::Done);
     }
+    if let Some(name) = &args.profile {
+        let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
+        let Some(text) = profile::text(target, name) else {
+            bail!("there is no profile of {name} for the target {target}");
+        };
+        terminal.result(text)?;
+        return Ok(Status::Done);
+    }
     if let Some(search) = &args.list {
         terminal.result(&listing(args, search.as_deref().unwrap_or_default()))?;
         return Ok(Status::Done);

@@ -7,23 +7,29 @@ use anyhow::{Result, ensure};
 use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
 use sensedsl_diagnostics::{SourceMap, render, visible_json};
+use sensedsl_model::What;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Keep, Search, Solved, Wiring};
 
 use super::in_the_way;
 use super::input::{self, Answer};
+use super::subject;
 use crate::Status;
 use crate::cli::{SolveArgs, SolveFormat};
-use crate::files::{begins_with, is_in_the_way, write_whole};
+use crate::files::{begins_with, is_in_the_way, read_text, write_whole};
 use crate::terminal::Terminal;
 
 /// How every certificate begins: an earlier one is replaced.
 const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
-    let keep = input::keep(args.keep.as_deref())?;
+    let kept = args.keep.as_deref().map(|path| read_text(path, What::Answer)).transpose()?;
+    let keep = args.keep.as_deref().zip(kept.as_deref());
+    let keep = keep.map(|(path, text)| input::keep_in(path, text)).transpose()?;
     let resolved = input::load(&args.file, &args.on);
+    let proved = resolved.design.as_ref().filter(|_| args.proof.is_some());
+    let of = proved.map(|design| subject::of(args, &resolved, design, kept)).unwrap_or_default();
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
@@ -49,7 +55,7 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
     let stop: Option<&dyn Fn() -> bool> = deadline.is_some().then_some(&late);
     let mut answer = if args.proof.is_some() {
-        input::prove(design, resolved.diagnostics, keep.as_ref(), stop)
+        input::prove(design, resolved.diagnostics, keep.as_ref(), &of, stop)
     } else {
         let search = Search { any: args.any, stop };
         input::solve(design, resolved.diagnostics, keep.as_ref(), &search)

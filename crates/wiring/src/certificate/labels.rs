@@ -88,7 +88,7 @@ pub(super) fn pick<T: Clone>(all: &[T], places: &[usize]) -> Vec<T> {
 }
 
 /// Numbers those names that stand before already.
-fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
+pub(super) fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let mut distinct = Vec::new();
     for name in names {

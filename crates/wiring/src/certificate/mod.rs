@@ -18,6 +18,7 @@ use sensedsl_solve::problem::{DeviceId, Problem};
 use sensedsl_solve::{Answer, Fault, Objective, Outcome};
 
 pub use labels::{AlternativeLabels, Labels};
+pub use sensedsl_proof::subject::sha256;
 
 use crate::Wiring;
 use case::Weighed;
@@ -27,6 +28,20 @@ use write::{Proof, Writer};
 
 /// Tolls that may be looked up for one certificate: some ten seconds.
 const WORK_MAX: u64 = 1_000_000_000;
+
+/// What the problem was made of, for whoever has to tell its certificate from others. Each text
+/// has its SHA-256.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Subject {
+    /// The program with its version.
+    pub tool: String,
+    /// The options of the call that change the problem.
+    pub options: Vec<(String, String)>,
+    /// The files that were read, by the names that the design gives them.
+    pub files: Vec<(String, String)>,
+    /// What is built in, by the arguments with which the program prints it.
+    pub built_in: Vec<(String, String)>,
+}
 
 /// What a certificate is to prove.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +72,7 @@ pub enum Uncertified {
 pub fn certify(
     problem: &Problem,
     labels: &Labels,
+    subject: &Subject,
     claim: Claim<'_>,
     stop: Option<&dyn Fn() -> bool>,
 ) -> Result<String, Uncertified> {
@@ -76,7 +92,7 @@ pub fn certify(
             (None, prove(&writer, &[task], &mut effort)?)
         }
     };
-    Ok(writer.certificate(answer, &proofs))
+    Ok(writer.certificate(subject, answer, &proofs))
 }
 
 /// The texts of the proofs.
@@ -144,6 +160,7 @@ impl Wiring<'_> {
     pub(crate) fn certificate(
         &self,
         outcome: &Result<Outcome, Fault>,
+        subject: &Subject,
         stop: Option<&dyn Fn() -> bool>,
     ) -> Option<Result<String, Box<Diagnostic>>> {
         let claim = match outcome {
@@ -155,7 +172,7 @@ impl Wiring<'_> {
             Err(_) => return None,
         };
         let labels = Labels::of(self.design, &self.formulation);
-        let text = match certify(&self.formulation.problem, &labels, claim, stop) {
+        let text = match certify(&self.formulation.problem, &labels, subject, claim, stop) {
             Ok(text) => text,
             Err(why) => return Some(Err(self.uncertified(why))),
         };

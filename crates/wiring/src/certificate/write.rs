@@ -4,13 +4,15 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use sensedsl_diagnostics::visible_json;
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Problem, Role, RuleId};
 use sensedsl_solve::{Answer, Objective};
 use serde_json::{Map, Value, json};
 
+use super::Subject;
 use super::ascent::Closing;
 use super::case::Weighed;
-use super::labels::Labels;
+use super::labels::{Labels, distinct};
 use super::model::{Thing, holders};
 use super::tree::Node;
 
@@ -34,12 +36,18 @@ fn object(entries: impl IntoIterator<Item = (String, Value)>) -> Value {
 /// One entry a line.
 fn lines(entries: impl IntoIterator<Item = (String, Value)>) -> String {
     let entries = entries.into_iter().map(|(name, value)| format!("{}: {value}", json!(name)));
-    format!("{{\n{}\n}}", entries.collect::<Vec<_>>().join(",\n"))
+    let entries = entries.collect::<Vec<_>>().join(",\n");
+    if entries.is_empty() { "{}".to_owned() } else { format!("{{\n{entries}\n}}") }
 }
 
 impl Writer<'_> {
     /// The whole text.
-    pub(super) fn certificate(&self, answer: Option<&Answer>, proofs: &[String]) -> String {
+    pub(super) fn certificate(
+        &self,
+        subject: &Subject,
+        answer: Option<&Answer>,
+        proofs: &[String],
+    ) -> String {
         let Self { problem, labels } = self;
         let boards = labels.boards.iter().zip(&problem.boards);
         let boards = object(boards.map(|(name, board)| (name.clone(), board.spare.into())));
@@ -59,8 +67,9 @@ impl Writer<'_> {
         // Writing to a String cannot fail.
         let _ = write!(
             text,
-            "\"problem\": {{\n\"boards\": {boards},\n\"pins\": {pins},\n\"shared\": {shared},\n\"dma\": {},\n\
+            "\"subject\": {},\n\"problem\": {{\n\"boards\": {boards},\n\"pins\": {pins},\n\"shared\": {shared},\n\"dma\": {},\n\
              \"devices\": {devices}\n}},\n\"answer\": ",
+            of(subject),
             object(dma)
         );
         match answer {
@@ -238,6 +247,21 @@ impl Writer<'_> {
             Thing::Dma(user) => ("dma", &dma[user]),
         }
     }
+}
+
+/// The text of a subject. Names of files may hold what cannot be seen.
+fn of(subject: &Subject) -> String {
+    let Subject { tool, options, files, built_in } = subject;
+    let named = |all: &[(String, String)]| {
+        let names = distinct(all.iter().map(|(name, _)| name.clone()));
+        lines(names.into_iter().zip(all.iter().map(|(_, value)| value.as_str().into())))
+    };
+    let (options, files, built_in) = (named(options), named(files), named(built_in));
+    let text = format!(
+        "{{\n\"tool\": {},\n\"options\": {options},\n\"files\": {files},\n\"built_in\": {built_in}\n}}",
+        json!(tool)
+    );
+    visible_json(&text).into_owned()
 }
 
 fn put<'m>(map: &'m mut Map<String, Value>, kind: &str) -> &'m mut Value {
