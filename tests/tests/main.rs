@@ -2,6 +2,7 @@
 //! [`README.md`](../README.md) says what each module holds.
 #![cfg(test)]
 
+mod alloy;
 mod boards;
 mod boards_page;
 mod command_line;

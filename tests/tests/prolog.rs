@@ -53,7 +53,7 @@ fn agree(design: &str) -> Option<(u64, u64, u64)> {
 }
 
 /// A table of Table 1's kind: a dozen pins with one to three random usages each.
-fn random_table(random: &mut Random) -> String {
+pub(crate) fn random_table(random: &mut Random) -> String {
     let signals = [
         "ADC12_IN1",
         "ADC12_IN2",

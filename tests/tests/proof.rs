@@ -91,11 +91,14 @@ fn moved_wires_are_proved_to_be_needed() {
     let scratch = Scratch::new("proof-moved");
     let before = design(BOARD, &["analog", "icu"]);
     let answer = sensedsl(["solve", "-q", "--format", "json", "-"]).stdin(before).run().exits(0);
-    let keep = scratch.write("before.json", answer.stdout);
+    let keep = scratch.write(NAMES[3], answer.stdout);
     let after = design(BOARD, &["analog: pin = PC1;", "icu: avoid unit = TIM3;"]);
     let said = proved(&["-", "--keep", &keep.display().to_string()], &after, 0);
     assert!(said.contains("moved 1, violated 1"), "{said}");
 }
+
+/// The files of a design, and the answer to keep.
+const NAMES: [&str; 4] = ["robot.sense", "parts/arm.sense", "tables/own.csv", "before.json"];
 
 #[test]
 fn a_certificate_is_of_the_files_it_was_made_of() {
@@ -107,11 +110,11 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
     for folder in ["parts", "tables"] {
         std::fs::create_dir(scratch.join(folder)).unwrap();
     }
-    let main = scratch.write("robot.sense", main);
-    let used = scratch.write("parts/arm.sense", sensor(2));
-    let pins = scratch.write("tables/own.csv", table);
+    let main = scratch.write(NAMES[0], main);
+    let used = scratch.write(NAMES[1], sensor(2));
+    let pins = scratch.write(NAMES[2], table);
     let answer = sensedsl(["solve", "-q", "--format", "json"]).arg(&main).run().exits(0);
-    let kept = scratch.write("before.json", answer.stdout);
+    let kept = scratch.write(NAMES[3], answer.stdout);
     let (proof, plain) = (scratch.join("proof.json"), scratch.join("plain.json"));
     let solve = |proof: &Path| sensedsl(["solve", "-q", "--proof"]).arg(proof).arg(&main);
     let _ = solve(&plain).run().exits(0);
@@ -119,7 +122,7 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
     let all = [&main, &used, &pins, &kept];
     let (status, said) = verify_for(&proof, &all);
     assert_eq!(status, 0, "{said}");
-    for name in ["robot.sense", "parts/arm.sense", "tables/own.csv", "before.json"] {
+    for name in NAMES {
         assert!(said.contains(&format!("{name}: the same")), "{name}: {said}");
     }
     for missing in 0..4 {
@@ -138,12 +141,12 @@ fn a_certificate_is_of_the_files_it_was_made_of() {
     }
     let (status, said) = verify_for(&plain, &[&main, &used, &pins, &texts[0], &texts[1]]);
     assert!(status == 0 && !said.contains("not compared"), "{said}");
-    for changed in all {
+    for (changed, name) in all.into_iter().zip(NAMES) {
         let before = read(changed);
-        std::fs::write(changed, format!("{before} ")).unwrap();
+        scratch.write(name, format!("{before} "));
         let (status, said) = verify_for(&proof, &all);
-        assert!(status == 1 && said.contains("that was solved"), "{}: {said}", changed.display());
-        std::fs::write(changed, before).unwrap();
+        assert!(status == 1 && said.contains("that was solved"), "{name}: {said}");
+        scratch.write(name, before);
     }
     assert_eq!(verify_for(&proof, &all).0, 0);
     assert_eq!(verify_for(&proof, &[&scratch.join("nowhere")]).0, 2);
@@ -206,7 +209,13 @@ fn without_a_proof_there_is_an_answer_or_a_word() {
     assert_eq!(ran.status, 1);
     assert!(ran.stderr.contains("E0403") || ran.stderr.contains("E0404"), "{}", ran.stderr);
     assert!(!path.exists());
-    for more in [["--any"].as_slice(), &["--all"], &["--count"], &["--format", "prolog"]] {
+    for more in [
+        ["--any"].as_slice(),
+        &["--all"],
+        &["--count"],
+        &["--format", "prolog"],
+        &["--format", "alloy"],
+    ] {
         let call = sensedsl(["solve", "examples/fig2.sense", "--proof"]).arg(&path);
         let ran = more.iter().fold(call, |call, argument| call.arg(argument)).run();
         assert_eq!((ran.status, path.exists()), (2, false), "{more:?}");

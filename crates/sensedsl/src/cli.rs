@@ -163,6 +163,8 @@ pub(crate) enum SolveFormat {
     Svg,
     /// The problem itself, as a program for SWI-Prolog
     Prolog,
+    /// The problem itself, as a model for the Alloy Analyzer that confirms the answer
+    Alloy,
 }
 
 #[derive(Debug, Args)]

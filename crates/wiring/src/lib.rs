@@ -1,5 +1,6 @@
 //! From a design to a wiring: the pin problem is put to the solver, and its answer read back.
 
+mod alloy;
 mod alternatives;
 pub mod assignment;
 mod blame;
@@ -27,8 +28,9 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
+use alloy::Known;
 use assignment::{Assignment, Bound};
-use certificate::Subject;
+use certificate::{Labels, Subject};
 use formulate::{Converters, Formulation, formulate};
 
 pub use blame::Rule;
@@ -222,6 +224,31 @@ impl<'a> Wiring<'a> {
     #[must_use]
     pub fn prolog(&self) -> String {
         prolog::program(self.design, &self.formulation)
+    }
+
+    /// The problem as a model for the Alloy Analyzer, which confirms what the solver says of it: that
+    /// there is a wiring, and that none is better.
+    ///
+    /// # Errors
+    /// The diagnostic of a fault in the solver.
+    pub fn alloy(&self, stop: Option<&dyn Fn() -> bool>) -> Result<String, Box<Diagnostic>> {
+        let known = match self.search(&Search { any: false, stop }) {
+            Ok(Outcome::Solved(answer)) => {
+                if self.read(&answer).is_none()
+                    && let Some(wiring) = self.with_converters()
+                {
+                    return wiring.alloy(stop);
+                }
+                Known::Best(answer.objective)
+            }
+            Ok(Outcome::Infeasible(_)) => Known::Infeasible,
+            Ok(Outcome::Stopped { answer, .. }) => {
+                answer.map_or(Known::Nothing, |answer| Known::Found(answer.objective))
+            }
+            Err(fault) => return Err(Box::new(self.fault(&fault))),
+        };
+        let labels = Labels::of(self.design, &self.formulation);
+        Ok(alloy::model(&self.formulation.problem, &labels, known))
     }
 
     fn read(&self, answer: &solver::Answer) -> Option<Solved> {

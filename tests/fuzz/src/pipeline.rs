@@ -100,6 +100,9 @@ fn pipeline(input: &Input, ask: Ask) {
         }
         let program = wiring.prolog();
         assert!(program.ends_with('\n') && !program.contains('\0'));
+        if ask.proof {
+            modelled(&wiring);
+        }
     }
     apply_allows(design, &mut diagnostics);
     sort(&mut diagnostics);
@@ -122,6 +125,16 @@ fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 fn stop_after(steps: &Cell<u32>, most: u32) -> bool {
     steps.set(steps.get() + 1);
     steps.get() > most
+}
+
+/// Nothing stands outside of the comments of an Alloy model but what it is written with.
+fn modelled(wiring: &Wiring<'_>) {
+    let steps = Cell::new(0);
+    let stop = || stop_after(&steps);
+    let Ok(model) = wiring.alloy(Some(&stop)) else { return };
+    let code = model.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_ +#&,{}()[]:=<".contains(c);
+    assert!(code.flat_map(str::chars).all(plain), "{model}");
 }
 
 fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {

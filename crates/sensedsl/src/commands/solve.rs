@@ -35,11 +35,17 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    if args.format == SolveFormat::Prolog {
-        ensure!(args.proof.is_none(), "--format prolog asks for the problem alone: no --proof");
+    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let stop: Option<&dyn Fn() -> bool> = deadline.is_some().then_some(&late);
+    if matches!(args.format, SolveFormat::Prolog | SolveFormat::Alloy) {
+        ensure!(
+            args.proof.is_none(),
+            "--format {} asks for the problem alone: no --proof",
+            if args.format == SolveFormat::Prolog { "prolog" } else { "alloy" }
+        );
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        terminal.result(&Wiring::new(design, keep.as_ref()).prolog())?;
-        return Ok(Status::Done);
+        return problem(args, terminal, &Wiring::new(design, keep.as_ref()), &sources, stop);
     }
     // On the standard output the certificate is the result.
     let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
@@ -51,9 +57,6 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         in_the_way::say(path, "the certificate", terminal)?;
         return Ok(Status::Misused);
     }
-    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
-    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let stop: Option<&dyn Fn() -> bool> = deadline.is_some().then_some(&late);
     let mut answer = if args.proof.is_some() {
         input::prove(design, resolved.diagnostics, keep.as_ref(), &of, stop)
     } else {
@@ -89,6 +92,30 @@ fn status(answer: &Answer) -> Status {
     match &answer.solved {
         Some(Solved::Wired(_)) if !input::has_errors(&answer.diagnostics) => Status::Done,
         Some(_) | None => Status::Wrong,
+    }
+}
+
+/// Prints the problem for another program.
+fn problem(
+    args: &SolveArgs,
+    terminal: &mut Terminal,
+    wiring: &Wiring<'_>,
+    sources: &SourceMap,
+    stop: Option<&dyn Fn() -> bool>,
+) -> Result<Status> {
+    if args.format == SolveFormat::Prolog {
+        terminal.result(&wiring.prolog())?;
+        return Ok(Status::Done);
+    }
+    match wiring.alloy(stop) {
+        Ok(model) => {
+            terminal.result(&model)?;
+            Ok(Status::Done)
+        }
+        Err(failure) => {
+            terminal.diagnostics(&[*failure], sources)?;
+            Ok(Status::Wrong)
+        }
     }
 }
 
@@ -143,7 +170,7 @@ fn printed(args: &SolveArgs, terminal: &Terminal, design: &Design, wiring: &Assi
         SolveFormat::Markdown => markdown::markdown(design, wiring),
         SolveFormat::Svg => svg::svg(design, wiring),
         // Answered before solving: it needs no answer.
-        SolveFormat::Prolog => String::new(),
+        SolveFormat::Prolog | SolveFormat::Alloy => String::new(),
     }
 }
 

@@ -18,6 +18,7 @@ use sensedsl_solve::problem::{DeviceId, Problem};
 use sensedsl_solve::{Answer, Fault, Objective, Outcome};
 
 pub use labels::{AlternativeLabels, Labels};
+pub(crate) use model::holders;
 pub use sensedsl_proof::subject::sha256;
 
 use crate::Wiring;

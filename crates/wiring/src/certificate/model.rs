@@ -72,7 +72,7 @@ pub(super) struct Model {
 }
 
 /// Who holds each resource. Who takes one on several behalves can share it with nobody.
-pub(super) fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
+pub(crate) fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
     let mut holders = BTreeMap::new();
     for Claim { resource, holder } in claims {
         let held = holders.entry(resource.0).or_insert(*holder);
