@@ -1,11 +1,14 @@
-//! Real certificates of small problems, edited token by token: what is still verified is true.
+//! Real certificates of small problems, edited token by token: what is still verified is true, and of
+//! files with the hashes that are stated.
 //!
 //! Edits may reach the problem as well. What is claimed of it is then compared with all its wirings
 //! ([`crate::truth`]).
 
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_proof::subject::compare;
 use sensedsl_proof::{Verified, read, verify};
 use sensedsl_wiring::certificate::{Subject, sha256};
 use sensedsl_wiring::{Keep, Wiring};
@@ -72,6 +75,8 @@ struct Start {
     tokens: Vec<String>,
     problem: String,
     truth: Truth,
+    /// The files that it is of, with their hashes.
+    files: Vec<(String, String)>,
 }
 
 fn starts() -> &'static [Start] {
@@ -94,7 +99,9 @@ fn start(text: &str, keep: bool) -> Start {
     let truth = truth(&read.problem);
     let verified = verify(&read).expect("a certificate proves its claim");
     assert!(holds(&verified, truth), "{verified:?}, but {truth:?}\n{text}");
-    Start { tokens: tokens(&certificate), problem: format!("{:?}", read.problem), truth }
+    let files = subject(text).files;
+    compare(&read.subject, &files).expect("a certificate is of its files");
+    Start { tokens: tokens(&certificate), problem: format!("{:?}", read.problem), truth, files }
 }
 
 /// The tokens of a JSON text, without space.
@@ -208,6 +215,13 @@ pub fn run(bytes: &[u8]) {
     let text = tokens.concat();
     let Ok(certificate) = read(&text) else { return };
     count(Stage::Resolved);
+    if compare(&certificate.subject, &start.files).is_ok() {
+        let stated: BTreeSet<&String> = certificate.subject.files.values().collect();
+        let texts: BTreeSet<&String> = certificate.subject.built_in.values().collect();
+        let given: BTreeSet<&String> = start.files.iter().map(|(_, hash)| hash).collect();
+        let known = given.iter().all(|hash| stated.contains(hash) || texts.contains(hash));
+        assert!(known && stated.is_subset(&given), "it is of other files\n{text}");
+    }
     let Ok(verified) = verify(&certificate) else { return };
     count(Stage::Certified);
     let same = format!("{:?}", certificate.problem) == start.problem;

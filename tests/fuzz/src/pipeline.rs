@@ -130,7 +130,7 @@ fn stop_after(steps: &Cell<u32>, most: u32) -> bool {
 /// Nothing stands outside of the comments of an Alloy model but what it is written with.
 fn modelled(wiring: &Wiring<'_>) {
     let steps = Cell::new(0);
-    let stop = || stop_after(&steps);
+    let stop = || stop_after(&steps, STEPS_PROOF_MAX);
     let Ok(model) = wiring.alloy(Some(&stop)) else { return };
     let code = model.lines().map(|line| line.split("//").next().unwrap_or_default());
     let plain = |c: char| c.is_ascii_alphanumeric() || "_ +#&,{}()[]:=<".contains(c);
