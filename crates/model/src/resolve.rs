@@ -88,11 +88,12 @@ pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
     if more > 0 {
         let rest = diagnostics.split_off(DIAGNOSTICS_MAX);
         let at = diagnostics.last().map(|last| last.primary.span);
-        // Where a table ends is said whatever stands before.
-        let ends = |one: &Diagnostic| one.code.info() == &e0317_table_too_large::INFO;
-        diagnostics.extend(rest.into_iter().filter(ends).take(1));
         let report = |at| e0117_more_mistakes::more_mistakes(at, DIAGNOSTICS_MAX, more);
         diagnostics.extend(at.map(report));
+        // That a table is too long is said before the mistakes in it, of which people see a few.
+        let ends = |one: &Diagnostic| one.code.info() == &e0317_table_too_large::INFO;
+        let end = rest.into_iter().find(ends);
+        end.into_iter().for_each(|end| diagnostics.insert(0, end));
     }
 }
 

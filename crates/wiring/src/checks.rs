@@ -160,7 +160,13 @@ fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Dia
         Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => {
             format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
         }
-        _ => {
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => {
             let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
             format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
         }
@@ -245,7 +251,7 @@ fn bus_only(
         let name = pin.value.on(offer.index)?;
         Some((name.clone(), table.pin(name)?.onboard.as_ref()?.part.clone()))
     };
-    let (name, part) = offers.iter().find_map(|offer| row(&offer))?;
+    let (name, part) = offers.iter().find_map(row)?;
     let released: Vec<Offer<'_>> = offers.iter().map(|offer| offer.with_released(&name)).collect();
     let meanings = relaxed_on(design, &released, device, |wanted| {
         wanted.unit = None;

@@ -26,10 +26,12 @@ pub(crate) enum Stands {
 pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Stands {
     let volts = volts(board);
     let supply = volts.map(|volts| volts.supply_mv);
-    let most = match kind {
-        Kind::Analog(_) => supply,
-        _ if supply.is_some_and(|supply| mv <= supply) => return Stands::Yes,
-        _ => stated_mv(pin).or_else(|| volts?.stands_mv(&pin.name)),
+    let most = if matches!(kind, Kind::Analog(_)) {
+        supply
+    } else if supply.is_some_and(|supply| mv <= supply) {
+        return Stands::Yes;
+    } else {
+        stated_mv(pin).or_else(|| volts?.stands_mv(&pin.name))
     };
     match most {
         Some(most) if mv <= most => Stands::Yes,
