@@ -10,6 +10,7 @@ impl Model {
     /// Finds the wires: roles all of whose candidates claim one resource as a group of their pin,
     /// so that all devices on it must take one pin.
     pub(crate) fn find_kinds(&mut self, problem: &Problem) {
+        let shares = |o: &Cand, c: &Cand| (o.holder, o.signal) == (c.holder, c.signal);
         let shared = |c: &Cand| {
             let device = self.alt_device[self.role_alt[c.role]];
             c.holder != 0
@@ -17,7 +18,7 @@ impl Model {
                     .pin_cands
                     .at(c.pin)
                     .iter()
-                    .any(|&o| self.cand(o).holder == c.holder && self.cand_device(o) != device)
+                    .any(|&o| shares(self.cand(o), c) && self.cand_device(o) != device)
         };
         self.role_kind = (0..self.role_alt.len())
             .map(|r| if self.cands.at(r).iter().any(shared) { Kind::Odd } else { Kind::Own })
@@ -145,8 +146,6 @@ struct Ties {
     roles: Vec<(usize, Vec<usize>)>,
     /// Resource and group to the one pin that all its claimants mean.
     pins: BTreeMap<(usize, usize), BTreeSet<usize>>,
-    /// Resource and pin to its groups.
-    groups: BTreeMap<(usize, usize), BTreeSet<usize>>,
 }
 
 impl Ties {
@@ -159,7 +158,6 @@ impl Ties {
                 let (resource, pin) = (claim.resource.0 as usize, c.pin.0 as usize);
                 resources.push(resource);
                 self.pins.entry((resource, code(claim.holder))).or_default().insert(pin);
-                self.groups.entry((resource, pin)).or_default().insert(code(claim.holder));
             }
             common = Some(match common {
                 None => resources,
@@ -171,21 +169,20 @@ impl Ties {
 
     /// Writes the kinds into the model and returns the number of wires.
     fn number(&self, model: &mut Model) -> usize {
-        let clean = |table: &BTreeMap<(usize, usize), BTreeSet<usize>>, resource: usize| {
-            table.range((resource, 0)..(resource + 1, 0)).all(|(_, set)| set.len() == 1)
-        };
         let tie = |resources: &[usize]| {
-            let clean = |r: &&usize| clean(&self.pins, **r) && clean(&self.groups, **r);
-            resources.iter().find(clean).copied()
+            let groups = |r: usize| self.pins.range((r, 0)..(r + 1, 0));
+            resources.iter().find(|&&r| groups(r).all(|(_, pins)| pins.len() == 1)).copied()
         };
         let mut found: Vec<(usize, Option<usize>)> =
             self.roles.iter().map(|(role, r)| (*role, tie(r))).collect();
         loop {
-            // A pin held by one group on two wires would be one pin of two wires: leave both.
-            let mut owners: BTreeMap<(usize, usize), BTreeSet<Option<usize>>> = BTreeMap::new();
+            // A pin held by one group on two wires would be one pin of two wires: leave both. As
+            // another signal it is held by somebody else: a table may well have the data and the
+            // clock of one bus in one row.
+            let mut owners: BTreeMap<_, BTreeSet<Option<usize>>> = BTreeMap::new();
             for (role, wire) in &found {
                 for c in model.cands.at(*role) {
-                    owners.entry((c.pin, c.holder)).or_default().insert(*wire);
+                    owners.entry((c.pin, c.holder, c.signal)).or_default().insert(*wire);
                 }
             }
             let mut mixed: BTreeSet<usize> =

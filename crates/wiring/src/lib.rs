@@ -98,6 +98,12 @@ impl<'a> Wiring<'a> {
         later.then(|| Self::put(self.design, self.keep.as_ref(), Converters::Now))
     }
 
+    /// The problem as the solver is asked it.
+    #[must_use]
+    pub fn problem(&self) -> &solver::Problem {
+        &self.formulation.problem
+    }
+
     /// What is wrong with the placement of single devices, and rules that do nothing. When there is
     /// an error among them there is no wiring, and a conflict would say less.
     #[must_use]

@@ -1,0 +1,78 @@
+//! Seeded designs on boards of different size, with what the solver says of each: one JSON line a
+//! design, which `benches/mixed.py` measures as a whole process and `benches/compare.py` puts to
+//! other solvers.
+//!
+//!     cargo run --release -p sensedsl-wiring --features problems --example mixed -- [FAMILY [NUMBER [FIRST]]] > mixed.jsonl
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    clippy::unwrap_used,
+    reason = "a developer's program"
+)]
+#![allow(dead_code, reason = "the support code serves several programs")]
+
+#[path = "../tests/support/mixed.rs"]
+mod mixed;
+
+#[path = "../../solve/tests/support/json.rs"]
+mod json;
+
+use std::cell::Cell;
+use std::time::{Duration, Instant};
+
+use mixed::{FAMILIES, Text};
+use sensedsl_wiring::Wiring;
+use sensedsl_wiring::solver::{Options, Outcome, solve};
+use serde_json::{Value, json};
+
+/// A run ends there: no instance is worth more.
+const LIMIT: Duration = Duration::from_secs(20);
+
+fn main() {
+    let wanted = std::env::args().nth(1).unwrap_or_else(|| "all".to_owned());
+    let number = std::env::args().nth(2).map(|text| text.parse::<u64>().unwrap());
+    let first = std::env::args().nth(3).map_or(0, |text| text.parse().unwrap());
+    for family in FAMILIES {
+        if wanted != "all" && wanted != family.name {
+            continue;
+        }
+        for seed in first..first + number.unwrap_or(family.number) {
+            let text = (family.make)(seed);
+            println!("{}", line(family.name, seed, &text));
+        }
+    }
+}
+
+fn line(family: &str, seed: u64, text: &Text) -> Value {
+    let design = text.design();
+    let wiring = Wiring::new(&design, None);
+    let problem = wiring.problem();
+    let asked = Cell::new(0_u64);
+    let start = Instant::now();
+    let stop = || {
+        asked.set(asked.get() + 1);
+        start.elapsed() > LIMIT
+    };
+    let outcome = solve(problem, &Options { any: false, stop: Some(&stop) }).unwrap();
+    let micros = start.elapsed().as_secs_f64() * 1e6;
+    let (status, objective) = match outcome {
+        Outcome::Solved(answer) => {
+            let o = answer.objective;
+            ("optimal", [o.moved, o.violated, o.cost, o.spares])
+        }
+        Outcome::Infeasible(_) => ("infeasible", [0; 4]),
+        Outcome::Stopped { .. } => ("stopped", [0; 4]),
+    };
+    eprintln!("{family} {seed} {status} {micros:.0} us, asked {} times", asked.get());
+    json!({
+        "family": family,
+        "devices": problem.devices.len(),
+        "seed": seed,
+        "status": status,
+        "objective": objective,
+        "micros": micros,
+        "sense": text.sense,
+        "tables": text.tables,
+        "problem": serde_json::from_str::<Value>(&json::json(problem)).unwrap(),
+    })
+}

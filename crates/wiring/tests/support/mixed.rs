@@ -1,0 +1,230 @@
+//! Seeded designs on several boards: a family and a number in, always the same text out.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use sensedsl_model::design::Design;
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+
+/// A small generator of its own, so that a seed means the same design for ever (splitmix64).
+struct Rng(u64);
+
+impl Rng {
+    fn below(&mut self, limit: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) % limit
+    }
+
+    fn of<'a>(&mut self, words: &[&'a str]) -> &'a str {
+        words.get(self.below(words.len() as u64) as usize).copied().unwrap_or_default()
+    }
+}
+
+/// A design as its files.
+pub struct Text {
+    pub sense: String,
+    /// Tables by the names of their files.
+    pub tables: BTreeMap<String, String>,
+}
+
+impl Files for Text {
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        self.tables.get(wanted.path).cloned().ok_or(Unread::Missing)
+    }
+}
+
+impl Text {
+    /// The design, pins only.
+    pub fn design(&self) -> Design {
+        let request = Request {
+            path: "mixed.sense",
+            text: &self.sense,
+            board: None,
+            target: Some("none"),
+        };
+        let resolved = resolve(&request, self);
+        let said: Vec<&str> = resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
+        resolved.design.unwrap_or_else(|| panic!("{said:?}\n{}", self.sense))
+    }
+}
+
+pub struct Family {
+    pub name: &'static str,
+    pub number: u64,
+    pub make: fn(u64) -> Text,
+}
+
+pub const FAMILIES: &[Family] = &[
+    Family { name: "mixed boards", number: 500, make: mixed },
+    Family { name: "eight equal F407", number: 10, make: eight_equal },
+    Family { name: "64 digital on 63 pins", number: 1, make: digital_64 },
+    Family { name: "30 i2c with 7 addresses", number: 1, make: i2c_30 },
+    Family { name: "two F407 with 61 i2c", number: 1, make: i2c_61 },
+];
+
+/// Boards of the catalog beside those with a table of their own.
+const BOARDS: &[&str] = &["STM32F4DiscoveryBoard", "NUCLEO_G474RE", "BLUEPILL_F103C8"];
+
+/// Two to four unequal boards, one to three devices of some kinds of buses, fixed to a board or
+/// floating, up to twelve floating devices with a pin or two.
+fn mixed(seed: u64) -> Text {
+    let mut rng = Rng(seed.wrapping_mul(0x1234_5678_9ABC_DEF1) ^ 0x4D49_5845);
+    let boards = 2 + rng.below(3);
+    let mut tables = BTreeMap::new();
+    let mut places = Vec::new();
+    let mut on_boards = vec![String::new(); boards as usize];
+    for board in 0..boards {
+        if board > 0 && rng.below(3) == 0 {
+            places.push(rng.of(BOARDS).to_owned());
+        } else {
+            let name = format!("table_{board}.csv");
+            let pins = 12 + rng.below(69);
+            tables.insert(name.clone(), table(&mut rng, pins));
+            places.push(format!("\"{name}\""));
+        }
+    }
+    let mut floating = String::new();
+    let mut number = 0;
+    let mut put = |rng: &mut Rng, on_boards: &mut [String], kind: &str, fixed: u64| {
+        number += 1;
+        let text = device(number, kind);
+        let on = rng.below(boards) as usize;
+        match on_boards.get_mut(on).filter(|_| rng.below(4) < fixed) {
+            Some(board) => board.push_str(&text),
+            None => floating.push_str(&text),
+        }
+    };
+    for kind in ["i2c", "spi", "can", "uart"] {
+        let some = if kind == "i2c" || kind == "spi" { 3 } else { 1 };
+        if rng.below(4) < some {
+            for _ in 0..1 + rng.below(3) {
+                put(&mut rng, &mut on_boards, kind, 2);
+            }
+        }
+    }
+    for _ in 0..rng.below(13) {
+        let kind = rng.of(&["digital", "digital", "output", "analog", "pwm", "icu"]);
+        put(&mut rng, &mut on_boards, kind, 0);
+    }
+    let spare = rng.below(3) == 0;
+    let mut sense = String::new();
+    for (board, (place, devices)) in places.iter().zip(&on_boards).enumerate() {
+        let spare = if spare && board > 0 && board + 1 == places.len() { "spare " } else { "" };
+        let _ = writeln!(sense, "{spare}board Brd{board} on {place} {{\n{devices}}}");
+    }
+    sense.push_str(&floating);
+    Text { sense, tables }
+}
+
+fn device(number: u64, kind: &str) -> String {
+    let (head, more) = match kind {
+        "i2c" => ("sensor NAME returns uint16", format!("address = {};", 0x10 + number)),
+        "can" => ("sensor NAME returns uint16", format!("frame = {};", 0x100 + number)),
+        "spi" | "uart" | "analog" | "icu" | "encoder" => ("sensor NAME returns uint16", String::new()),
+        "pwm" => {
+            ("actuator NAME accepts uint16", format!("frequency = {};", 1000 + number % 2 * 50))
+        }
+        "dac" => ("actuator NAME accepts uint16", String::new()),
+        "output" => ("actuator NAME accepts bool", String::new()),
+        _ => ("sensor NAME returns bool", String::new()),
+    };
+    let kind = if kind == "output" { "digital" } else { kind };
+    let head = head.replace("NAME", &format!("Dev{number}"));
+    format!("{head} {{\n    id = {number};\n    type = {kind};\n    {more}\n}}\n")
+}
+
+/// A table with one to seven usages a pin, as random as those of small boards that people describe.
+fn table(rng: &mut Rng, pins: u64) -> String {
+    let mut text = "Pin,Usages\n".to_owned();
+    let units = 1 + pins / 30;
+    for pin in 0..pins {
+        let mut usages: Vec<String> = Vec::new();
+        for _ in 0..rng.below(7) {
+            let unit = 1 + rng.below(units);
+            let usage = match rng.below(12) {
+                0 => format!("I2C{unit}_SCL"),
+                1 => format!("I2C{unit}_SDA"),
+                2 => format!("SPI{unit}_{}", rng.of(&["SCK", "MISO", "MOSI"])),
+                3 => format!("USART{unit}_{}", rng.of(&["TX", "RX"])),
+                4 => format!("CAN{unit}_{}", rng.of(&["TX", "RX"])),
+                5 => format!("ADC1_IN{}", rng.below(16)),
+                6..=8 => {
+                    format!("TIM{}_CH{}", 1 + rng.below(1 + units * 2), 1 + rng.below(4))
+                }
+                _ => format!("ETH_{}", rng.below(20)),
+            };
+            if !usages.contains(&usage) {
+                usages.push(usage);
+            }
+        }
+        let port = char::from(b'A' + (pin / 16) as u8);
+        let _ = writeln!(text, "P{port}{},{}", pin % 16, usages.join(" "));
+    }
+    text
+}
+
+/// Eight boards of one sort and eighty floating devices.
+fn eight_equal(seed: u64) -> Text {
+    let mut rng = Rng(seed ^ 0x4551_5541);
+    let mut sense = String::new();
+    for board in 0..8 {
+        let _ = writeln!(sense, "board Brd{board} on STM32F407VGT6 {{\n}}");
+    }
+    for number in 1..=80 {
+        let kinds = [
+            ("analog", 25),
+            ("i2c", 14),
+            ("icu", 14),
+            ("encoder", 5),
+            ("pwm", 14),
+            ("uart", 7),
+            ("spi", 5),
+            ("can", 2),
+            ("dac", 2),
+            ("digital", 12),
+        ];
+        let mut at = rng.below(100);
+        let kind = kinds.iter().find(|(_, share)| {
+            let here = at < *share;
+            at = at.saturating_sub(*share);
+            here
+        });
+        sense.push_str(&device(number, kind.map_or("digital", |kind| kind.0)));
+    }
+    Text { sense, tables: BTreeMap::new() }
+}
+
+fn digital_64(_: u64) -> Text {
+    let mut table = "Pin,Usages\n".to_owned();
+    for pin in 0..63_u8 {
+        let _ = writeln!(table, "P{}{},", char::from(b'A' + pin / 16), pin % 16);
+    }
+    let mut sense = "board Brd0 on \"table_0.csv\" {\n}\n".to_owned();
+    (1..=64).for_each(|number| sense.push_str(&device(number, "digital")));
+    Text { sense, tables: BTreeMap::from([("table_0.csv".to_owned(), table)]) }
+}
+
+/// More devices of one address than there are buses.
+fn i2c(boards: u64, devices: u64, addresses: u64) -> Text {
+    let mut sense = String::new();
+    for board in 0..boards {
+        let _ = writeln!(sense, "board Brd{board} on STM32F407VGT6 {{\n}}");
+    }
+    for number in 1..=devices {
+        let (own, shared) = (0x10 + number, 0x10 + number % addresses);
+        let text = device(number, "i2c");
+        sense.push_str(&text.replace(&format!("= {own};"), &format!("= {shared};")));
+    }
+    Text { sense, tables: BTreeMap::new() }
+}
+
+fn i2c_30(_: u64) -> Text {
+    i2c(1, 30, 7)
+}
+
+fn i2c_61(_: u64) -> Text {
+    i2c(2, 61, 10)
+}
