@@ -4,11 +4,16 @@
 //! proof. First only what is quickly seen counts, which keeps to conflicts that are easy to prove;
 //! then every device is tried once more for good. The same is done to what those devices fight
 //! for: streams, resources and pins stop being exclusive as long as there is still no answer.
+//!
+//! Of devices that are alike only the number counts, and of alike things any one tells of all, so
+//! most of these questions are never asked ([`crate::lore`]).
 
 use crate::answer::{Conflict, Fault, Outcome};
+use crate::lore::{CROWD, Lore, alike_devices};
 use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
 use crate::sharing::Things;
 use crate::solve::{Effort, Stop, feasible_within};
+use std::collections::BTreeSet;
 
 /// Nodes of the search, beside three for each device, after which a proof is no longer quick.
 const QUICK: u64 = 50;
@@ -20,6 +25,8 @@ const PATIENT: u64 = 1_000;
 struct Questions<'a> {
     stop: Stop<'a>,
     effort: Effort,
+    /// What is known of sets of the devices.
+    lore: Lore,
 }
 
 /// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is
@@ -33,17 +40,18 @@ pub(crate) fn explain(
         return Ok(conflict(&[lone], true, [Vec::new(), Vec::new(), Vec::new()]));
     }
     let quick = QUICK + 3 * problem.devices.len() as u64;
-    let mut ask = Questions { stop, effort: Effort::Nodes(quick) };
+    let mut ask = Questions { stop, effort: Effort::Nodes(quick), lore: alike_devices(problem)? };
     let mut kept = match seed {
-        Some(seed) if ask.has_answer(&only(problem, &seed))? == Some(false) => seed,
+        Some(seed) if ask.of_devices(problem, &seed)? == Some(false) => seed,
         _ => (0..problem.devices.len()).collect(),
     };
+    ask.sound_out(problem, &kept)?;
     let unknown = ask.leave_out(problem, &mut kept)?;
     ask.effort = Effort::Any;
     let mut minimal = true;
     for device in unknown {
         let fewer: Vec<usize> = kept.iter().copied().filter(|&d| d != device).collect();
-        match ask.has_answer(&only(problem, &fewer))? {
+        match ask.of_devices(problem, &fewer)? {
             Some(false) => kept = fewer,
             Some(true) => {}
             None => minimal = false,
@@ -74,9 +82,31 @@ impl Questions<'_> {
         feasible_within(problem, self.effort, self.stop)
     }
 
+    /// Whether these devices of the problem have an answer, as [`Self::has_answer`].
+    fn of_devices(&mut self, problem: &Problem, devices: &[usize]) -> Result<Option<bool>, Fault> {
+        if let Some(known) = self.lore.tells(devices) {
+            return Ok(Some(known));
+        }
+        let answer = self.has_answer(&only(problem, devices))?;
+        if let Some(has) = answer {
+            self.lore.learn(devices, has);
+        }
+        Ok(answer)
+    }
+
+    /// Asks of each larger class of alike devices once whether it is one too many: where it is,
+    /// each of them is needed, and whatever leaves one out need not be asked.
+    fn sound_out(&mut self, problem: &Problem, kept: &[usize]) -> Result<(), Fault> {
+        for one in self.lore.crowds(kept) {
+            let fewer: Vec<usize> = kept.iter().copied().filter(|&d| d != one).collect();
+            self.of_devices(problem, &fewer)?;
+        }
+        Ok(())
+    }
+
     /// Leaves devices out as long as the others have no answer: many at once first, because most
     /// have no part in it. Returns those kept of which it is not known whether they must be.
-    fn leave_out(&self, problem: &Problem, kept: &mut Vec<usize>) -> Result<Vec<usize>, Fault> {
+    fn leave_out(&mut self, problem: &Problem, kept: &mut Vec<usize>) -> Result<Vec<usize>, Fault> {
         let mut unknown = Vec::new();
         let mut chunk = kept.len().div_ceil(2);
         while chunk > 0 {
@@ -85,7 +115,7 @@ impl Questions<'_> {
                 let start = end.saturating_sub(chunk);
                 let mut fewer = kept.clone();
                 let out = fewer.drain(start..end).next();
-                match self.has_answer(&only(problem, &fewer))? {
+                match self.of_devices(problem, &fewer)? {
                     Some(false) => *kept = fewer,
                     None if chunk == 1 => unknown.extend(out),
                     Some(true) | None => {}
@@ -134,13 +164,14 @@ impl Questions<'_> {
         things: Things,
         all: Vec<u32>,
     ) -> Result<Vec<u32>, Fault> {
+        let certain = self.needed_alone(core, things, &all)?;
         let mut parts = vec![(all, true)];
         let mut needed = Vec::new();
         while let Some((part, known)) = parts.pop() {
             if part.is_empty() {
                 continue;
             }
-            if !known {
+            if !known && !part.iter().any(|one| certain.contains(one)) {
                 let relaxed = things.share(core, &part.iter().copied().collect());
                 if self.has_answer(&relaxed)? == Some(false) {
                     *core = relaxed;
@@ -156,6 +187,27 @@ impl Questions<'_> {
             parts.push((left.to_vec(), false));
         }
         needed.sort_unstable();
+        Ok(needed)
+    }
+}
+
+impl Questions<'_> {
+    /// Things of which a single shared one is enough for an answer, as far as one of a class of
+    /// alike things tells it.
+    fn needed_alone(
+        &self,
+        core: &Problem,
+        things: Things,
+        all: &[u32],
+    ) -> Result<BTreeSet<u32>, Fault> {
+        let mut needed = BTreeSet::new();
+        for class in things.alike(core, all) {
+            if let Some(&one) = class.first().filter(|_| class.len() >= CROWD)
+                && self.has_answer(&things.share(core, &BTreeSet::from([one])))? == Some(true)
+            {
+                needed.extend(class);
+            }
+        }
         Ok(needed)
     }
 }

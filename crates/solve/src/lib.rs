@@ -15,6 +15,7 @@ mod enumerate;
 mod flow;
 mod frontier;
 mod guide;
+mod lore;
 mod lp;
 mod model;
 mod order;
@@ -38,4 +39,4 @@ pub use count::count;
 pub use enumerate::{Answers, enumerate};
 
 pub use problem::Problem;
-pub use solve::{Options, feasible, solve};
+pub use solve::{Options, alike, feasible, solve};

@@ -4,8 +4,12 @@
 //! Only whether there is an answer is asked of such a problem, so choices that no longer differ
 //! become one, and devices that were alike stay so.
 
-use crate::problem::{Alternative, Candidate, Claim, DmaRequest, Problem, StreamId};
-use std::collections::BTreeSet;
+use crate::problem::{Alternative, Candidate, Claim, DmaRequest, Holder, Problem, StreamId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A place where a thing is held, on whose behalf (and with what signal, where it is shared), and
+/// what is claimed with it.
+type Mark = (usize, Holder, u32, Vec<Claim>);
 
 /// What devices may fight for.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +36,56 @@ impl Things {
             }
             Self::Pins => candidates().map(|c| c.pin.0).collect(),
         }
+    }
+
+    /// The classes of those among `all` that could change places without a difference: the same
+    /// devices hold them in the same places and with the same claims.
+    pub(crate) fn alike(self, problem: &Problem, all: &[u32]) -> Vec<Vec<u32>> {
+        let mut marks: BTreeMap<u32, Vec<Mark>> = BTreeMap::new();
+        let mut mark = |thing: u32, place: usize, (holder, signal), claims: &[Claim]| {
+            marks.entry(thing).or_default().push((place, holder, signal, claims.to_vec()));
+        };
+        let shown = |c: &Candidate| match c.holder {
+            Holder::Own => (Holder::Own, 0),
+            Holder::Group(_) => (c.holder, c.signal.0),
+        };
+        let mut place = 0;
+        match self {
+            Self::Streams => {
+                for request in problem.dma.iter().flat_map(|u| &u.requests) {
+                    place += 1;
+                    let streams = request.streams.iter();
+                    streams.for_each(|s| mark(s.0, place, (Holder::Own, 0), &[]));
+                }
+            }
+            Self::Resources | Self::Pins => {
+                for a in problem.devices.iter().flat_map(|d| &d.alternatives) {
+                    place += 1;
+                    let wires = a.roles.iter().flat_map(|role| &role.candidates);
+                    if matches!(self, Self::Resources) {
+                        a.claims.iter().for_each(|c| mark(c.resource.0, place, (c.holder, 0), &[]));
+                        for c in wires {
+                            place += 1;
+                            let claims = c.claims.iter();
+                            claims.for_each(|c| mark(c.resource.0, place, (c.holder, 0), &[]));
+                        }
+                        continue;
+                    }
+                    for role in &a.roles {
+                        place += 1;
+                        let wires = role.candidates.iter();
+                        wires.for_each(|c| mark(c.pin.0, place, shown(c), &c.claims));
+                    }
+                }
+            }
+        }
+        let mut classes: BTreeMap<Vec<Mark>, Vec<u32>> = BTreeMap::new();
+        for &thing in all {
+            let mut marks = marks.remove(&thing).unwrap_or_default();
+            marks.sort_unstable();
+            classes.entry(marks).or_default().push(thing);
+        }
+        classes.into_values().collect()
     }
 
     /// The problem in which these can be held any number of times.

@@ -82,6 +82,14 @@ pub fn feasible(problem: &Problem, stop: Option<&dyn Fn() -> bool>) -> Result<Op
     feasible_within(problem, Effort::Any, stop)
 }
 
+/// For each device the first one with the same choices: the two can stand for each other.
+///
+/// # Errors
+/// [`Fault`] when the problem is no proper problem.
+pub fn alike(problem: &Problem) -> Result<Vec<usize>, Fault> {
+    Ok(Model::new(problem)?.class)
+}
+
 /// As [`feasible`]; `None` also when it is not known within the effort.
 pub(crate) fn feasible_within(
     problem: &Problem,

@@ -32,7 +32,9 @@ fn violates() -> impl Strategy<Value = Vec<RuleId>> {
 /// A role of its own, or a wire of a bus: one pin for all that are on it.
 fn role(pins: u32, base: u32) -> impl Strategy<Value = Role> {
     let candidate = ((0..pins), 0..2u32, claims(1), violates(), prop::bool::weighted(0.2));
-    let bus = prop_oneof![3 => Just(None), 2 => (0..2u32).prop_map(Some)];
+    // The wires of one bus may stand in one row, and one of them under two names.
+    let wire = (0..2u32, any::<bool>(), prop::bool::weighted(0.3));
+    let bus = prop_oneof![3 => Just(None), 2 => wire.prop_map(Some)];
     (prop::collection::vec((candidate, holder()), 1..4), bus, prop::bool::weighted(0.15)).prop_map(
         move |(list, bus, wild)| {
             let mut candidates: Vec<Candidate> = list
@@ -40,11 +42,13 @@ fn role(pins: u32, base: u32) -> impl Strategy<Value = Role> {
                 .map(|((pin, signal, mut claims, violates, moved), holder)| {
                     let mut signal = signal;
                     let holder = match bus {
-                        Some(wire) => {
+                        Some((wire, one_bus, names)) => {
                             let resource = ResourceId(RESOURCES + wire);
-                            claims.push(Claim { resource, holder: Holder::Group(base + pin) });
-                            signal = 2 + wire;
-                            Holder::Group(10 + wire)
+                            let name = if names { signal } else { 0 };
+                            let holder = Holder::Group(base + pin + 100 * name);
+                            claims.push(Claim { resource, holder });
+                            signal = 2 + wire + 2 * name;
+                            Holder::Group(if one_bus { 10 } else { 11 + wire })
                         }
                         None if wild => holder,
                         None => Holder::Own,

@@ -62,7 +62,7 @@ pub(crate) fn read(
     if named.links.is_empty() {
         named.rules = blame::rules(design, &named.devices);
     }
-    named.repairs = repairs::find(design, &named.devices);
+    named.repairs = repairs::find(design, formulation, &named.devices);
     named
 }
 

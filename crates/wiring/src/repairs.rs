@@ -1,6 +1,6 @@
 //! What would help where there is no wiring: changes that were each tried by solving.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
@@ -10,9 +10,10 @@ use sensedsl_model::design::{
 };
 use sensedsl_model::kind::Kind;
 
+use crate::formulate::{Asker, Formulation};
 use crate::names::list;
 use crate::offer::roles;
-use crate::{Solved, Wiring};
+use crate::{Solved, Wiring, solver};
 
 /// A change after which there is a wiring.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -173,17 +174,48 @@ const TRIED_MAX: usize = 256;
 /// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a
 /// device out; within each the cheapest wiring first. At most [`TRIED_MAX`] are tried: before all
 /// others what concerns a link or one device alone, of which there are three each.
-pub(crate) fn find(design: &Design, devices: &[DeviceIndex]) -> Vec<Repaired> {
+pub(crate) fn find(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    devices: &[DeviceIndex],
+) -> Vec<Repaired> {
+    let mut found = Vec::new();
+    // To leave out one of several devices that are alike helps as much as to leave out another.
+    let mut dropped: BTreeMap<Likeness, Option<u32>> = BTreeMap::new();
+    let alike = solver::alike(&formulation.problem).unwrap_or_default();
+    let likeness = |index: &DeviceIndex| -> Option<Likeness> {
+        let device = design.device(*index)?;
+        let number = formulation.askers.iter().position(|one| *one == Asker::Device(*index))?;
+        Some((*alike.get(number)?, device.delay_ms, device.prio))
+    };
     let mut proposals = proposals(design, devices);
     proposals.sort_by_key(|repair| !is_of_one_device(repair));
-    let proposals = proposals.into_iter().take(TRIED_MAX);
-    let mut found: Vec<Repaired> = proposals.filter_map(|repair| tried(design, repair)).collect();
+    for repair in proposals.into_iter().take(TRIED_MAX) {
+        let likeness = match &repair {
+            Repair::Drop(index) => likeness(index),
+            _ => None,
+        };
+        let known = likeness.and_then(|likeness| dropped.get(&likeness));
+        if let Some(cost) = known {
+            found.extend(cost.map(|cost| Repaired { repair, cost }));
+            continue;
+        }
+        let tried = tried(design, repair);
+        if let Some(likeness) = likeness {
+            dropped.insert(likeness, tried.as_ref().map(|one| one.cost));
+        }
+        found.extend(tried);
+    }
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
         found.extend(sharing(design, devices));
     }
     found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
     found
 }
+
+/// What devices have in common that can stand for each other: their choices, and what decides on
+/// their converters.
+type Likeness = (usize, u32, i8);
 
 fn tried(design: &Design, repair: Repair) -> Option<Repaired> {
     let changed = repair.applied(design);

@@ -39,12 +39,8 @@ impl Files for Text {
 impl Text {
     /// The design, pins only.
     pub fn design(&self) -> Design {
-        let request = Request {
-            path: "mixed.sense",
-            text: &self.sense,
-            board: None,
-            target: Some("none"),
-        };
+        let request =
+            Request { path: "mixed.sense", text: &self.sense, board: None, target: Some("none") };
         let resolved = resolve(&request, self);
         let said: Vec<&str> = resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
         resolved.design.unwrap_or_else(|| panic!("{said:?}\n{}", self.sense))
@@ -123,7 +119,9 @@ fn device(number: u64, kind: &str) -> String {
     let (head, more) = match kind {
         "i2c" => ("sensor NAME returns uint16", format!("address = {};", 0x10 + number)),
         "can" => ("sensor NAME returns uint16", format!("frame = {};", 0x100 + number)),
-        "spi" | "uart" | "analog" | "icu" | "encoder" => ("sensor NAME returns uint16", String::new()),
+        "spi" | "uart" | "analog" | "icu" | "encoder" => {
+            ("sensor NAME returns uint16", String::new())
+        }
         "pwm" => {
             ("actuator NAME accepts uint16", format!("frequency = {};", 1000 + number % 2 * 50))
         }

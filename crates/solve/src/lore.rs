@@ -1,0 +1,88 @@
+//! What is known of sets of devices: sets with and without an answer in, what follows for others
+//! out.
+//!
+//! Fewer devices only make it easier, and alike ones can stand for each other. So a set has an answer
+//! when a known one that has one holds at least as many of each class, and it has none when a known
+//! one that has none holds at most as many.
+
+use crate::answer::Fault;
+use crate::problem::Problem;
+use crate::solve::alike;
+use std::collections::BTreeMap;
+
+/// From so many alike things on it is worth asking what one of them tells of all.
+pub(crate) const CROWD: usize = 3;
+
+/// Number of devices of each class.
+type Counts = Vec<u32>;
+
+/// What has been found out.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lore {
+    /// Class of each device.
+    class: Vec<usize>,
+    classes: usize,
+    with_answer: Vec<Counts>,
+    without: Vec<Counts>,
+}
+
+/// Nothing is known yet but which devices are alike.
+pub(crate) fn alike_devices(problem: &Problem) -> Result<Lore, Fault> {
+    let mut numbers = BTreeMap::new();
+    let number = |first: &usize| {
+        let next = numbers.len();
+        *numbers.entry(*first).or_insert(next)
+    };
+    let class: Vec<usize> = alike(problem)?.iter().map(number).collect();
+    Ok(Lore { class, classes: numbers.len(), ..Lore::default() })
+}
+
+/// Whether there are at most as many of each class in the one as in the other.
+fn within(one: &Counts, other: &Counts) -> bool {
+    one.iter().zip(other).all(|(one, other)| one <= other)
+}
+
+impl Lore {
+    fn counts(&self, devices: &[usize]) -> Counts {
+        let mut counts = vec![0; self.classes];
+        let classes = devices.iter().filter_map(|&device| self.class.get(device));
+        for class in classes {
+            if let Some(count) = counts.get_mut(*class) {
+                *count += 1;
+            }
+        }
+        counts
+    }
+
+    /// Whether the devices have an answer, where that follows from what is known.
+    pub(crate) fn tells(&self, devices: &[usize]) -> Option<bool> {
+        let counts = self.counts(devices);
+        if self.with_answer.iter().any(|known| within(&counts, known)) {
+            return Some(true);
+        }
+        self.without.iter().any(|known| within(known, &counts)).then_some(false)
+    }
+
+    pub(crate) fn learn(&mut self, devices: &[usize], has_answer: bool) {
+        let counts = self.counts(devices);
+        if has_answer {
+            self.with_answer.retain(|known| !within(known, &counts));
+            self.with_answer.push(counts);
+        } else {
+            self.without.retain(|known| !within(&counts, known));
+            self.without.push(counts);
+        }
+    }
+
+    /// One device of each class of which there are many among these.
+    pub(crate) fn crowds(&self, devices: &[usize]) -> Vec<usize> {
+        let mut members: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+        for &device in devices {
+            if let Some(class) = self.class.get(device) {
+                members.entry(*class).or_insert((device, 0)).1 += 1;
+            }
+        }
+        let many = members.into_values().filter(|(_, number)| *number >= CROWD);
+        many.map(|(device, _)| device).collect()
+    }
+}
