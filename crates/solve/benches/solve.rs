@@ -4,7 +4,7 @@
 mod support;
 
 use divan::{Bencher, black_box};
-use sensedsl_solve::{Options, Problem, count, enumerate, solve};
+use sensedsl_solve::{Cancel, Options, Problem, count, enumerate, solve};
 use support::board::{Builder, Kind, TABLE_1, Target};
 use support::generate::{self, Mix};
 
@@ -60,13 +60,13 @@ fn table_1_without_an_answer(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn a_hundred_answers_of_the_example(bencher: Bencher<'_, '_>) {
     let problem = table_1(2, 1, 1);
-    bencher.bench(|| enumerate(black_box(&problem)).take(100).count());
+    bencher.bench(|| enumerate(black_box(&problem), Cancel::NEVER).take(100).count());
 }
 
 #[divan::bench]
 fn count_of_table_1(bencher: Bencher<'_, '_>) {
     let problem = table_1(4, 1, 4);
-    bencher.bench(|| count(black_box(&problem)));
+    bencher.bench(|| count(black_box(&problem), Cancel::NEVER));
 }
 
 #[divan::bench(sample_count = 10)]
@@ -74,7 +74,7 @@ fn count_of_eight_devices(bencher: Bencher<'_, '_>) {
     let problems = family(1, 8, Mix::General);
     bencher.bench(|| {
         problems.iter().for_each(|p| {
-            let _ = black_box(count(p));
+            let _ = black_box(count(p, Cancel::NEVER));
         });
     });
 }

@@ -18,7 +18,7 @@ use std::fmt::Display;
 use std::time::{Duration, Instant};
 
 use sensedsl_solve::problem::{Candidate, Problem, RuleId};
-use sensedsl_solve::{Options, Outcome, count, solve};
+use sensedsl_solve::{Cancel, Options, Outcome, count, solve};
 use support::board::TABLE_1;
 use support::generate::{Mix, Rng, problem, table};
 use support::json::{json, list};
@@ -99,7 +99,7 @@ fn restricted(mut problem: Problem, rng: &mut Rng) -> Problem {
 fn print_instance(seed: u64, problem: &Problem) {
     let start = Instant::now();
     let stop = || start.elapsed() > LIMIT;
-    let options = Options { any: false, stop: Some(&stop) };
+    let options = Options { any: false, cancel: Cancel::when(&stop) };
     let (status, objective, detail) = match solve(problem, &options) {
         Ok(Outcome::Solved(answer)) => {
             let wires = problem.devices.iter().zip(&answer.choices).map(|(device, choice)| {
@@ -118,7 +118,7 @@ fn print_instance(seed: u64, problem: &Problem) {
     };
     // Small ones are counted too.
     let count = if problem.devices.len() <= 4 && problem.boards.len() == 1 {
-        count(problem).unwrap().to_string()
+        count(problem, Cancel::NEVER).unwrap().to_string()
     } else {
         "null".to_owned()
     };

@@ -10,7 +10,7 @@ mod support;
 
 use std::time::{Duration, Instant};
 
-use sensedsl_solve::{Options, Outcome, Problem, solve};
+use sensedsl_solve::{Cancel, Options, Outcome, Problem, solve};
 use support::board::TABLE_1;
 use support::generate::{Mix, problem, table};
 use support::json::json;
@@ -151,7 +151,7 @@ fn measured(problem: &Problem) -> (&'static str, [u32; 5], f64) {
     for _ in 0..5 {
         let start = Instant::now();
         let stop = || start.elapsed() > LIMIT;
-        let outcome = solve(problem, &Options { any: false, stop: Some(&stop) }).unwrap();
+        let outcome = solve(problem, &Options { any: false, cancel: Cancel::when(&stop) }).unwrap();
         let micros = start.elapsed().as_secs_f64() * 1e6;
         best = best.min(micros);
         result = match outcome {

@@ -89,6 +89,8 @@ pub enum Fault {
     Malformed(&'static str),
     /// The objective's parts do not fit into 63 bits together.
     TooLarge,
+    /// The caller's [`crate::Cancel`] came before the answer.
+    Cancelled,
     /// The checker rejected the answer of the search: a mistake in this crate.
     Rejected(Violation),
 }
@@ -98,6 +100,7 @@ impl fmt::Display for Fault {
         match self {
             Self::Malformed(what) => write!(f, "the pin problem is malformed: {what}"),
             Self::TooLarge => f.write_str("the pin problem's costs are too large"),
+            Self::Cancelled => f.write_str("the search was cancelled"),
             Self::Rejected(violation) => {
                 write!(f, "the solver's answer failed its check: {violation}")
             }

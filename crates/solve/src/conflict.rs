@@ -9,10 +9,11 @@
 //! most of these questions are never asked ([`crate::lore`]).
 
 use crate::answer::{Conflict, Fault, Outcome};
+use crate::cancel::Cancel;
 use crate::lore::{CROWD, Lore, alike_devices};
 use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
 use crate::sharing::Things;
-use crate::solve::{Effort, Stop, feasible_within};
+use crate::solve::{Effort, feasible_within};
 use std::collections::BTreeSet;
 
 /// Nodes of the search, beside three for each device, after which a proof is no longer quick.
@@ -23,7 +24,7 @@ const PATIENT: u64 = 1_000;
 
 /// The questions of a search for a conflict.
 struct Questions<'a> {
-    stop: Stop<'a>,
+    cancel: Cancel<'a>,
     effort: Effort,
     /// What is known of sets of the devices.
     lore: Lore,
@@ -34,13 +35,13 @@ struct Questions<'a> {
 pub(crate) fn explain(
     problem: &Problem,
     seed: Option<Vec<usize>>,
-    stop: Stop<'_>,
+    cancel: Cancel<'_>,
 ) -> Result<Outcome, Fault> {
     if let Some(lone) = problem.devices.iter().position(|d| d.alternatives.is_empty()) {
         return Ok(conflict(&[lone], true, [Vec::new(), Vec::new(), Vec::new()]));
     }
     let quick = QUICK + 3 * problem.devices.len() as u64;
-    let mut ask = Questions { stop, effort: Effort::Nodes(quick), lore: alike_devices(problem)? };
+    let mut ask = Questions { cancel, effort: Effort::Nodes(quick), lore: alike_devices(problem)? };
     let mut kept = match seed {
         Some(seed) if ask.of_devices(problem, &seed)? == Some(false) => seed,
         _ => (0..problem.devices.len()).collect(),
@@ -58,7 +59,14 @@ pub(crate) fn explain(
         }
     }
     ask.effort = Effort::Nodes(PATIENT);
-    let things = ask.contested_things(only(problem, &kept))?;
+    let mut things = [Vec::new(), Vec::new(), Vec::new()];
+    if !cancel.is_over() {
+        things = ask.contested_things(only(problem, &kept))?;
+    }
+    // What was not asked any more is not known to have a part in it.
+    if cancel.is_over() {
+        things = [Vec::new(), Vec::new(), Vec::new()];
+    }
     Ok(conflict(&kept, minimal, things))
 }
 
@@ -79,13 +87,16 @@ fn conflict(
 impl Questions<'_> {
     /// Whether the problem has an answer; `None` when that takes more than the effort.
     fn has_answer(&self, problem: &Problem) -> Result<Option<bool>, Fault> {
-        feasible_within(problem, self.effort, self.stop)
+        feasible_within(problem, self.effort, self.cancel)
     }
 
     /// Whether these devices of the problem have an answer, as [`Self::has_answer`].
     fn of_devices(&mut self, problem: &Problem, devices: &[usize]) -> Result<Option<bool>, Fault> {
         if let Some(known) = self.lore.tells(devices) {
             return Ok(Some(known));
+        }
+        if self.cancel.is_over() {
+            return Ok(None);
         }
         let answer = self.has_answer(&only(problem, devices))?;
         if let Some(has) = answer {
@@ -171,6 +182,9 @@ impl Questions<'_> {
             if part.is_empty() {
                 continue;
             }
+            if self.cancel.is_over() {
+                break;
+            }
             if !known && !part.iter().any(|one| certain.contains(one)) {
                 let relaxed = things.share(core, &part.iter().copied().collect());
                 if self.has_answer(&relaxed)? == Some(false) {
@@ -203,6 +217,7 @@ impl Questions<'_> {
         let mut needed = BTreeSet::new();
         for class in things.alike(core, all) {
             if let Some(&one) = class.first().filter(|_| class.len() >= CROWD)
+                && !self.cancel.is_over()
                 && self.has_answer(&things.share(core, &BTreeSet::from([one])))? == Some(true)
             {
                 needed.extend(class);

@@ -6,6 +6,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::answer::{Count, Fault};
+use crate::cancel::Cancel;
 use crate::dma::Matching;
 use crate::frontier::{Class, Counter, Place};
 use crate::model::{Kind, Model};
@@ -17,15 +18,17 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Counts the answers, which differ in some pin or signal of some device.
 ///
 /// # Errors
-/// [`Fault`] when the problem is no proper problem.
-pub fn count(problem: &Problem) -> Result<Count, Fault> {
+/// [`Fault`] when the problem is no proper problem, or when the search was cancelled.
+pub fn count(problem: &Problem, cancel: Cancel<'_>) -> Result<Count, Fault> {
     let model = Model::new(problem)?;
     let Ok(state) = State::new(&model) else { return Ok(BigUint::ZERO) };
     let complex = (0..model.devices).filter(|&d| !simple(&model, d));
     let mut order: Vec<usize> = complex.collect();
     order.sort_by_key(|&d| (model.class[d], d));
-    let mut census = Census { problem, model: &model, state, order, counter: Counter::default() };
-    Ok(census.alternatives(0, 0, BigUint::from(1u32)))
+    let counter = Counter::new(cancel);
+    let mut census = Census { problem, model: &model, state, order, counter, cancel };
+    let number = census.alternatives(0, 0, BigUint::from(1u32));
+    if cancel.is_over() { Err(Fault::Cancelled) } else { Ok(number) }
 }
 
 /// Whether every alternative of the device is one wire of its own.
@@ -44,7 +47,8 @@ struct Census<'a> {
     state: State,
     /// Devices whose alternatives are tried, interchangeable ones together.
     order: Vec<usize>,
-    counter: Counter,
+    counter: Counter<'a>,
+    cancel: Cancel<'a>,
 }
 
 impl Census<'_> {
@@ -64,6 +68,9 @@ impl Census<'_> {
         });
         let mut total = BigUint::ZERO;
         for offset in before.unwrap_or(0)..model.alts.range(device).len() {
+            if self.cancel.is_over() {
+                break;
+            }
             let mark = self.state.mark();
             let step = |state: &mut State| -> Result<(), Dead> {
                 state.decide(model, first + offset)?;
@@ -107,6 +114,9 @@ impl Census<'_> {
         for id in model.cands.range(role) {
             if !self.state.cand_on(model, id) {
                 continue;
+            }
+            if self.cancel.is_over() {
+                break;
             }
             let mark = self.state.mark();
             let step = |state: &mut State| -> Result<(), Dead> {

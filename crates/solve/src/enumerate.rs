@@ -6,6 +6,7 @@
 #![expect(clippy::indexing_slicing, reason = "frames hold positions in `entries`")]
 
 use crate::answer::{Answer, Fault, Optimality};
+use crate::cancel::Cancel;
 use crate::flow::Saved;
 use crate::model::Model;
 use crate::order::{Entry, entries};
@@ -15,9 +16,11 @@ use crate::solve::finish;
 
 /// Iterator over all answers of a problem: by objective, then pins, then signals.
 ///
-/// An item is an error only as [`crate::solve`] gives one; nothing follows it.
+/// An item is an error only as [`crate::solve`] gives one, or [`Fault::Cancelled`]; nothing follows
+/// it.
 pub struct Answers<'a> {
     problem: &'a Problem,
+    cancel: Cancel<'a>,
     model: Model,
     entries: Vec<Entry>,
     walk: Walk,
@@ -46,28 +49,43 @@ struct Frame {
 
 /// All answers of a problem, best first.
 #[must_use]
-pub fn enumerate(problem: &Problem) -> Answers<'_> {
+pub fn enumerate<'a>(problem: &'a Problem, cancel: Cancel<'a>) -> Answers<'a> {
     let (model, fault) = match Model::new(problem) {
         Ok(model) => (model, None),
         Err(fault) => (Model::default(), Some(fault)),
     };
-    let walk = match (fault, Engine::new(problem, &model, None)) {
+    let walk = match (fault, Engine::new(problem, &model, cancel)) {
         (Some(fault), _) => Walk::Failed(fault),
         (None, Ok(engine)) => Walk::New(engine.park()),
         (None, Err(_)) => Walk::Over,
     };
-    Answers { problem, entries: entries(&model), walk, model, level: 0, best: 0 }
+    Answers { problem, cancel, entries: entries(&model), walk, model, level: 0, best: 0 }
 }
 
 impl Iterator for Answers<'_> {
     type Item = Result<Answer, Fault>;
 
     fn next(&mut self) -> Option<Self::Item> {
+        if matches!(self.walk, Walk::Over) {
+            return None;
+        }
+        let next = self.following();
+        // What was found while time ran out may not be the next one.
+        if self.cancel.is_over() {
+            self.walk = Walk::Over;
+            return Some(Err(Fault::Cancelled));
+        }
+        next
+    }
+}
+
+impl Answers<'_> {
+    fn following(&mut self) -> Option<Result<Answer, Fault>> {
         let (choices, parked, frames) = match std::mem::replace(&mut self.walk, Walk::Over) {
             Walk::Failed(fault) => return Some(Err(fault)),
             Walk::Over => return None,
             Walk::New(parked) => {
-                let mut engine = Engine::unpark(self.problem, &self.model, parked);
+                let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
                 let (weight, known) = engine.search(u64::MAX, false)?;
                 (self.level, self.best) = (weight, weight);
                 let mut frames = Vec::new();
@@ -79,7 +97,7 @@ impl Iterator for Answers<'_> {
                 (choices, engine.park(), frames)
             }
             Walk::Under(parked, mut frames) => {
-                let mut engine = Engine::unpark(self.problem, &self.model, parked);
+                let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
                 let choices = advance(&mut engine, &self.entries, self.level, &mut frames);
                 (choices, engine.park(), frames)
             }
@@ -96,12 +114,10 @@ impl Iterator for Answers<'_> {
         }
         Some(answer)
     }
-}
 
-impl Answers<'_> {
     /// Goes up to the next objective that some answer has.
     fn next_level(&mut self, parked: Parked) -> Option<(Choices, Parked, Vec<Frame>)> {
-        let mut engine = Engine::unpark(self.problem, &self.model, parked);
+        let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
         let (weight, known) = engine.search_above(self.level)?;
         self.level = weight;
         let mut frames = Vec::new();
@@ -155,6 +171,9 @@ fn advance(
     frames: &mut Vec<Frame>,
 ) -> Option<Choices> {
     while let Some(frame) = frames.last_mut() {
+        if engine.stopped {
+            return None;
+        }
         engine.back(frame.mark, &frame.saved);
         let Some(&value) = frame.values.get(frame.next) else {
             frames.pop();

@@ -5,6 +5,7 @@
 //! agree in that are added up. Classes that share no pin and no resource are counted apart.
 #![expect(clippy::indexing_slicing, reason = "pins, classes and fields are renumbered here")]
 
+use crate::cancel::Cancel;
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,12 +25,18 @@ pub(crate) struct Class {
 }
 
 /// Counts with a memory for the parts that come again.
-#[derive(Default)]
-pub(crate) struct Counter {
+///
+/// Once the caller has given up a count means nothing; whoever asked looks at that first.
+pub(crate) struct Counter<'a> {
     known: BTreeMap<Vec<Class>, BigUint>,
+    cancel: Cancel<'a>,
 }
 
-impl Counter {
+impl<'a> Counter<'a> {
+    pub(crate) fn new(cancel: Cancel<'a>) -> Self {
+        Self { known: BTreeMap::new(), cancel }
+    }
+
     /// Number of ways to place all wires of all classes.
     pub(crate) fn count(&mut self, classes: Vec<Class>) -> BigUint {
         let mut total = BigUint::from(1u32);
@@ -37,7 +44,7 @@ impl Counter {
             let count = match self.known.get(&part) {
                 Some(count) => count.clone(),
                 None => {
-                    let count = count_part(&part);
+                    let count = count_part(&part, self.cancel);
                     self.known.insert(part, count.clone());
                     count
                 }
@@ -83,24 +90,27 @@ fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
     parts.into_iter().map(sorted).collect()
 }
 
-fn count_part(classes: &[Class]) -> BigUint {
+fn count_part(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
     if classes.iter().any(|c| c.places.is_empty() && c.wires > 0) {
         return BigUint::ZERO;
     }
     match Plan::new(classes) {
-        Some(plan) => match plan.run::<u128>() {
+        Some(plan) => match plan.run::<u128>(cancel) {
             Some(count) => BigUint::from(count),
-            None => plan.run::<BigUint>().unwrap_or_default(),
+            None => plan.run::<BigUint>(cancel).unwrap_or_default(),
         },
-        None => split(classes),
+        None => split(classes, cancel),
     }
 }
 
 /// Too much to remember for one key: places one wire in every way and counts the rest.
-fn split(classes: &[Class]) -> BigUint {
+fn split(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
     let mut total = BigUint::ZERO;
     let Some(first) = classes.iter().position(|c| c.wires > 0) else { return BigUint::from(1u32) };
     for place in &classes[first].places {
+        if cancel.is_over() {
+            break;
+        }
         let mut rest = Vec::new();
         for (index, class) in classes.iter().enumerate() {
             let wires = class.wires - u32::from(index == first);
@@ -109,7 +119,7 @@ fn split(classes: &[Class]) -> BigUint {
                 rest.push(Class { places, wires });
             }
         }
-        total += Counter::default().count(rest);
+        total += Counter::new(cancel).count(rest);
     }
     total
 }
@@ -120,6 +130,9 @@ fn compatible(one: &Place, other: &Place) -> bool {
     };
     one.pin != other.pin && !one.claims.iter().any(clash)
 }
+
+/// States between two looks at whether the caller has given up.
+const ASK: usize = 1 << 14;
 
 /// A number that may overflow, and one that cannot.
 trait Tally: Sized + Clone {
@@ -262,7 +275,7 @@ impl Plan {
         Some(Self { wires, start, steps })
     }
 
-    fn run<T: Tally>(&self) -> Option<T> {
+    fn run<T: Tally>(&self, cancel: Cancel<'_>) -> Option<T> {
         let mut states: Vec<(u128, T)> = vec![(self.start, T::one())];
         let mut next: Vec<(u128, T)> = Vec::new();
         for step in &self.steps {
@@ -271,7 +284,10 @@ impl Plan {
                 let fields = self.wires.iter().zip(&step.later);
                 fields.clone().all(|(field, later)| field.get(key) <= u128::from(*later))
             };
-            for (key, ways) in &states {
+            for (number, (key, ways)) in states.iter().enumerate() {
+                if number % ASK == 0 && cancel.is_over() {
+                    return T::one().times(0);
+                }
                 if possible(*key) {
                     next.push((key & !step.forget, ways.clone()));
                 }

@@ -98,7 +98,7 @@ impl Engine<'_> {
         for question in open {
             let Some(prices) = &self.prices else { break };
             let mut gains = prices.history.expected(question);
-            if !prices.history.is_known(question) && probes < PROBES {
+            if !prices.history.is_known(question) && probes < PROBES && !self.cancel.is_over() {
                 probes += 1;
                 let sides = [true, false].map(|side| self.probe(question.branch, side));
                 gains = match sides {

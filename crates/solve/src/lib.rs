@@ -6,6 +6,7 @@
 
 pub mod answer;
 mod branch;
+mod cancel;
 mod check;
 mod conflict;
 mod count;
@@ -34,6 +35,7 @@ mod view;
 mod wires;
 
 pub use answer::{Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome};
+pub use cancel::Cancel;
 pub use check::{Violation, check};
 pub use count::count;
 pub use enumerate::{Answers, enumerate};

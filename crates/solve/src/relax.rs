@@ -6,6 +6,7 @@
 //! Nothing here needs to be exact (see [`crate::lp`]): [`crate::dual`] judges the prices.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
+use crate::cancel::Cancel;
 use crate::dual::Dual;
 use crate::lp::Status;
 use crate::model::{Kind, Model, NONE};
@@ -98,14 +99,14 @@ impl Relaxation {
         model: &Model,
         state: &State,
         dual: &mut Dual,
-        (cutoff, steps): (u64, usize),
+        (cutoff, steps, cancel): (u64, usize, Cancel<'_>),
     ) -> Status {
         if !self.update(terms, model, state) {
             *self = Self::new(terms, model, state);
             self.update(terms, model, state);
         }
         let unit = model.weights.cost as f64;
-        let status = self.program.simplex.solve(cutoff as f64 / unit + 0.03, steps);
+        let status = self.program.simplex.solve(cutoff as f64 / unit + 0.03, steps, cancel);
         let scale = -unit * (1_u64 << terms.shift) as f64;
         let most = terms.dearest(model) as f64;
         let price = |&row: &usize| match row {

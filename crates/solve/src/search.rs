@@ -7,6 +7,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::branch::Branch;
+use crate::cancel::Cancel;
 use crate::dual::Dual;
 use crate::flow::{Flow, Saved};
 use crate::guide::History;
@@ -14,7 +15,7 @@ use crate::model::Model;
 use crate::problem::Problem;
 use crate::read::Scratch;
 use crate::relax::Relaxation;
-use crate::solve::{Effort, Stop};
+use crate::solve::Effort;
 use crate::state::{Dead, State};
 use crate::terms::Terms;
 
@@ -35,7 +36,7 @@ pub(crate) struct Engine<'a> {
     /// Only answers above this are looked for.
     pub(crate) floor: Option<u64>,
     pub(crate) nodes: u64,
-    stop: Stop<'a>,
+    pub(crate) cancel: Cancel<'a>,
     pub(crate) effort: Effort,
     pub(crate) stopped: bool,
     pub(crate) scratch: Scratch,
@@ -84,7 +85,7 @@ impl<'a> Engine<'a> {
     pub(crate) fn new(
         problem: &'a Problem,
         model: &'a Model,
-        stop: Stop<'a>,
+        cancel: Cancel<'a>,
     ) -> Result<Self, Dead> {
         Ok(Self {
             problem,
@@ -96,7 +97,7 @@ impl<'a> Engine<'a> {
             best: None,
             floor: None,
             nodes: 0,
-            stop,
+            cancel,
             effort: Effort::Any,
             stopped: false,
             scratch: Scratch::new(problem.resources as usize, model.pins),
@@ -112,7 +113,12 @@ impl<'a> Engine<'a> {
         Parked { state, flow, nodes, scratch, prices }
     }
 
-    pub(crate) fn unpark(problem: &'a Problem, model: &'a Model, parked: Parked) -> Self {
+    pub(crate) fn unpark(
+        problem: &'a Problem,
+        model: &'a Model,
+        parked: Parked,
+        cancel: Cancel<'a>,
+    ) -> Self {
         let Parked { state, flow, nodes, scratch, prices } = parked;
         Self {
             problem,
@@ -124,7 +130,7 @@ impl<'a> Engine<'a> {
             best: None,
             floor: None,
             nodes,
-            stop: None,
+            cancel,
             effort: Effort::Any,
             stopped: false,
             scratch,
@@ -226,8 +232,7 @@ impl<'a> Engine<'a> {
             if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
                 return;
             }
-            self.stopped |=
-                self.effort.is_spent(self.nodes) || self.stop.is_some_and(|stop| stop());
+            self.stopped |= self.effort.is_spent(self.nodes) || self.cancel.is_over();
             if self.stopped || self.settle().is_err() {
                 return;
             }
@@ -346,7 +351,7 @@ impl<'a> Engine<'a> {
             return Err(Dead);
         }
         let most = Dual::most(terms, model, &self.state, self.limit).ok_or(Dead)?;
-        relaxation.run(terms, model, &self.state, dual, (most, steps));
+        relaxation.run(terms, model, &self.state, dual, (most, steps, self.cancel));
         *bound = dual.assess(terms, model, &self.state);
         if *bound >= self.limit {
             return Err(Dead);

@@ -1,6 +1,7 @@
 //! One answer: a problem in, the best wiring or the reason why there is none out.
 
-use crate::answer::{Answer, Fault, Optimality, Outcome};
+use crate::answer::{Answer, Fault, Objective, Optimality, Outcome};
+use crate::cancel::Cancel;
 use crate::check::check;
 use crate::conflict;
 use crate::dma;
@@ -15,12 +16,9 @@ use std::collections::BTreeSet;
 pub struct Options<'a> {
     /// Any valid answer will do.
     pub any: bool,
-    /// Asked between the steps of the search; true ends it with what is known by then.
-    pub stop: Option<&'a dyn Fn() -> bool>,
+    /// Ends the search with what is known by then.
+    pub cancel: Cancel<'a>,
 }
-
-/// Asked between the steps of a search; true ends it.
-pub(crate) type Stop<'a> = Option<&'a dyn Fn() -> bool>;
 
 /// How long a question is worth asking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,13 +40,17 @@ impl Effort {
 /// # Errors
 /// [`Fault`] when the problem is no proper problem, or when an answer fails [`check`].
 pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault> {
+    let cancel = options.cancel;
+    if cancel.is_over() {
+        return Ok(Outcome::Stopped { answer: None, bound: Objective::default() });
+    }
     let model = Model::new(problem)?;
-    let Ok(mut engine) = Engine::new(problem, &model, options.stop) else {
-        return conflict::explain(problem, None, options.stop);
+    let Ok(mut engine) = Engine::new(problem, &model, cancel) else {
+        return conflict::explain(problem, None, cancel);
     };
     if let Err(Dead) = engine.settle() {
         let seed = engine.flow.stuck(&model);
-        return conflict::explain(problem, Some(seed), options.stop);
+        return conflict::explain(problem, Some(seed), cancel);
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
@@ -58,7 +60,7 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
         if engine.stopped {
             return Ok(stopped(None));
         }
-        return conflict::explain(problem, None, options.stop);
+        return conflict::explain(problem, None, cancel);
     };
     if options.any || engine.stopped {
         let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
@@ -78,8 +80,8 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
 ///
 /// # Errors
 /// [`Fault`] when the problem is no proper problem.
-pub fn feasible(problem: &Problem, stop: Option<&dyn Fn() -> bool>) -> Result<Option<bool>, Fault> {
-    feasible_within(problem, Effort::Any, stop)
+pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, Fault> {
+    feasible_within(problem, Effort::Any, cancel)
 }
 
 /// For each device the first one with the same choices: the two can stand for each other.
@@ -94,10 +96,13 @@ pub fn alike(problem: &Problem) -> Result<Vec<usize>, Fault> {
 pub(crate) fn feasible_within(
     problem: &Problem,
     effort: Effort,
-    stop: Stop<'_>,
+    cancel: Cancel<'_>,
 ) -> Result<Option<bool>, Fault> {
+    if cancel.is_over() {
+        return Ok(None);
+    }
     let model = Model::new(problem)?;
-    let Ok(mut engine) = Engine::new(problem, &model, stop) else { return Ok(Some(false)) };
+    let Ok(mut engine) = Engine::new(problem, &model, cancel) else { return Ok(Some(false)) };
     engine.effort = effort;
     let found = engine.search(u64::MAX, true).is_some();
     Ok(if engine.stopped { None } else { Some(found) })

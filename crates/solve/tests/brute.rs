@@ -7,7 +7,7 @@ use sensedsl_solve::problem::{
     Alternative, Board, BoardId, Candidate, Claim, Device, DmaRequest, DmaUser, DmaUserId, Holder,
     Pin, PinId, Problem, ResourceId, Role, RuleId, SignalId, StreamId,
 };
-use sensedsl_solve::{Options, Outcome, check, count, enumerate, solve};
+use sensedsl_solve::{Cancel, Options, Outcome, check, count, enumerate, solve};
 use support::brute::{self, Found};
 
 const RESOURCES: u32 = 6;
@@ -137,8 +137,8 @@ fn only(problem: &Problem, keep: impl Fn(u32) -> bool) -> Problem {
 
 fn compare(problem: &Problem) -> Result<(), TestCaseError> {
     let found: Vec<Found> = brute::all(problem);
-    prop_assert_eq!(count(problem), Ok(found.len().into()));
-    let listed: Result<Vec<_>, _> = enumerate(problem).collect();
+    prop_assert_eq!(count(problem, Cancel::NEVER), Ok(found.len().into()));
+    let listed: Result<Vec<_>, _> = enumerate(problem, Cancel::NEVER).collect();
     let listed = listed.map_err(|fault| TestCaseError::fail(fault.to_string()))?;
     prop_assert_eq!(listed.len(), found.len());
     for (answer, expected) in listed.iter().zip(&found) {

@@ -2,7 +2,7 @@
 
 mod support;
 
-use sensedsl_solve::{Optimality, Options, Outcome, check, count, enumerate, solve};
+use sensedsl_solve::{Cancel, Optimality, Options, Outcome, check, count, enumerate, solve};
 use support::board::{Builder, Kind, TABLE_1, Target};
 
 fn build(target: Target, analog: u32, i2c: u32, icu: u32) -> Builder {
@@ -36,7 +36,7 @@ fn counts_and_costs() {
     for (analog, i2c, icu, cost, counts, _) in ROWS {
         for (target, expected) in TARGETS.into_iter().zip(counts) {
             let builder = build(target, analog, i2c, icu);
-            let number = count(&builder.problem).expect("a proper problem");
+            let number = count(&builder.problem, Cancel::NEVER).expect("a proper problem");
             assert_eq!(number, expected.into(), "{analog} {i2c} {icu}");
             let Ok(Outcome::Solved(answer)) = solve(&builder.problem, &Options::default()) else {
                 panic!("{analog} {i2c} {icu} has an answer")
@@ -53,7 +53,8 @@ fn numbers_of_optima() {
     for (analog, i2c, icu, cost, _, optima) in ROWS.into_iter().take(2) {
         for (target, expected) in TARGETS.into_iter().zip(optima) {
             let builder = build(target, analog, i2c, icu);
-            let answers = enumerate(&builder.problem).map(|a| a.expect("a checked answer"));
+            let answers =
+                enumerate(&builder.problem, Cancel::NEVER).map(|a| a.expect("a checked answer"));
             let best = answers.take_while(|a| a.objective.cost == cost);
             assert_eq!(best.count() as u64, expected, "{analog} {i2c} {icu}");
         }
@@ -65,7 +66,7 @@ fn every_answer_of_the_example_once_and_in_order() {
     let builder = build(Target::None, 2, 1, 1);
     let mut last = None;
     let mut number = 0;
-    for answer in enumerate(&builder.problem) {
+    for answer in enumerate(&builder.problem, Cancel::NEVER) {
         let answer = answer.expect("a checked answer");
         let key = |wires: Vec<Vec<&str>>| -> Vec<u32> {
             wires.into_iter().flatten().map(|w| position(&builder, w)).collect()

@@ -17,12 +17,12 @@ mod mixed;
 #[path = "../../solve/tests/support/json.rs"]
 mod json;
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use mixed::{FAMILIES, Text};
-use sensedsl_wiring::Wiring;
 use sensedsl_wiring::solver::{Options, Outcome, solve};
+use sensedsl_wiring::{Cancel, Wiring};
 use serde_json::{Value, json};
 
 /// A run ends there: no instance is worth more.
@@ -47,13 +47,13 @@ fn line(family: &str, seed: u64, text: &Text) -> Value {
     let design = text.design();
     let wiring = Wiring::new(&design, None);
     let problem = wiring.problem();
-    let asked = Cell::new(0_u64);
+    let asked = AtomicU64::new(0);
     let start = Instant::now();
     let stop = || {
-        asked.set(asked.get() + 1);
+        asked.fetch_add(1, Ordering::Relaxed);
         start.elapsed() > LIMIT
     };
-    let outcome = solve(problem, &Options { any: false, stop: Some(&stop) }).unwrap();
+    let outcome = solve(problem, &Options { any: false, cancel: Cancel::when(&stop) }).unwrap();
     let micros = start.elapsed().as_secs_f64() * 1e6;
     let (status, objective) = match outcome {
         Outcome::Solved(answer) => {
@@ -63,7 +63,7 @@ fn line(family: &str, seed: u64, text: &Text) -> Value {
         Outcome::Infeasible(_) => ("infeasible", [0; 4]),
         Outcome::Stopped { .. } => ("stopped", [0; 4]),
     };
-    eprintln!("{family} {seed} {status} {micros:.0} us, asked {} times", asked.get());
+    eprintln!("{family} {seed} {status} {micros:.0} us, asked {} times", asked.into_inner());
     json!({
         "family": family,
         "devices": problem.devices.len(),

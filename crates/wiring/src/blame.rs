@@ -11,7 +11,7 @@ use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex, Spanned};
 use sensedsl_model::kind::{Kind, Role};
 
-use crate::{Solved, Wiring};
+use crate::{Cancel, Solved, Wiring};
 
 /// A rule that can be taken away.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -124,29 +124,36 @@ impl Rule {
 const TRIED_MAX: usize = 256;
 
 /// The rules without which the devices could be wired; empty where nothing but the hardware stands
-/// in the way. Minimal where there are at most [`TRIED_MAX`]; of more, the rest is named untried.
-pub(crate) fn rules(design: &Design, devices: &[DeviceIndex]) -> Vec<Rule> {
+/// in the way, or time ran out. Minimal where there are at most [`TRIED_MAX`]; of more, the rest is
+/// named untried.
+pub(crate) fn rules(design: &Design, devices: &[DeviceIndex], cancel: Cancel<'_>) -> Vec<Rule> {
     let mut left = design.clone();
     let mut numbers = (0..design.devices.len()).map(DeviceIndex);
     left.devices.retain(|_| numbers.next().is_some_and(|index| devices.contains(&index)));
     let all = in_force(&left);
     let mut free = left.clone();
     all.iter().for_each(|rule| rule.lift(&mut free));
-    if is_hopeless(&free) {
+    if is_hopeless(&free, cancel) {
         return Vec::new();
     }
     let mut needed = Vec::new();
     let mut all = all.into_iter();
     for rule in all.by_ref().take(TRIED_MAX) {
+        if cancel.is_over() {
+            return Vec::new();
+        }
         let mut without = left.clone();
         rule.lift(&mut without);
-        if is_hopeless(&without) {
+        if is_hopeless(&without, cancel) {
             left = without;
         } else {
             needed.push(rule);
         }
     }
     needed.extend(all);
+    if cancel.is_over() {
+        return Vec::new();
+    }
     needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect()
 }
 
@@ -166,8 +173,8 @@ impl Rule {
     }
 }
 
-fn is_hopeless(design: &Design) -> bool {
-    let wiring = Wiring::new(design, None);
+fn is_hopeless(design: &Design, cancel: Cancel<'_>) -> bool {
+    let wiring = Wiring::within(design, None, cancel);
     wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_))
 }
 

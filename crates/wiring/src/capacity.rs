@@ -10,7 +10,7 @@ use sensedsl_model::pins::PinRef;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::assignment::Assignment;
-use crate::{Solved, Wiring};
+use crate::{Cancel, Found, Solved, Wiring};
 
 /// Identifiers there are for devices.
 const DEVICES_MAX: usize = 254;
@@ -30,9 +30,14 @@ pub struct Capacity {
     pub blocked_by: Vec<String>,
 }
 
-/// The capacities of every board for every kind, in order.
+/// The capacities of every board for every kind, in order; the first of them where time runs out.
 #[must_use]
-pub fn capacity(design: &Design, wiring: &Assignment, rearrange: bool) -> Vec<Capacity> {
+pub fn capacity(
+    design: &Design,
+    wiring: &Assignment,
+    rearrange: bool,
+    cancel: Cancel<'_>,
+) -> Found<Capacity> {
     let mut base = design.clone();
     if !rearrange {
         fix(&mut base, wiring);
@@ -40,10 +45,15 @@ pub fn capacity(design: &Design, wiring: &Assignment, rearrange: bool) -> Vec<Ca
     let mut all = Vec::new();
     for board in (0..design.boards.len()).map(BoardIndex) {
         for kind in KindName::ALL {
-            all.push(of_kind(&base, board, kind));
+            let one = of_kind(&base, board, kind, cancel);
+            // What time ran out on may be too little.
+            if cancel.is_over() {
+                return Found { all, complete: false };
+            }
+            all.push(one);
         }
     }
-    all
+    Found { all, complete: true }
 }
 
 /// Fixes every device where the wiring has it.
@@ -71,7 +81,7 @@ fn fix(design: &mut Design, wiring: &Assignment) {
     }
 }
 
-fn of_kind(base: &Design, board: BoardIndex, kind: KindName) -> Capacity {
+fn of_kind(base: &Design, board: BoardIndex, kind: KindName, cancel: Cancel<'_>) -> Capacity {
     let room = DEVICES_MAX.saturating_sub(base.devices.len());
     let limit = match kind {
         KindName::I2c => room.min(free_addresses(base).len()),
@@ -91,7 +101,7 @@ fn of_kind(base: &Design, board: BoardIndex, kind: KindName) -> Capacity {
     let (mut fits, mut too_many) = (0, most + 1);
     let mut step = 1;
     while fits < most && fits + step < too_many {
-        if has_wiring(base, board, kind, fits + step) {
+        if has_wiring(&with(base, board, kind, fits + step), cancel) {
             fits += step;
             step *= 2;
         } else {
@@ -103,8 +113,11 @@ fn of_kind(base: &Design, board: BoardIndex, kind: KindName) -> Capacity {
     if unbounded && fits == 1 {
         return Capacity { board, kind, more: limit, blocked_by: beyond(kind, limit == room) };
     }
-    let blocked_by =
-        if fits == limit { beyond(kind, true) } else { blockers(base, board, kind, fits + 1) };
+    let blocked_by = if fits == limit {
+        beyond(kind, true)
+    } else {
+        blockers(&with(base, board, kind, fits + 1), kind, cancel)
+    };
     Capacity { board, kind, more: fits, blocked_by }
 }
 
@@ -113,14 +126,12 @@ fn beyond(kind: KindName, by_identifiers: bool) -> Vec<String> {
     vec![what.to_owned()]
 }
 
-fn has_wiring(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> bool {
-    let design = with(base, board, kind, count);
-    matches!(Wiring::new(&design, None).solve_only(true), Solved::Wired(_))
+fn has_wiring(design: &Design, cancel: Cancel<'_>) -> bool {
+    matches!(Wiring::within(design, None, cancel).solve_only(true), Solved::Wired(_))
 }
 
-fn blockers(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Vec<String> {
-    let design = with(base, board, kind, count);
-    match Wiring::new(&design, None).solve_only(true) {
+fn blockers(design: &Design, kind: KindName, cancel: Cancel<'_>) -> Vec<String> {
+    match Wiring::within(design, None, cancel).solve_only(true) {
         Solved::Infeasible(conflict) if conflict.resources.is_empty() => {
             vec![format!("no free {} pin", kind.name())]
         }

@@ -4,7 +4,7 @@ use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
 use sensedsl_model::design::{BoardIndex, Design, DeviceIndex};
-use sensedsl_solve::Conflict;
+use sensedsl_solve::{Cancel, Conflict};
 
 use crate::blame::{self, Rule};
 use crate::formulate::{Asker, Formulation};
@@ -32,6 +32,9 @@ pub struct NoWiring {
     /// False when time ran out before it was known that each of the devices is needed for the
     /// conflict; nothing is known of rules and repairs then.
     pub minimal: bool,
+    /// False when time ran out before everything was known that would help: there may be more
+    /// repairs, and no rules are named.
+    pub explained: bool,
 }
 
 /// Something that is fought for.
@@ -54,15 +57,18 @@ pub(crate) fn read(
     design: &Design,
     formulation: &Formulation<'_>,
     conflict: &Conflict,
+    cancel: Cancel<'_>,
 ) -> NoWiring {
     let mut named = named(formulation, conflict);
     if !named.minimal {
+        named.explained = false;
         return named;
     }
     if named.links.is_empty() {
-        named.rules = blame::rules(design, &named.devices);
+        named.rules = blame::rules(design, &named.devices, cancel);
     }
-    named.repairs = repairs::find(design, formulation, &named.devices);
+    named.repairs = repairs::find(design, formulation, &named.devices, cancel);
+    named.explained = !cancel.is_over();
     named
 }
 
@@ -78,7 +84,8 @@ pub(crate) fn named(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWir
     }
     let resources = resources(formulation, conflict);
     let (rules, repairs) = (Vec::new(), Vec::new());
-    NoWiring { devices, links, resources, rules, repairs, minimal: conflict.minimal }
+    let minimal = conflict.minimal;
+    NoWiring { devices, links, resources, rules, repairs, minimal, explained: true }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
@@ -191,6 +198,11 @@ impl NoWiring {
             [..] => ways.push(format!("leave out one of {}", list(&dropped, "and"))),
         }
         let mut help = match ways.as_slice() {
+            [] if !self.explained => {
+                return "time ran out before it was known what would help: allow more of it with \
+                        --timeout"
+                    .to_owned();
+            }
             [] if names_one(self) => "take another board, or another kind of device".to_owned(),
             [] => "without any one of them the others can be connected, but more stands in the way"
                 .to_owned(),
@@ -198,6 +210,9 @@ impl NoWiring {
         };
         if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {
             help.push_str("; with `--target none`, the pins alone would do");
+        }
+        if !self.explained {
+            help.push_str("; time ran out before everything else was tried");
         }
         help
     }

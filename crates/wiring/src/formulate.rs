@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::natural;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Link, Transport};
 use sensedsl_model::kind::{Kind, uart};
+use sensedsl_solve::Cancel;
 use sensedsl_solve::problem::{
     self as solver, BoardId, DmaRequest, DmaUser, DmaUserId, PinId, Problem, RuleId, SignalId,
     StreamId,
@@ -59,6 +60,8 @@ pub(crate) struct Formulation<'a> {
     pub(crate) pins: Vec<(BoardIndex, usize)>,
     /// When converters are chosen.
     pub(crate) converters: Converters,
+    /// False when time ran out before all of it was put; it means nothing then.
+    pub(crate) complete: bool,
 }
 
 /// When the converter of an analog device is chosen, where there are several.
@@ -164,11 +167,13 @@ pub(crate) fn formulate<'a>(
     design: &'a Design,
     keep: Option<&Keep>,
     converters: Converters,
+    cancel: Cancel<'_>,
 ) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
         .boards
         .iter()
         .enumerate()
+        .take_while(|_| !cancel.is_over())
         .map(|(index, board)| Offer::new(BoardIndex(index), board))
         .collect();
     let pins = pins(design).0;
@@ -187,6 +192,9 @@ pub(crate) fn formulate<'a>(
         (Asker::Link(*board), Wanted::link(*board, kind, unit, &link.pins))
     });
     for (asker, wanted) in of_devices.chain(of_links) {
+        if cancel.is_over() {
+            break;
+        }
         let (mut list, meaning) = alternatives(&mut builder, &offers, &wanted);
         if let (Some(keep), Asker::Device(device)) = (keep, asker) {
             mark_moved(design, keep, device, &mut list, &meaning);
@@ -212,7 +220,18 @@ pub(crate) fn formulate<'a>(
         resources: u32::try_from(resources.len()).unwrap_or(u32::MAX),
         streams: u32::try_from(streams.len()).unwrap_or(u32::MAX),
     };
-    Formulation { problem, offers, askers, meanings, resources, groups, streams, pins, converters }
+    Formulation {
+        problem,
+        offers,
+        askers,
+        meanings,
+        resources,
+        groups,
+        streams,
+        pins,
+        converters,
+        complete: !cancel.is_over(),
+    }
 }
 
 /// Marks the candidates that are not where the device's wire was.

@@ -39,15 +39,23 @@ pub use conflict::{Contested, NoWiring};
 pub use keep::Keep;
 pub use repairs::{Repair, Repaired};
 pub use sensedsl_solve as solver;
+pub use sensedsl_solve::Cancel;
 pub use why::Alternative;
 
 /// What kind of search is wanted.
-#[derive(Clone, Copy, Default)]
-pub struct Search<'a> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Search {
     /// Any wiring will do.
     pub any: bool,
-    /// Asked between the steps of the search; true ends it with what is known by then.
-    pub stop: Option<&'a dyn Fn() -> bool>,
+}
+
+/// What was found of several things, and whether time ran out before all of them were.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found<T> {
+    /// What was found.
+    pub all: Vec<T>,
+    /// False when there may be more.
+    pub complete: bool,
 }
 
 /// The pin problem of a design, ready to be asked.
@@ -55,6 +63,7 @@ pub struct Wiring<'a> {
     design: &'a Design,
     keep: Option<Keep>,
     formulation: Formulation<'a>,
+    cancel: Cancel<'a>,
 }
 
 /// What became of a question.
@@ -83,19 +92,31 @@ impl<'a> Wiring<'a> {
     /// earlier wiring is given.
     #[must_use]
     pub fn new(design: &'a Design, keep: Option<&Keep>) -> Self {
-        Self::put(design, keep, Converters::Later)
+        Self::within(design, keep, Cancel::NEVER)
     }
 
-    fn put(design: &'a Design, keep: Option<&Keep>, converters: Converters) -> Self {
-        let formulation = formulate(design, keep, converters);
-        Self { design, keep: keep.cloned(), formulation }
+    /// As [`Self::new`]; all that is asked of it ends with what is known by then once it is
+    /// cancelled.
+    #[must_use]
+    pub fn within(design: &'a Design, keep: Option<&Keep>, cancel: Cancel<'a>) -> Self {
+        Self::put(design, keep, Converters::Later, cancel)
+    }
+
+    fn put(
+        design: &'a Design,
+        keep: Option<&Keep>,
+        converters: Converters,
+        cancel: Cancel<'a>,
+    ) -> Self {
+        let formulation = formulate(design, keep, converters, cancel);
+        Self { design, keep: keep.cloned(), formulation, cancel }
     }
 
     /// The same problem with the converters in it, for when the best wiring leaves them no DMA
     /// streams; none where they are in it already.
     fn with_converters(&self) -> Option<Self> {
         let later = self.formulation.converters == Converters::Later;
-        later.then(|| Self::put(self.design, self.keep.as_ref(), Converters::Now))
+        later.then(|| Self::put(self.design, self.keep.as_ref(), Converters::Now, self.cancel))
     }
 
     /// The problem as the solver is asked it.
@@ -108,6 +129,9 @@ impl<'a> Wiring<'a> {
     /// an error among them there is no wiring, and a conflict would say less.
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
+        if !self.formulation.complete {
+            return Vec::new();
+        }
         let mut diagnostics = checks::hopeless(self.design, &self.formulation);
         diagnostics.extend(checks::rules(self.design));
         diagnostics
@@ -121,28 +145,31 @@ impl<'a> Wiring<'a> {
 
     /// The best wiring, or any; otherwise the reason with its repairs.
     #[must_use]
-    pub fn solve(&self, search: &Search<'_>) -> Solved {
+    pub fn solve(&self, search: &Search) -> Solved {
         match self.ask(search) {
             Ok(Some(solved)) => solved,
             Ok(None) => match self.with_converters() {
                 Some(wiring) => wiring.solve(search),
                 None => self.no_streams(),
             },
-            Err(conflict) => {
-                Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
-            }
+            Err(conflict) => Solved::Infeasible(self.explained(&conflict)),
         }
+    }
+
+    fn explained(&self, conflict: &Conflict) -> NoWiring {
+        conflict::read(self.design, &self.formulation, conflict, self.cancel)
     }
 
     /// Whether there is certainly no wiring; why is not asked, which saves most of the time.
     fn is_impossible(&self) -> bool {
-        solver::feasible(&self.formulation.problem, None) == Ok(Some(false))
+        self.formulation.complete
+            && solver::feasible(&self.formulation.problem, self.cancel) == Ok(Some(false))
     }
 
     /// As [`Self::solve`], without looking for repairs.
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
-        match self.ask(&Search { any, stop: None }) {
+        match self.ask(&Search { any }) {
             Ok(Some(solved)) => solved,
             Ok(None) => match self.with_converters() {
                 Some(wiring) => wiring.solve_only(any),
@@ -155,18 +182,16 @@ impl<'a> Wiring<'a> {
     /// As [`Self::solve`], with the certificate that proves the answer; its absence has its reason.
     /// `of` is what the design was made of.
     #[must_use]
-    pub fn solve_with_proof(&self, of: &Subject, stop: Option<&dyn Fn() -> bool>) -> Proved {
-        let outcome = self.search(&Search { any: false, stop });
-        let certificate = self.certificate(&outcome, of, stop);
+    pub fn solve_with_proof(&self, of: &Subject) -> Proved {
+        let outcome = self.search(&Search { any: false });
+        let certificate = self.certificate(&outcome, of);
         let solved = match self.named(outcome) {
             Ok(Some(solved)) => solved,
             Ok(None) => match self.with_converters() {
-                Some(wiring) => return wiring.solve_with_proof(of, stop),
+                Some(wiring) => return wiring.solve_with_proof(of),
                 None => self.no_streams(),
             },
-            Err(conflict) => {
-                Solved::Infeasible(conflict::read(self.design, &self.formulation, &conflict))
-            }
+            Err(conflict) => Solved::Infeasible(self.explained(&conflict)),
         };
         // What cannot be built is no wiring, whatever was proved of its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
@@ -174,12 +199,15 @@ impl<'a> Wiring<'a> {
     }
 
     /// Ok(None) is said of a wiring whose converters find no streams.
-    fn ask(&self, search: &Search<'_>) -> Result<Option<Solved>, Conflict> {
+    fn ask(&self, search: &Search) -> Result<Option<Solved>, Conflict> {
         self.named(self.search(search))
     }
 
-    fn search(&self, search: &Search<'_>) -> Result<Outcome, Fault> {
-        let options = Options { any: search.any, stop: search.stop };
+    fn search(&self, search: &Search) -> Result<Outcome, Fault> {
+        if !self.formulation.complete {
+            return Ok(Outcome::Stopped { answer: None, bound: Objective::default() });
+        }
+        let options = Options { any: search.any, cancel: self.cancel };
         solver::solve(&self.formulation.problem, &options)
     }
 
@@ -196,8 +224,7 @@ impl<'a> Wiring<'a> {
             }
             Ok(Outcome::Infeasible(conflict)) => Err(conflict),
             Ok(Outcome::Stopped { answer: None, .. }) => {
-                let report = e0404_out_of_time::out_of_time(self.place());
-                Ok(Some(Solved::Failed(Box::new(report))))
+                Ok(Some(Solved::Failed(Box::new(self.fault(&Fault::Cancelled)))))
             }
             Err(fault) => Ok(Some(Solved::Failed(Box::new(self.fault(&fault))))),
         }
@@ -205,13 +232,13 @@ impl<'a> Wiring<'a> {
 
     /// For each pin that could serve a device what the best wiring with it would cost.
     #[must_use]
-    pub fn why(&self, wiring: &Assignment, device: DeviceIndex) -> Vec<Alternative> {
-        why::why(self.design, &self.formulation, wiring, device)
+    pub fn why(&self, wiring: &Assignment, device: DeviceIndex) -> Found<Alternative> {
+        why::why(self.design, &self.formulation, (wiring, device), self.cancel)
     }
 
     /// All wirings, best first, but for those that leave the converters no streams.
     pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
-        let answers: Answers<'_> = solver::enumerate(&self.formulation.problem);
+        let answers: Answers<'_> = solver::enumerate(&self.formulation.problem, self.cancel);
         answers.filter_map(|answer| match answer {
             Ok(answer) => self.read(&answer),
             Err(fault) => Some(Solved::Failed(Box::new(self.fault(&fault)))),
@@ -223,7 +250,8 @@ impl<'a> Wiring<'a> {
     /// # Errors
     /// The diagnostic of a fault in the solver.
     pub fn count(&self) -> Result<Count, Box<Diagnostic>> {
-        solver::count(&self.formulation.problem).map_err(|fault| Box::new(self.fault(&fault)))
+        solver::count(&self.formulation.problem, self.cancel)
+            .map_err(|fault| Box::new(self.fault(&fault)))
     }
 
     /// The pin problem as a program for SWI-Prolog that prints the best cost.
@@ -276,6 +304,9 @@ impl<'a> Wiring<'a> {
     }
 
     fn fault(&self, fault: &Fault) -> Diagnostic {
+        if *fault == Fault::Cancelled {
+            return e0404_out_of_time::out_of_time(self.place());
+        }
         self.disagrees(&fault.to_string())
     }
 

@@ -13,7 +13,7 @@ use sensedsl_model::kind::Kind;
 use crate::formulate::{Asker, Formulation};
 use crate::names::list;
 use crate::offer::roles;
-use crate::{Solved, Wiring, solver};
+use crate::{Cancel, Solved, Wiring, solver};
 
 /// A change after which there is a wiring.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -178,6 +178,7 @@ pub(crate) fn find(
     design: &Design,
     formulation: &Formulation<'_>,
     devices: &[DeviceIndex],
+    cancel: Cancel<'_>,
 ) -> Vec<Repaired> {
     let mut found = Vec::new();
     // To leave out one of several devices that are alike helps as much as to leave out another.
@@ -191,6 +192,9 @@ pub(crate) fn find(
     let mut proposals = proposals(design, devices);
     proposals.sort_by_key(|repair| !is_of_one_device(repair));
     for repair in proposals.into_iter().take(TRIED_MAX) {
+        if cancel.is_over() {
+            break;
+        }
         let likeness = match &repair {
             Repair::Drop(index) => likeness(index),
             _ => None,
@@ -200,14 +204,14 @@ pub(crate) fn find(
             found.extend(cost.map(|cost| Repaired { repair, cost }));
             continue;
         }
-        let tried = tried(design, repair);
+        let tried = tried(design, repair, cancel);
         if let Some(likeness) = likeness {
             dropped.insert(likeness, tried.as_ref().map(|one| one.cost));
         }
         found.extend(tried);
     }
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
-        found.extend(sharing(design, devices));
+        found.extend(sharing(design, devices, cancel));
     }
     found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
     found
@@ -217,20 +221,25 @@ pub(crate) fn find(
 /// their converters.
 type Likeness = (usize, u32, i8);
 
-fn tried(design: &Design, repair: Repair) -> Option<Repaired> {
+fn tried(design: &Design, repair: Repair, cancel: Cancel<'_>) -> Option<Repaired> {
+    if cancel.is_over() {
+        return None;
+    }
     let changed = repair.applied(design);
-    let wiring = Wiring::new(&changed, None);
+    let wiring = Wiring::within(&changed, None, cancel);
     if wiring.is_impossible() {
         return None;
     }
     match wiring.solve_only(false) {
-        Solved::Wired(wiring) => Some(Repaired { repair, cost: wiring.cost }),
-        Solved::Infeasible(_) | Solved::Failed(_) => None,
+        Solved::Wired(wiring) if wiring.bound.is_none() => {
+            Some(Repaired { repair, cost: wiring.cost })
+        }
+        Solved::Wired(_) | Solved::Infeasible(_) | Solved::Failed(_) => None,
     }
 }
 
 /// The first two devices, or else all, that would help by sharing a bus.
-fn sharing(design: &Design, devices: &[DeviceIndex]) -> Option<Repaired> {
+fn sharing(design: &Design, devices: &[DeviceIndex], cancel: Cancel<'_>) -> Option<Repaired> {
     let exclusive = |index: &&DeviceIndex| {
         let kind = design.device(**index).map(|device| &device.kind);
         matches!(kind, Some(Kind::I2c(i2c)) if i2c.exclusive)
@@ -241,7 +250,7 @@ fn sharing(design: &Design, devices: &[DeviceIndex]) -> Option<Repaired> {
     pairs
         .take(TRIED_MAX)
         .chain([exclusive.clone()])
-        .find_map(|some| tried(design, Repair::Share(some)))
+        .find_map(|some| tried(design, Repair::Share(some), cancel))
 }
 
 const fn is_of_one_device(repair: &Repair) -> bool {

@@ -3,8 +3,9 @@
 use sensedsl_model::design::{Board, Design, DeviceIndex};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Problem, Role as SolverRole};
-use sensedsl_solve::{Objective, Options, Outcome, solve};
+use sensedsl_solve::{Cancel, Objective, Options, Outcome, solve};
 
+use crate::Found;
 use crate::assignment::Assignment;
 use crate::formulate::{Asker, Formulation};
 use crate::read_back::roles;
@@ -32,12 +33,12 @@ pub struct Alternative {
 pub(crate) fn why(
     design: &Design,
     formulation: &Formulation<'_>,
-    wiring: &Assignment,
-    device: DeviceIndex,
-) -> Vec<Alternative> {
+    (wiring, device): (&Assignment, DeviceIndex),
+    cancel: Cancel<'_>,
+) -> Found<Alternative> {
     let Some(number) = formulation.askers.iter().position(|one| *one == Asker::Device(device))
     else {
-        return Vec::new();
+        return Found { all: Vec::new(), complete: true };
     };
     let mut all = Vec::new();
     for (at, role) in roles(design, Asker::Device(device)).into_iter().enumerate() {
@@ -45,18 +46,23 @@ pub(crate) fn why(
             let Some(offer) = formulation.offers.get(board) else { continue };
             let Some(row) = offer.board.table.pins.get(pin) else { continue };
             let signal = usage.and_then(|usage| row.usages.get(usage));
+            let problem = restricted(formulation, number, at, (board, pin, usage));
+            let best = best(&problem, cancel);
+            if cancel.is_over() {
+                return Found { all, complete: false };
+            }
             all.push(Alternative {
                 role,
                 board: offer.board.name.value.clone(),
                 pin: row.name.to_string(),
                 signal: signal.map_or_else(|| "GPIO".into(), |usage| usage.spelled.clone()),
                 usages: row.cost(),
-                best: best(&restricted(formulation, number, at, (board, pin, usage))),
+                best,
                 chosen: is_chosen(wiring, device, role, (offer.board, board), (pin, usage)),
             });
         }
     }
-    all
+    Found { all, complete: formulation.complete }
 }
 
 /// A wire: board, pin and usage by their indices.
@@ -97,8 +103,8 @@ fn restricted(formulation: &Formulation<'_>, device: usize, role: usize, place: 
     problem
 }
 
-fn best(problem: &Problem) -> Option<Objective> {
-    match solve(problem, &Options::default()) {
+fn best(problem: &Problem, cancel: Cancel<'_>) -> Option<Objective> {
+    match solve(problem, &Options { any: false, cancel }) {
         Ok(Outcome::Solved(answer)) => Some(answer.objective),
         Ok(Outcome::Infeasible(_) | Outcome::Stopped { .. }) | Err(_) => None,
     }

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
 use sensedsl_proof::{Verified, read, verify};
+use sensedsl_wiring::Cancel;
 use sensedsl_wiring::certificate::{AlternativeLabels, Claim, Labels, Subject, certify, sha256};
 use sensedsl_wiring::solver::problem::{Holder, Problem, RuleId};
 use sensedsl_wiring::solver::{Options, Outcome, solve};
@@ -91,14 +92,14 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
     match solve(problem, &Options::default()).expect("a proper problem") {
         Outcome::Solved(answer) => {
-            let text = certify(problem, &labels, &subject(), Claim::Best(&answer), None).ok()?;
+            let text = certify(problem, &labels, &subject(), Claim::Best(&answer), Cancel::NEVER).ok()?;
             let sensedsl_wiring::solver::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
             Some((text, Some(Objective { moved, violated, shared, cost, spares })))
         }
         Outcome::Infeasible(conflict) => {
             let claim = Claim::NoWiring(&conflict.devices);
-            Some((certify(problem, &labels, &subject(), claim, None).ok()?, None))
+            Some((certify(problem, &labels, &subject(), claim, Cancel::NEVER).ok()?, None))
         }
         Outcome::Stopped { .. } => unreachable!("nobody stopped it"),
     }

@@ -93,7 +93,7 @@ fn start(text: &str, keep: bool) -> Start {
     before.add("D2", "scl", "B", "PB10");
     before.add("D2", "sda", "B", "PB7");
     let wiring = Wiring::new(&design, keep.then_some(&before));
-    let certificate = wiring.solve_with_proof(&subject(text), None).certificate;
+    let certificate = wiring.solve_with_proof(&subject(text)).certificate;
     let certificate = certificate.expect("an answer").expect("a certificate");
     let read = read(&certificate).expect("a certificate is read");
     let truth = truth(&read.problem);

@@ -1,7 +1,7 @@
 //! A generated design goes all the way: resolved, checked, solved, proved, reported, generated for
 //! all hosts, laid out and generated again. Everything that must hold of any input is asserted.
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::HOSTS;
@@ -12,7 +12,7 @@ use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::certificate::Subject;
-use sensedsl_wiring::{Keep, Search, Solved, Wiring};
+use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 
 use crate::design::{self, Input};
 use crate::draw::Draw;
@@ -77,7 +77,10 @@ fn pipeline(input: &Input, ask: Ask) {
     };
     count(Stage::Resolved);
     let mut diagnostics = resolved.diagnostics;
-    let wiring = Wiring::new(design, None);
+    let steps = AtomicU32::new(0);
+    let most = if ask.proof { STEPS_PROOF_MAX } else { STEPS_MAX };
+    let stop = || stop_after(&steps, most);
+    let wiring = Wiring::within(design, None, Cancel::when(&stop));
     diagnostics.extend(wiring.check());
     let mut files = None;
     if !has_errors(&diagnostics) {
@@ -122,9 +125,8 @@ fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 }
 
 /// A stop after so many questions.
-fn stop_after(steps: &Cell<u32>, most: u32) -> bool {
-    steps.set(steps.get() + 1);
-    steps.get() > most
+fn stop_after(steps: &AtomicU32, most: u32) -> bool {
+    steps.fetch_add(1, Ordering::Relaxed) >= most
 }
 
 /// Nothing stands outside of the comments of an Alloy model but what it is written with.
@@ -138,13 +140,10 @@ fn modelled(wiring: &Wiring<'_>) {
 }
 
 fn solve(wiring: &Wiring<'_>, ask: Ask) -> Solved {
-    let steps = Cell::new(0);
-    let most = if ask.proof { STEPS_PROOF_MAX } else { STEPS_MAX };
-    let stop = || stop_after(&steps, most);
     if !ask.proof {
-        return wiring.solve(&Search { any: ask.any, stop: Some(&stop) });
+        return wiring.solve(&Search { any: ask.any });
     }
-    let proved = wiring.solve_with_proof(&Subject::default(), Some(&stop));
+    let proved = wiring.solve_with_proof(&Subject::default());
     let Some(Ok(text)) = &proved.certificate else { return proved.solved };
     let read = sensedsl_proof::read(text).expect("a certificate is read again");
     let verified = sensedsl_proof::verify(&read).expect("a certificate proves its claim");
@@ -215,10 +214,10 @@ fn checked(files: &FileSet) {
 /// A wiring that is kept moves nothing and costs the same.
 fn keep(design: &Design, assignment: &Assignment, diagnostics: &mut Vec<Diagnostic>) {
     let before: Option<Keep> = json::keep(&json::wired(design, assignment));
-    let steps = Cell::new(0);
+    let steps = AtomicU32::new(0);
     let stop = || stop_after(&steps, STEPS_MAX);
-    let wiring = Wiring::new(design, before.as_ref());
-    match wiring.solve(&Search { any: false, stop: Some(&stop) }) {
+    let wiring = Wiring::within(design, before.as_ref(), Cancel::when(&stop));
+    match wiring.solve(&Search { any: false }) {
         Solved::Wired(again) if again.bound.is_none() => {
             assert_eq!(again.moved, 0, "what is kept has moved");
         }
@@ -256,10 +255,10 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let Some(files) = files else { return };
     let resolved = resolved(input, &formatted);
     let design = resolved.design.expect("a file that is laid out still resolves");
-    let steps = Cell::new(0);
+    let steps = AtomicU32::new(0);
     let stop = || stop_after(&steps, STEPS_MAX);
-    let wiring = Wiring::new(&design, None);
-    let Solved::Wired(again) = wiring.solve(&Search { any: false, stop: Some(&stop) }) else {
+    let wiring = Wiring::within(&design, None, Cancel::when(&stop));
+    let Solved::Wired(again) = wiring.solve(&Search { any: false }) else {
         panic!("a file that is laid out has no wiring");
     };
     let again = sensedsl_codegen::project("robot", &design, &again, &HOSTS);

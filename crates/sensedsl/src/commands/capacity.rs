@@ -3,7 +3,7 @@
 use anyhow::Result;
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::Design;
-use sensedsl_wiring::{Capacity, Search, Solved, capacity};
+use sensedsl_wiring::{Cancel, Capacity, Search, Solved, capacity};
 use serde_json::{Value, json};
 
 use super::input;
@@ -22,12 +22,13 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
+    let answer =
+        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let capacities = capacity(design, &wiring, args.rearrange);
+    let capacities = capacity(design, &wiring, args.rearrange, Cancel::NEVER).all;
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &capacities))?,
         TableFormat::Json => {

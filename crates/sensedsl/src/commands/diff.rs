@@ -7,7 +7,7 @@ use anyhow::Result;
 use sensedsl_codegen::report::json::wired;
 use sensedsl_diagnostics::render;
 use sensedsl_model::What;
-use sensedsl_wiring::{Search, Solved};
+use sensedsl_wiring::{Cancel, Search, Solved};
 use serde_json::{Value, json};
 
 use super::input;
@@ -116,7 +116,8 @@ fn wires(path: &Path, on: &On, terminal: &Terminal) -> Result<Option<BTreeMap<Wi
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(None);
     };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
+    let answer =
+        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(None);

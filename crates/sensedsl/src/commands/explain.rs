@@ -5,7 +5,7 @@ use sensedsl_diagnostics::codes::ALL;
 use sensedsl_diagnostics::{Code, nearest, render};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Alternative, Search, Solved, Wiring};
+use sensedsl_wiring::{Alternative, Cancel, Search, Solved, Wiring};
 use serde_json::{Value, json};
 
 use super::input;
@@ -54,12 +54,13 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("the file has no device {name}{meant}");
     };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
+    let answer =
+        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let alternatives = Wiring::new(design, None).why(&wiring, DeviceIndex(device));
+    let alternatives = Wiring::new(design, None).why(&wiring, DeviceIndex(device)).all;
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &wiring, &alternatives))?,
         TableFormat::Json => {

@@ -14,7 +14,7 @@ use sensedsl_diagnostics::{Diagnostic, Span, visible};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Search, Solved};
+use sensedsl_wiring::{Cancel, Search, Solved};
 
 use super::input;
 use super::output::{self, Changes};
@@ -35,7 +35,13 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let answer = input::solve(design, resolved.diagnostics, keep.as_ref(), &Search::default());
+    let answer = input::solve(
+        design,
+        resolved.diagnostics,
+        keep.as_ref(),
+        &Search::default(),
+        Cancel::NEVER,
+    );
     let mut diagnostics = answer.diagnostics;
     let Some(Solved::Wired(assignment)) = answer.solved else {
         terminal.diagnostics(&diagnostics, &sources)?;

@@ -12,7 +12,7 @@ use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, Unread, What, apply_allows, resolve, sort};
 use sensedsl_wiring::certificate::Subject;
-use sensedsl_wiring::{Keep, Proved, Search, Solved, Wiring};
+use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
 
 use crate::Status;
 use crate::cli::On;
@@ -77,9 +77,10 @@ pub(crate) fn solve(
     design: &Design,
     diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
-    search: &Search<'_>,
+    search: &Search,
+    cancel: Cancel<'_>,
 ) -> Answer {
-    answer(design, diagnostics, keep, |wiring| Proved {
+    answer(design, diagnostics, keep, cancel, |wiring| Proved {
         solved: wiring.solve(search),
         certificate: None,
     })
@@ -90,11 +91,11 @@ pub(crate) fn solve(
 pub(crate) fn feasible(design: &Design, diagnostics: Vec<Diagnostic>) -> Answer {
     let deadline = Instant::now() + BEST;
     let late = || Instant::now() >= deadline;
-    let best = Search { any: false, stop: Some(&late) };
-    let answer = solve(design, diagnostics.clone(), None, &best);
+    let best = Search { any: false };
+    let answer = solve(design, diagnostics.clone(), None, &best, Cancel::when(&late));
     match &answer.solved {
         Some(Solved::Failed(why)) if why.code.info() == &e0404_out_of_time::INFO => {
-            solve(design, diagnostics, None, &Search { any: true, stop: None })
+            solve(design, diagnostics, None, &Search { any: true }, Cancel::NEVER)
         }
         _ => answer,
     }
@@ -106,18 +107,19 @@ pub(crate) fn prove(
     diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
     of: &Subject,
-    stop: Option<&dyn Fn() -> bool>,
+    cancel: Cancel<'_>,
 ) -> Answer {
-    answer(design, diagnostics, keep, |wiring| wiring.solve_with_proof(of, stop))
+    answer(design, diagnostics, keep, cancel, |wiring| wiring.solve_with_proof(of))
 }
 
 fn answer(
     design: &Design,
     mut diagnostics: Vec<Diagnostic>,
     keep: Option<&Keep>,
+    cancel: Cancel<'_>,
     ask: impl FnOnce(&Wiring<'_>) -> Proved,
 ) -> Answer {
-    let wiring = Wiring::new(design, keep);
+    let wiring = Wiring::within(design, keep, cancel);
     diagnostics.extend(wiring.check());
     let proved = (!has_errors(&diagnostics)).then(|| ask(&wiring));
     let (solved, certificate) = match proved {

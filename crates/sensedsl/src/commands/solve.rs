@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{SourceMap, render, visible_json};
 use sensedsl_model::What;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Keep, Search, Solved, Wiring};
+use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 
 use super::in_the_way;
 use super::input::{self, Answer};
@@ -24,6 +24,8 @@ use crate::terminal::Terminal;
 const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
+    // Of the whole command: what is read counts too.
+    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let kept = args.keep.as_deref().map(|path| read_text(path, What::Answer)).transpose()?;
     let keep = args.keep.as_deref().zip(kept.as_deref());
     let keep = keep.map(|(path, text)| input::keep_in(path, text)).transpose()?;
@@ -57,11 +59,13 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         in_the_way::say(path, "the certificate", terminal)?;
         return Ok(Status::Misused);
     }
+    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    let cancel = if deadline.is_some() { Cancel::when(&late) } else { Cancel::NEVER };
     let mut answer = if args.proof.is_some() {
-        input::prove(design, resolved.diagnostics, keep.as_ref(), &of, stop)
+        input::prove(design, resolved.diagnostics, keep.as_ref(), &of, cancel)
     } else {
-        let search = Search { any: args.any, stop };
-        input::solve(design, resolved.diagnostics, keep.as_ref(), &search)
+        let search = Search { any: args.any };
+        input::solve(design, resolved.diagnostics, keep.as_ref(), &search, cancel)
     };
     if let (Some(Solved::Wired(wiring)), Some(most)) = (&answer.solved, args.max_moves)
         && wiring.moved > most

@@ -11,6 +11,7 @@ mod basis;
 
 use super::factor::{Factor, NONE};
 use super::matrix::Matrix;
+use crate::cancel::Cancel;
 
 /// How far outside its bounds a value may lie.
 const FEASIBLE: f64 = 1e-7;
@@ -26,7 +27,7 @@ pub(crate) enum Status {
     Optimal,
     /// The value has reached the cutoff.
     Cutoff,
-    /// No more steps were allowed, or numbers went astray.
+    /// No more steps were allowed, the caller gave up, or numbers went astray.
     Unfinished,
 }
 
@@ -103,8 +104,9 @@ impl Simplex {
         self.reduced[self.matrix.columns() + row]
     }
 
-    /// Runs until the prices are the best, the value reaches `cutoff` or so many steps are done.
-    pub(crate) fn solve(&mut self, cutoff: f64, steps: usize) -> Status {
+    /// Runs until the prices are the best, the value reaches `cutoff`, so many steps are done or the
+    /// caller gives up.
+    pub(crate) fn solve(&mut self, cutoff: f64, steps: usize, cancel: Cancel<'_>) -> Status {
         self.place_nonbasic();
         if self.ready {
             self.compute_values();
@@ -119,6 +121,9 @@ impl Simplex {
             }
             if step % 8 == 0 && self.objective() >= cutoff {
                 return Status::Cutoff;
+            }
+            if step % 8 == 0 && cancel.is_over() {
+                return Status::Unfinished;
             }
             let Some((row, over)) = self.leaving() else {
                 if self.factor.updates() == 0 {
@@ -414,7 +419,7 @@ mod tests {
         let mut solved = 0;
         for seed in 0..2_000 {
             let mut simplex = program(seed);
-            if simplex.solve(1e6, 10_000) == Status::Optimal {
+            if simplex.solve(1e6, 10_000, Cancel::NEVER) == Status::Optimal {
                 assert_optimal(&simplex);
                 solved += 1;
             }
@@ -426,18 +431,18 @@ mod tests {
     fn bounds_change_and_come_back() {
         for seed in 0..500 {
             let mut simplex = program(seed);
-            if simplex.solve(1e6, 10_000) != Status::Optimal {
+            if simplex.solve(1e6, 10_000, Cancel::NEVER) != Status::Optimal {
                 continue;
             }
             let before = simplex.objective();
             let column = (seed as usize * 7) % simplex.cost.len();
             simplex.bound(column, 0.0, 0.0);
-            if simplex.solve(1e6, 10_000) == Status::Optimal {
+            if simplex.solve(1e6, 10_000, Cancel::NEVER) == Status::Optimal {
                 assert_optimal(&simplex);
                 assert!(simplex.objective() > before - 1e-4);
             }
             simplex.bound(column, 0.0, 1.0);
-            assert_eq!(simplex.solve(1e6, 10_000), Status::Optimal);
+            assert_eq!(simplex.solve(1e6, 10_000, Cancel::NEVER), Status::Optimal);
             assert!((simplex.objective() - before).abs() < 1e-4);
         }
     }

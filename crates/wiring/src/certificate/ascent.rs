@@ -8,6 +8,7 @@
 
 use super::case::{Case, Open, Tolls, Weighed};
 use super::model::Thing;
+use crate::Cancel;
 
 /// Units of toll in a unit of weight that are tried; the smaller, the easier to read.
 const SCALES: [i64; 7] = [1, 2, 4, 12, 60, 840, 10_080];
@@ -91,6 +92,7 @@ pub(super) fn ascend(
     start: &Tolls<f64>,
     classes: &[Vec<usize>],
     (limit, target, steps): (i64, f64, u32),
+    cancel: Cancel<'_>,
 ) -> Ascent {
     let mut climber = Climber::new(weighed, case, open, start, classes);
     let mut best = (f64::MIN, start.clone());
@@ -98,7 +100,10 @@ pub(super) fn ascend(
     let mut closing = None;
     let mut direction = Tolls::default();
     let (mut part, mut waited, mut work) = (1.0, 0, 0);
-    for _ in 0..steps {
+    for step in 0..steps {
+        if step % 16 == 0 && cancel.is_over() {
+            break;
+        }
         let bound = climber.choose();
         work += case.tolls.len() as u64 + 1;
         if bound > best.0 + 1e-9 * best.0.abs() {

@@ -21,7 +21,7 @@ pub use labels::{AlternativeLabels, Labels};
 pub(crate) use model::holders;
 pub use sensedsl_proof::subject::sha256;
 
-use crate::Wiring;
+use crate::{Cancel, Wiring};
 use case::Weighed;
 use model::Model;
 use tree::{Effort, GivenUp};
@@ -75,9 +75,9 @@ pub fn certify(
     labels: &Labels,
     subject: &Subject,
     claim: Claim<'_>,
-    stop: Option<&dyn Fn() -> bool>,
+    cancel: Cancel<'_>,
 ) -> Result<String, Uncertified> {
-    let mut effort = Effort { work: WORK_MAX, stop };
+    let mut effort = Effort { work: WORK_MAX, cancel };
     let writer = Writer { problem, labels };
     let (answer, proofs) = match claim {
         Claim::Best(answer) => {
@@ -162,7 +162,6 @@ impl Wiring<'_> {
         &self,
         outcome: &Result<Outcome, Fault>,
         subject: &Subject,
-        stop: Option<&dyn Fn() -> bool>,
     ) -> Option<Result<String, Box<Diagnostic>>> {
         let claim = match outcome {
             Ok(Outcome::Solved(answer)) => Claim::Best(answer),
@@ -173,12 +172,15 @@ impl Wiring<'_> {
             Err(_) => return None,
         };
         let labels = Labels::of(self.design, &self.formulation);
-        let text = match certify(&self.formulation.problem, &labels, subject, claim, stop) {
+        let text = match certify(&self.formulation.problem, &labels, subject, claim, self.cancel) {
             Ok(text) => text,
             Err(why) => return Some(Err(self.uncertified(why))),
         };
         if sensedsl_proof::budget::fits(&text).is_err() {
             return Some(Err(self.uncertified(Uncertified::GivenUp)));
+        }
+        if self.cancel.is_over() {
+            return Some(Err(self.uncertified(Uncertified::Stopped)));
         }
         // What is handed out has been verified.
         let certificate = sensedsl_proof::read(&text).map_err(|error| error.0);

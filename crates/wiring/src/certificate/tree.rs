@@ -4,6 +4,7 @@
 use super::ascent::{Ascent, Closing, Habits, ascend, first_tolls};
 use super::case::{Case, Open, Tolls, Weighed};
 use super::model::{Model, Thing};
+use crate::Cancel;
 
 /// Steps for the whole problem.
 const STEPS_FIRST: u32 = 6000;
@@ -33,7 +34,7 @@ pub(super) enum Node {
 pub(super) struct Effort<'a> {
     /// Tolls that may still be looked up.
     pub(super) work: u64,
-    pub(super) stop: Option<&'a dyn Fn() -> bool>,
+    pub(super) cancel: Cancel<'a>,
 }
 
 /// No proof was found within the effort.
@@ -139,9 +140,10 @@ impl Prover<'_, '_> {
             return Ok(None);
         }
         let goal = (self.limit, self.target, steps);
-        let ascent = ascend(self.weighed, &case, open, start, &self.classes, goal);
+        let ascent =
+            ascend(self.weighed, &case, open, start, &self.classes, goal, self.effort.cancel);
         self.effort.work = self.effort.work.saturating_sub(ascent.work);
-        let stopped = self.effort.stop.is_some_and(|stop| stop());
+        let stopped = self.effort.cancel.is_over();
         if self.effort.work == 0 || stopped {
             return Err(GivenUp { stopped });
         }
