@@ -105,11 +105,21 @@ impl Questions<'_> {
         Ok(answer)
     }
 
-    /// Asks of each larger class of alike devices once whether it is one too many: where it is,
-    /// each of them is needed, and whatever leaves one out need not be asked.
+    /// Asks of each larger class of alike devices whether it is a conflict by itself, which is
+    /// quickly known, and of such ones whether it is one too many (of all where there are none):
+    /// then each of them is needed, and whatever leaves one out need not be asked.
     fn sound_out(&mut self, problem: &Problem, kept: &[usize]) -> Result<(), Fault> {
-        for one in self.lore.crowds(kept) {
-            let fewer: Vec<usize> = kept.iter().copied().filter(|&d| d != one).collect();
+        let crowds = self.lore.crowds(kept);
+        let mut alone = Vec::new();
+        for crowd in &crowds {
+            if self.of_devices(problem, crowd)? == Some(false) {
+                alone.push(crowd);
+            }
+        }
+        let all: Vec<&Vec<usize>> = crowds.iter().collect();
+        for crowd in if alone.is_empty() { all } else { alone } {
+            let one = crowd.first();
+            let fewer: Vec<usize> = kept.iter().copied().filter(|d| Some(d) != one).collect();
             self.of_devices(problem, &fewer)?;
         }
         Ok(())
@@ -228,6 +238,13 @@ impl Questions<'_> {
 }
 
 fn only(problem: &Problem, devices: &[usize]) -> Problem {
-    let kept = devices.iter().filter_map(|&d| problem.devices.get(d)).cloned().collect();
-    Problem { devices: kept, ..problem.clone() }
+    Problem {
+        pins: problem.pins.clone(),
+        boards: problem.boards.clone(),
+        devices: devices.iter().filter_map(|&d| problem.devices.get(d)).cloned().collect(),
+        dma: problem.dma.clone(),
+        rules: problem.rules,
+        resources: problem.resources,
+        streams: problem.streams,
+    }
 }

@@ -74,15 +74,14 @@ impl Lore {
         }
     }
 
-    /// One device of each class of which there are many among these.
-    pub(crate) fn crowds(&self, devices: &[usize]) -> Vec<usize> {
-        let mut members: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+    /// The classes of which there are many among these devices.
+    pub(crate) fn crowds(&self, devices: &[usize]) -> Vec<Vec<usize>> {
+        let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for &device in devices {
             if let Some(class) = self.class.get(device) {
-                members.entry(*class).or_insert((device, 0)).1 += 1;
+                members.entry(*class).or_default().push(device);
             }
         }
-        let many = members.into_values().filter(|(_, number)| *number >= CROWD);
-        many.map(|(device, _)| device).collect()
+        members.into_values().filter(|class| class.len() >= CROWD).collect()
     }
 }

@@ -48,21 +48,30 @@ fn line(family: &str, seed: u64, text: &Text) -> Value {
     let wiring = Wiring::new(&design, None);
     let problem = wiring.problem();
     let asked = AtomicU64::new(0);
-    let start = Instant::now();
-    let stop = || {
-        asked.fetch_add(1, Ordering::Relaxed);
-        start.elapsed() > LIMIT
-    };
-    let outcome = solve(problem, &Options { any: false, cancel: Cancel::when(&stop) }).unwrap();
-    let micros = start.elapsed().as_secs_f64() * 1e6;
-    let (status, objective) = match outcome {
-        Outcome::Solved(answer) => {
-            let o = answer.objective;
-            ("optimal", [o.moved, o.violated, o.cost, o.spares])
+    let (mut status, mut objective, mut micros) = ("stopped", [0; 5], f64::INFINITY);
+    for _ in 0..5 {
+        asked.store(0, Ordering::Relaxed);
+        let start = Instant::now();
+        let stop = || {
+            asked.fetch_add(1, Ordering::Relaxed);
+            start.elapsed() > LIMIT
+        };
+        let options = Options { any: false, cancel: Cancel::when(&stop) };
+        let outcome = solve(problem, &options).unwrap();
+        let spent = start.elapsed().as_secs_f64() * 1e6;
+        micros = spent.min(micros);
+        (status, objective) = match outcome {
+            Outcome::Solved(answer) => {
+                let o = answer.objective;
+                ("optimal", [o.moved, o.violated, o.shared, o.cost, o.spares])
+            }
+            Outcome::Infeasible(_) => ("infeasible", [0; 5]),
+            Outcome::Stopped { .. } => ("stopped", [0; 5]),
+        };
+        if spent > 1e6 {
+            break;
         }
-        Outcome::Infeasible(_) => ("infeasible", [0; 4]),
-        Outcome::Stopped { .. } => ("stopped", [0; 4]),
-    };
+    }
     eprintln!("{family} {seed} {status} {micros:.0} us, asked {} times", asked.into_inner());
     json!({
         "family": family,

@@ -109,7 +109,7 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
         .collect();
     let resources: Vec<&str> = conflict.resources.iter().map(|one| one.name.as_str()).collect();
     let rules: Vec<String> = conflict.rules.iter().map(|rule| rule.describe(design)).collect();
-    json!({
+    let mut value = json!({
         "version": VERSION,
         "status": "infeasible",
         "moved": 0,
@@ -123,7 +123,12 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
             "rules": rules, "places": places(design, conflict),
             "minimal": conflict.minimal,
         },
-    })
+    });
+    let stated = value.get_mut("conflict").and_then(Value::as_object_mut);
+    if let Some(stated) = stated.filter(|_| !conflict.explained) {
+        stated.insert("explained".to_owned(), json!(false));
+    }
+    value
 }
 
 /// Where the tables speak of what is fought for: the resource, the board, the pin and its line.

@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_timing::{BoardTiming, Count, Part, Row, SECOND_NS, Timing, shown_time, timing};
-use sensedsl_wiring::{Search, Solved};
+use sensedsl_wiring::{Cancel, Search, Solved};
 use serde_json::{Value, json};
 
 use super::input;
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default());
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
     terminal.diagnostics(&answer.diagnostics, &sources)?;
     let Some(Solved::Wired(wiring)) = answer.solved else { return Ok(Status::Wrong) };
     // What cannot be kept is shown all the same: the table says where the time goes.

@@ -1,0 +1,149 @@
+//! Boards of different size: the search stays small, and a question ends when it is cancelled.
+#![allow(missing_docs, reason = "tests need none")]
+#![allow(dead_code, reason = "the support code serves several programs")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "only tests")]
+
+mod support {
+    pub(crate) mod mixed;
+}
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use sensedsl_wiring::solver::{Options, Outcome, check, count, enumerate, solve};
+use sensedsl_wiring::{Cancel, Search, Solved, Wiring, capacity};
+use support::mixed::{FAMILIES, Text};
+
+/// The designs of a family, as many as a test has time for.
+fn family(name: &str, number: u64) -> Vec<Text> {
+    let family = FAMILIES.iter().find(|one| one.name == name).unwrap();
+    (0..number.min(family.number)).map(family.make).collect()
+}
+
+/// How often a search asks whether it is over, which it does at each node and every few steps of a
+/// linear program.
+fn asked(text: &Text) -> (u64, bool) {
+    let design = text.design();
+    let wiring = Wiring::new(&design, None);
+    let asked = AtomicU64::new(0);
+    let over = || {
+        asked.fetch_add(1, Ordering::Relaxed);
+        false
+    };
+    let options = Options { any: false, cancel: Cancel::when(&over) };
+    let solved = match solve(wiring.problem(), &options).unwrap() {
+        Outcome::Solved(answer) => {
+            assert_eq!(check(wiring.problem(), &answer), Ok(()));
+            true
+        }
+        Outcome::Infeasible(conflict) => {
+            assert!(conflict.minimal);
+            false
+        }
+        Outcome::Stopped { .. } => panic!("nobody stopped it"),
+    };
+    (asked.into_inner(), solved)
+}
+
+#[test]
+fn the_search_on_unequal_boards_stays_small() {
+    let asked: Vec<(u64, bool)> = family("mixed boards", 120).iter().map(asked).collect();
+    let most = asked.iter().map(|one| one.0).max().unwrap();
+    assert!(most < MIXED_ASKED_MAX, "{most}");
+    assert!(asked.iter().filter(|one| one.1).count() > 60, "too few have a wiring");
+}
+
+/// Before one pin could be two wires of one bus, half of these needed more than 50 000.
+const MIXED_ASKED_MAX: u64 = 2_000;
+
+#[test]
+fn alike_devices_are_not_asked_about_one_by_one() {
+    for (name, most) in [
+        ("64 digital on 63 pins", 200),
+        ("30 i2c with 7 addresses", 400),
+        ("two F407 with 61 i2c", 1_500),
+    ] {
+        for text in family(name, 1) {
+            let (asked, solved) = asked(&text);
+            assert!(!solved && asked < most, "{name}: {asked}");
+        }
+    }
+}
+
+/// What is asked of a wiring, each in its own way.
+fn questions(wiring: &Wiring<'_>) -> bool {
+    matches!(wiring.solve(&Search::default()), Solved::Failed(why) if why.code.name() == "E0404")
+        && matches!(wiring.solve_with_proof().solved, Solved::Failed(why) if why.code.name() == "E0404")
+        && matches!(wiring.count(), Err(why) if why.code.name() == "E0404")
+        && matches!(wiring.enumerate().next(), Some(Solved::Failed(why)) if why.code.name() == "E0404")
+}
+
+#[test]
+fn what_is_over_before_it_begins_answers_nothing() {
+    let over = || true;
+    for text in family("mixed boards", 5) {
+        let design = text.design();
+        assert!(questions(&Wiring::within(&design, None, Cancel::when(&over))));
+        let wiring = Wiring::new(&design, None);
+        assert!(count(wiring.problem(), Cancel::when(&over)).is_err());
+        let mut answers = enumerate(wiring.problem(), Cancel::when(&over));
+        assert!(answers.next().is_none_or(|answer| answer.is_err()));
+        assert!(answers.next().is_none());
+        if let Solved::Wired(best) = wiring.solve(&Search::default()) {
+            let left = capacity(&design, &best, false, Cancel::when(&over));
+            assert!(left.all.is_empty() && !left.complete);
+        }
+    }
+}
+
+/// Whenever the search is stopped, what it says is true: a wiring is valid and its bound is none
+/// too high, and a conflict that is not known to be minimal says so.
+#[test]
+fn what_is_known_when_time_runs_out_is_marked() {
+    for text in family("mixed boards", 25) {
+        let design = text.design();
+        let problem = Wiring::new(&design, None);
+        let whole = solve(problem.problem(), &Options::default()).unwrap();
+        for most in [0, 1, 2, 3, 5, 8, 13, 21, 34] {
+            let asked = AtomicU64::new(0);
+            let over = || asked.fetch_add(1, Ordering::Relaxed) >= most;
+            let options = Options { any: false, cancel: Cancel::when(&over) };
+            match (solve(problem.problem(), &options).unwrap(), &whole) {
+                (Outcome::Stopped { answer, bound }, Outcome::Solved(best)) => {
+                    assert!(bound <= best.objective);
+                    assert!(answer.is_none_or(|one| one.objective >= best.objective));
+                }
+                (Outcome::Stopped { answer, .. }, Outcome::Infeasible(_)) => {
+                    assert!(answer.is_none());
+                }
+                (Outcome::Solved(answer), Outcome::Solved(best)) => assert_eq!(answer, *best),
+                (Outcome::Infeasible(one), Outcome::Infeasible(best)) => {
+                    assert!(!one.minimal || one.devices == best.devices);
+                }
+                (one, best) => panic!("{one:?} where the whole answer is {best:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn another_thread_can_cancel() {
+    // Counting these would take longer than anybody waits.
+    let text = family("eight equal F407", 1).remove(0);
+    let design = text.design();
+    let flag = AtomicBool::new(false);
+    let over = || flag.load(Ordering::Relaxed);
+    let wiring = Wiring::within(&design, None, Cancel::when(&over));
+    let spent = thread::scope(|scope| {
+        let counting = scope.spawn(|| {
+            let start = Instant::now();
+            (wiring.count().map_err(|why| why.code.name()), start.elapsed())
+        });
+        thread::sleep(Duration::from_millis(50));
+        assert!(!counting.is_finished(), "too easy to test anything");
+        flag.store(true, Ordering::Relaxed);
+        counting.join().unwrap()
+    });
+    assert_eq!(spent.0, Err("E0404"));
+}
