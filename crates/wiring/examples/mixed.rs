@@ -7,9 +7,10 @@
     clippy::print_stdout,
     clippy::print_stderr,
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a developer's program"
 )]
-#![allow(dead_code, reason = "the support code serves several programs")]
+#![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
 
 #[path = "../tests/support/mixed.rs"]
 mod mixed;

@@ -195,10 +195,7 @@ pub(crate) fn find(
         if cancel.is_over() {
             break;
         }
-        let likeness = match &repair {
-            Repair::Drop(index) => likeness(index),
-            _ => None,
-        };
+        let likeness = if let Repair::Drop(index) = &repair { likeness(index) } else { None };
         let known = likeness.and_then(|likeness| dropped.get(&likeness));
         if let Some(cost) = known {
             found.extend(cost.map(|cost| Repaired { repair, cost }));
