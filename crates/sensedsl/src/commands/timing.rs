@@ -34,7 +34,8 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
+    let answer =
+        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
     terminal.diagnostics(&answer.diagnostics, &sources)?;
     let Some(Solved::Wired(wiring)) = answer.solved else { return Ok(Status::Wrong) };
     // What cannot be kept is shown all the same: the table says where the time goes.
