@@ -147,3 +147,21 @@ fn another_thread_can_cancel() {
     });
     assert_eq!(spent.0, Err("E0404"));
 }
+
+#[test]
+fn a_conflict_cut_short_says_so() {
+    let text = family("two F407 with 61 i2c", 1).remove(0);
+    let design = text.design();
+    let (mut cut, mut unexplained) = (0, 0);
+    for most in (60..2_000).step_by(60) {
+        let asked = AtomicU64::new(0);
+        let over = || asked.fetch_add(1, Ordering::Relaxed) >= most;
+        let wiring = Wiring::within(&design, None, Cancel::when(&over));
+        let Solved::Infeasible(conflict) = wiring.solve(&Search::default()) else { continue };
+        let help = conflict.diagnostic(&design).help.unwrap_or_default();
+        assert_eq!(help.contains("time ran out"), !conflict.minimal || !conflict.explained);
+        cut += usize::from(!conflict.minimal);
+        unexplained += usize::from(conflict.minimal && !conflict.explained);
+    }
+    assert!(cut > 0 && unexplained > 0, "{cut} {unexplained}");
+}
