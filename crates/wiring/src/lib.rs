@@ -265,13 +265,13 @@ impl<'a> Wiring<'a> {
     ///
     /// # Errors
     /// The diagnostic of a fault in the solver.
-    pub fn alloy(&self, stop: Option<&dyn Fn() -> bool>) -> Result<String, Box<Diagnostic>> {
-        let known = match self.search(&Search { any: false, stop }) {
+    pub fn alloy(&self) -> Result<String, Box<Diagnostic>> {
+        let known = match self.search(&Search { any: false }) {
             Ok(Outcome::Solved(answer)) => {
                 if self.read(&answer).is_none()
                     && let Some(wiring) = self.with_converters()
                 {
-                    return wiring.alloy(stop);
+                    return wiring.alloy();
                 }
                 Known::Best(answer.objective)
             }

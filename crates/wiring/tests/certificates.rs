@@ -92,7 +92,8 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
     match solve(problem, &Options::default()).expect("a proper problem") {
         Outcome::Solved(answer) => {
-            let text = certify(problem, &labels, &subject(), Claim::Best(&answer), Cancel::NEVER).ok()?;
+            let text =
+                certify(problem, &labels, &subject(), Claim::Best(&answer), Cancel::NEVER).ok()?;
             let sensedsl_wiring::solver::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
             Some((text, Some(Objective { moved, violated, shared, cost, spares })))

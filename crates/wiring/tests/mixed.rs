@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use sensedsl_wiring::certificate::Subject;
 use sensedsl_wiring::solver::{Options, Outcome, check, count, enumerate, solve};
 use sensedsl_wiring::{Cancel, Search, Solved, Wiring, capacity};
 use support::mixed::{FAMILIES, Text};
@@ -74,7 +75,7 @@ fn alike_devices_are_not_asked_about_one_by_one() {
 /// What is asked of a wiring, each in its own way.
 fn questions(wiring: &Wiring<'_>) -> bool {
     matches!(wiring.solve(&Search::default()), Solved::Failed(why) if why.code.name() == "E0404")
-        && matches!(wiring.solve_with_proof().solved, Solved::Failed(why) if why.code.name() == "E0404")
+        && matches!(wiring.solve_with_proof(&Subject::default()).solved, Solved::Failed(why) if why.code.name() == "E0404")
         && matches!(wiring.count(), Err(why) if why.code.name() == "E0404")
         && matches!(wiring.enumerate().next(), Some(Solved::Failed(why)) if why.code.name() == "E0404")
 }

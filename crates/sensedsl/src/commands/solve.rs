@@ -37,9 +37,8 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let stop: Option<&dyn Fn() -> bool> = deadline.is_some().then_some(&late);
+    let cancel = if deadline.is_some() { Cancel::when(&late) } else { Cancel::NEVER };
     if matches!(args.format, SolveFormat::Prolog | SolveFormat::Alloy) {
         ensure!(
             args.proof.is_none(),
@@ -47,7 +46,8 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
             if args.format == SolveFormat::Prolog { "prolog" } else { "alloy" }
         );
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return problem(args, terminal, &Wiring::new(design, keep.as_ref()), &sources, stop);
+        let wiring = Wiring::within(design, keep.as_ref(), cancel);
+        return problem(args, terminal, &wiring, &sources);
     }
     // On the standard output the certificate is the result.
     let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
@@ -59,8 +59,6 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         in_the_way::say(path, "the certificate", terminal)?;
         return Ok(Status::Misused);
     }
-    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let cancel = if deadline.is_some() { Cancel::when(&late) } else { Cancel::NEVER };
     let mut answer = if args.proof.is_some() {
         input::prove(design, resolved.diagnostics, keep.as_ref(), &of, cancel)
     } else {
@@ -105,13 +103,12 @@ fn problem(
     terminal: &mut Terminal,
     wiring: &Wiring<'_>,
     sources: &SourceMap,
-    stop: Option<&dyn Fn() -> bool>,
 ) -> Result<Status> {
     if args.format == SolveFormat::Prolog {
         terminal.result(&wiring.prolog())?;
         return Ok(Status::Done);
     }
-    match wiring.alloy(stop) {
+    match wiring.alloy() {
         Ok(model) => {
             terminal.result(&model)?;
             Ok(Status::Done)
