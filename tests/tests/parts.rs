@@ -1,6 +1,10 @@
 //! `sensedsl parts`: which parts and boards can carry a file, what they cost, and the lists.
 
-use sensedsl_tests::{Scratch, design, sensedsl};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use sensedsl_tests::{Scratch, binary, design, root, sensedsl};
 use serde_json::Value;
 
 /// The lines that `parts` prints for a file.
@@ -85,4 +89,47 @@ fn lists_can_be_searched() {
     assert!(table.starts_with("# mcu = STM32G031J6M6\n# package = SO8N\nPin,"), "{table}");
     let slip = sensedsl(["parts", "--table", "STM32F407VGT66"]).run().exits(2);
     assert!(slip.stderr.contains("did you mean STM32F407VGT6?"), "{}", slip.stderr);
+}
+
+#[test]
+fn the_first_ones_in_the_order_asked_for() {
+    let fig2 = "examples/fig2.sense";
+    let call = |more: &[&str]| {
+        let call = sensedsl(["parts", fig2, "--family", "F4", "--format", "json"]).args(more);
+        let out = call.run().exits(0).stdout;
+        out.lines().map(|line| serde_json::from_str(line).unwrap()).collect::<Vec<Value>>()
+    };
+    let (all, first) = (call(&[]), call(&["--limit", "3"]));
+    assert_eq!(first, all[..3]);
+    let by_pins = call(&["--sort", "pins", "--limit", "2"]);
+    assert!(by_pins[0]["cost"].as_u64() > all[0]["cost"].as_u64(), "{by_pins:?}");
+    assert_eq!(all[0]["profile"], true);
+    let cut = sensedsl(["parts", fig2, "--family", "F4", "--limit", "3"]).run().exits(0).stdout;
+    let count = format!("{} of 226 parts and boards can carry the devices; the first 3", all.len());
+    assert!(cut.contains(&count), "{cut}");
+}
+
+#[test]
+fn what_was_found_is_printed_when_time_is_over() {
+    let ran = sensedsl(["parts", "examples/fig2.sense", "--timeout", "0"]).run().exits(1);
+    assert!(ran.stdout.contains("0 of 0 parts and boards"), "{}", ran.stdout);
+    assert!(ran.stderr.contains("stopped: ") && ran.stderr.contains(" were not looked at"));
+}
+
+#[cfg(unix)]
+#[test]
+fn control_c_prints_what_there_is() {
+    let mut call = Command::new(binary());
+    call.args(["parts", "examples/miniature_car.sense"]).current_dir(root());
+    let child = call.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // Long before the thousands of parts are through.
+    thread::sleep(Duration::from_millis(1_500));
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let (out, err) =
+        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(out.contains(" parts and boards can carry the devices"), "{out}{err}");
+    assert!(err.contains("stopped: "), "{out}{err}");
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{:?}", output.status);
 }

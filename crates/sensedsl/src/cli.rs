@@ -262,6 +262,15 @@ pub(crate) struct PartsArgs {
     /// Only parts with at most that many contacts
     #[arg(long, value_name = "N")]
     pub(crate) max_pins: Option<u32>,
+    /// What comes first
+    #[arg(long, value_enum, default_value_t, requires = "file")]
+    pub(crate) sort: PartsOrder,
+    /// Print so many at most
+    #[arg(long, value_name = "N", requires = "file")]
+    pub(crate) limit: Option<usize>,
+    /// Stop after that time with those found so far; so does Ctrl-C
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "file")]
+    pub(crate) timeout: Option<f64>,
     /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
     #[arg(long, value_name = "NAME")]
     pub(crate) target: Option<String>,
@@ -270,6 +279,16 @@ pub(crate) struct PartsArgs {
     /// How to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
+}
+
+/// What comes first among parts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PartsOrder {
+    /// The cheapest wiring
+    #[default]
+    Cost,
+    /// The fewest contacts
+    Pins,
 }
 
 #[derive(Debug, Args)]

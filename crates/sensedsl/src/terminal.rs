@@ -42,6 +42,17 @@ impl Terminal {
         out.flush()
     }
 
+    /// Whether people see the result as it is written.
+    pub(crate) fn is_watched(&self) -> bool {
+        !self.quiet && io::stdout().is_terminal()
+    }
+
+    /// A line that is shown before the result is known as a whole.
+    pub(crate) fn passing(&self, line: &str) {
+        // There is nowhere to report that reporting failed; the result will say it.
+        let _ = writeln!(io::stdout().lock(), "{}", visible(line));
+    }
+
     /// A result that only people read: dropped when quiet.
     pub(crate) fn note(&self, text: &str) -> io::Result<()> {
         self.coloured_note(&visible_lines(text))

@@ -17,5 +17,6 @@ pub(crate) mod parts;
 pub(crate) mod solve;
 mod starter;
 mod subject;
+mod sweep;
 mod table;
 mod timing;

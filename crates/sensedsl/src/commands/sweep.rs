@@ -1,0 +1,306 @@
+//! `sensedsl parts FILE`: the best wiring of a file's devices on every part and every board.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+use sensedsl_board::{catalog, profile};
+use sensedsl_diagnostics::codes::{e0404_out_of_time, e0506_hardware_limit};
+use sensedsl_model::{Request, What, resolve};
+use sensedsl_parts::{Part, Sheet};
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Cancel, Solved, Wiring};
+use serde_json::json;
+use signal_hook::consts::SIGINT;
+
+use super::parts::{fits, parts};
+use super::table::table;
+use crate::Status;
+use crate::cli::{PartsArgs, PartsOrder, TableFormat};
+use crate::files::{Disk, read_text, shown};
+use crate::terminal::Terminal;
+
+/// What a shell says of a program that the user interrupted.
+const INTERRUPTED: i32 = 130;
+
+/// A part or a board that may carry the devices.
+struct Carrier {
+    name: String,
+    /// The part number of the MCU.
+    mcu: String,
+    package: Option<String>,
+    contacts: Option<u32>,
+    is_board: bool,
+    /// Whether the target has a profile of it; otherwise the pins alone are looked at.
+    has_profile: bool,
+}
+
+/// How good a wiring is, the better before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Worth {
+    violated: u32,
+    shared: u32,
+    cost: u32,
+}
+
+/// What became of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fit {
+    /// The best wiring is that good.
+    Wired(Worth),
+    /// It cannot carry the devices.
+    Not,
+    /// The solver failed its own check.
+    Failed,
+    /// Nobody looked, or not to the end.
+    Open,
+}
+
+/// Solves the devices of a file on all carriers that the filters leave, and prints those that fit.
+pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
+    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let interrupted = interruption()?;
+    let text = read_text(file, What::Sense)?;
+    let disk = Disk::of(file, &args.reach.allow_outside);
+    let path = shown(file);
+    let request = Request { path: &path, text: &text, board: None, target: args.target.as_deref() };
+    // What is wrong with the devices is told once; that the file's own board is unknown, or does not
+    // suit, does not matter here.
+    let resolved = resolve(&request, &disk);
+    let carriers = carriers(args);
+    if carriers.is_empty() {
+        bail!("no part and no board fits the filters");
+    }
+    if resolved.design.is_none() {
+        let board = carriers.first().map(|(carrier, _)| carrier.name.as_str());
+        if resolve(&Request { board, ..request }, &disk).design.is_none() {
+            terminal.diagnostics(&resolved.diagnostics, &resolved.sources)?;
+            return Ok(Status::Wrong);
+        }
+    }
+    let over = || {
+        interrupted.load(Ordering::Relaxed)
+            || deadline.is_some_and(|deadline| Instant::now() >= deadline)
+    };
+    let question = Question { request: &request, disk: &disk, cancel: Cancel::when(&over) };
+    let answers = solve_all(&question, &carriers, args, terminal);
+    let failed = answers.iter().filter(|fit| **fit == Fit::Failed).count();
+    let open = answers.iter().filter(|fit| **fit == Fit::Open).count();
+    let found = sorted(&carriers, &answers, args);
+    let fitting = found.len();
+    let shown = found.get(..args.limit.unwrap_or(fitting)).unwrap_or(&found);
+    terminal.result(&match args.format {
+        TableFormat::Json => shown.iter().map(|(carrier, worth)| value(carrier, *worth)).collect(),
+        TableFormat::Human => human(shown, fitting, carriers.len() - open),
+    })?;
+    if open > 0 {
+        terminal.aside(&format!("stopped: {open} of {} were not looked at", carriers.len()))?;
+    }
+    if failed > 0 {
+        bail!("the solver failed its own check on {failed} parts");
+    }
+    Ok(if found.is_empty() { Status::Wrong } else { Status::Done })
+}
+
+/// Set by the first Ctrl-C, after which what is known is printed; the second one ends the program.
+fn interruption() -> Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&flag))?;
+    signal_hook::flag::register(SIGINT, Arc::clone(&flag))?;
+    Ok(flag)
+}
+
+/// Those that can carry the devices, in the order asked for.
+fn sorted<'a>(
+    carriers: &'a [(Carrier, String)],
+    answers: &[Fit],
+    args: &PartsArgs,
+) -> Vec<(&'a Carrier, Worth)> {
+    let fitting = carriers.iter().zip(answers).filter_map(|((carrier, _), fit)| match fit {
+        Fit::Wired(worth) => Some((carrier, *worth)),
+        Fit::Not | Fit::Failed | Fit::Open => None,
+    });
+    let mut found: Vec<(&Carrier, Worth)> = fitting.collect();
+    found.sort_by_key(|(carrier, worth)| {
+        let contacts = carrier.contacts.unwrap_or(u32::MAX);
+        let first = match args.sort {
+            PartsOrder::Cost => 0,
+            PartsOrder::Pins => contacts,
+        };
+        (first, *worth, contacts, carrier.package.clone(), carrier.name.clone())
+    });
+    found
+}
+
+/// All carriers, with the key under which their wirings are equal.
+fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
+    let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
+    let of_part = |part: Part| {
+        let name = part.name();
+        let covered = profile::covered_by(target, &name).unwrap_or_default();
+        let key = format!("{covered}\n{}", Sheet::of(part).key());
+        let package = part.package().map(str::to_owned);
+        let carrier = Carrier {
+            mcu: name.clone(),
+            name,
+            package,
+            contacts: part.contacts(),
+            is_board: false,
+            has_profile: !covered.is_empty(),
+        };
+        (carrier, key)
+    };
+    let of_board = |entry: &catalog::Entry| {
+        let found = sensedsl_parts::find(entry.mcu);
+        let package = found.as_ref().and_then(sensedsl_parts::Found::package).map(str::to_owned);
+        let contacts = found.and_then(|found| found.parts.first()?.contacts());
+        let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
+        let (family, wanted) = (upper(&args.family), upper(&args.package));
+        let suits =
+            fits(entry.mcu, package.as_deref(), contacts, family.as_deref(), wanted.as_deref())
+                && args.max_pins.is_none_or(|most| contacts.is_some_and(|pins| pins <= most));
+        let carrier = Carrier {
+            name: entry.name.to_owned(),
+            mcu: entry.mcu.to_owned(),
+            package,
+            contacts,
+            is_board: true,
+            has_profile: profile::covered_by(target, entry.mcu).is_some(),
+        };
+        suits.then(|| (carrier, format!("board {}", entry.name)))
+    };
+    let boards = catalog::all().iter().filter_map(of_board);
+    parts(args).map(of_part).chain(boards).collect()
+}
+
+/// What is asked of every carrier.
+struct Question<'a> {
+    request: &'a Request<'a>,
+    disk: &'a Disk,
+    cancel: Cancel<'a>,
+}
+
+/// The answers in the carriers' order: equal ones are asked once, all cores ask. Where people look,
+/// carriers are shown as they are found.
+fn solve_all(
+    question: &Question<'_>,
+    carriers: &[(Carrier, String)],
+    args: &PartsArgs,
+    terminal: &Terminal,
+) -> Vec<Fit> {
+    let mut alike: BTreeMap<&str, Vec<&Carrier>> = BTreeMap::new();
+    for (carrier, key) in carriers {
+        alike.entry(key).or_default().push(carrier);
+    }
+    let questions: Vec<(&str, Vec<&Carrier>)> = alike.into_iter().collect();
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let is_shown = args.format == TableFormat::Human && terminal.is_watched();
+    let shown = Mutex::new(());
+    let work = || {
+        let mut answers: Vec<(&str, Fit)> = Vec::new();
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some((key, carriers)) = questions.get(at) else { return answers };
+            let Some(first) = carriers.first() else { continue };
+            let fit = question.ask(&first.name);
+            answers.push((key, fit));
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            // One line at a time; a thread that panicked while it wrote has left none half.
+            let _turn = shown.lock();
+            if let (Fit::Wired(worth), true) = (fit, is_shown) {
+                terminal.progress("parts", questions.len(), questions.len());
+                carriers.iter().for_each(|carrier| terminal.passing(&line(carrier, worth)));
+            }
+            terminal.progress("parts", done, questions.len());
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let answers: BTreeMap<&str, Fit> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        // A worker that panicked leaves its parts unanswered, which counts as failed.
+        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
+    });
+    terminal.progress("parts", questions.len(), questions.len());
+    let answer = |(_, key): &(Carrier, String)| answers.get(key.as_str()).copied();
+    carriers.iter().map(|carrier| answer(carrier).unwrap_or(Fit::Failed)).collect()
+}
+
+impl Question<'_> {
+    fn ask(&self, board: &str) -> Fit {
+        if self.cancel.is_over() {
+            return Fit::Open;
+        }
+        let resolved = resolve(&Request { board: Some(board), ..*self.request }, self.disk);
+        let Some(design) = &resolved.design else { return Fit::Not };
+        match Wiring::within(design, None, self.cancel).solve_only(false) {
+            // The best so far need not be the best.
+            Solved::Wired(wiring) if wiring.bound.is_some() => Fit::Open,
+            Solved::Wired(wiring) => {
+                let Assignment { violated, shared, cost, .. } = *wiring;
+                Fit::Wired(Worth { violated, shared, cost })
+            }
+            Solved::Infeasible(_) => Fit::Not,
+            // The best wiring leaves the converters without a stream: nothing to build, and no fault.
+            Solved::Failed(why) if why.code.info() == &e0506_hardware_limit::INFO => Fit::Not,
+            Solved::Failed(why) if why.code.info() == &e0404_out_of_time::INFO => Fit::Open,
+            Solved::Failed(_) => Fit::Failed,
+        }
+    }
+}
+
+/// What the target knows of a carrier: its drivers, or only which pins there are.
+const fn known(carrier: &Carrier) -> &'static str {
+    if carrier.has_profile { "drivers" } else { "pins only" }
+}
+
+/// A carrier as it is shown when it is found.
+fn line(carrier: &Carrier, worth: Worth) -> String {
+    let board = if carrier.is_board { carrier.name.as_str() } else { "" };
+    let package = carrier.package.as_deref().unwrap_or("-");
+    let Worth { cost, .. } = worth;
+    let text =
+        format!("{cost:>6}  {:<18}  {package:<10}  {:<9}  {board}", carrier.mcu, known(carrier));
+    text.trim_end().to_owned()
+}
+
+/// The carriers that are shown, and how many of those looked at can carry the devices.
+fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
+    let row = |(carrier, worth): &(&Carrier, Worth)| {
+        let board = if carrier.is_board { carrier.name.as_str() } else { "" };
+        let package = carrier.package.clone().unwrap_or_else(|| "-".to_owned());
+        let known = known(carrier).to_owned();
+        [worth.cost.to_string(), carrier.mcu.clone(), package, known, board.to_owned()]
+    };
+    let rows: Vec<[String; 5]> = shown.iter().map(row).collect();
+    let heads =
+        [("Cost", true), ("Part", false), ("Package", false), ("Known", false), ("Board", false)];
+    let cut = match shown.len() {
+        all if all == fitting => String::new(),
+        some => format!("; the first {some} are shown"),
+    };
+    let table = table(heads, &rows);
+    format!("{table}\n{fitting} of {asked} parts and boards can carry the devices{cut}\n")
+}
+
+/// A line of JSON.
+fn value(carrier: &Carrier, worth: Worth) -> String {
+    let mut value = json!({
+        "part": carrier.mcu,
+        "package": carrier.package,
+        "board": carrier.is_board.then_some(&carrier.name),
+        "status": "optimal",
+        "cost": worth.cost,
+        "profile": carrier.has_profile,
+    });
+    let beside = [("violated", worth.violated), ("shared", worth.shared)];
+    for (name, number) in beside.into_iter().filter(|(_, number)| *number > 0) {
+        if let Some(object) = value.as_object_mut() {
+            object.insert(name.to_owned(), json!(number));
+        }
+    }
+    format!("{value}\n")
+}
