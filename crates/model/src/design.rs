@@ -11,6 +11,7 @@ use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 use crate::kind::{Kind, Role};
 use crate::pins::PinRef;
+use crate::volts::{shown_mv, shown_ohm};
 
 /// Index into [`Design::boards`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -194,6 +195,14 @@ pub struct Level {
 }
 
 impl Level {
+    /// For people: `12.6 V, 33 kOhm to the pin, 10 kOhm to ground: 2.931 V`; none without resistors.
+    #[must_use]
+    pub fn divided(&self) -> Option<String> {
+        let [upper, lower] = self.divider?.map(shown_ohm);
+        let (level, left) = (shown_mv(self.mv), shown_mv(self.at_pin_mv()));
+        Some(format!("{level}, {upper} to the pin, {lower} to ground: {left}"))
+    }
+
     /// What arrives at the pin, in millivolts, rounded up.
     #[must_use]
     pub fn at_pin_mv(&self) -> u32 {

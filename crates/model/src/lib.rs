@@ -20,6 +20,8 @@ mod sources;
 mod syntax_errors;
 mod table_findings;
 
+pub mod volts;
+
 pub use drivers::LIBRARY;
 pub use files::{Files, Unread, Wanted, What, stays_inside};
 pub use resolve::{Request, Resolved, resolve, sort};

@@ -16,12 +16,13 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, Level, Spanned, WishFor};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
+use sensedsl_model::volts::{shown_mv, shown_ohm};
 
 use crate::alternatives::timers::{ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
-use crate::levels::{Stands, divider, is_driven_by_device, shown_mv, shown_ohm, stands, supply_mv};
+use crate::levels::{Stands, divider, is_driven_by_device, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.

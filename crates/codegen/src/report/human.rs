@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
-use super::rows::{Row, rows};
+use super::rows::{Row, dividers, rows};
 
 /// How parts of the table are set off; empty strings where there is no colour.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,6 +51,9 @@ pub fn human(design: &Design, assignment: &Assignment, colour: bool) -> String {
         for SharedPin { pin, with } in &on.shared {
             let Some(pin) = board.table.pins.get(*pin) else { continue };
             let _ = writeln!(out, "  {} is shared with {}", pin.name, visible(with));
+        }
+        for (device, divided) in dividers(design, on) {
+            let _ = writeln!(out, "  {device}: {divided}");
         }
         if assignment.used(design).count() > 1 {
             let _ = writeln!(out, "  opportunity cost of this board: {}", on.cost);

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
-use super::rows::rows;
+use super::rows::{dividers, rows};
 
 /// A table for each board, and the totals.
 #[must_use]
@@ -36,6 +36,9 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
         for SharedPin { pin, with } in &on.shared {
             let Some(pin) = board.table.pins.get(*pin) else { continue };
             let _ = write!(out, "\n{} is shared with {}.\n", cell(pin.name.as_str()), cell(with));
+        }
+        for (device, divided) in dividers(design, on) {
+            let _ = write!(out, "\n{}: {divided}.\n", cell(device));
         }
         let _ = write!(out, "\nOpportunity cost of this board: {}.\n", on.cost);
     }

@@ -1,7 +1,7 @@
 //! A wiring as rows: one wire each, ready to be printed.
 
 use sensedsl_model::design::{Board, Design};
-use sensedsl_wiring::assignment::{Assignment, Wire};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
 
 /// One wire.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,6 +54,17 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
         }
     }
     rows
+}
+
+/// The devices of a board that have resistors between them and their pins, and which.
+pub(super) fn dividers<'a>(
+    design: &'a Design,
+    on: &'a BoardAssignment,
+) -> impl Iterator<Item = (&'a str, String)> {
+    on.devices.iter().filter_map(|wiring| {
+        let device = design.device(wiring.device)?;
+        Some((device.name.value.as_str(), device.level.as_ref()?.divided()?))
+    })
 }
 
 fn row(
