@@ -66,7 +66,7 @@ fn a_delay_that_cannot_be_kept_is_refused_with_the_shortest_that_can() {
     // 1027 bytes of 9 clocks and three conditions at 100 kHz are 92.5 ms, and their values take the processor 0.6 ms.
     assert_eq!(
         shortest("i2c; address = 0x20; register = 0; length = 1024;", "uint8[1024]", 10),
-        93
+        94
     );
 }
 

@@ -1,6 +1,6 @@
 //! One board: its table, its MCU, its target, its link, its rules.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, NoProfile, Target, TargetProfile};
@@ -36,8 +36,8 @@ pub(crate) struct Context<'a> {
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
     /// The tables that were completed, each with its MCU.
-    pub(crate) completed: BTreeSet<(FileId, Option<String>)>,
-    /// The tables that were read from files.
+    pub(crate) completed: BTreeMap<(FileId, Option<String>), Table>,
+    /// The tables that were read, by their files.
     pub(crate) tables: BTreeMap<FileId, Table>,
     pub(crate) left: Left,
 }
@@ -155,7 +155,8 @@ fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     let shown = format!("boards/{}/pins.csv", entry.name);
     let file = context.sources.find(&shown);
     let file = file.unwrap_or_else(|| context.sources.add(shown, entry.csv()));
-    Some(Pins { table: entry.table(), file, entry: Some(entry) })
+    let table = context.tables.entry(file).or_insert_with(|| entry.table()).clone();
+    Some(Pins { table, file, entry: Some(entry) })
 }
 
 /// The pins of a bare MCU.
@@ -173,7 +174,9 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     let shown = format!("parts/{}.csv", found.mcu);
     let file = context.sources.find(&shown);
     let file = file.unwrap_or_else(|| context.sources.add(shown, found.csv()));
-    let table = table::load(context.sources.text(file)).board;
+    let sources = &context.sources;
+    let read = || table::load(sources.text(file)).board;
+    let table = context.tables.entry(file).or_insert_with(read).clone();
     Some(Pins { table, file, entry: None })
 }
 
@@ -212,13 +215,13 @@ fn completed(
         table.mcu = like.map(|entry| entry.mcu.to_owned());
     }
     let mcu = table.mcu.clone();
-    // A table that two boards share is complained about once.
-    let is_new = context.completed.insert((pins.file, mcu.clone()));
-    let mut say = |diagnostic: Diagnostic| {
-        if is_new {
-            context.diagnostics.push(diagnostic);
-        }
-    };
+    // A table that boards share is completed, and complained about, once.
+    let key = (pins.file, mcu.clone());
+    if let Some(known) = context.completed.get(&key) {
+        pins.table.clone_from(known);
+        return pins;
+    }
+    let mut say = |diagnostic: Diagnostic| context.diagnostics.push(diagnostic);
     match sensedsl_parts::complete(table) {
         Completion::Own => {}
         Completion::Unknown if table.pins.is_empty() => {}
@@ -236,6 +239,7 @@ fn completed(
             }
         }
     }
+    context.completed.insert(key, pins.table.clone());
     pins
 }
 

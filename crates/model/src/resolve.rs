@@ -115,7 +115,7 @@ fn read_boards(
         files,
         sources,
         diagnostics,
-        completed: BTreeSet::new(),
+        completed: BTreeMap::new(),
         tables: BTreeMap::new(),
         left: Left::default(),
     };

@@ -158,7 +158,7 @@ impl Writer {
 
 fn link(draw: &mut Draw<'_>, manner: Manner) -> String {
     let mut text = "    link {".to_owned();
-    let transport = draw.word(&["uart", "usb", ""]);
+    let transport = draw.word(manner.some(&["uart", "usb", "", "none"], 3));
     if !transport.is_empty() {
         text.push_str(&format!(" transport = {transport};"));
     }
@@ -173,6 +173,9 @@ fn link(draw: &mut Draw<'_>, manner: Manner) -> String {
     if is_serial && draw.chance(96) {
         let rates = ["9600", "1200", "10000000", "1"];
         text.push_str(&format!(" baud = {};", draw.word(manner.some(&rates, 3))));
+    }
+    if draw.chance(24) && (transport == "usb" || manner == Manner::Odd) {
+        text.push_str(&format!(" vbus = {};", draw.word(&["false", "true"])));
     }
     if draw.chance(64) {
         text.push_str(&format!(

@@ -20,9 +20,9 @@ use crate::reached::{Stage, count};
 
 /// Questions of the search after which it is told to stop: the bound is a count and no time, so
 /// that an input does the same everywhere.
-const STEPS_MAX: u32 = 2_000;
+const STEPS_MAX: u32 = 20_000;
 /// The same where a certificate is wanted: each step of its search is a long one.
-const STEPS_PROOF_MAX: u32 = 800;
+const STEPS_PROOF_MAX: u32 = 4_000;
 
 /// What is done with an input besides the plain way; each costs as much as that.
 #[derive(Clone, Copy, Debug)]

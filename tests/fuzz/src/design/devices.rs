@@ -1,6 +1,6 @@
 //! Choices in, a device or a driver out.
 
-use super::words::{COMMON, COMMON_PLAIN, KINDS, Kind, PINS, Property, WITH_FIRMWARE};
+use super::words::{COMMON, COMMON_PLAIN, KINDS, Kind, PINS, PRINTED, Property, WITH_FIRMWARE};
 use super::{Manner, Writer, wish};
 use crate::draw::Draw;
 
@@ -24,7 +24,9 @@ impl Writer {
         let number = self.devices;
         self.devices += 1;
         let name = if name.is_empty() { format!("D{number}") } else { name.to_owned() };
-        let value = if self.wrong(draw) { "string" } else { draw.word(kind.types) };
+        // What a bus brings has the length of the value.
+        let types = if kind.name == "i2c" { self.manner.some(kind.types, 1) } else { kind.types };
+        let value = if self.wrong(draw) { "string" } else { draw.word(types) };
         let head = if is_sensor { "sensor" } else { "actuator" };
         let verb = if is_sensor { "returns" } else { "accepts" };
         let mut text = format!("{indent}{head} {name} {verb} {value} {{\n");
@@ -35,9 +37,10 @@ impl Writer {
         line(format!("id = {id};"));
         line(format!("type = {};", kind.name));
         self.properties(draw, kind, &mut line);
-        if draw.chance(32) {
+        if draw.chance(16) {
             let role = draw.word(self.manner.some(kind.roles, 1));
-            line(format!("{role} = {};", draw.word(PINS)));
+            let pins = if is_odd && draw.chance(64) { PRINTED } else { PINS };
+            line(format!("{role} = {};", draw.word(pins)));
         }
         if draw.chance(48) {
             line(wish(draw).trim().to_owned());

@@ -73,7 +73,7 @@ pub(super) const KINDS: &[Kind] = &[
             ("trigger", BYTES, BAD_BYTES),
             ("wait", &["0", "65 ms", "1 s"], &["-1", "61 s"]),
             ("register", &["0", "2", "255"], &["256", "[1]"]),
-            ("length", &["2", "6", "1", "32", "2048"], &["0", "2049"]),
+            ("length", &["2"], &["0", "2049", "6", "1", "32", "2048"]),
             ("order", &["big", "little"], &["middle"]),
         ],
         roles: &["scl", "sda"],
@@ -191,6 +191,9 @@ pub(super) const COMMON: &[Property] = &[
     ("min", &["0", "-5"], &["a"]),
     ("max", &["100", "1e9"], &["b"]),
     // From here on a plain design has none.
+    ("level", &["3.3 V", "5 V", "5000 mV", "12.6"], &["5 kHz", "0"]),
+    ("divider", &["[10 kOhm, 20 kOhm]", "[0.82 kOhm, 1000]"], &["[1 kOhm]", "[1 V, 2]"]),
+    ("group", &["ultrasonic", "none", "x"], &["1"]),
     ("unit", UNITS, &["ADC99", "PA1", "5"]),
     ("side", &["left", "right", "bottom"], &["3"]),
     ("header", &["P1", "P2", "CN7"], &["\"\""]),
@@ -208,6 +211,9 @@ pub(super) const PINS: &[&str] = &[
     "PA1", "PA2", "PA3", "PB0", "PB1", "PB6", "PB7", "PB8", "PB9", "PB10", "PB11", "PC1", "PC2",
     "PC4", "PC5", "PD12", "PE9", "PA0", "PA13", "PC14", "GP4", "D3", "PZ99",
 ];
+
+/// Names that boards have printed, and parts on them.
+pub(super) const PRINTED: &[&str] = &["LED", "D13", "A0", "\"CN7.3\"", "\"\""];
 
 /// Built-in boards and parts: those with firmware and few pins first.
 pub(super) const BOARDS: &[&str] = &[
