@@ -23,6 +23,8 @@ pub struct Alternative {
     pub signal: String,
     /// Usages of the pin.
     pub usages: u32,
+    /// What else is on it.
+    pub shared_with: Option<String>,
     /// The best that is possible with this wire; none when nothing is.
     pub best: Option<Objective>,
     /// True for the pin of the wiring.
@@ -57,6 +59,7 @@ pub(crate) fn why(
                 pin: row.name.to_string(),
                 signal: signal.map_or_else(|| "GPIO".into(), |usage| usage.spelled.clone()),
                 usages: row.cost(),
+                shared_with: offer.shared_with(pin).map(str::to_owned),
                 best,
                 chosen: is_chosen(wiring, device, role, (offer.board, board), (pin, usage)),
             });

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
-use sensedsl_diagnostics::{Code, nearest, render};
+use sensedsl_diagnostics::{Code, nearest, render, visible};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Alternative, Cancel, Search, Solved, Wiring};
@@ -82,6 +82,7 @@ fn value(one: &Alternative) -> Value {
         "chosen": one.chosen,
         "violated": one.best.map(|best| best.violated),
         "shared": one.best.map(|best| best.shared),
+        "shared_with": one.shared_with,
         "cost": one.best.map(|best| best.cost),
     })
 }
@@ -95,7 +96,10 @@ fn human(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> 
         }
         Some(best) if best.violated < wiring.violated => "better".to_owned(),
         Some(best) if best.shared > wiring.shared => match best.shared - wiring.shared {
-            1 => "one more shared pin".to_owned(),
+            1 => match &one.shared_with {
+                Some(with) => format!("shared with {}", visible(with)),
+                None => "one more shared pin".to_owned(),
+            },
             more => format!("{more} more shared pins"),
         },
         Some(best) if best.shared < wiring.shared => "better".to_owned(),
