@@ -37,8 +37,10 @@ pub(crate) struct Context<'a> {
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
     /// The tables that were completed, each with its MCU.
     pub(crate) completed: BTreeMap<(FileId, Option<String>), Table>,
-    /// The tables that were read, by their files.
+    /// The tables that were read from files.
     pub(crate) tables: BTreeMap<FileId, Table>,
+    /// The built-in tables that were read.
+    pub(crate) built_in: BTreeMap<FileId, Table>,
     pub(crate) left: Left,
 }
 
@@ -155,7 +157,7 @@ fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     let shown = format!("boards/{}/pins.csv", entry.name);
     let file = context.sources.find(&shown);
     let file = file.unwrap_or_else(|| context.sources.add(shown, entry.csv()));
-    let table = context.tables.entry(file).or_insert_with(|| entry.table()).clone();
+    let table = context.built_in.entry(file).or_insert_with(|| entry.table()).clone();
     Some(Pins { table, file, entry: Some(entry) })
 }
 
@@ -176,7 +178,7 @@ fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
     let file = file.unwrap_or_else(|| context.sources.add(shown, found.csv()));
     let sources = &context.sources;
     let read = || table::load(sources.text(file)).board;
-    let table = context.tables.entry(file).or_insert_with(read).clone();
+    let table = context.built_in.entry(file).or_insert_with(read).clone();
     Some(Pins { table, file, entry: None })
 }
 

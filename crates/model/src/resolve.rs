@@ -117,6 +117,7 @@ fn read_boards(
         diagnostics,
         completed: BTreeMap::new(),
         tables: BTreeMap::new(),
+        built_in: BTreeMap::new(),
         left: Left::default(),
     };
     let read = |(file, node): &(FileId, _)| boards::read(&mut context, *file, node);
