@@ -370,7 +370,7 @@ mod tests {
         assert_eq!(scanned(text), Ok((2, 0)));
         assert_eq!(scanned("<a><b><c x='1'/>"), Ok((3, 2)));
         assert_eq!(scanned("<c r='XFD1048576'/><f ref='A1:XFD1048576'/>"), Ok((2, 0)));
-        // No sheet, or none that is read as one: what stands there is no place of a cell.
+        // Not a worksheet, so its attributes do not name cells.
         assert_eq!(
             scanned("<a ref='B1:A1'/><author r='Somebody'/><cr r='A12345678901'/>"),
             Ok((3, 0))

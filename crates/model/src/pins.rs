@@ -101,7 +101,7 @@ impl Binder<'_> {
     fn wishes(&mut self, wishes: &mut [Wish]) {
         for wish in wishes {
             if let WishFor::Pin(_, pin) = &mut wish.what {
-                // A pin of the MCU that the board has not brought out is no mistake of a wish.
+                // A wish may name a pin of the MCU that the board does not bring out.
                 let must = PinName::parse(&pin.spelled).is_none();
                 self.pin(pin, wish.span, must);
             }

@@ -150,7 +150,7 @@ fn no_wiring(
 
 fn find(proofs: &[Proof], part: Part) -> Result<&Proof, Refuted> {
     let found = proofs.iter().find(|proof| proof.of == part);
-    found.ok_or_else(|| Refuted(format!("there is no proof of {part}")))
+    found.ok_or_else(|| Refuted(format!("there is no proof of `{part}`")))
 }
 
 /// Checks that only boards, pins and peripherals are named that are there.

@@ -99,7 +99,10 @@ fn files_are_told_from_others() {
     let said = compared(&all[..2]).expect("the table may be left out");
     assert!(said.contains("`sensedsl boards B`: not compared"), "{said}");
     let renamed = [("other.sense", "one"), ("common\\robot.sense", "two")];
-    assert!(compared(&renamed).is_ok(), "what is no name of the design stands for its content");
+    assert!(
+        compared(&renamed).is_ok(),
+        "a path that the design does not name is compared by content"
+    );
     for (given, why) in [
         (&[("robot.sense", "one")][..], "also of \"../common/robot.sense\""),
         (&[("x.csv", "pins")], "which is not given"),
@@ -120,7 +123,7 @@ fn shared_pins_come_before_the_cost() {
     let told = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
     let why = verified(&shared).expect_err("PA1 is shared");
     assert!(why.starts_with("the wiring has moved 0, violated 0, shared 1, cost 3"), "{why}");
-    assert_eq!(verified(&told), Err("there is no proof of shared".into()));
+    assert_eq!(verified(&told), Err("there is no proof of `shared`".into()));
     let nowhere = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA4\"]");
     assert_eq!(verified(&nowhere), Err("there is no pin \"PA4\"".into()));
 }
@@ -163,7 +166,7 @@ fn what_is_not_proved_is_refused() {
         (TWO_OF_THREE, "{\"pin\": {\"PA1\": 2}}", "{\"pin\": {\"PA1\": 1}}", "does not show"),
         (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 0", "scale"),
         (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 2", "does not show"),
-        (TWO_OF_THREE, "\"of\": \"cost\"", "\"of\": \"violated\"", "no proof of cost"),
+        (TWO_OF_THREE, "\"of\": \"cost\"", "\"of\": \"violated\"", "no proof of `cost`"),
         (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 0, \"spares\": 0", "no weight"),
         (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 1, \"spares\": 1", "later parts"),
         (TWO_OF_THREE, "\"board\": \"B\"", "\"board\": \"C\"", "no board"),

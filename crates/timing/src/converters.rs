@@ -1,7 +1,6 @@
 //! Analog sensors: how long a converter takes for the groups of its threads.
 
 use sensedsl_board::profile::Cycles;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::analog::Analog;
 
 use crate::Context;
@@ -20,18 +19,7 @@ pub fn depth(samples: impl Iterator<Item = u16>) -> u16 {
 pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     let Some(profile) = context.board.profile() else { return Vec::new() };
     let hz = converter_hz(context);
-    let of = |wired: &crate::Wired<'_>| match &wired.device.kind {
-        Kind::Analog(analog) => Some(analog.clone()),
-        Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    };
+    let of = |wired: &crate::Wired<'_>| wired.device.kind.analog().cloned();
     let mut rows = Vec::new();
     let (mut unit_rows, mut own_ns, mut last) = (Vec::new(), Vec::new(), None);
     let classes = context.classes(of);

@@ -61,34 +61,13 @@ fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {
     let frames = schema.frame_bytes_max(Direction::Sensor) as u64
         + FRAMES_TO_BOARD * schema.frame_bytes_max(Direction::Actuator) as u64;
     let largest = values.clone().max().unwrap_or(0);
-    let groups = context.classes(|wired| match &wired.device.kind {
-        Kind::Analog(analog) => Some(analog.samples),
-        Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    });
+    let groups = context.classes(|wired| Some(wired.device.kind.analog()?.samples));
     let samples = groups.values().map(|sensors| {
         let rows = u64::from(depth(sensors.iter().map(|(_, samples)| *samples)));
         rows * sensors.len() as u64 * SAMPLE_BYTES
     });
-    let classes = context.classes(|wired| match &wired.device.kind {
-        Kind::I2c(i2c) => Some(u64::from(i2c.length_bytes) + 1 + largest),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    });
+    let classes = context
+        .classes(|wired| Some(u64::from(wired.device.kind.i2c()?.length_bytes) + 1 + largest));
     let work =
         classes.values().map(|devices| devices.iter().map(|(_, bytes)| *bytes).max().unwrap_or(0));
     let threads = (groups.len() + classes.len() + 1) as u64;

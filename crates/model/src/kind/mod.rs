@@ -296,6 +296,18 @@ impl fmt::Display for KindName {
 }
 
 impl Kind {
+    /// What an analog device has of its own.
+    #[must_use]
+    pub const fn analog(&self) -> Option<&analog::Analog> {
+        if let Self::Analog(analog) = self { Some(analog) } else { None }
+    }
+
+    /// What an I2C device has of its own.
+    #[must_use]
+    pub const fn i2c(&self) -> Option<&i2c::I2c> {
+        if let Self::I2c(i2c) = self { Some(i2c) } else { None }
+    }
+
     /// Its name.
     #[must_use]
     pub const fn name(&self) -> KindName {
