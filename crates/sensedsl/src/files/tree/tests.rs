@@ -20,7 +20,10 @@ impl Scratch {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let own = format!("sensedsl-tree-{}-{number}", std::process::id());
-        let path = std::env::temp_dir().join(own);
+        // Thousands of folders are made and removed: where there is a folder in memory, in it.
+        let memory = PathBuf::from("/dev/shm");
+        let base = if memory.is_dir() { memory } else { std::env::temp_dir() };
+        let path = base.join(own);
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
