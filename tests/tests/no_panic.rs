@@ -301,7 +301,7 @@ fn panics(numbers: impl Iterator<Item = u64>, seeds: &[Input]) -> String {
 #[test]
 fn mutated_examples_and_tables() {
     let mutations: u64 = std::env::var("SENSEDSL_MUTATIONS")
-        .map_or(if is_thorough() { 20_000 } else { 2_000 }, |number| {
+        .map_or(if is_thorough() { 20_000 } else { 600 }, |number| {
             number.parse().expect("SENSEDSL_MUTATIONS is a number")
         });
     let seeds = seeds();

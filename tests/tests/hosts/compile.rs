@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use sensedsl_codegen::host::{HOSTS, HostPlan};
-use sensedsl_tests::is_thorough;
+use sensedsl_tests::few;
 
 use super::{designs, files, tools};
 
@@ -26,14 +26,13 @@ pub(crate) fn compile(compiler: &str, standard: &str, folder: &Path, system_incl
 
 #[test]
 fn cpp() {
-    for compiler in &["g++", "clang++"][..if is_thorough() { 2 } else { 1 }] {
+    for compiler in few(&["g++", "clang++"], 1) {
         if !tools::have(compiler) {
             continue;
         }
         for (name, boards) in designs::all() {
             let folder = files::generate("cpp", &format!("{name}-{compiler}"), &boards);
-            let standards = ["c++17", "c++20"];
-            for standard in &standards[..if is_thorough() { 2 } else { 1 }] {
+            for standard in few(&["c++17", "c++20"], 1) {
                 compile(compiler, standard, &folder, &[]);
             }
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use sensedsl_tests::{Scratch, has, text, tree};
+use sensedsl_tests::{Scratch, few, has, text, tree};
 
 use super::corpus::{OWNED, generate, words_design};
 
@@ -111,11 +111,9 @@ fn a_file_of_any_name_is_a_design() {
     if !has("cmake") || !has("g++") {
         return;
     }
-    for (number, name) in
-        [FOLDER, FOLDER_OF_CMAKE, "a;b", "\"q\" \\n", "-rf", "class", "7up", "\u{202e}gnp", "ä 机"]
-            .into_iter()
-            .enumerate()
-    {
+    let names =
+        [FOLDER_OF_CMAKE, "-rf", "\u{202e}gnp", FOLDER, "a;b", "\"q\" \\n", "class", "7up", "ä 机"];
+    for (number, name) in few(&names, 3).iter().enumerate() {
         let scratch = Scratch::new(&format!("named{number}"));
         let source = scratch.write(&format!("{name}.sense"), words_design());
         let output = scratch.join("out");

@@ -1,7 +1,6 @@
 //! Requests on bare parts, pins alone: the solver's cost is that of a search written apart from it,
 //! over the table of the part. One contact carries one pin, a pin one signal, a bus has one unit, a
 //! peripheral of an STM32F1 one remap block.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,6 +1,5 @@
 //! Requests on parts of all families that there are ChibiOS profiles for: what their drivers can do
 //! and what they cannot.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 use std::collections::BTreeMap;
 

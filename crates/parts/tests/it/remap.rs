@@ -1,5 +1,4 @@
 //! Remap blocks of STM32F1: all signals of one peripheral that are in use are in one of them.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,12 +1,5 @@
 //! Pins that an MCU needs for itself are never given to a device, whatever the part or the board, and
 //! pins that something else is on only where no others are left.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    clippy::disallowed_methods,
-    reason = "a test may panic, and asks the environment how much is wanted"
-)]
 
 use std::collections::{BTreeMap, BTreeSet};
 

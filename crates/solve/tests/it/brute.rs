@@ -1,14 +1,12 @@
 //! Random small problems against the oracle: objective, exact answer, order, count, conflicts.
 
-mod support;
-
+use crate::support::brute::{self, Found};
 use proptest::prelude::*;
 use sensedsl_solve::problem::{
     Alternative, Board, BoardId, Candidate, Claim, Device, DmaRequest, DmaUser, DmaUserId, Holder,
     Pin, PinId, Problem, ResourceId, Role, RuleId, SignalId, StreamId,
 };
 use sensedsl_solve::{Cancel, Options, Outcome, check, count, enumerate, solve};
-use support::brute::{self, Found};
 
 const RESOURCES: u32 = 6;
 const RULES: u32 = 3;

@@ -1,9 +1,7 @@
 //! The paper's table: counts, costs, answers and conflicts that were found by enumeration.
 
-mod support;
-
+use crate::support::board::{Builder, Kind, TABLE_1, Target};
 use sensedsl_solve::{Cancel, Optimality, Options, Outcome, check, count, enumerate, solve};
-use support::board::{Builder, Kind, TABLE_1, Target};
 
 fn build(target: Target, analog: u32, i2c: u32, icu: u32) -> Builder {
     let mut builder = Builder::new(target, &[(TABLE_1, false)]);

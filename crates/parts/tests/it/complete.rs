@@ -1,5 +1,4 @@
 //! Tables without usages: what they get from their MCU, and what is said where they get none.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::{catalog, table};

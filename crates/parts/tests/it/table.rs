@@ -1,5 +1,4 @@
 //! The shipped table: what is in it, and what names lead to.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use std::collections::BTreeSet;
 
