@@ -474,7 +474,7 @@ class Board:
         elif at == 0x28:
             tim["psc"] = value
         elif at == 0x2C:
-            tim["arr"] = value
+            tim["arr"] = value & (0xFFFFFFFF if tim["name"] in ("TIM2", "TIM5") else 0xFFFF)
         elif at == 0x14:
             tim["zero"] = self.now
         elif at == 0xC:
@@ -518,7 +518,14 @@ class Board:
         tim["sr"] |= 2
         self.tim_raise(tim)
         self.at(period // 4, self.width, tim)
+        # The edge has set the counter to zero, and the next one does it again.
+        for number in range(1, (period - 1) // ((tim["arr"] + 1) * self.tick(tim)) + 1):
+            self.at(number * (tim["arr"] + 1) * self.tick(tim), self.overflowed, tim)
         self.at(period, self.edge, tim)
+
+    def overflowed(self, tim):
+        tim["sr"] |= 1
+        self.tim_raise(tim)
 
     def width(self, tim):
         tim["ccr"][1] = tim["ccr"][0] // 4

@@ -55,8 +55,8 @@ def figures(computed, found):
     yield link["name"], "busy", link["busy_ns_a_second"] / 1e9, busy.get("link", 0)
     for row in computed["rows"]:
         if row["part"] == "irq" and row["a_second"]:
-            irq = next(cc for name, _, _, cc in TIMERS.values() if name == row["name"])
-            yield row["name"], "interrupts", row["a_second"], counts.get(f"irq {irq}", 0)
+            vectors = next({up, cc} for name, _, up, cc in TIMERS.values() if name == row["name"])
+            yield row["name"], "interrupts", row["a_second"], sum(counts.get(f"irq {irq}", 0) for irq in vectors)
     wanted = sum(row["a_second"] for row in computed["rows"] if row["part"] == "thread")
     yield "processor", "instructions", wanted, instructions
 

@@ -17,13 +17,13 @@ pub(crate) fn interrupts(device: &Device) -> Option<u64> {
     let edges = edges(device, icu)?;
     let both = icu.mode == Mode::Count && icu.edge == Edge::Both;
     let has_width = both || matches!(icu.mode, Mode::Width | Mode::Duty);
-    let overflows = match icu.mode {
-        Mode::Count => 0,
-        Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty => {
-            u64::from(icu.tick_hz.div_ceil(COUNTER))
-        }
-    };
-    Some(edges * (1 + u64::from(has_width)) + overflows)
+    let captures = edges * (1 + u64::from(has_width));
+    if icu.mode == Mode::Count {
+        return Some(captures);
+    }
+    // Each edge sets the counter to zero; without any it only overflows.
+    let between = u64::from(icu.tick_hz) / (edges.max(1) * u64::from(COUNTER));
+    Some((captures + edges * between).max(u64::from(icu.tick_hz.div_ceil(COUNTER))))
 }
 
 /// Active edges a second.
