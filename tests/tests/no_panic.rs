@@ -11,9 +11,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
 use sensedsl_codegen::host::HOSTS;
-use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::render;
 use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
+use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_tests::{Random, files, is_thorough, read, root};
 use sensedsl_wiring::{Search, Solved, Wiring};
 

@@ -5,6 +5,5 @@ pub mod firmware;
 pub mod host;
 mod print;
 mod project;
-pub mod report;
 
 pub use project::project;

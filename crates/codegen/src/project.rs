@@ -6,12 +6,12 @@ use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_diagnostics::{Diagnostic, render};
 use sensedsl_model::design::{Design, DeviceIndex};
 use sensedsl_model::kind::Kind;
+use sensedsl_report::{json, markdown, schema, svg};
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
 use crate::firmware::chibios;
 use crate::host::{Host, HostBoard, HostPlan, Presentation};
-use crate::report::{json, markdown, schema, svg};
 
 /// All files: the answer, the schema, the wiring sheet, the picture, firmware for each board and
 /// the host applications `hosts`. `name` is what people call the design: what its file is called.

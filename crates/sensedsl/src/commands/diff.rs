@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use anyhow::Result;
-use sensedsl_codegen::report::json::wired;
 use sensedsl_diagnostics::render;
 use sensedsl_model::What;
+use sensedsl_report::json::wired;
 use sensedsl_wiring::{Cancel, Search, Solved};
 use serde_json::{Value, json};
 

@@ -5,7 +5,6 @@ use std::path::Path;
 use anyhow::Result;
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::{HOSTS, Host, find};
-use sensedsl_codegen::report::human;
 use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
     e0509_not_written, e0510_unfinished,
@@ -13,6 +12,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Span, visible};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
+use sensedsl_report::human;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Search, Solved};
 

@@ -47,7 +47,7 @@ pub(crate) fn keep(path: Option<&Path>) -> Result<Option<Keep>> {
 
 /// The earlier answer in a text.
 pub(crate) fn keep_in(path: &Path, text: &str) -> Result<Keep, Refused> {
-    let keep = sensedsl_codegen::report::json::keep(&answer_in(path, text)?);
+    let keep = sensedsl_report::json::keep(&answer_in(path, text)?);
     keep.ok_or_else(|| not_an_answer(path, "boards, devices or wires are missing"))
 }
 

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, ensure};
-use sensedsl_codegen::report::{csv, human, json, markdown, svg};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
 use sensedsl_diagnostics::{SourceMap, render, visible_json};
 use sensedsl_model::What;
 use sensedsl_model::design::Design;
+use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 

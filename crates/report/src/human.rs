@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
-use super::rows::{Row, dividers, rows};
+use crate::rows::{Row, dividers, rows};
 
 /// How parts of the table are set off; empty strings where there is no colour.
 #[derive(Clone, Copy, Debug, Default)]

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
-use super::rows::{dividers, rows};
+use crate::rows::{dividers, rows};
 
 /// A table for each board, and the totals.
 #[must_use]

@@ -13,7 +13,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
-use super::rows::{Row, rows};
+use crate::rows::{Row, rows};
 
 const ROW_HEIGHT: usize = 22;
 const HEAD_HEIGHT: usize = 64;

@@ -4,7 +4,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 
-use super::rows::{Row, rows};
+use crate::rows::{Row, rows};
 
 const HEAD: [&str; 11] = [
     "Board",
