@@ -123,15 +123,9 @@ fn joinable_pins_are_pins_of_a_bus() {
     }
 }
 
-/// What Fig. 2 asks for. The timers of the AVR parts have no capture input, so a turning wheel is a
-/// servo there; the segments of one board's display leave too few pins.
+/// What Fig. 2 asks for. The segments of one board's display leave too few pins.
 fn fig2_on(entry: &Entry) -> String {
     let rule = if entry.name == "STM32L-DISCOVERY" { "release LCD;" } else { "" };
-    let wheel = if entry.mcu.starts_with("ATMEGA") {
-        "actuator Wheel accepts uint16 { id = 20; type = pwm; }"
-    } else {
-        "sensor Wheel returns uint32 { id = 20; type = icu; }"
-    };
     format!(
         "board Fig2 on {} {{
             {rule}
@@ -140,7 +134,7 @@ fn fig2_on(entry: &Entry) -> String {
             sensor Rear returns uint16 {{
                 id = 19; type = i2c; driver = srf08; address = 0x73; delay = 70; prio = 2;
             }}
-            {wheel}
+            sensor Wheel returns uint32 {{ id = 20; type = icu; }}
         }}",
         entry.name.replace('-', "_")
     )
@@ -264,7 +258,7 @@ fn drivers_without_templates_are_told() {
 #[test]
 fn the_printed_table_is_whole() {
     let scratch = Scratch::new("printed");
-    for name in ["NUCLEO-F411RE", "RASPBERRYPI-PICO", "STM32F407G-DISC1"] {
+    for name in ["NUCLEO-F411RE", "RASPBERRYPI-PICO", "ARDUINO-NANO", "STM32F407G-DISC1"] {
         let printed = sensedsl(["boards", name]).run().exits(0).stdout;
         let table = scratch.write("printed.csv", &printed).display().to_string();
         let file = fig2_on(catalog::find(name).unwrap());

@@ -28,7 +28,9 @@ macro_rules! board {
 
 #[rustfmt::skip]
 pub(crate) const BOARDS: &[Entry] = &[
+    board!("ARDUINO-LEONARDO", &["LEONARDO"], "ATMEGA32U4-AU", "Arduino Leonardo, the pins of its connectors"),
     board!("ARDUINO-MEGA-2560", &["ARDUINO-MEGA", "MEGA-2560"], "ATMEGA2560-16AU", "Arduino Mega 2560, the pins of its connectors"),
+    board!("ARDUINO-NANO", &["NANO-V3"], "ATMEGA328P-AU", "Arduino Nano, the pins of its edges"),
     board!("ARDUINO-UNO-R3", &["ARDUINO-UNO", "UNO-R3"], "ATMEGA328P-PU", "Arduino Uno R3, the pins of its connectors"),
     board!("B-G474E-DPOW1", &["ST_STM32G474RE_DISCOVERY_DPOW1"], "STM32G474RET6", "B-G474E-DPOW1, Discovery kit, all pins of its MCU"),
     board!("BLACKPILL-F401CC", &["WEACT-F401CC"], "STM32F401CCU6", "Black Pill F401CC, all pins of its MCU"),

@@ -30,19 +30,19 @@ pub enum Function {
     },
     /// `I2C1_SCL`.
     I2c {
-        /// The unit's number.
-        unit: u8,
+        /// `I2C1`; `TWI` where the data sheet calls it so.
+        unit: UnitName,
         /// Which wire of the bus.
         line: I2cLine,
     },
-    /// `TIM1_CH2`, `TIM1_CH2N`.
+    /// `TIM1_CH2`, `TIM1_CH2N`; `PWM4_A` of RP2040; `OC1A` and `ICP1` of AVR.
     Timer {
-        /// The timer's number.
-        timer: u8,
-        /// The channel's number, from 1.
+        /// `TIM1`, `PWM4`, `TC1`.
+        unit: UnitName,
+        /// The channel's number, from 1; A is 1.
         channel: u8,
-        /// The inverted output of the channel (`CH2N`).
-        complementary: bool,
+        /// What the pin is to the channel.
+        line: TimerLine,
     },
     /// `USART1_TX`.
     Uart {
@@ -53,8 +53,8 @@ pub enum Function {
     },
     /// `SPI1_SCK`.
     Spi {
-        /// The unit's number.
-        unit: u8,
+        /// `SPI1`; `SPI` where the MCU has but one.
+        unit: UnitName,
         /// Which wire of the bus.
         line: SpiLine,
     },
@@ -83,6 +83,33 @@ pub enum I2cLine {
     Scl,
     /// Data.
     Sda,
+}
+
+/// What a pin is to a timer's channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TimerLine {
+    /// Output and capture input.
+    Both,
+    /// Output alone: `OC1A`.
+    Output,
+    /// The inverted output: `TIM1_CH2N`.
+    Inverted,
+    /// Capture input alone: `ICP1`.
+    Input,
+}
+
+impl TimerLine {
+    /// Whether edges can be captured there.
+    #[must_use]
+    pub const fn is_input(self) -> bool {
+        matches!(self, Self::Both | Self::Input)
+    }
+
+    /// Whether pulses come out there as they are meant.
+    #[must_use]
+    pub const fn is_output(self) -> bool {
+        matches!(self, Self::Both | Self::Output)
+    }
 }
 
 /// A wire of a serial port, seen from the MCU.
@@ -217,11 +244,12 @@ impl Function {
         let numbered = |stem: &str, number: u8| UnitName(format!("{stem}{number}"));
         match self {
             Self::Adc { units, .. } => units.iter().map(|&n| numbered("ADC", n)).collect(),
-            Self::I2c { unit, .. } => vec![numbered("I2C", *unit)],
-            Self::Timer { timer, .. } => vec![numbered("TIM", *timer)],
-            Self::Spi { unit, .. } => vec![numbered("SPI", *unit)],
             Self::Dac { unit, .. } => vec![numbered("DAC", *unit)],
-            Self::Uart { unit, .. } | Self::Can { unit, .. } => vec![unit.clone()],
+            Self::I2c { unit, .. }
+            | Self::Timer { unit, .. }
+            | Self::Spi { unit, .. }
+            | Self::Uart { unit, .. }
+            | Self::Can { unit, .. } => vec![unit.clone()],
             Self::Other => Vec::new(),
         }
     }
@@ -267,6 +295,20 @@ mod tests {
             ("I3C1_SCL", "I3C1_SCL"),
             ("QSPI1_NSS", "QSPI1_NSS"),
             ("SPINDLE", "SPINDLE"),
+            ("pwm4-a", "PWM4_A"),
+            ("PWM4 B", "PWM4_B"),
+            ("PWM1", "PWM1"),
+            ("oc1a", "OC1A"),
+            ("OC4AN", "OC4AN"),
+            ("ICP1", "ICP1"),
+            ("OC", "OC"),
+            ("TWI_SCL", "TWI_SCL"),
+            ("twi1-sda", "TWI1_SDA"),
+            ("SPI_SCK", "SPI_SCK"),
+            ("SPI_SS", "SPI_NSS"),
+            ("SPI0_RX", "SPI0_MISO"),
+            ("SPI0_TX", "SPI0_MOSI"),
+            ("SPI1_CSn", "SPI1_NSS"),
             ("tacho", "TACHO"),
         ] {
             assert_eq!(read(spelled), expected, "{spelled}");
@@ -286,6 +328,7 @@ mod tests {
             ("I2C1-SLC", "?I2C1_SCL"),
             ("I2C1SDA", "?I2C1_SDA"),
             ("I2C_SDA", "?I2C1_SDA"),
+            ("TWI0SDA", "?TWI0_SDA"),
             ("USRAT1_TX", "?USART1_TX"),
             ("SPI1_SKC", "?SPI1_SCK"),
             ("SPI1_QUUX", "?"),
@@ -309,14 +352,23 @@ mod tests {
         assert_eq!(units("FDCAN2_RX"), ["FDCAN2"]);
         assert_eq!(units("nothing"), Vec::<String>::new());
         let (signal, _) = Signal::parse("TIM8_CH2N");
-        let expected = Function::Timer { timer: 8, channel: 2, complementary: true };
-        assert_eq!(signal.function(), &expected);
+        let timer = |unit, channel, line| Function::Timer { unit: UnitName::new(unit), channel, line };
+        assert_eq!(signal.function(), &timer("TIM8", 2, TimerLine::Inverted));
+        for (spelled, expected) in [
+            ("TIM8_CH2", timer("TIM8", 2, TimerLine::Both)),
+            ("PWM11_B", timer("PWM11", 2, TimerLine::Both)),
+            ("OC1C", timer("TC1", 3, TimerLine::Output)),
+            ("OC4DN", timer("TC4", 4, TimerLine::Inverted)),
+            ("ICP5", timer("TC5", 1, TimerLine::Input)),
+        ] {
+            assert_eq!(Signal::parse(spelled).0.function(), &expected, "{spelled}");
+        }
     }
 
     proptest::proptest! {
         /// A canonical name reads as itself, and what was meant is well formed.
         #[test]
-        fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
+        fn reading_is_stable(spelled in "[A-Za-z0-9_²-]{0,12}|(ADC|TIM|I2C|SPI|USART|CAN|PWM|TWI|OC|ICP)[0-9]{0,3}[_-]?[A-Z]{0,4}[0-9]{0,2}") {
             let (signal, malformed) = Signal::parse(&spelled);
             if let Some(nearest) = malformed.clone().and_then(|malformed| malformed.nearest) {
                 proptest::prop_assert_eq!(Signal::parse(&nearest).1, None);

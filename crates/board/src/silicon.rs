@@ -4,7 +4,7 @@
 //! An MCU comes in, the facts of its family go out. All facts are data of `silicon/`; this
 //! module only finds and serves them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 use serde::Deserialize;
@@ -31,9 +31,27 @@ pub struct Silicon {
     /// Pins that it needs for itself.
     #[serde(default)]
     pub pins: Vec<Needed>,
+    /// Pins that are inputs of the converter and nothing else.
+    #[serde(default)]
+    pub analog: Vec<AnalogOnly>,
     /// What its pins stand.
     #[serde(default)]
     pub volts: Vec<Volts>,
+    /// What files may call a unit, and what the data sheet calls it; `#` is a number.
+    #[serde(default)]
+    pub units: BTreeMap<String, String>,
+}
+
+/// Pins of some MCUs of a family that have no digital circuit.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AnalogOnly {
+    /// Starts of the part numbers.
+    pub parts: Vec<String>,
+    /// The pins.
+    pub names: Vec<String>,
+    /// Where it was read.
+    pub source: String,
 }
 
 /// What the pins of some MCUs of a family stand.
@@ -49,6 +67,8 @@ pub struct Volts {
     /// Pins that stand no more than the supply and 0.3 V.
     #[serde(default)]
     pub except: Vec<String>,
+    /// Where it is not known of all others: the pins that stand it.
+    pub only: Option<Vec<String>>,
     /// Where it was read.
     pub source: String,
 }
@@ -136,6 +156,15 @@ pub fn pin_roles(mcu: &str) -> BTreeMap<PinName, PinRole> {
     of_part.flat_map(pins).collect()
 }
 
+/// The pins of an MCU that are inputs of the converter and nothing else.
+#[must_use]
+pub fn analog_only(mcu: &str) -> BTreeSet<PinName> {
+    let name = mcu::normalise(mcu);
+    let all = of(mcu).into_iter().flat_map(|silicon| &silicon.analog);
+    let of_part = all.filter(|analog| covers(&analog.parts, &name));
+    of_part.flat_map(|analog| &analog.names).filter_map(|name| PinName::parse(name)).collect()
+}
+
 /// What the pins of an MCU stand: the first entry that has its part.
 #[must_use]
 pub fn volts(mcu: &str) -> Option<&'static Volts> {
@@ -143,12 +172,40 @@ pub fn volts(mcu: &str) -> Option<&'static Volts> {
     of(mcu)?.volts.iter().find(|volts| covers(&volts.parts, &name))
 }
 
+impl Silicon {
+    /// Whether two names mean one unit: the same, or one that the family is known by and another
+    /// that files may use.
+    #[must_use]
+    pub fn same_unit(&self, one: &str, other: &str) -> bool {
+        one == other
+            || self.units.iter().any(|(used, own)| {
+                let means = |a: &str, b: &str| renamed(a, used, own).is_some_and(|name| name == b);
+                means(one, other) || means(other, one)
+            })
+    }
+}
+
+/// The name that a pattern turns into another, `TIM4` by `TIM#` into `PWM4` by `PWM#`.
+fn renamed(name: &str, from: &str, to: &str) -> Option<String> {
+    let Some(stem) = from.strip_suffix('#') else {
+        return (name == from).then(|| to.to_owned());
+    };
+    let number = name.strip_prefix(stem)?;
+    let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    is_number.then(|| to.replace('#', number))
+}
+
 impl Volts {
     /// What a pin stands as an input, in millivolts; none where that is not known.
     #[must_use]
     pub fn stands_mv(&self, pin: &PinName) -> Option<u32> {
-        let except = self.except.iter().any(|name| PinName::parse(name).as_ref() == Some(pin));
-        self.stands_mv.map(|mv| if except { self.supply_mv + 300 } else { mv })
+        let has = |names: &[String]| {
+            names.iter().any(|name| PinName::parse(name).as_ref() == Some(pin))
+        };
+        if has(&self.except) {
+            return Some(self.supply_mv + 300);
+        }
+        self.stands_mv.filter(|_| self.only.as_ref().is_none_or(|only| has(only)))
     }
 }
 
@@ -186,9 +243,18 @@ mod tests {
             for ability in [silicon.timers.capture, silicon.timers.encoder].iter().flatten() {
                 assert!(!ability.because.is_empty() && !ability.source.is_empty());
             }
+            for analog in &silicon.analog {
+                assert!(!analog.parts.is_empty() && !analog.source.is_empty(), "{analog:?}");
+                assert!(analog.names.iter().all(|name| PinName::parse(name).is_some()));
+            }
+            for (used, own) in &silicon.units {
+                assert_eq!(used.ends_with('#'), own.ends_with('#'), "{used}");
+            }
             for volts in &silicon.volts {
                 assert!(!volts.parts.is_empty() && !volts.source.is_empty(), "{volts:?}");
-                assert!(volts.except.iter().all(|name| PinName::parse(name).is_some()));
+                let only = volts.only.iter().flatten();
+                let mut named = volts.except.iter().chain(only);
+                assert!(named.all(|name| PinName::parse(name).is_some()), "{volts:?}");
             }
             for needed in &silicon.pins {
                 assert!(!needed.parts.is_empty() && !needed.source.is_empty(), "{needed:?}");
@@ -206,9 +272,28 @@ mod tests {
         let capture = |mcu| Some(of(mcu)?.timers.capture.as_ref()?.channels.as_slice());
         assert!(encoder("rp2040").is_some_and(|ability| ability.channels.is_empty()));
         assert_eq!(capture("RP2350B"), Some(&[2][..]));
-        assert_eq!(capture("ATmega328P-PU"), Some(&[][..]));
+        assert_eq!(capture("ATmega328P-PU"), Some(&[1][..]));
         assert_eq!(encoder("STM32F407VGT6"), None);
         assert_eq!(of("MSP430G2553"), None);
+    }
+
+    #[test]
+    fn units_have_the_names_of_the_data_sheet_and_those_of_files() {
+        let same = |mcu, one, other| of(mcu).is_some_and(|silicon| silicon.same_unit(one, other));
+        assert!(same("RP2040", "TIM4", "PWM4") && same("RP2350A", "PWM11", "TIM11"));
+        assert!(same("RP2040", "I2C0", "I2C0"));
+        assert!(!same("RP2040", "TIM4", "PWM5") && !same("RP2040", "TIM", "PWM"));
+        assert!(same("ATMEGA328P-PU", "TIM1", "TC1") && same("ATMEGA2560", "TIMER5", "TC5"));
+        assert!(same("ATMEGA328P-PU", "I2C0", "TWI") && same("ATMEGA328P-PU", "SPI0", "SPI"));
+        assert!(same("ATMEGA328PB-AU", "I2C1", "TWI1"));
+        assert!(!same("STM32F407VGT6", "TIM4", "PWM4"));
+    }
+
+    #[test]
+    fn analog_pads_have_no_digital_circuit() {
+        let pads = |mcu| analog_only(mcu).into_iter().map(|pin| pin.to_string()).collect::<Vec<_>>();
+        assert_eq!(pads("ATMEGA328P-AU"), ["ADC6", "ADC7"]);
+        assert_eq!(pads("ATMEGA2560-16AU"), [""; 0]);
     }
 
     #[test]
@@ -220,9 +305,46 @@ mod tests {
         assert_eq!(stands("RP2040", "GP2"), Some(3_600));
         assert_eq!(stands("RP2350A", "GP2"), Some(5_500));
         assert_eq!(stands("ATMEGA328P-PU", "PB0"), Some(5_500));
-        assert_eq!(stands("STM32G474RET6", "PB4"), None);
-        assert_eq!(volts("STM32G474RET6").map(|volts| volts.supply_mv), Some(3_300));
+        assert_eq!(stands("STM32G071RBT6", "PB4"), None);
+        assert_eq!(volts("STM32G071RBT6").map(|volts| volts.supply_mv), Some(3_300));
         assert_eq!(volts("MSP430G2553"), None);
+    }
+
+    /// One pin of each sort, as the data sheets' tables have it: FT, TT or TC, and not known.
+    #[test]
+    fn pins_of_stm32_families_stand_what_the_data_sheets_say() {
+        let stands = |mcu, pin| volts(mcu)?.stands_mv(&PinName::parse(pin)?);
+        let sorts = [
+            ("STM32F030R8T6", "PA8 PB10 PC6 PF0", "PA0 PB1 PC5 PC13", ""),
+            ("STM32F072RBT6", "PA15 PB2", "PA7 PC0 PC15", ""),
+            ("STM32F042K6T6", "", "", "PA8 PA0"),
+            ("STM32F103ZET6", "PF5 PF11 PG0", "PF6 PF10 PB5 PD1", ""),
+            ("STM32F207ZGT6", "PA6 PF0", "PA4 PA5", ""),
+            ("STM32F303VCT6", "PA8 PB9 PD0 PE0", "PA4 PB10 PD8 PE7 PC13", "PF11"),
+            ("STM32F429ZIT6", "PA0 PB5", "PA4 PA5", ""),
+            ("STM32F446RET6", "PC0", "PA5", ""),
+            ("STM32F412ZGT6", "", "", "PA0 PC6"),
+            ("STM32F746ZGT6", "PA0 PI1", "PA4", ""),
+            ("STM32F723ZET6", "", "", "PB14"),
+            ("STM32G474RET6", "PC6 PB9 PA11", "PA0 PB10 PB15", "PA2 PA8 PB4 PD2"),
+            ("STM32G431KBT6", "", "", "PB9"),
+            ("STM32H743ZIT6", "PB6 PD0", "PA4 PA7 PC4 PE7", "PD12"),
+            ("STM32H523RET6", "PC0 PB6", "PA4 PA5", "PB13 PE0"),
+            ("STM32L476RGT6", "PA0 PC3 PB8", "PA3 PA4 PA5 PB0", ""),
+            ("STM32L496ZGT6", "PG7", "PB0", ""),
+            ("STM32L432KCT6", "", "", "PA0"),
+            ("STM32U5A5ZJT6Q", "PA0 PC6", "PA3 PA11 PB0", "PB15"),
+            ("STM32WB55RGV6", "", "", "PA0"),
+        ];
+        for (mcu, tolerant, not, unknown) in sorts {
+            for (pins, expected) in
+                [(tolerant, Some(5_500)), (not, Some(3_600)), (unknown, None)]
+            {
+                for pin in pins.split_whitespace() {
+                    assert_eq!(stands(mcu, pin), expected, "{pin} of {mcu}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -53,7 +53,7 @@ fn timers_of_the_f407() {
             .timers
             .iter()
             .filter(|timer| has(timer))
-            .filter_map(profile::Timer::number)
+            .filter_map(|timer| timer.name.strip_prefix("TIM")?.parse().ok())
             .collect()
     };
     assert_eq!(numbers(&|timer| timer.icu.is_some()), [1, 2, 3, 4, 5, 8, 9, 12]);
@@ -61,8 +61,8 @@ fn timers_of_the_f407() {
     assert_eq!(numbers(&|timer| timer.bits == 32), [2, 5]);
     assert_eq!(numbers(&|timer| timer.clock == "STM32_TIMCLK2"), [1, 8, 9, 10, 11]);
     assert_eq!(numbers(&|timer| timer.pwm.is_some()), [1, 2, 3, 4, 5, 8, 9, 10, 11, 12, 13, 14]);
-    assert_eq!(profile.timer(3).unwrap().icu.as_ref().unwrap().channels, [1, 2]);
-    assert_eq!(profile.timer(6), None);
+    assert_eq!(profile.timer("TIM3").unwrap().icu.as_ref().unwrap().channels, [1, 2]);
+    assert_eq!(profile.timer("TIM6"), None);
     assert_eq!(profile.kernel.timers, ["TIM2", "TIM5"]);
     assert_eq!(profile.kernel.fallback, Some(Fallback::Systick));
 }

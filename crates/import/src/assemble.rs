@@ -61,8 +61,8 @@ impl Row {
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
-    ("I2C", &["I2C", "FMPI2C"]),
-    ("TIM", &["TIM", "LPTIM", "HRTIM"]),
+    ("I2C", &["I2C", "FMPI2C", "TWI"]),
+    ("TIM", &["TIM", "LPTIM", "HRTIM", "PWM"]),
     ("UART", &["USART", "UART", "LPUART"]),
     ("SPI", &["SPI"]),
     ("I2S", &["I2S"]),

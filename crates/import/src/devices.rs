@@ -104,20 +104,20 @@ impl<'a> Maker<'a, '_> {
 
     fn timer(&mut self, wire: &'a Wire, spelled: &str, mode: TimerMode) {
         let (signal, _) = Signal::parse(spelled);
-        let Function::Timer { timer, channel, complementary } = *signal.function() else { return };
-        let unit = format!("unit = TIM{timer};");
+        let Function::Timer { unit: timer, channel, line } = signal.function() else { return };
+        let unit = format!("unit = {timer};");
         let what = match mode {
-            TimerMode::Capture if !complementary && channel <= 2 => {
+            TimerMode::Capture if line.is_input() && *channel <= 2 => {
                 let properties = vec!["type = icu;".into(), unit];
                 return self.single(wire, "Capture", ("sensor", "uint32"), properties);
             }
-            TimerMode::Output if !complementary => {
+            TimerMode::Output if line.is_output() => {
                 let properties = vec!["type = pwm;".into(), unit];
                 return self.single(wire, "Pwm", ("actuator", "uint16"), properties);
             }
-            TimerMode::Encoder if !complementary && channel <= 2 => {
-                let role = if channel == 1 { "a" } else { "b" };
-                self.units.entry(format!("TIM{timer}")).or_default().insert(role, wire);
+            TimerMode::Encoder if line.is_input() && *channel <= 2 => {
+                let role = if *channel == 1 { "a" } else { "b" };
+                self.units.entry(timer.to_string()).or_default().insert(role, wire);
                 return;
             }
             TimerMode::Unknown => "the project does not say whether it is an input or an output",
@@ -141,7 +141,7 @@ impl<'a> Maker<'a, '_> {
                 self.single(wire, "Dac", ("actuator", "uint16"), vec!["type = dac;".into()]);
             }
             Function::I2c { unit, line } => of_unit(
-                format!("I2C{unit}"),
+                unit.to_string(),
                 match line {
                     I2cLine::Scl => "scl",
                     I2cLine::Sda => "sda",
@@ -162,7 +162,7 @@ impl<'a> Maker<'a, '_> {
                 },
             ),
             Function::Spi { unit, line } => of_unit(
-                format!("SPI{unit}"),
+                unit.to_string(),
                 match line {
                     SpiLine::Sck => "sck",
                     SpiLine::Miso => "miso",

@@ -88,6 +88,12 @@ impl Board {
         self.mcu.as_deref().and_then(silicon::of)
     }
 
+    /// Whether a name in a file means that peripheral instance of the board's MCU.
+    #[must_use]
+    pub fn same_unit(&self, written: &str, unit: &str) -> bool {
+        written == unit || self.silicon().is_some_and(|silicon| silicon.same_unit(written, unit))
+    }
+
     /// The place of a range of its table.
     #[must_use]
     pub fn table_span(&self, range: std::ops::Range<usize>) -> Span {

@@ -1,7 +1,7 @@
 //! RP2040 and RP2350: their function tables are regular, so they are rules.
 //!
-//! The numbers are those of the chips' data sheets, section "GPIO functions". Channel A of PWM slice
-//! n is `TIMn_CH1`, channel B `TIMn_CH2`.
+//! Names and numbers are those of the chips' data sheets, section "GPIO functions", with `_` where
+//! these have a space: `PWM4 A` is `PWM4_A`.
 
 /// A chip.
 #[derive(Debug, PartialEq, Eq)]
@@ -44,10 +44,10 @@ impl Chip {
             usages.push((format!("ADC1_IN{}", pin - self.first_analog), None));
         }
         let mut push = |name: String, function: u8| usages.push((name, Some(function)));
-        push(format!("SPI{spi}_{}", of(["MISO", "NSS", "SCK", "MOSI"])), 1);
+        push(format!("SPI{spi}_{}", of(["RX", "CSn", "SCK", "TX"])), 1);
         push(format!("UART{uart}_{}", of(["TX", "RX", "CTS", "RTS"])), 2);
         push(format!("I2C{i2c}_{}", if pin.is_multiple_of(2) { "SDA" } else { "SCL" }), 3);
-        push(format!("TIM{slice}_CH{}", 1 + pin % 2), 4);
+        push(format!("PWM{slice}_{}", if pin.is_multiple_of(2) { "A" } else { "B" }), 4);
         for pio in 0..self.pio {
             push(format!("PIO{pio}"), 6 + pio);
         }
@@ -71,14 +71,14 @@ mod tests {
     /// Rows of the data sheets' tables.
     #[test]
     fn rows_of_the_data_sheets() {
-        assert_eq!(line(0, 0), "SPI0_MISO UART0_TX I2C0_SDA TIM0_CH1");
-        assert_eq!(line(0, 5), "SPI0_NSS UART1_RX I2C0_SCL TIM2_CH2");
-        assert_eq!(line(0, 8), "SPI1_MISO UART1_TX I2C0_SDA TIM4_CH1");
-        assert_eq!(line(0, 12), "SPI1_MISO UART0_TX I2C0_SDA TIM6_CH1");
-        assert_eq!(line(0, 23), "SPI0_MOSI UART1_RTS I2C1_SCL TIM3_CH2");
-        assert_eq!(line(0, 29), "ADC1_IN3 SPI1_NSS UART0_RX I2C0_SCL TIM6_CH2");
-        assert_eq!(line(1, 2), "SPI0_SCK UART0_CTS I2C1_SDA TIM1_CH1 UART0_TX");
-        assert_eq!(line(2, 40), "ADC1_IN0 SPI1_MISO UART1_TX I2C0_SDA TIM8_CH1");
-        assert_eq!(line(2, 47), "ADC1_IN7 SPI1_MOSI UART0_RTS I2C1_SCL TIM11_CH2 UART0_RX");
+        assert_eq!(line(0, 0), "SPI0_RX UART0_TX I2C0_SDA PWM0_A");
+        assert_eq!(line(0, 5), "SPI0_CSn UART1_RX I2C0_SCL PWM2_B");
+        assert_eq!(line(0, 8), "SPI1_RX UART1_TX I2C0_SDA PWM4_A");
+        assert_eq!(line(0, 12), "SPI1_RX UART0_TX I2C0_SDA PWM6_A");
+        assert_eq!(line(0, 23), "SPI0_TX UART1_RTS I2C1_SCL PWM3_B");
+        assert_eq!(line(0, 29), "ADC1_IN3 SPI1_CSn UART0_RX I2C0_SCL PWM6_B");
+        assert_eq!(line(1, 2), "SPI0_SCK UART0_CTS I2C1_SDA PWM1_A UART0_TX");
+        assert_eq!(line(2, 40), "ADC1_IN0 SPI1_RX UART1_TX I2C0_SDA PWM8_A");
+        assert_eq!(line(2, 47), "ADC1_IN7 SPI1_TX UART0_RTS I2C1_SCL PWM11_B UART0_RX");
     }
 }

@@ -15,8 +15,8 @@ pub type Usage = (String, Option<u8>);
 const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
-    ("I2C", &["I2C"]),
-    ("TIM", &["TIM"]),
+    ("I2C", &["I2C", "TWI"]),
+    ("TIM", &["TIM", "PWM", "OC0", "OC1", "OC2", "OC3", "OC4", "OC5", "ICP"]),
     ("UART", &["USART", "UART", "LPUART"]),
     ("SPI", &["SPI"]),
     ("I2S", &["I2S"]),

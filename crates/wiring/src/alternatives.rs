@@ -127,5 +127,5 @@ impl Maker<'_, '_> {
 
 /// Whether the instance is neither reserved nor another one than the fixed one.
 fn unit_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, unit: &str) -> bool {
-    wanted.unit.is_none_or(|fixed| fixed == unit) && !offer.unit_reserved(unit)
+    wanted.unit.is_none_or(|fixed| offer.same_unit(fixed, unit)) && !offer.unit_reserved(unit)
 }

@@ -18,7 +18,7 @@ use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_model::volts::{shown_mv, shown_ohm};
 
-use crate::alternatives::timers::{ability, channel};
+use crate::alternatives::timers::{Channel, ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
@@ -59,6 +59,7 @@ fn why_hopeless(
         }) {
             let report = bus_only(design, &offers, device, *role, pin);
             let report = report.or_else(|| by_silicon(design, &offers, device, *role, pin));
+            let report = report.or_else(|| analog_only(design, &offers, device, *role, pin));
             return Some(
                 report.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
             );
@@ -78,6 +79,10 @@ fn why_hopeless(
     }
     let units = units(design, &offers, device);
     let kind = device.kind.name().with_article();
+    if let Some(because) = unit_lacks(&offers, device, &unit.value) {
+        let (name, list) = (&unit.value, units.join(", "));
+        return Some(e0320_silicon_cannot::unit_cannot(unit.span, name, &kind, because, &list));
+    }
     Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units.join(", ")))
 }
 
@@ -193,6 +198,36 @@ fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic>
     Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
 }
 
+/// Why a timer that a board has can do on no pin what the device needs.
+fn unit_lacks(offers: &[&Offer<'_>], device: &Device, unit: &str) -> Option<&'static str> {
+    offers.iter().find_map(|offer| {
+        let ability = ability(offer.board, device.kind.name())?;
+        let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
+        let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
+        let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
+        channels.peek()?;
+        (!channels.any(|one| one.captures(Some(ability)))).then_some(ability.because.as_str())
+    })
+}
+
+/// The report for a fixed pin that no digital signal can be at.
+fn analog_only(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+    pin: &Spanned<PinRef>,
+) -> Option<Diagnostic> {
+    offers.iter().find(|offer| {
+        let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
+        row.is_some_and(|row| offer.is_analog_only(row))
+    })?;
+    let needs = format!("`{role}` of {}", device.kind.name().with_article());
+    let pins = pins_of(design, offers, device, role).join(", ");
+    let (name, because) = (pin.value.shown(), "the pad is an input of the converter alone");
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
+}
+
 /// The report for a fixed pin on a channel that the silicon cannot use so.
 fn by_silicon(
     design: &Design,
@@ -208,7 +243,7 @@ fn by_silicon(
         let ability = ability(offer.board, device.kind.name())?;
         let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
         let mut channels = usages.iter().filter_map(channel);
-        channels.any(|(_, channel)| !ability.channels.contains(&channel)).then_some(ability)
+        channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
     })?;
     let needs = format!("`{role}` of {}", device.kind.name().with_article());
     let pins = pins_of(design, offers, device, role).join(", ");
@@ -418,7 +453,10 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
             .flat_map(|usage| usage.signal.function().units())
             .collect();
         known.extend(units.iter().map(UnitName::as_str));
-        for rule in board.reserved.iter().filter(|rule| !known.contains(rule.value.as_str())) {
+        let is_known = |name: &str| {
+            known.contains(name) || units.iter().any(|unit| board.same_unit(name, unit.as_str()))
+        };
+        for rule in board.reserved.iter().filter(|rule| !is_known(&rule.value)) {
             let text = format!("reserve {}", rule.value);
             let why = "the board has no such pin or peripheral";
             diagnostics.push(w0604_unused_rule::unused_rule(rule.span, &text, why));

@@ -59,7 +59,7 @@ fn classes(design: &Design, board: &Board, wirings: &[DeviceWiring], wishes: boo
         let fixed = device.placement.unit.as_ref().map(|unit| unit.value.as_str());
         let mut units = units(board, wiring, fixed);
         if wishes {
-            units = wished(units, &device.wishes, &board.wishes);
+            units = wished(board, units, &device.wishes);
         }
         let class = (device.delay_ms, device.prio);
         classes.entry(class).or_default().push((wiring.device, units));
@@ -105,8 +105,8 @@ fn units(board: &Board, wiring: &DeviceWiring, fixed: Option<&str>) -> BTreeSet<
     };
     let serves = |unit: &u8| {
         let name = format!("ADC{unit}");
-        fixed.is_none_or(|fixed| fixed == name)
-            && board.reserved.iter().all(|reserved| reserved.value != name)
+        fixed.is_none_or(|fixed| board.same_unit(fixed, &name))
+            && board.reserved.iter().all(|reserved| !board.same_unit(&reserved.value, &name))
             && board.profile().is_none_or(|profile| {
                 profile.adc(*unit).is_some_and(|adc| adc.inputs.contains(channel))
             })
@@ -115,10 +115,12 @@ fn units(board: &Board, wiring: &DeviceWiring, fixed: Option<&str>) -> BTreeSet<
 }
 
 /// The units that meet most of the wishes for units.
-fn wished(units: BTreeSet<u8>, own: &[Wish], of_board: &[Wish]) -> BTreeSet<u8> {
+fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
     let met = |unit: u8| {
-        let wishes = own.iter().chain(of_board).filter_map(|wish| match &wish.what {
-            WishFor::Unit(wanted) => Some((*wanted == format!("ADC{unit}")) == wish.prefer),
+        let wishes = own.iter().chain(&board.wishes).filter_map(|wish| match &wish.what {
+            WishFor::Unit(wanted) => {
+                Some(board.same_unit(wanted, &format!("ADC{unit}")) == wish.prefer)
+            },
             WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => None,
         });
         wishes.filter(|met| *met).count()

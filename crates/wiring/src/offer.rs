@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
-use sensedsl_board::silicon::{self, PinRole};
+use sensedsl_board::silicon::{self, PinRole, Silicon};
 use sensedsl_board::table::{Occupation, Pin, Role, Usage};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
@@ -68,6 +68,9 @@ impl<'a> Rules<'a> {
 pub(crate) struct Offer<'a> {
     pub(crate) index: BoardIndex,
     pub(crate) board: &'a Board,
+    silicon: Option<&'static Silicon>,
+    /// Pins that are inputs of a converter and nothing else.
+    analog_only: BTreeSet<PinName>,
     rules: Rules<'a>,
     /// For each pin of the table why it is withheld.
     withheld: Vec<Option<Withheld>>,
@@ -99,7 +102,10 @@ impl<'a> Offer<'a> {
         let pads = shared_pads(pins);
         keep_pads_free(pins, &rules, &pads, &mut withheld);
         let shared = pins.iter().map(|pin| shared(board, &rules, &roles, pin)).collect();
-        Self { index, board, rules, withheld, shared, pads, remaps: remaps(pins) }
+        let silicon = board.silicon();
+        let analog_only = board.mcu.as_deref().map(silicon::analog_only).unwrap_or_default();
+        let remaps = remaps(pins);
+        Self { index, board, silicon, analog_only, rules, withheld, shared, pads, remaps }
     }
 
     /// What else is on a pin that devices may use all the same.
@@ -142,9 +148,20 @@ impl<'a> Offer<'a> {
         on_bus && !self.rules.release(pin)
     }
 
+    /// True for a pin that no digital signal can be at.
+    pub(crate) fn is_analog_only(&self, pin: &Pin) -> bool {
+        self.analog_only.contains(&pin.name)
+    }
+
+    /// Whether a name in a file means that peripheral instance of the board.
+    pub(crate) fn same_unit(&self, written: &str, unit: &str) -> bool {
+        written == unit || self.silicon.is_some_and(|silicon| silicon.same_unit(written, unit))
+    }
+
     /// True when a rule keeps the peripheral instance free, or it cannot work beside the link.
     pub(crate) fn unit_reserved(&self, unit: &str) -> bool {
-        self.rules.reserved_units.contains(unit) || self.excluded_by_link(unit)
+        self.rules.reserved_units.iter().any(|rule| self.same_unit(rule, unit))
+            || self.excluded_by_link(unit)
     }
 
     /// True when the MCU's USB device is the link and lets the peripheral instance not work.

@@ -11,6 +11,7 @@ use sensedsl_solve::problem::RuleId;
 
 use crate::alternatives::Wanted;
 use crate::formulate::Builder;
+use crate::offer::Offer;
 
 /// The soft rules for one device.
 pub(crate) struct Rules<'a> {
@@ -48,7 +49,7 @@ impl Rules<'_> {
     /// The rules that one wire on that pin violates.
     pub(crate) fn violated_by(
         &self,
-        board: BoardIndex,
+        offer: &Offer<'_>,
         role: Role,
         pin: &Pin,
         usage: Option<&Usage>,
@@ -61,22 +62,22 @@ impl Rules<'_> {
             WishFor::Pin(Some(of), _) if *of != role => false,
             // One pin for a device of several wires: nothing to prefer, but something to avoid.
             WishFor::Pin(None, _) if wish.prefer && !self.single => false,
-            WishFor::Pin(_, name) => (name.on(board) == Some(&pin.name)) != wish.prefer,
+            WishFor::Pin(_, name) => (name.on(offer.index) == Some(&pin.name)) != wish.prefer,
             WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
             WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
-            WishFor::Unit(unit) => self.wire_violates(usage, channels, unit, wish.prefer),
+            WishFor::Unit(unit) => self.wire_violates(offer, (usage, channels), unit, wish.prefer),
         };
-        self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
+        self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
 
     /// The rules that taking that peripheral instance violates.
-    pub(crate) fn violated_by_unit(&self, board: BoardIndex, unit: Option<&str>) -> Vec<RuleId> {
+    pub(crate) fn violated_by_unit(&self, offer: &Offer<'_>, unit: Option<&str>) -> Vec<RuleId> {
         let Some(unit) = unit else { return Vec::new() };
         let violated = |wish: &Wish| match &wish.what {
-            WishFor::Unit(wanted) => (wanted == unit) != wish.prefer,
+            WishFor::Unit(wanted) => offer.same_unit(wanted, unit) != wish.prefer,
             WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => false,
         };
-        self.on(board).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
+        self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
 
     /// Converters and single channels are not chosen as instances, so the wire itself tells: it
@@ -84,8 +85,8 @@ impl Rules<'_> {
     /// instances that can have it a fixed one alone counts.
     fn wire_violates(
         &self,
-        usage: Option<&Usage>,
-        channels: Channels,
+        offer: &Offer<'_>,
+        (usage, channels): (Option<&Usage>, Channels),
         unit: &str,
         prefer: bool,
     ) -> bool {
@@ -102,9 +103,9 @@ impl Rules<'_> {
             | Function::Can { .. }
             | Function::Other => return false,
         };
-        let counts = |one: &str| self.unit.is_none_or(|fixed| fixed == one);
+        let counts = |one: &str| self.unit.is_none_or(|fixed| offer.same_unit(fixed, one));
         let mut units = units.iter().map(UnitName::as_str).filter(|one| counts(one));
-        if prefer { units.all(|one| one != unit) } else { units.all(|one| one == unit) }
+        units.all(|one| offer.same_unit(unit, one) != prefer)
     }
 }
 

@@ -17,9 +17,20 @@ pub(crate) struct Avr {
     pub(crate) variants: BTreeMap<String, (String, Vec<(String, String)>)>,
 }
 
+/// The parts that Arduino boards and their like have.
+const PARTS: [&str; 7] = [
+    "atmega168",
+    "atmega328p",
+    "atmega328pb",
+    "atmega32u4",
+    "atmega1280",
+    "atmega1284p",
+    "atmega2560",
+];
+
 /// Reads the files of the parts that are wanted.
 pub(crate) fn read(folder: &Path) -> Result<Vec<Avr>> {
-    ["atmega328p", "atmega2560"].iter().map(|name| one(folder, name)).collect()
+    PARTS.iter().map(|name| one(folder, name)).collect()
 }
 
 fn one(folder: &Path, name: &str) -> Result<Avr> {
@@ -37,6 +48,13 @@ fn one(folder: &Path, name: &str) -> Result<Avr> {
             if let Some(usage) = usage(unit, group, index) {
                 usages.insert((usage, None));
             }
+        }
+    }
+    // Inputs of the converter that are no pins of a port stand in the pinouts alone.
+    for pad in nodes("pin").filter_map(|pin| pin.attribute("pad")) {
+        if let Some(input) = pad.strip_prefix("ADC").filter(|input| input.parse::<u8>().is_ok()) {
+            let usage = (format!("ADC1_IN{input}"), None);
+            pins.entry(pad.to_owned()).or_default().insert(usage);
         }
     }
     let places = |pinout: &str| -> Vec<(String, String)> {
@@ -66,24 +84,23 @@ fn one(folder: &Path, name: &str) -> Result<Avr> {
     Ok(Avr { base, pins, variants })
 }
 
-/// The usage in the names of the language. A compare output cannot capture, so outputs A, B and C
-/// of a timer are its channels 3, 4 and 5, which no capture asks for; none for the port itself.
+/// The usage as the data sheets have it, with the unit in front where the signal alone does not tell
+/// it (`TWI_SCL`). None for the port itself, and for the programmer's lines.
 fn usage(unit: &str, group: &str, index: &str) -> Option<String> {
-    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
-    let number = digits(unit);
-    let usage = match (unit.trim_end_matches(|c: char| c.is_ascii_digit()), group) {
+    let number = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
+    let usage = match (unit.strip_suffix(number).unwrap_or(unit), group) {
         (start, _) if start.starts_with("PORT") => return None,
+        ("SPI", "PDI" | "PDO") => return None,
         ("ADC", "ADC") => format!("ADC1_IN{index}"),
-        ("TWI", line) => format!("I2C0_{line}"),
-        ("SPI", "SS") => "SPI0_NSS".to_owned(),
-        ("SPI", line) => format!("SPI0_{line}"),
-        ("USART", "TXD") => format!("USART{number}_TX"),
-        ("USART", "RXD") => format!("USART{number}_RX"),
-        ("USART", _) => format!("USART{number}_CK"),
-        ("TC", "OCA") => format!("TIM{number}_CH3"),
-        ("TC", "OCB") => format!("TIM{number}_CH4"),
-        ("TC", "OCC") => format!("TIM{number}_CH5"),
-        ("TC", line) => format!("{line}{number}"),
+        ("TWI" | "SPI", line) => format!("{unit}_{line}"),
+        ("USART", "TXD") => format!("{unit}_TX"),
+        ("USART", "RXD") => format!("{unit}_RX"),
+        ("USART", "XCK") => format!("{unit}_CK"),
+        ("USART", line) => format!("{unit}_{line}"),
+        ("TC", line) => match line.strip_prefix("_OC").or_else(|| line.strip_prefix("OC")) {
+            Some(output) => format!("OC{number}{output}{}", if line.starts_with('_') { "N" } else { "" }),
+            None => format!("{line}{number}"),
+        },
         (_, line) => format!("{line}{index}"),
     };
     Some(usage)

@@ -7,10 +7,10 @@ use crate::pin::PinName;
 use crate::signal::{Function, Signal};
 
 impl TargetProfile {
-    /// A timer by its number.
+    /// A timer by its name.
     #[must_use]
-    pub fn timer(&self, number: u8) -> Option<&Timer> {
-        self.timers.iter().find(|timer| timer.number() == Some(number))
+    pub fn timer(&self, name: &str) -> Option<&Timer> {
+        self.timers.iter().find(|timer| timer.name == name)
     }
 
     /// A converter by its number.
@@ -19,10 +19,14 @@ impl TargetProfile {
         self.adcs.iter().find(|adc| adc.number() == Some(number))
     }
 
-    /// An I²C, SPI, serial or CAN unit by its name (`CAN` is the only one, `CAN1`).
+    /// An I²C, SPI, serial or CAN unit by its name (`CAN` is the only one, `CAN1`; so is `SPI`).
     #[must_use]
     pub fn unit(&self, name: &str) -> Option<&Unit> {
-        let name = if name == "CAN" { "CAN1" } else { name };
+        let name = match name {
+            "CAN" => "CAN1",
+            "SPI" => "SPI1",
+            name => name,
+        };
         let units = self.i2cs.iter().chain(&self.spis).chain(&self.serials).chain(&self.cans);
         units.into_iter().find(|unit| unit.name == name)
     }
@@ -76,7 +80,7 @@ impl TargetProfile {
             exception.map(|exception| exception.alternate).or(unit.alternate)
         };
         match signal.function() {
-            Function::Timer { timer, .. } => self.timer(*timer)?.alternate,
+            Function::Timer { unit, .. } => self.timer(unit.as_str())?.alternate,
             Function::I2c { .. }
             | Function::Uart { .. }
             | Function::Spi { .. }
@@ -95,7 +99,7 @@ impl TargetProfile {
             Function::Adc { units, channel } => units
                 .iter()
                 .any(|unit| self.adc(*unit).is_some_and(|adc| adc.inputs.contains(channel))),
-            Function::Timer { timer, .. } => self.timer(*timer).is_some(),
+            Function::Timer { unit, .. } => self.timer(unit.as_str()).is_some(),
             Function::Dac { unit, channel } => self.dac_output(*unit, *channel).is_some(),
             Function::I2c { .. }
             | Function::Uart { .. }

@@ -227,14 +227,6 @@ pub struct TimerDriver {
     pub complementary: Vec<u8>,
 }
 
-impl Timer {
-    /// The number in the name.
-    #[must_use]
-    pub fn number(&self) -> Option<u8> {
-        self.name.strip_prefix("TIM")?.parse().ok()
-    }
-}
-
 /// What all converters have in common.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]

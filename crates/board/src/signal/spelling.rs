@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::nearest;
 
-use super::{CanLine, Function, I2cLine, SpiLine, UartLine, UnitName};
+use super::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine, UnitName};
 
 /// Upper case, `²` as 2, and `_` for every other separator.
 pub(super) fn normalise(spelled: &str) -> String {
@@ -25,13 +25,23 @@ pub(super) fn canonical(function: &Function) -> Option<String> {
             let units: String = units.iter().map(u8::to_string).collect();
             Some(format!("ADC{units}_IN{channel}"))
         }
-        Function::Timer { timer, channel, complementary } => {
-            Some(format!("TIM{timer}_CH{channel}{}", if *complementary { "N" } else { "" }))
+        Function::Timer { unit, channel, line } if unit.as_str().starts_with("TIM") => {
+            let inverted = if *line == TimerLine::Inverted { "N" } else { "" };
+            Some(format!("{unit}_CH{channel}{inverted}"))
+        }
+        Function::Spi { unit, line } => {
+            let line = match line {
+                SpiLine::Sck => "SCK",
+                SpiLine::Miso => "MISO",
+                SpiLine::Mosi => "MOSI",
+                SpiLine::Nss => "NSS",
+            };
+            Some(format!("{unit}_{line}"))
         }
         Function::Dac { unit, channel } => Some(format!("DAC{unit}_OUT{channel}")),
         Function::I2c { .. }
+        | Function::Timer { .. }
         | Function::Uart { .. }
-        | Function::Spi { .. }
         | Function::Can { .. }
         | Function::Other => None,
     }
@@ -47,13 +57,14 @@ pub(super) enum Reading {
 
 /// The peripheral families and the lines of each that no device kind uses (a trailing `*` stands
 /// for anything).
-const FAMILIES: [(&str, &[&str]); 10] = [
+const FAMILIES: [(&str, &[&str]); 11] = [
     ("LPUART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("USART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("UART", &["CK", "CTS*", "RTS*", "DE", "NSS"]),
     ("FDCAN", &[]),
     ("ADC", &["INN*", "EXTI*", "VINM*", "VINP*", "PDM*", "PGA*"]),
     ("I2C", &["SMBA*", "WS"]),
+    ("TWI", &[]),
     ("TIM", &["ETR*", "BKIN*"]),
     ("SPI", &["RDY"]),
     ("CAN", &[]),
@@ -64,6 +75,10 @@ const FAMILIES: [(&str, &[&str]); 10] = [
 const NEIGHBOURS: [&str; 9] = ["I2S", "I3C", "SAI", "QSPI", "OSPI", "HSPI", "XSPI", "FSPI", "VSPI"];
 
 pub(super) fn read(name: &str) -> Reading {
+    let others = pwm_slice(name).or_else(|| avr_timer(name)).or_else(|| spi_by_direction(name));
+    if let Some(function) = others {
+        return Reading::Function(function);
+    }
     let Some((stem, number, line)) = split(name) else {
         return if misses_separator(name) { Reading::Malformed } else { Reading::Unused };
     };
@@ -116,17 +131,20 @@ fn function(family: &str, number: &str, line: &str) -> Option<Function> {
     // A number has no sign and no leading zero; `ADC_IN5` and `DAC_OUT1` stand for the only unit.
     let unit = || small(number);
     let only = || if number.is_empty() { Some(1) } else { small(number) };
+    let name = || UnitName(format!("{family}{number}"));
     match family {
         "ADC" => {
             let channel = line.strip_prefix("INP").or_else(|| line.strip_prefix("IN"))?;
             Some(Function::Adc { units: adc_units(number)?, channel: small(channel)? })
         }
-        "I2C" => Some(Function::I2c { unit: unit()?, line: i2c_line(line)? }),
-        "TIM" => timer(unit()?, line),
-        "SPI" => Some(Function::Spi { unit: unit()?, line: spi_line(line)? }),
+        "I2C" => unit().and(Some(Function::I2c { unit: name(), line: i2c_line(line)? })),
+        "TWI" => only().and(Some(Function::I2c { unit: name(), line: i2c_line(line)? })),
+        "TIM" => unit().and(timer(name(), line)),
+        "SPI" => only().and(Some(Function::Spi { unit: name(), line: spi_line(line)? })),
         "DAC" => Some(Function::Dac { unit: only()?, channel: small(line.strip_prefix("OUT")?)? }),
         "USART" | "UART" | "LPUART" => {
-            let unit = UnitName(format!("{family}{}", unit()?));
+            unit()?;
+            let unit = name();
             let line = match line {
                 "TX" => UartLine::Tx,
                 "RX" => UartLine::Rx,
@@ -136,7 +154,7 @@ fn function(family: &str, number: &str, line: &str) -> Option<Function> {
         }
         "CAN" | "FDCAN" => {
             only()?;
-            let unit = UnitName(format!("{family}{number}"));
+            let unit = name();
             let line = match line {
                 "TX" => CanLine::Tx,
                 "RX" => CanLine::Rx,
@@ -167,13 +185,65 @@ fn spi_line(line: &str) -> Option<SpiLine> {
 }
 
 /// `CH2`, `CH2N`, and `CH1_ETR` where the channel shares its pin with the trigger input.
-fn timer(timer: u8, line: &str) -> Option<Function> {
+fn timer(unit: UnitName, line: &str) -> Option<Function> {
     let channel = line.strip_prefix("CH")?;
     let channel = channel.strip_suffix("_ETR").unwrap_or(channel);
     let plain = channel.strip_suffix('N');
-    let complementary = plain.is_some();
+    let line = if plain.is_some() { TimerLine::Inverted } else { TimerLine::Both };
     let channel = small(plain.unwrap_or(channel)).filter(|n| (1..=6).contains(n))?;
-    Some(Function::Timer { timer, channel, complementary })
+    Some(Function::Timer { unit, channel, line })
+}
+
+/// `PWM4_A`: a channel of a slice of RP2040 and RP2350.
+fn pwm_slice(name: &str) -> Option<Function> {
+    let (slice, channel) = name.strip_prefix("PWM")?.split_once('_')?;
+    let channel = match channel {
+        "A" => 1,
+        "B" => 2,
+        _ => return None,
+    };
+    small(slice)?;
+    let unit = UnitName(format!("PWM{slice}"));
+    Some(Function::Timer { unit, channel, line: TimerLine::Both })
+}
+
+/// `SPI0_RX`, `SPI0_TX`, `SPI0_CSn` of RP2040, and `SPI_SS` of AVR. No misspelling is mended to one
+/// of these: too many other peripherals have such lines.
+fn spi_by_direction(name: &str) -> Option<Function> {
+    let (unit, line) = name.split_once('_')?;
+    let number = unit.strip_prefix("SPI")?;
+    let line = match line {
+        "RX" => SpiLine::Miso,
+        "TX" => SpiLine::Mosi,
+        "CSN" | "CS" | "SS" => SpiLine::Nss,
+        _ => return None,
+    };
+    if !number.is_empty() {
+        small(number)?;
+    }
+    Some(Function::Spi { unit: UnitName(unit.to_owned()), line })
+}
+
+/// `OC1A`, `OC4AN` and `ICP1`: what AVRs call the outputs and the capture input of a timer/counter.
+fn avr_timer(name: &str) -> Option<Function> {
+    let (number, channel, line) = if let Some(number) = name.strip_prefix("ICP") {
+        (number, 1, TimerLine::Input)
+    } else {
+        let output = name.strip_prefix("OC")?;
+        let plain = output.strip_suffix('N');
+        let line = if plain.is_some() { TimerLine::Inverted } else { TimerLine::Output };
+        let output = plain.unwrap_or(output);
+        let number = output.strip_suffix(['A', 'B', 'C', 'D'])?;
+        let channel = match output.strip_prefix(number)? {
+            "A" => 1,
+            "B" => 2,
+            "C" => 3,
+            _ => 4,
+        };
+        (number, channel, line)
+    };
+    small(number)?;
+    Some(Function::Timer { unit: UnitName(format!("TC{number}")), channel, line })
 }
 
 /// One digit a unit, ascending; `ADC_IN5` is the only unit's.
@@ -215,7 +285,7 @@ pub(super) fn mend(name: &str) -> Option<String> {
         "ADC" => vec![format!("IN{channel}")],
         "DAC" => vec![format!("OUT{channel}")],
         "TIM" => vec![format!("CH{channel}"), format!("CH{channel}N")],
-        "I2C" => vec!["SCL".to_owned(), "SDA".to_owned()],
+        "I2C" | "TWI" => vec!["SCL".to_owned(), "SDA".to_owned()],
         "SPI" => ["SCK", "MISO", "MOSI", "NSS"].map(str::to_owned).to_vec(),
         _ => vec!["TX".to_owned(), "RX".to_owned()],
     };

@@ -26,6 +26,18 @@ pub fn silicon_cannot(span: Span, device: &str, kind: &str, mcu: &str, because: 
         .help("connect the device in another way, or take another board: `sensedsl parts FILE` lists those that can carry it")
 }
 
+/// A fixed unit that cannot serve, why, and which units can.
+#[must_use]
+pub fn unit_cannot(span: Span, unit: &str, kind: &str, because: &str, units: &str) -> Diagnostic {
+    let message = format!("{unit} cannot serve {kind}: {because}");
+    let diagnostic = Diagnostic::new(CODE, span, message).here("fixed here");
+    if units.is_empty() {
+        diagnostic.help(format!("no unit of the board can serve {kind}"))
+    } else {
+        diagnostic.help(format!("take one of {units}, or remove the line and let the tool choose"))
+    }
+}
+
 /// A fixed pin on a channel that cannot serve, why, and which pins can.
 #[must_use]
 pub fn channel_cannot(span: Span, pin: &str, needs: &str, because: &str, pins: &str) -> Diagnostic {

@@ -49,7 +49,13 @@ const REQUESTS: [(&str, &str, bool); 34] = [
     ("STM32H503EB", "i2c; i2c; uart; analog", true),
     ("RP2040", "uart unit=UART0; uart unit=UART1; i2c unit=I2C0; i2c unit=I2C1; analog", true),
     ("RP2040", "analog; analog; analog; analog; analog", false),
+    ("RP2040", "spi; spi unit=SPI1; icu unit=PWM4; pwm unit=PWM4", true),
     ("ATmega328P", "i2c; spi; uart; pwm; analog", true),
+    ("ATmega328P", "icu", true),
+    ("ATmega328P", "icu; icu", false),
+    ("ATmega2560", "icu; icu; icu; icu; pwm unit=TC1", true),
+    ("ATmega328P", "icu unit=TC2", false),
+    ("ATmega32U4", "icu unit=TC3; icu unit=TC1", true),
     ("ATmega328P", "encoder", false),
 ];
 
@@ -203,31 +209,35 @@ impl Search {
         let (stems, roles): (&[&str], &[(&str, &[&str])]) = match kind {
             "analog" => (&["ADC"], &[("in", &["IN"])]),
             "dac" => (&["DAC"], &[("out", &["OUT1", "OUT2", "OUT3"])]),
-            "i2c" => (&["I2C"], &[("scl", &["SCL"]), ("sda", &["SDA"])]),
+            "i2c" => (&["I2C", "TWI"], &[("scl", &["SCL"]), ("sda", &["SDA"])]),
             "uart" => (&["USART", "UART", "LPUART"], &[("tx", &["TX"]), ("rx", &["RX"])]),
             "can" => (&["CAN", "FDCAN"], &[("tx", &["TX"]), ("rx", &["RX"])]),
             "spi" => (
                 &["SPI"],
                 &[("sck", &["SCK"]), ("miso", &["MISO"]), ("mosi", &["MOSI"]), ("cs", &[])],
             ),
-            "icu" => (&["TIM"], &[("in", &["CH1", "CH2"])]),
-            "pwm" => (&["TIM"], &[("out", &["CH1", "CH2", "CH3", "CH4", "CH5", "CH6"])]),
+            "icu" => (&["TIM", "PWM", "TC"], &[("in", &["CH1", "CH2", "B", "ICP"])]),
+            "pwm" => (
+                &["TIM", "PWM", "TC"],
+                &[("out", &["CH1", "CH2", "CH3", "CH4", "CH5", "CH6", "A", "B", "OCA", "OCB", "OCC"])],
+            ),
             "encoder" => (&["TIM"], &[("a", &["CH1"]), ("b", &["CH2"])]),
             "digital" => (&[""], &[("pin", &[])]),
             _ => panic!("{kind}"),
         };
         let usages = self.pins.iter().flat_map(|pin| &pin.usages);
-        let units: BTreeSet<&str> = usages.map(|(usage, _)| unit(usage)).collect();
-        let of_kind = |name: &&str| {
+        let units: BTreeSet<String> = usages.map(|(usage, _)| unit(usage)).collect();
+        let of_kind = |name: &String| {
             stems.contains(&name.trim_end_matches(|c: char| c.is_ascii_digit()))
-                && fixed.get("unit").is_none_or(|wanted| wanted == name)
+                && fixed.get("unit").is_none_or(|wanted| *wanted == name.as_str())
         };
-        let units: Vec<&str> =
-            if kind == "digital" { vec![""] } else { units.into_iter().filter(of_kind).collect() };
+        let units: Vec<String> =
+            if kind == "digital" { vec![String::new()] } else { units.into_iter().filter(of_kind).collect() };
         let shares = ["i2c", "spi", "can"].contains(&kind);
         let wire = |unit_name: &str, role: &str, lines: &[&str]| {
             let serves = |(usage, _): &&(String, Option<Blocks>)| {
-                let line = usage.split_once('_').map_or("", |(_, line)| line);
+                let line = line(usage);
+                let line = line.as_str();
                 let input = line.strip_prefix("INP").or(line.strip_prefix("IN"));
                 let channel =
                     input.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
@@ -287,9 +297,9 @@ impl Search {
                 continue;
             }
             if let Some(blocks) = blocks {
-                self.remaps.push((unit(signal).to_owned(), *blocks));
+                self.remaps.push((unit(signal), *blocks));
             }
-            if !self.is_in_one_block(unit(signal)) {
+            if !self.is_in_one_block(&unit(signal)) {
                 self.remaps.pop();
                 continue;
             }
@@ -318,7 +328,24 @@ impl Search {
     }
 }
 
-/// `I2C1` of `I2C1_SCL`.
-fn unit(usage: &str) -> &str {
-    usage.split('_').next().unwrap_or(usage)
+/// `I2C1` of `I2C1_SCL`; `TC1` of `OC1A` and `ICP1`.
+fn unit(usage: &str) -> String {
+    let number = |rest: &str| rest.trim_end_matches(|c: char| c.is_ascii_uppercase()).to_owned();
+    match usage.strip_prefix("OC").or_else(|| usage.strip_prefix("ICP")) {
+        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("TC{}", number(rest)),
+        _ => usage.split('_').next().unwrap_or(usage).to_owned(),
+    }
+}
+
+/// `SCL` of `I2C1_SCL`; `OCA` of `OC1A`, `ICP` of `ICP1`; SPI lines as most data sheets name them.
+fn line(usage: &str) -> String {
+    if unit(usage).starts_with("TC") {
+        return usage.chars().filter(|c| !c.is_ascii_digit()).collect();
+    }
+    let line = usage.split_once('_').map_or("", |(_, line)| line);
+    match line {
+        "RX" if usage.starts_with("SPI") => "MISO".to_owned(),
+        "TX" if usage.starts_with("SPI") => "MOSI".to_owned(),
+        _ => line.to_owned(),
+    }
 }

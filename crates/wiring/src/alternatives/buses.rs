@@ -92,9 +92,9 @@ pub(super) enum Sharing {
 /// The instance whose wire the usage is, when it is of the device's kind.
 pub(super) fn wire_unit(usage: &Usage, kind: &Kind) -> Option<String> {
     match (usage.signal.function(), kind) {
-        (Function::I2c { unit, .. }, Kind::I2c(_)) => Some(format!("I2C{unit}")),
-        (Function::Spi { unit, .. }, Kind::Spi(_)) => Some(format!("SPI{unit}")),
-        (Function::Uart { unit, .. }, Kind::Uart(_))
+        (Function::I2c { unit, .. }, Kind::I2c(_))
+        | (Function::Spi { unit, .. }, Kind::Spi(_))
+        | (Function::Uart { unit, .. }, Kind::Uart(_))
         | (Function::Can { unit, .. }, Kind::Can(_)) => Some(unit.to_string()),
         _ => None,
     }
@@ -104,13 +104,11 @@ pub(super) fn wire_unit(usage: &Usage, kind: &Kind) -> Option<String> {
 pub(super) fn is_wire(usage: &Usage, unit: &str, role: Role) -> bool {
     match (usage.signal.function(), role) {
         (Function::I2c { unit: of, line: I2cLine::Scl }, Role::Scl)
-        | (Function::I2c { unit: of, line: I2cLine::Sda }, Role::Sda) => unit == format!("I2C{of}"),
-        (Function::Spi { unit: of, line: SpiLine::Sck }, Role::Sck)
+        | (Function::I2c { unit: of, line: I2cLine::Sda }, Role::Sda)
+        | (Function::Spi { unit: of, line: SpiLine::Sck }, Role::Sck)
         | (Function::Spi { unit: of, line: SpiLine::Miso }, Role::Miso)
-        | (Function::Spi { unit: of, line: SpiLine::Mosi }, Role::Mosi) => {
-            unit == format!("SPI{of}")
-        }
-        (Function::Uart { unit: of, line: UartLine::Tx }, Role::Tx)
+        | (Function::Spi { unit: of, line: SpiLine::Mosi }, Role::Mosi)
+        | (Function::Uart { unit: of, line: UartLine::Tx }, Role::Tx)
         | (Function::Uart { unit: of, line: UartLine::Rx }, Role::Rx)
         | (Function::Can { unit: of, line: CanLine::Tx }, Role::Tx)
         | (Function::Can { unit: of, line: CanLine::Rx }, Role::Rx) => unit == of.as_str(),

@@ -32,7 +32,7 @@ impl Maker<'_, '_> {
                     }
                 }
                 Need::Gpio | Need::Interrupt => {
-                    if !offer.bus_only(pin) {
+                    if !offer.bus_only(pin) && !offer.is_analog_only(pin) {
                         let interrupt = matches!(need, Need::Interrupt);
                         made.push(self.bare(role, index, pin, interrupt));
                     }
@@ -125,7 +125,7 @@ impl Maker<'_, '_> {
     }
 
     pub(super) fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
-        self.rules.violated_by(self.offer.index, role, pin, usage, self.channels())
+        self.rules.violated_by(self.offer, role, pin, usage, self.channels())
     }
 }
 
@@ -133,9 +133,9 @@ impl Maker<'_, '_> {
 pub(super) enum Need<'n> {
     /// A usage for which the function holds.
     Usage(&'n dyn Fn(&Usage) -> bool),
-    /// Nothing: any pin.
+    /// Nothing: any pin that has a digital circuit.
     Gpio,
-    /// Any pin, and the interrupt line of its number.
+    /// The same, and the interrupt line of its number.
     Interrupt,
 }
 

@@ -24,7 +24,7 @@ impl Maker<'_, '_> {
         let cases: Vec<_> = cases.collect();
         for roles in cases {
             let dma = unit.map(|unit| self.builder.dma(board, unit));
-            let violates = self.rules.violated_by_unit(board, unit);
+            let violates = self.rules.violated_by_unit(self.offer, unit);
             let (roles, chosen) = roles.into_iter().unzip();
             let alternative = Alternative {
                 board: board_id(board),

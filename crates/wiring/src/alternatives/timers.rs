@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::profile::Timer;
-use sensedsl_board::signal::Function;
+use sensedsl_board::signal::{Function, TimerLine, UnitName};
 use sensedsl_board::silicon::Ability;
 use sensedsl_board::table::Usage;
 use sensedsl_model::design::Board;
@@ -23,9 +23,9 @@ impl Maker<'_, '_> {
         if self.channels() == Channels::Single {
             let ability = using.ability(offer.board);
             let serves = |usage: &Usage| {
-                channel(usage).is_some_and(|(timer, channel)| {
+                channel(usage).is_some_and(|channel| {
                     using.takes(ability, None, channel)
-                        && unit_fits(offer, wanted, &format!("TIM{timer}"))
+                        && unit_fits(offer, wanted, channel.unit.as_str())
                 })
             };
             let mut roles = vec![self.role(using.role(), &Need::Usage(&serves), None)];
@@ -33,13 +33,13 @@ impl Maker<'_, '_> {
             return self.finish(None, &[], roles);
         }
         let mut made = Vec::new();
-        for number in self.timer_numbers() {
-            let unit = format!("TIM{number}");
-            let timer = self.profile().and_then(|profile| profile.timer(number)).cloned();
-            if !unit_fits(self.offer, self.wanted, &unit) || (whole && timer.is_none()) {
+        for unit in self.timer_names() {
+            let unit = unit.as_str();
+            let timer = self.profile().and_then(|profile| profile.timer(unit)).cloned();
+            if !unit_fits(self.offer, self.wanted, unit) || (whole && timer.is_none()) {
                 continue;
             }
-            made.extend(self.timer(using, number, &unit, timer.as_ref()));
+            made.extend(self.timer(using, unit, timer.as_ref()));
         }
         made
     }
@@ -56,17 +56,16 @@ impl Maker<'_, '_> {
     pub(super) fn timer(
         &mut self,
         using: TimerUse,
-        number: u8,
         unit: &str,
         timer: Option<&Timer>,
     ) -> Vec<Made> {
         let ability = using.ability(self.offer.board);
         let on = |wanted: Option<u8>| {
             move |usage: &Usage| {
-                channel(usage).is_some_and(|(of, channel)| {
-                    of == number
+                channel(usage).is_some_and(|channel| {
+                    channel.unit.as_str() == unit
                         && using.takes(ability, timer, channel)
-                        && wanted.is_none_or(|wanted| wanted == channel)
+                        && wanted.is_none_or(|wanted| wanted == channel.number)
                 })
             }
         };
@@ -100,9 +99,9 @@ impl Maker<'_, '_> {
     }
 
     /// The timers that the offered pins name.
-    pub(super) fn timer_numbers(&self) -> BTreeSet<u8> {
+    pub(super) fn timer_names(&self) -> BTreeSet<UnitName> {
         let usages = self.offer.pins().flat_map(|(_, pin)| &pin.usages);
-        usages.filter_map(|usage| channel(usage).map(|(timer, _)| timer)).collect()
+        usages.filter_map(|usage| channel(usage).map(|channel| channel.unit.clone())).collect()
     }
 }
 
@@ -136,9 +135,14 @@ impl TimerUse {
         self,
         ability: Option<&Ability>,
         timer: Option<&Timer>,
-        channel: u8,
+        channel: Channel<'_>,
     ) -> bool {
-        if ability.is_some_and(|ability| !ability.channels.contains(&channel)) {
+        let able = match self {
+            Self::Icu | Self::Encoder => channel.captures(ability),
+            Self::Pwm(_) => channel.line.is_output(),
+        };
+        let channel = channel.number;
+        if !able {
             return false;
         }
         match (self, timer) {
@@ -172,12 +176,30 @@ pub(crate) fn ability(board: &Board, kind: KindName) -> Option<&'static Ability>
     }
 }
 
-/// Timer and channel of a timer's plain output or input.
-pub(crate) fn channel(usage: &Usage) -> Option<(u8, u8)> {
+/// A timer's channel at a pin.
+#[derive(Clone, Copy)]
+pub(crate) struct Channel<'a> {
+    pub(crate) unit: &'a UnitName,
+    number: u8,
+    line: TimerLine,
+}
+
+impl Channel<'_> {
+    /// Whether it can be an input of the timer, as far as the silicon goes.
+    pub(crate) fn captures(self, ability: Option<&Ability>) -> bool {
+        let able = ability.is_none_or(|ability| ability.channels.contains(&self.number));
+        able && self.line.is_input()
+    }
+}
+
+/// The timer's channel that a usage is; inverted outputs serve nothing.
+pub(crate) fn channel(usage: &Usage) -> Option<Channel<'_>> {
     match usage.signal.function() {
-        Function::Timer { timer, channel, complementary: false } => Some((*timer, *channel)),
-        Function::Timer { .. }
-        | Function::Adc { .. }
+        Function::Timer { line: TimerLine::Inverted, .. } => None,
+        Function::Timer { unit, channel, line } => {
+            Some(Channel { unit, number: *channel, line: *line })
+        }
+        Function::Adc { .. }
         | Function::I2c { .. }
         | Function::Uart { .. }
         | Function::Spi { .. }

@@ -55,8 +55,8 @@ pub(super) fn plan(
         let Some(wire) = context.wire(wired, Role::In) else { continue };
         pads.extend(context.alternate_pad(wire, Drive::Plain, diagnostics));
         let Some(usage) = wire.usage(context.board) else { continue };
-        let Function::Timer { timer, channel, .. } = usage.signal.function() else { continue };
-        let Some(timer) = context.profile.timer(*timer) else { continue };
+        let Function::Timer { unit, channel, .. } = usage.signal.function() else { continue };
+        let Some(timer) = context.profile.timer(unit.as_str()) else { continue };
         plans.extend(IcuPlan::new(plans.len(), wired, icu, timer, *channel));
     }
     plans
