@@ -24,6 +24,7 @@ mod paper;
 mod parts;
 mod prolog;
 mod proof;
+mod silicon;
 mod single_files;
 mod soft_units;
 mod spreadsheets;

@@ -62,7 +62,7 @@ const COLUMNS: [(&str, &[&str]); 10] = [
     ("ADC", &["ADC"]),
     ("DAC", &["DAC"]),
     ("I2C", &["I2C", "FMPI2C", "TWI"]),
-    ("TIM", &["TIM", "LPTIM", "HRTIM", "PWM"]),
+    ("TIM", &["TIM", "LPTIM", "HRTIM"]),
     ("UART", &["USART", "UART", "LPUART"]),
     ("SPI", &["SPI"]),
     ("I2S", &["I2S"]),
@@ -73,6 +73,9 @@ const COLUMNS: [(&str, &[&str]); 10] = [
 
 /// The column of a signal.
 fn column(signal: &Signal) -> &'static str {
+    if matches!(signal.function(), Function::Timer { .. }) {
+        return "TIM";
+    }
     let unit = signal.name().split('_').next().unwrap_or_default();
     let stem = unit.trim_end_matches(|c: char| c.is_ascii_digit());
     let of = COLUMNS.iter().find(|(_, stems)| stems.contains(&stem));
