@@ -91,6 +91,18 @@ fn exit_status_of_every_command() {
     }
 }
 
+/// Shells complete the built-in boards where nothing else may stand, and any name of one is taken.
+#[test]
+fn names_of_boards_are_completed() {
+    let script = sensedsl(["completions", "bash"]).run().exits(0).stdout;
+    let lists = script.lines().filter(|line| line.contains("ARDUINO-UNO-R3")).count();
+    assert_eq!(lists, 2, "`boards NAME` and `new --board`");
+    let help = sensedsl(["new", "--help"]).run().exits(0).stdout;
+    assert!(!help.contains("ARDUINO-UNO-R3"), "{help}");
+    let of_alias = sensedsl(["boards", "uno_r3"]).run().exits(0).stdout;
+    assert_eq!(of_alias, sensedsl(["boards", "ARDUINO-UNO-R3"]).run().exits(0).stdout);
+}
+
 #[test]
 fn result_and_messages_go_to_their_own_streams() {
     let ran = sensedsl(["solve", FIG2, "--format", "json"]).run().exits(0);

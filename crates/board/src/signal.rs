@@ -352,7 +352,8 @@ mod tests {
         assert_eq!(units("FDCAN2_RX"), ["FDCAN2"]);
         assert_eq!(units("nothing"), Vec::<String>::new());
         let (signal, _) = Signal::parse("TIM8_CH2N");
-        let timer = |unit, channel, line| Function::Timer { unit: UnitName::new(unit), channel, line };
+        let timer =
+            |unit, channel, line| Function::Timer { unit: UnitName::new(unit), channel, line };
         assert_eq!(signal.function(), &timer("TIM8", 2, TimerLine::Inverted));
         for (spelled, expected) in [
             ("TIM8_CH2", timer("TIM8", 2, TimerLine::Both)),

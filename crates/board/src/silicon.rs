@@ -199,9 +199,8 @@ impl Volts {
     /// What a pin stands as an input, in millivolts; none where that is not known.
     #[must_use]
     pub fn stands_mv(&self, pin: &PinName) -> Option<u32> {
-        let has = |names: &[String]| {
-            names.iter().any(|name| PinName::parse(name).as_ref() == Some(pin))
-        };
+        let has =
+            |names: &[String]| names.iter().any(|name| PinName::parse(name).as_ref() == Some(pin));
         if has(&self.except) {
             return Some(self.supply_mv + 300);
         }
@@ -291,7 +290,8 @@ mod tests {
 
     #[test]
     fn analog_pads_have_no_digital_circuit() {
-        let pads = |mcu| analog_only(mcu).into_iter().map(|pin| pin.to_string()).collect::<Vec<_>>();
+        let pads =
+            |mcu| analog_only(mcu).into_iter().map(|pin| pin.to_string()).collect::<Vec<_>>();
         assert_eq!(pads("ATMEGA328P-AU"), ["ADC6", "ADC7"]);
         assert_eq!(pads("ATMEGA2560-16AU"), [""; 0]);
     }
@@ -337,9 +337,7 @@ mod tests {
             ("STM32WB55RGV6", "", "", "PA0"),
         ];
         for (mcu, tolerant, not, unknown) in sorts {
-            for (pins, expected) in
-                [(tolerant, Some(5_500)), (not, Some(3_600)), (unknown, None)]
-            {
+            for (pins, expected) in [(tolerant, Some(5_500)), (not, Some(3_600)), (unknown, None)] {
                 for pin in pins.split_whitespace() {
                     assert_eq!(stands(mcu, pin), expected, "{pin} of {mcu}");
                 }

@@ -1,7 +1,9 @@
 //! The arguments of all commands.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
@@ -56,7 +58,7 @@ pub(crate) struct NewArgs {
     /// The folder to make
     pub(crate) dir: PathBuf,
     /// A built-in board
-    #[arg(long, default_value = "STM32F4DiscoveryBoard")]
+    #[arg(long, default_value = "STM32F4DiscoveryBoard", value_parser = BoardName, hide_possible_values = true)]
     pub(crate) board: String,
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]
@@ -294,6 +296,7 @@ pub(crate) enum PartsOrder {
 #[derive(Debug, Args)]
 pub(crate) struct BoardsArgs {
     /// A board: prints its table as CSV
+    #[arg(value_parser = BoardName, hide_possible_values = true)]
     pub(crate) name: Option<String>,
     /// Only boards with this text in their name, MCU or description
     #[arg(long, value_name = "TEXT", conflicts_with = "name")]
@@ -365,6 +368,30 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The folder for one page a command
     pub(crate) dir: Option<PathBuf>,
+}
+
+/// The name of a board: any text, of which shells complete what is built in. Whether there is such a
+/// board is said by who looks for it, with the nearest name.
+#[derive(Clone)]
+struct BoardName;
+
+impl TypedValueParser for BoardName {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(
+            sensedsl_board::catalog::all().iter().map(|entry| PossibleValue::new(entry.name)),
+        ))
+    }
 }
 
 /// A time that a clock can be set to.

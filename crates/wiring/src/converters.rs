@@ -120,7 +120,7 @@ fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
         let wishes = own.iter().chain(&board.wishes).filter_map(|wish| match &wish.what {
             WishFor::Unit(wanted) => {
                 Some(board.same_unit(wanted, &format!("ADC{unit}")) == wish.prefer)
-            },
+            }
             WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => None,
         });
         wishes.filter(|met| *met).count()

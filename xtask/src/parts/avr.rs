@@ -98,7 +98,9 @@ fn usage(unit: &str, group: &str, index: &str) -> Option<String> {
         ("USART", "XCK") => format!("{unit}_CK"),
         ("USART", line) => format!("{unit}_{line}"),
         ("TC", line) => match line.strip_prefix("_OC").or_else(|| line.strip_prefix("OC")) {
-            Some(output) => format!("OC{number}{output}{}", if line.starts_with('_') { "N" } else { "" }),
+            Some(output) => {
+                format!("OC{number}{output}{}", if line.starts_with('_') { "N" } else { "" })
+            }
             None => format!("{line}{number}"),
         },
         (_, line) => format!("{line}{index}"),

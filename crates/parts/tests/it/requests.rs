@@ -219,7 +219,10 @@ impl Search {
             "icu" => (&["TIM", "PWM", "TC"], &[("in", &["CH1", "CH2", "B", "ICP"])]),
             "pwm" => (
                 &["TIM", "PWM", "TC"],
-                &[("out", &["CH1", "CH2", "CH3", "CH4", "CH5", "CH6", "A", "B", "OCA", "OCB", "OCC"])],
+                &[(
+                    "out",
+                    &["CH1", "CH2", "CH3", "CH4", "CH5", "CH6", "A", "B", "OCA", "OCB", "OCC"],
+                )],
             ),
             "encoder" => (&["TIM"], &[("a", &["CH1"]), ("b", &["CH2"])]),
             "digital" => (&[""], &[("pin", &[])]),
@@ -231,8 +234,11 @@ impl Search {
             stems.contains(&name.trim_end_matches(|c: char| c.is_ascii_digit()))
                 && fixed.get("unit").is_none_or(|wanted| *wanted == name.as_str())
         };
-        let units: Vec<String> =
-            if kind == "digital" { vec![String::new()] } else { units.into_iter().filter(of_kind).collect() };
+        let units: Vec<String> = if kind == "digital" {
+            vec![String::new()]
+        } else {
+            units.into_iter().filter(of_kind).collect()
+        };
         let shares = ["i2c", "spi", "can"].contains(&kind);
         let wire = |unit_name: &str, role: &str, lines: &[&str]| {
             let serves = |(usage, _): &&(String, Option<Blocks>)| {
@@ -332,7 +338,9 @@ impl Search {
 fn unit(usage: &str) -> String {
     let number = |rest: &str| rest.trim_end_matches(|c: char| c.is_ascii_uppercase()).to_owned();
     match usage.strip_prefix("OC").or_else(|| usage.strip_prefix("ICP")) {
-        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => format!("TC{}", number(rest)),
+        Some(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => {
+            format!("TC{}", number(rest))
+        }
         _ => usage.split('_').next().unwrap_or(usage).to_owned(),
     }
 }
