@@ -1,6 +1,8 @@
 //! What can be said before and after solving: fixed pins that cannot serve, instances that do not
 //! exist, on-board parts that are touched.
 
+mod silicon;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
@@ -18,12 +20,12 @@ use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_model::volts::{shown_mv, shown_ohm};
 
-use crate::alternatives::timers::{Channel, ability, channel};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
 use crate::levels::{Stands, divider, is_driven_by_device, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
+use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
@@ -182,73 +184,6 @@ fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Dia
     let most = if most < at_pin { most } else { supply };
     let (device, stated) = ((device.name.span, name.as_str()), (level.span, shown.as_str()));
     e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
-}
-
-/// The report for a kind that the silicon of no board in question can do.
-fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic> {
-    let kind = device.kind.name();
-    let unable = offers.iter().map(|offer| {
-        let ability = ability(offer.board, kind)?;
-        ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
-    });
-    let all: Option<Vec<_>> = unable.collect();
-    let (ability, mcu) = all?.into_iter().next()?;
-    let (name, kind) = (&device.name, kind.with_article());
-    let because = &ability.because;
-    Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
-}
-
-/// Why a timer that a board has can do on no pin what the device needs.
-fn unit_lacks(offers: &[&Offer<'_>], device: &Device, unit: &str) -> Option<&'static str> {
-    offers.iter().find_map(|offer| {
-        let ability = ability(offer.board, device.kind.name())?;
-        let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
-        let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
-        let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
-        channels.peek()?;
-        (!channels.any(|one| one.captures(Some(ability)))).then_some(ability.because.as_str())
-    })
-}
-
-/// The report for a fixed pin that no digital signal can be at.
-fn analog_only(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    device: &Device,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    offers.iter().find(|offer| {
-        let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
-        row.is_some_and(|row| offer.is_analog_only(row))
-    })?;
-    let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    let pins = pins_of(design, offers, device, role).join(", ");
-    let (name, because) = (pin.value.shown(), "the pad is an input of the converter alone");
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
-}
-
-/// The report for a fixed pin on a channel that the silicon cannot use so.
-fn by_silicon(
-    design: &Design,
-    offers: &[&Offer<'_>],
-    device: &Device,
-    role: Role,
-    pin: &Spanned<PinRef>,
-) -> Option<Diagnostic> {
-    if let Some(report) = without_silicon(offers, device) {
-        return Some(report);
-    }
-    let ability = offers.iter().find_map(|offer| {
-        let ability = ability(offer.board, device.kind.name())?;
-        let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
-        let mut channels = usages.iter().filter_map(channel);
-        channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
-    })?;
-    let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    let pins = pins_of(design, offers, device, role).join(", ");
-    let (name, because) = (pin.value.shown(), &ability.because);
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
 }
 
 fn cannot_serve(

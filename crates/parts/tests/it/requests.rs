@@ -11,7 +11,7 @@ use sensedsl_parts::find;
 use sensedsl_wiring::{Solved, Wiring};
 
 /// Part, devices (a kind with what is fixed), and whether there is a wiring.
-const REQUESTS: [(&str, &str, bool); 34] = [
+const REQUESTS: [(&str, &str, bool); 40] = [
     // I2C2 is on PB10 and PB11, and on 48 pins USART3 is nowhere else.
     ("STM32F103C8", "i2c unit=I2C2; uart unit=USART3", false),
     ("STM32F103C8", "i2c unit=I2C2; uart unit=USART1", true),

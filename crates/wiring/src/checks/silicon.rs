@@ -1,0 +1,83 @@
+//! Devices that the silicon of no board in question can serve as they are placed: a device in, the
+//! report with the reason out.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0320_silicon_cannot;
+use sensedsl_model::design::{Design, Device, Spanned};
+use sensedsl_model::kind::Role;
+use sensedsl_model::pins::PinRef;
+
+use super::pins_of;
+use crate::alternatives::timers::{Channel, ability, channel};
+use crate::offer::Offer;
+
+/// The report for a kind that the silicon of no board in question can do.
+pub(super) fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic> {
+    let kind = device.kind.name();
+    let unable = offers.iter().map(|offer| {
+        let ability = ability(offer.board, kind)?;
+        ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
+    });
+    let all: Option<Vec<_>> = unable.collect();
+    let (ability, mcu) = all?.into_iter().next()?;
+    let (name, kind) = (&device.name, kind.with_article());
+    let because = &ability.because;
+    Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
+}
+
+/// Why a timer that a board has can do on no pin what the device needs.
+pub(super) fn unit_lacks(
+    offers: &[&Offer<'_>],
+    device: &Device,
+    unit: &str,
+) -> Option<&'static str> {
+    offers.iter().find_map(|offer| {
+        let ability = ability(offer.board, device.kind.name())?;
+        let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
+        let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
+        let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
+        channels.peek()?;
+        (!channels.any(|one| one.captures(Some(ability)))).then_some(ability.because.as_str())
+    })
+}
+
+/// The report for a fixed pin that no digital signal can be at.
+pub(super) fn analog_only(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+    pin: &Spanned<PinRef>,
+) -> Option<Diagnostic> {
+    offers.iter().find(|offer| {
+        let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
+        row.is_some_and(|row| offer.is_analog_only(row))
+    })?;
+    let needs = format!("`{role}` of {}", device.kind.name().with_article());
+    let pins = pins_of(design, offers, device, role).join(", ");
+    let (name, because) = (pin.value.shown(), "the pad is an input of the converter alone");
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
+}
+
+/// The report for a fixed pin on a channel that the silicon cannot use so.
+pub(super) fn by_silicon(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+    pin: &Spanned<PinRef>,
+) -> Option<Diagnostic> {
+    if let Some(report) = without_silicon(offers, device) {
+        return Some(report);
+    }
+    let ability = offers.iter().find_map(|offer| {
+        let ability = ability(offer.board, device.kind.name())?;
+        let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
+        let mut channels = usages.iter().filter_map(channel);
+        channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
+    })?;
+    let needs = format!("`{role}` of {}", device.kind.name().with_article());
+    let pins = pins_of(design, offers, device, role).join(", ");
+    let (name, because) = (pin.value.shown(), &ability.because);
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
+}
