@@ -13,7 +13,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_solve::Objective;
 use sensedsl_solve::problem::{Candidate, Problem};
 
-use crate::certificate::Labels;
+use sensedsl_certify::Labels;
 
 /// What the solver says of the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,12 +5,13 @@ mod alternatives;
 pub mod assignment;
 mod blame;
 mod capacity;
-pub mod certificate;
+mod certificate;
 mod checks;
 mod conflict;
 mod converters;
 mod formulate;
 mod keep;
+mod labels;
 mod levels;
 mod names;
 mod offer;
@@ -21,6 +22,7 @@ mod streams;
 mod why;
 mod wishes;
 
+use sensedsl_certify::Subject;
 use sensedsl_diagnostics::codes::{
     e0402_solver_disagrees, e0404_out_of_time, e0506_hardware_limit,
 };
@@ -30,7 +32,6 @@ use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcom
 
 use alloy::Known;
 use assignment::{Assignment, Bound};
-use certificate::{Labels, Subject};
 use formulate::{Converters, Formulation, formulate};
 
 pub use blame::Rule;
@@ -281,7 +282,7 @@ impl<'a> Wiring<'a> {
             }
             Err(fault) => return Err(Box::new(self.fault(&fault))),
         };
-        let labels = Labels::of(self.design, &self.formulation);
+        let labels = labels::labels(self.design, &self.formulation);
         Ok(alloy::model(&self.formulation.problem, &labels, known))
     }
 

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use sensedsl_wiring::certificate::Subject;
+use sensedsl_certify::Subject;
 use sensedsl_wiring::solver::{Options, Outcome, check, count, enumerate, solve};
 use sensedsl_wiring::{Cancel, Search, Solved, Wiring, capacity};
 use support::mixed::{FAMILIES, Text};

@@ -7,10 +7,10 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use sensedsl_certify::{Subject, sha256};
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_proof::subject::compare;
 use sensedsl_proof::{Verified, read, verify};
-use sensedsl_wiring::certificate::{Subject, sha256};
 use sensedsl_wiring::{Keep, Wiring};
 
 use crate::draw::Draw;

@@ -3,6 +3,7 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use sensedsl_certify::Subject;
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::HOSTS;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
@@ -11,7 +12,6 @@ use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
 use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::certificate::Subject;
 use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 
 use crate::design::{self, Input};

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use sensedsl_certify::Subject;
 use sensedsl_diagnostics::codes::{
     e0111_file_unreadable, e0226_not_an_answer, e0301_unknown_board, e0302_table_unreadable,
     e0313_unknown_target, e0404_out_of_time, e0505_unknown_host,
@@ -11,7 +12,6 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Severity, Span};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, Unread, What, apply_allows, resolve, sort};
-use sensedsl_wiring::certificate::Subject;
 use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
 
 use crate::Status;

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use sensedsl_board::{catalog, profile, table};
+use sensedsl_certify::{Subject, sha256};
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_model::design::{Board, Design};
 use sensedsl_model::{Resolved, normal_path};
 use sensedsl_parts::Completion;
-use sensedsl_wiring::certificate::{Subject, sha256};
 
 use super::boards;
 use crate::cli::SolveArgs;

@@ -7,7 +7,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_solve::problem::Holder;
 
 use super::{Choice, Choices, atom, set, sigs};
-use crate::certificate::{Labels, holders};
+use sensedsl_certify::{Labels, holders};
 
 /// A choice that takes a pin or a resource.
 struct Taker {

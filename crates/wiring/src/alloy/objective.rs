@@ -7,7 +7,7 @@ use sensedsl_solve::Objective;
 use sensedsl_solve::problem::{Pin, RuleId};
 
 use super::{Choices, Known, atom, set, sigs};
-use crate::certificate::Labels;
+use sensedsl_certify::Labels;
 
 /// The atoms of one kind of things and what puts each into its set.
 struct Things<'a> {

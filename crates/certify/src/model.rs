@@ -7,11 +7,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_solve::Objective;
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Pin, Problem, RuleId};
 
-use super::labels::{AlternativeLabels, Labels};
+use crate::labels::{AlternativeLabels, Labels};
 
 /// What devices use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Thing {
+pub(crate) enum Thing {
     Pin(usize),
     /// The move of the wire on a pin.
     Moved(usize),
@@ -32,47 +32,47 @@ enum Behalf {
 
 /// A use of a thing by a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Use {
-    pub(super) thing: usize,
+pub(crate) struct Use {
+    pub(crate) thing: usize,
     /// Where it stands among [`Model::shares`]; none for a device of its own, which pays the
     /// price of the thing.
-    pub(super) share: Option<usize>,
+    pub(crate) share: Option<usize>,
     /// Index in [`Model::classes`], likewise.
-    pub(super) class: Option<usize>,
+    pub(crate) class: Option<usize>,
 }
 
 /// A role of an alternative; `index` is its place in the problem.
 #[derive(Debug)]
-pub(super) struct Role {
-    pub(super) index: usize,
-    pub(super) candidates: Vec<Vec<Use>>,
+pub(crate) struct Role {
+    pub(crate) index: usize,
+    pub(crate) candidates: Vec<Vec<Use>>,
 }
 
 /// What an alternative uses whatever wires are chosen, and its roles by name.
 #[derive(Debug)]
-pub(super) struct Uses {
-    pub(super) fixed: Vec<Use>,
-    pub(super) roles: Vec<Role>,
+pub(crate) struct Uses {
+    pub(crate) fixed: Vec<Use>,
+    pub(crate) roles: Vec<Role>,
 }
 
 /// All uses of all choices.
 #[derive(Debug, Default)]
-pub(super) struct Model {
-    pub(super) things: Vec<Thing>,
+pub(crate) struct Model {
+    pub(crate) things: Vec<Thing>,
     /// The toll of a device for a thing that it uses together with others: thing, device.
-    pub(super) shares: Vec<(usize, usize)>,
+    pub(crate) shares: Vec<(usize, usize)>,
     /// The thing that the members of a class use on one behalf.
-    pub(super) classes: Vec<usize>,
+    pub(crate) classes: Vec<usize>,
     /// Device, alternative.
-    pub(super) devices: Vec<Vec<Uses>>,
+    pub(crate) devices: Vec<Vec<Uses>>,
     /// Devices that can change places, in groups, in the order of names.
-    pub(super) alike: Vec<Vec<usize>>,
+    pub(crate) alike: Vec<Vec<usize>>,
     /// For each device the place of each alternative in the order of names.
-    pub(super) places: Vec<Vec<usize>>,
+    pub(crate) places: Vec<Vec<usize>>,
 }
 
 /// Who holds each resource. Who takes one on several behalves can share it with nobody.
-pub(crate) fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
+pub fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
     let mut holders = BTreeMap::new();
     for Claim { resource, holder } in claims {
         let held = holders.entry(resource.0).or_insert(*holder);
@@ -92,7 +92,7 @@ struct Maker {
 }
 
 impl Model {
-    pub(super) fn new(problem: &Problem, labels: &Labels) -> Self {
+    pub(crate) fn new(problem: &Problem, labels: &Labels) -> Self {
         let mut maker = Maker::default();
         for (number, device) in problem.devices.iter().enumerate() {
             let alternatives = device.alternatives.iter().enumerate().map(|(place, one)| {
@@ -106,7 +106,7 @@ impl Model {
     }
 
     /// What using a thing weighs; the prices of streams decide it for [`Thing::Dma`].
-    pub(super) fn weight(&self, problem: &Problem, weights: &Objective, thing: usize) -> u64 {
+    pub(crate) fn weight(&self, problem: &Problem, weights: &Objective, thing: usize) -> u64 {
         u64::from(match self.things[thing] {
             Thing::Pin(pin) => {
                 let Pin { cost, shared, .. } = problem.pins[pin];

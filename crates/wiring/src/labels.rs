@@ -1,107 +1,41 @@
-//! The names of everything in a certificate.
+//! The names of everything in the problem, for its certificate and for other programs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
+use sensedsl_certify::{AlternativeLabels, Labels, distinct};
 use sensedsl_model::design::{BoardIndex, Design, Wish, WishFor};
 
 use crate::formulate::{Asker, Formulation, GPIO, wanted};
 use crate::names::{Group, Resource};
 use crate::read_back;
 
-/// Names of an alternative and its roles.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct AlternativeLabels {
-    /// Its name, unique in the device.
-    pub name: String,
-    /// The names of its roles, unique in the alternative.
-    pub roles: Vec<String>,
-}
-
-/// A name for each number of a problem; those of one kind differ.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Labels {
-    /// Boards.
-    pub boards: Vec<String>,
-    /// Pins.
-    pub pins: Vec<String>,
-    /// Devices.
-    pub devices: Vec<String>,
-    /// For each device its alternatives.
-    pub alternatives: Vec<Vec<AlternativeLabels>>,
-    /// Signals by their rank.
-    pub signals: BTreeMap<u32, String>,
-    /// Resources.
-    pub resources: Vec<String>,
-    /// Groups of holders.
-    pub groups: Vec<String>,
-    /// Soft rules.
-    pub rules: Vec<String>,
-    /// DMA users.
-    pub dma: Vec<String>,
-    /// DMA streams.
-    pub streams: Vec<String>,
-}
-
-impl Labels {
-    /// The names that the design and its tables give.
-    pub(crate) fn of(design: &Design, formulation: &Formulation<'_>) -> Self {
-        let names = Namer { design, formulation };
-        let problem = &formulation.problem;
-        let boards = design.boards.iter().map(|board| board.name.value.clone());
-        let devices = formulation.askers.iter().map(|asker| names.device(*asker));
-        let pins = formulation.pins.iter().map(|(board, pin)| {
-            let pin = names.pin(*board, *pin).map(|pin| pin.name.to_string());
-            names.on(*board, &pin.unwrap_or_default())
-        });
-        let resources = formulation.resources.iter().map(|one| names.resource(one));
-        let streams = formulation.streams.iter().map(|(board, stream)| {
-            names.on(*board, &format!("DMA{}", stream.replace(',', "_stream")))
-        });
-        Self {
-            boards: distinct(boards),
-            pins: distinct(pins),
-            devices: distinct(devices),
-            alternatives: names.alternatives(),
-            signals: names.signals(),
-            resources: distinct(resources),
-            groups: distinct(formulation.groups.iter().map(|group| names.group(group))),
-            rules: names.rules(problem.rules as usize),
-            dma: names.dma_users(problem.dma.len()),
-            streams: distinct(streams),
-        }
+/// The names that the design and its tables give.
+pub(crate) fn labels(design: &Design, formulation: &Formulation<'_>) -> Labels {
+    let names = Namer { design, formulation };
+    let problem = &formulation.problem;
+    let boards = design.boards.iter().map(|board| board.name.value.clone());
+    let devices = formulation.askers.iter().map(|asker| names.device(*asker));
+    let pins = formulation.pins.iter().map(|(board, pin)| {
+        let pin = names.pin(*board, *pin).map(|pin| pin.name.to_string());
+        names.on(*board, &pin.unwrap_or_default())
+    });
+    let resources = formulation.resources.iter().map(|one| names.resource(one));
+    let streams = formulation
+        .streams
+        .iter()
+        .map(|(board, stream)| names.on(*board, &format!("DMA{}", stream.replace(',', "_stream"))));
+    Labels {
+        boards: distinct(boards),
+        pins: distinct(pins),
+        devices: distinct(devices),
+        alternatives: names.alternatives(),
+        signals: names.signals(),
+        resources: distinct(resources),
+        groups: distinct(formulation.groups.iter().map(|group| names.group(group))),
+        rules: names.rules(problem.rules as usize),
+        dma: names.dma_users(problem.dma.len()),
+        streams: distinct(streams),
     }
-}
-
-impl Labels {
-    /// Those of some devices alone.
-    pub(super) fn with_devices(&self, devices: &[usize]) -> Self {
-        let mut labels = self.clone();
-        labels.devices = pick(&self.devices, devices);
-        labels.alternatives = pick(&self.alternatives, devices);
-        labels
-    }
-}
-
-/// Those at the given places.
-pub(super) fn pick<T: Clone>(all: &[T], places: &[usize]) -> Vec<T> {
-    places.iter().filter_map(|place| all.get(*place)).cloned().collect()
-}
-
-/// Numbers those names that stand before already.
-pub(super) fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
-    let mut seen = BTreeSet::new();
-    let mut distinct = Vec::new();
-    for name in names {
-        let mut candidate = name.clone();
-        for number in 2_u32.. {
-            if seen.insert(candidate.clone()) {
-                break;
-            }
-            candidate = format!("{name} ({number})");
-        }
-        distinct.push(candidate);
-    }
-    distinct
 }
 
 struct Namer<'a> {

@@ -6,9 +6,9 @@
 //! exactly, so floating point decides only how fast a proof is found, never whether it is one.
 #![expect(clippy::indexing_slicing, reason = "all indices come from the model")]
 
-use super::case::{Case, Open, Tolls, Weighed};
-use super::model::Thing;
-use crate::Cancel;
+use crate::case::{Case, Open, Tolls, Weighed};
+use crate::model::Thing;
+use sensedsl_solve::Cancel;
 
 /// Units of toll in a unit of weight that are tried; the smaller, the easier to read.
 const SCALES: [i64; 7] = [1, 2, 4, 12, 60, 840, 10_080];
@@ -23,35 +23,35 @@ const TIE: f64 = 1e-7;
 
 /// Whole tolls that close a case.
 #[derive(Clone, Debug)]
-pub(super) struct Closing {
-    pub(super) scale: i64,
-    pub(super) tolls: Tolls<i64>,
+pub(crate) struct Closing {
+    pub(crate) scale: i64,
+    pub(crate) tolls: Tolls<i64>,
     /// The shares that somebody who is left could pay.
-    pub(super) used: Vec<usize>,
+    pub(crate) used: Vec<usize>,
 }
 
 /// How often things were chosen, for finding out what to branch on.
-pub(super) struct Habits {
+pub(crate) struct Habits {
     /// For each device, for each of [`Case::devices`]' alternatives.
-    pub(super) alternatives: Vec<Vec<f64>>,
+    pub(crate) alternatives: Vec<Vec<f64>>,
     /// For each of [`Case::choices`].
-    pub(super) choices: Vec<f64>,
+    pub(crate) choices: Vec<f64>,
     /// For each thing.
-    pub(super) things: Vec<f64>,
+    pub(crate) things: Vec<f64>,
     /// All steps together.
-    pub(super) total: f64,
+    pub(crate) total: f64,
 }
 
 /// What an ascent came to.
-pub(super) struct Ascent {
-    pub(super) closing: Option<Closing>,
+pub(crate) struct Ascent {
+    pub(crate) closing: Option<Closing>,
     /// The best tolls, for the cases of this case to begin with.
-    pub(super) tolls: Tolls<f64>,
+    pub(crate) tolls: Tolls<f64>,
     /// The weight they show.
-    pub(super) bound: f64,
-    pub(super) habits: Habits,
+    pub(crate) bound: f64,
+    pub(crate) habits: Habits,
     /// Tolls looked up, a measure of the work.
-    pub(super) work: u64,
+    pub(crate) work: u64,
 }
 
 struct Climber<'a> {
@@ -70,7 +70,7 @@ struct Climber<'a> {
 }
 
 /// Tolls to begin with: of those who use a thing together the first pays all.
-pub(super) fn first_tolls(weighed: &Weighed<'_>) -> Tolls<f64> {
+pub(crate) fn first_tolls(weighed: &Weighed<'_>) -> Tolls<f64> {
     let model = weighed.model;
     let mut shares = vec![0.0; model.shares.len()];
     let mut seen = vec![false; model.things.len()];
@@ -85,7 +85,7 @@ pub(super) fn first_tolls(weighed: &Weighed<'_>) -> Tolls<f64> {
 
 /// Climbs until the case is closed (more weight than `limit` is shown), nothing moves any more or
 /// `steps` are done.
-pub(super) fn ascend(
+pub(crate) fn ascend(
     weighed: &Weighed<'_>,
     case: &Case,
     open: &Open,

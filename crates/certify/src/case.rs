@@ -7,23 +7,23 @@ use std::ops::{Add, Range};
 use sensedsl_solve::Objective;
 use sensedsl_solve::problem::Problem;
 
-use super::model::{Model, Thing};
+use crate::model::{Model, Thing};
 
 /// What is left of the choices.
 #[derive(Clone)]
-pub(super) struct Open {
+pub(crate) struct Open {
     /// Device, alternative.
-    pub(super) alternatives: Vec<Vec<bool>>,
+    pub(crate) alternatives: Vec<Vec<bool>>,
     /// Device, alternative, role in the order of the model, candidate.
-    pub(super) candidates: Vec<Vec<Vec<Vec<bool>>>>,
+    pub(crate) candidates: Vec<Vec<Vec<Vec<bool>>>>,
     /// Rules that are violated for sure; their weight is paid.
-    pub(super) violated: BTreeSet<usize>,
+    pub(crate) violated: BTreeSet<usize>,
 }
 
 impl Open {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let devices = model.devices.iter();
-        let roles = |uses: &super::model::Uses| {
+        let roles = |uses: &crate::model::Uses| {
             uses.roles.iter().map(|role| vec![true; role.candidates.len()]).collect()
         };
         Self {
@@ -35,7 +35,7 @@ impl Open {
 
     /// Takes away what cannot be taken for want of a candidate, then what would be out of order
     /// among alike devices, as the verifier does.
-    pub(super) fn settle(&mut self, model: &Model) {
+    pub(crate) fn settle(&mut self, model: &Model) {
         for (left, roles) in self.alternatives.iter_mut().zip(&self.candidates) {
             for (left, roles) in left.iter_mut().zip(roles) {
                 *left &= roles.iter().all(|role| role.contains(&true));
@@ -64,8 +64,8 @@ impl Open {
     }
 
     /// Takes away all that violates a rule.
-    pub(super) fn keep_rule(&mut self, model: &Model, rule: usize) {
-        let violates = |uses: &[super::model::Use]| {
+    pub(crate) fn keep_rule(&mut self, model: &Model, rule: usize) {
+        let violates = |uses: &[crate::model::Use]| {
             uses.iter().any(|one| model.things[one.thing] == Thing::Rule(rule))
         };
         for (d, device) in model.devices.iter().enumerate() {
@@ -82,33 +82,33 @@ impl Open {
 }
 
 /// One thing to choose at a place.
-pub(super) struct Choice {
-    pub(super) candidate: usize,
+pub(crate) struct Choice {
+    pub(crate) candidate: usize,
     /// Its tolls, in [`Case::tolls`].
-    pub(super) tolls: Range<usize>,
+    pub(crate) tolls: Range<usize>,
 }
 
 /// An alternative that is left.
-pub(super) struct Left {
-    pub(super) alternative: usize,
+pub(crate) struct Left {
+    pub(crate) alternative: usize,
     /// First what is used anyway, then each role: ranges of [`Case::choices`].
-    pub(super) places: Vec<Range<usize>>,
+    pub(crate) places: Vec<Range<usize>>,
 }
 
 /// A case laid out for speed. A toll is the number of a thing (its price) or, beyond those, of
 /// a share.
-pub(super) struct Case {
-    pub(super) devices: Vec<Vec<Left>>,
-    pub(super) choices: Vec<Choice>,
-    pub(super) tolls: Vec<usize>,
+pub(crate) struct Case {
+    pub(crate) devices: Vec<Vec<Left>>,
+    pub(crate) choices: Vec<Choice>,
+    pub(crate) tolls: Vec<usize>,
     /// For each class of the model the shares of its members that are left.
-    pub(super) members: Vec<Vec<usize>>,
+    pub(crate) members: Vec<Vec<usize>>,
     /// Whether somebody uses the thing alone.
-    pub(super) owned: Vec<bool>,
+    pub(crate) owned: Vec<bool>,
 }
 
 impl Case {
-    pub(super) fn new(model: &Model, open: &Open) -> Self {
+    pub(crate) fn new(model: &Model, open: &Open) -> Self {
         let mut case = Self {
             devices: Vec::new(),
             choices: Vec::new(),
@@ -177,40 +177,40 @@ impl Case {
     }
 
     /// Whether some device has nothing left.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.devices.iter().any(Vec::is_empty)
     }
 }
 
 /// Tolls in some kind of number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Tolls<N> {
+pub(crate) struct Tolls<N> {
     /// For each thing by how much its price exceeds its weight.
-    pub(super) rents: Vec<N>,
+    pub(crate) rents: Vec<N>,
     /// For each share of the model.
-    pub(super) shares: Vec<N>,
+    pub(crate) shares: Vec<N>,
     /// For each stream its price.
-    pub(super) streams: Vec<N>,
+    pub(crate) streams: Vec<N>,
 }
 
 /// What the weights of an objective make of a problem's things.
-pub(super) struct Weighed<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) model: &'a Model,
-    pub(super) weights: Objective,
+pub(crate) struct Weighed<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) model: &'a Model,
+    pub(crate) weights: Objective,
     /// For each thing but DMA users.
-    pub(super) of_things: Vec<u64>,
+    pub(crate) of_things: Vec<u64>,
 }
 
 impl<'a> Weighed<'a> {
-    pub(super) fn new(problem: &'a Problem, model: &'a Model, weights: Objective) -> Self {
+    pub(crate) fn new(problem: &'a Problem, model: &'a Model, weights: Objective) -> Self {
         let things = 0..model.things.len();
         let of_things = things.map(|thing| model.weight(problem, &weights, thing)).collect();
         Self { problem, model, weights, of_things }
     }
 
     /// The weight of a DMA user: the cheapest stream for each request.
-    pub(super) fn dma_weight<N: Number>(&self, user: usize, streams: &[N]) -> N {
+    pub(crate) fn dma_weight<N: Number>(&self, user: usize, streams: &[N]) -> N {
         let requests = self.problem.dma[user].requests.iter();
         requests.fold(N::default(), |sum, request| {
             let prices = request.streams.iter().map(|stream| streams[stream.0 as usize]);
@@ -219,7 +219,7 @@ impl<'a> Weighed<'a> {
     }
 
     /// The weight that the tolls show, exactly; `scale` units of toll are one of weight.
-    pub(super) fn bound(&self, case: &Case, open: &Open, tolls: &Tolls<i64>, scale: i64) -> i64 {
+    pub(crate) fn bound(&self, case: &Case, open: &Open, tolls: &Tolls<i64>, scale: i64) -> i64 {
         let weight = |thing: usize| {
             if let Thing::Dma(user) = self.model.things[thing] {
                 self.dma_weight(user, &tolls.streams)
@@ -256,7 +256,7 @@ impl<'a> Weighed<'a> {
 }
 
 /// What the two kinds of tolls have in common.
-pub(super) trait Number: Copy + Default + Add<Output = Self> {
+pub(crate) trait Number: Copy + Default + Add<Output = Self> {
     fn least(self, other: Self) -> Self;
 }
 

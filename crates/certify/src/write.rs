@@ -9,23 +9,23 @@ use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Problem, Ro
 use sensedsl_solve::{Answer, Objective};
 use serde_json::{Map, Value, json};
 
-use super::Subject;
-use super::ascent::Closing;
-use super::case::Weighed;
-use super::labels::{Labels, distinct};
-use super::model::{Thing, holders};
-use super::tree::Node;
+use crate::Subject;
+use crate::ascent::Closing;
+use crate::case::Weighed;
+use crate::labels::{Labels, distinct};
+use crate::model::{Thing, holders};
+use crate::tree::Node;
 
 /// A proof on its way to the text.
-pub(super) struct Proof<'a> {
-    pub(super) of: &'static str,
-    pub(super) weighed: &'a Weighed<'a>,
-    pub(super) nodes: Vec<Node>,
+pub(crate) struct Proof<'a> {
+    pub(crate) of: &'static str,
+    pub(crate) weighed: &'a Weighed<'a>,
+    pub(crate) nodes: Vec<Node>,
 }
 
-pub(super) struct Writer<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) labels: &'a Labels,
+pub(crate) struct Writer<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) labels: &'a Labels,
 }
 
 /// An object of named values.
@@ -42,7 +42,7 @@ fn lines(entries: impl IntoIterator<Item = (String, Value)>) -> String {
 
 impl Writer<'_> {
     /// The whole text.
-    pub(super) fn certificate(
+    pub(crate) fn certificate(
         &self,
         subject: &Subject,
         answer: Option<&Answer>,
@@ -171,7 +171,7 @@ impl Writer<'_> {
     }
 
     /// The text of a proof about the writer's problem.
-    pub(super) fn proof(&self, proof: &Proof<'_>) -> String {
+    pub(crate) fn proof(&self, proof: &Proof<'_>) -> String {
         let Proof { of, weighed, nodes } = proof;
         let nodes: Vec<String> =
             nodes.iter().map(|node| self.node(weighed, node).to_string()).collect();

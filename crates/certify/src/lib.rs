@@ -12,16 +12,13 @@ mod model;
 mod tree;
 mod write;
 
-use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0403_no_certificate;
 use sensedsl_solve::problem::{DeviceId, Problem};
-use sensedsl_solve::{Answer, Fault, Objective, Outcome};
+use sensedsl_solve::{Answer, Cancel, Objective};
 
-pub use labels::{AlternativeLabels, Labels};
-pub(crate) use model::holders;
+pub use labels::{AlternativeLabels, Labels, distinct};
+pub use model::holders;
 pub use sensedsl_proof::subject::sha256;
 
-use crate::{Cancel, Wiring};
 use case::Weighed;
 use model::Model;
 use tree::{Effort, GivenUp};
@@ -54,7 +51,7 @@ pub enum Claim<'a> {
 }
 
 /// Why there is no certificate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Uncertified {
     /// None was found within the effort.
     GivenUp,
@@ -62,9 +59,12 @@ pub enum Uncertified {
     Stopped,
     /// The costs are too large to be weighed.
     TooLarge,
+    /// The verifier does not believe it, for this reason.
+    Refuted(String),
 }
 
-/// The certificate of a claim that the solver has proved by its own search.
+/// The certificate of a claim that the solver has proved by its own search. It has been read again
+/// and verified.
 ///
 /// The numbers of the claim and the labels must be those of the problem.
 ///
@@ -93,7 +93,24 @@ pub fn certify(
             (None, prove(&writer, &[task], &mut effort)?)
         }
     };
-    Ok(writer.certificate(subject, answer, &proofs))
+    let text = writer.certificate(subject, answer, &proofs);
+    believed(&text, cancel).map(|()| text)
+}
+
+/// What is handed out has been verified.
+fn believed(text: &str, cancel: Cancel<'_>) -> Result<(), Uncertified> {
+    if sensedsl_proof::budget::fits(text).is_err() {
+        return Err(Uncertified::GivenUp);
+    }
+    if cancel.is_over() {
+        return Err(Uncertified::Stopped);
+    }
+    let certificate = sensedsl_proof::read(text).map_err(|error| Uncertified::Refuted(error.0))?;
+    match sensedsl_proof::verify(&certificate) {
+        Ok(_) => Ok(()),
+        Err(refuted) if refuted.0 == sensedsl_proof::budget::TOO_LONG => Err(Uncertified::GivenUp),
+        Err(refuted) => Err(Uncertified::Refuted(refuted.0)),
+    }
 }
 
 /// The texts of the proofs.
@@ -154,53 +171,4 @@ fn tasks(objective: &Objective) -> Option<Vec<Task>> {
     }
     // Sums of weights times the scale of a leaf stay below 63 bits.
     tasks.iter().all(|task| task.most < 1 << 31).then_some(tasks)
-}
-
-impl Wiring<'_> {
-    /// The certificate of what the solver found; none where it failed.
-    pub(crate) fn certificate(
-        &self,
-        outcome: &Result<Outcome, Fault>,
-        subject: &Subject,
-    ) -> Option<Result<String, Box<Diagnostic>>> {
-        let claim = match outcome {
-            Ok(Outcome::Solved(answer)) => Claim::Best(answer),
-            Ok(Outcome::Infeasible(conflict)) => Claim::NoWiring(&conflict.devices),
-            Ok(Outcome::Stopped { .. }) => {
-                return Some(Err(self.uncertified(Uncertified::Stopped)));
-            }
-            Err(_) => return None,
-        };
-        let labels = Labels::of(self.design, &self.formulation);
-        let text = match certify(&self.formulation.problem, &labels, subject, claim, self.cancel) {
-            Ok(text) => text,
-            Err(why) => return Some(Err(self.uncertified(why))),
-        };
-        if sensedsl_proof::budget::fits(&text).is_err() {
-            return Some(Err(self.uncertified(Uncertified::GivenUp)));
-        }
-        if self.cancel.is_over() {
-            return Some(Err(self.uncertified(Uncertified::Stopped)));
-        }
-        // What is handed out has been verified.
-        let certificate = sensedsl_proof::read(&text).map_err(|error| error.0);
-        let verified =
-            certificate.and_then(|one| sensedsl_proof::verify(&one).map_err(|refuted| refuted.0));
-        Some(match verified {
-            Ok(_) => Ok(text),
-            Err(why) if why == sensedsl_proof::budget::TOO_LONG => {
-                Err(self.uncertified(Uncertified::GivenUp))
-            }
-            Err(why) => Err(Box::new(self.disagrees(&why))),
-        })
-    }
-
-    fn uncertified(&self, why: Uncertified) -> Box<Diagnostic> {
-        let why = match why {
-            Uncertified::GivenUp => "none was found within the effort that is allowed for it",
-            Uncertified::Stopped => "time ran out before the proof was complete",
-            Uncertified::TooLarge => "the costs are too large",
-        };
-        Box::new(e0403_no_certificate::no_certificate(self.place(), why))
-    }
 }

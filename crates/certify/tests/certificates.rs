@@ -7,12 +7,11 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use sensedsl_certify::{AlternativeLabels, Claim, Labels, Subject, certify, sha256};
 use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
 use sensedsl_proof::{Verified, read, verify};
-use sensedsl_wiring::Cancel;
-use sensedsl_wiring::certificate::{AlternativeLabels, Claim, Labels, Subject, certify, sha256};
-use sensedsl_wiring::solver::problem::{Holder, Problem, RuleId};
-use sensedsl_wiring::solver::{Options, Outcome, solve};
+use sensedsl_solve::problem::{Holder, Problem, RuleId};
+use sensedsl_solve::{Cancel, Options, Outcome, solve};
 use serde_json::Value;
 use support::generate::{self, Mix, Rng};
 
@@ -94,7 +93,7 @@ fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
         Outcome::Solved(answer) => {
             let text =
                 certify(problem, &labels, &subject(), Claim::Best(&answer), Cancel::NEVER).ok()?;
-            let sensedsl_wiring::solver::Objective { moved, violated, shared, cost, spares } =
+            let sensedsl_solve::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
             Some((text, Some(Objective { moved, violated, shared, cost, spares })))
         }

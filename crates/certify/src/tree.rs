@@ -1,10 +1,10 @@
 //! The case distinction: climb in a case, and where that does not close it, divide it.
 #![expect(clippy::indexing_slicing, reason = "all indices come from the model")]
 
-use super::ascent::{Ascent, Closing, Habits, ascend, first_tolls};
-use super::case::{Case, Open, Tolls, Weighed};
-use super::model::{Model, Thing};
-use crate::Cancel;
+use crate::ascent::{Ascent, Closing, Habits, ascend, first_tolls};
+use crate::case::{Case, Open, Tolls, Weighed};
+use crate::model::{Model, Thing};
+use sensedsl_solve::Cancel;
 
 /// Steps for the whole problem.
 const STEPS_FIRST: u32 = 6000;
@@ -19,7 +19,7 @@ const SINGLE_MAX: usize = 12;
 
 /// A node of a proof; children by their place among the nodes.
 #[derive(Debug)]
-pub(super) enum Node {
+pub(crate) enum Node {
     /// Alternatives by number.
     Device { device: usize, cases: Vec<(Vec<usize>, usize)> },
     /// Role and candidates by number in the problem.
@@ -31,17 +31,17 @@ pub(super) enum Node {
 }
 
 /// What ends a search for a proof.
-pub(super) struct Effort<'a> {
+pub(crate) struct Effort<'a> {
     /// Tolls that may still be looked up.
-    pub(super) work: u64,
-    pub(super) cancel: Cancel<'a>,
+    pub(crate) work: u64,
+    pub(crate) cancel: Cancel<'a>,
 }
 
 /// No proof was found within the effort.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct GivenUp {
+pub(crate) struct GivenUp {
     /// The caller's stop came.
-    pub(super) stopped: bool,
+    pub(crate) stopped: bool,
 }
 
 struct Prover<'a, 's> {
@@ -54,7 +54,7 @@ struct Prover<'a, 's> {
 }
 
 /// A tree all of whose leaves weigh more than `limit`; the root is the first node.
-pub(super) fn prove(
+pub(crate) fn prove(
     weighed: &Weighed<'_>,
     (limit, target): (i64, f64),
     effort: &mut Effort<'_>,

@@ -1,0 +1,43 @@
+//! The certificate of an answer, or the report that there is none.
+
+use sensedsl_certify::{Claim, Subject, Uncertified, certify};
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0403_no_certificate;
+use sensedsl_solve::{Fault, Outcome};
+
+use crate::Wiring;
+use crate::labels::labels;
+
+impl Wiring<'_> {
+    /// The certificate of what the solver found; none where it failed.
+    pub(crate) fn certificate(
+        &self,
+        outcome: &Result<Outcome, Fault>,
+        subject: &Subject,
+    ) -> Option<Result<String, Box<Diagnostic>>> {
+        let claim = match outcome {
+            Ok(Outcome::Solved(answer)) => Claim::Best(answer),
+            Ok(Outcome::Infeasible(conflict)) => Claim::NoWiring(&conflict.devices),
+            Ok(Outcome::Stopped { .. }) => {
+                return Some(Err(self.uncertified(&Uncertified::Stopped)));
+            }
+            Err(_) => return None,
+        };
+        let labels = labels(self.design, &self.formulation);
+        let text = certify(&self.formulation.problem, &labels, subject, claim, self.cancel);
+        if self.cancel.is_over() {
+            return Some(Err(self.uncertified(&Uncertified::Stopped)));
+        }
+        Some(text.map_err(|why| self.uncertified(&why)))
+    }
+
+    fn uncertified(&self, why: &Uncertified) -> Box<Diagnostic> {
+        let why = match why {
+            Uncertified::GivenUp => "none was found within the effort that is allowed for it",
+            Uncertified::Stopped => "time ran out before the proof was complete",
+            Uncertified::TooLarge => "the costs are too large",
+            Uncertified::Refuted(why) => return Box::new(self.disagrees(why)),
+        };
+        Box::new(e0403_no_certificate::no_certificate(self.place(), why))
+    }
+}
