@@ -4,7 +4,6 @@
 //! After a change of messages' places: `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests corpus::`,
 //! and read the difference.
 #![expect(
-    clippy::disallowed_methods,
     clippy::indexing_slicing,
     clippy::panic,
     clippy::unwrap_used,

@@ -1,6 +1,7 @@
 //! All tests over the whole, as one program: it is linked once, and its tests share all processors.
 //! [`README.md`](../README.md) says what each module holds.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests make files, run programs and measure time")]
 
 mod alloy;
 mod boards;

@@ -4,7 +4,6 @@
 //! 2,000 of them by default, ten times as many with `SENSEDSL_THOROUGH=1`;
 //! `SENSEDSL_MUTATIONS=1000000` for a long run (with `--release`). An
 //! input that panics is printed; it belongs into `tests/corpus/err` or `tests/corpus/ok`.
-#![expect(clippy::disallowed_methods, reason = "a test reads its data")]
 
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -1,6 +1,5 @@
 //! What the commands promise about single files that they write: whole or not at all, nothing of
 //! the user's replaced unasked, links, modes, devices and pipes respected.
-#![expect(clippy::disallowed_methods, reason = "tests of files touch files")]
 
 use std::fs;
 use std::path::Path;

@@ -3,7 +3,6 @@
 //!
 //! Coverage comes from LLVM's pass, which a stable compiler runs too; the engine is libFuzzer, from
 //! clang where it is installed and otherwise compiled from `libfuzzer-sys`.
-#![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod engine;
 mod options;

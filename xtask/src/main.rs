@@ -4,6 +4,7 @@
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
 //! break something. `parts` writes the table of known parts, or compares it;
 //! `profiles` compares the target profiles with a tree of ChibiOS.
+#![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod fuzz;
 mod parts;

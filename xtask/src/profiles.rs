@@ -5,7 +5,6 @@
 //! `cc` by default) preprocesses it for each MCU of each line, and what its macros say is held
 //! against the profile: units, channels, widths, DMA streams, ports, endpoints; then whether the
 //! tree has the files, and the platform the driver versions, that the profile names.
-#![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -1,7 +1,5 @@
 //! Everything `generate` writes for a wired design, as one set of files.
 
-use std::collections::BTreeMap;
-
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_diagnostics::{Diagnostic, render};
 use sensedsl_model::design::{Design, DeviceIndex};
@@ -11,7 +9,7 @@ use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
 use crate::firmware::chibios;
-use crate::host::{Host, HostBoard, HostPlan, Presentation};
+use crate::host::{Host, HostBoard, HostPlan};
 
 /// All files: the answer, the schema, the wiring sheet, the picture, firmware for each board and
 /// the host applications `hosts`. `name` is what people call the design: what its file is called.
@@ -54,32 +52,16 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
         .used(design)
         .map(|(on, board)| {
             let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
+            let shown = devices.iter().filter_map(|index| design.device(*index));
+            let paced = shown.clone().filter(|device| !matches!(device.kind, Kind::Icu(_)));
             HostBoard {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),
                 baud: board.link.baud,
-                presentations: presentations(design, &devices),
+                presentations: shown.map(|one| (one.id.value, one.shown.clone())).collect(),
+                cycles_ms: paced.map(|one| (one.id.value, one.delay_ms)).collect(),
             }
         })
         .collect();
     HostPlan::new(name, &boards)
-}
-
-fn presentations(design: &Design, devices: &[DeviceIndex]) -> BTreeMap<u8, Presentation> {
-    let devices = devices.iter().filter_map(|index| design.device(*index));
-    devices
-        .map(|device| {
-            let shown = device.shown.clone();
-            let presentation = Presentation {
-                label: shown.label,
-                quantity: shown.quantity,
-                scale: shown.scale,
-                offset: shown.offset,
-                min: shown.min,
-                max: shown.max,
-                cycle_ms: (!matches!(device.kind, Kind::Icu(_))).then_some(device.delay_ms),
-            };
-            (device.id.value, presentation)
-        })
-        .collect()
 }

@@ -14,5 +14,5 @@ mod visible;
 pub use codes::{Code, CodeInfo};
 pub use diagnostic::{Diagnostic, Edit, Fix, Label, Severity};
 pub use source::{FileId, LineColumn, SourceMap, Span};
-pub use suggest::nearest;
+pub use suggest::{distance, nearest};
 pub use visible::{is_hidden, visible, visible_json, visible_lines};

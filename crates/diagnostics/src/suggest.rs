@@ -1,32 +1,56 @@
-//! Did-you-mean.
-
-/// The name nearest to `typed`, when one is near enough to be meant: at most a third of the
-/// letters differ, case apart. Ties go to the earlier name.
-pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let typed = typed.to_lowercase();
-    let length = typed.chars().count();
-    if length > TYPED_MAX {
-        return None;
-    }
-    let near = names.into_iter().filter_map(|name| {
-        // The difference in length is a lower bound that costs little.
-        let other = name.chars().count();
-        if length.abs_diff(other) > (other.max(length) / 3).max(1) {
-            return None;
-        }
-        let distance = strsim::osa_distance(&typed, &name.to_lowercase());
-        let most = (other.max(length) / 3).max(1);
-        (distance <= most).then_some((distance, name))
-    });
-    near.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
-}
+//! "Did you mean": the name that is most similar to a misspelled one.
 
 /// Longer words are no slips of the pen.
 const TYPED_MAX: usize = 64;
 
+/// The least number of letters to insert, delete, replace or swap with their neighbour to turn one
+/// word into the other, letter case ignored.
+#[must_use]
+pub fn distance(left: &str, right: &str) -> usize {
+    strsim::osa_distance(&left.to_lowercase(), &right.to_lowercase())
+}
+
+/// The name nearest to `typed`, the first among equals, if it is near enough to be a slip: at most
+/// one edit for every three letters, and at least one.
+pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = typed.chars().count();
+    if length > TYPED_MAX {
+        return None;
+    }
+    let edits = |name: &'a str| {
+        let other = name.chars().count();
+        let most = (other.max(length) / 3).max(1);
+        // The difference in length is a lower bound that costs little.
+        let edits = (length.abs_diff(other) <= most).then(|| distance(typed, name))?;
+        // A slip keeps something of the word: `a` is no slip for `b`.
+        let keeps = edits == 0 || edits < length.min(other);
+        (edits <= most && keeps).then_some((edits, name))
+    };
+    let near = names.into_iter().filter_map(edits);
+    near.min_by_key(|(edits, _)| *edits).map(|(_, name)| name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn distances() {
+        let cases = [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("abc", "", 3),
+            ("sensor", "Sensor", 0),
+            ("sensr", "sensor", 1),
+            ("snesor", "sensor", 1),
+            ("kitten", "sitting", 3),
+            ("dealy", "delay", 1),
+        ];
+        for (left, right, expected) in cases {
+            assert_eq!(distance(left, right), expected, "{left} {right}");
+            assert_eq!(distance(right, left), expected, "{right} {left}");
+        }
+    }
 
     #[test]
     fn near_names_are_found_and_far_ones_not() {
@@ -36,5 +60,15 @@ mod tests {
         assert_eq!(nearest("encdr", names), Some("encoder"));
         assert_eq!(nearest("bluetooth", names), None);
         assert_eq!(nearest("", names), None);
+    }
+
+    #[test]
+    fn only_slips_are_suggested() {
+        let words = ["sensor", "actuator", "link", "a"];
+        assert_eq!(nearest("sensr", words), Some("sensor"));
+        assert_eq!(nearest("Actuater", words), Some("actuator"));
+        assert_eq!(nearest("pin", words), None);
+        assert_eq!(nearest("b", words), None);
+        assert_eq!(nearest("motor", words), None);
     }
 }

@@ -3,6 +3,7 @@
 //!
 //!     cargo run --release -p sensedsl-solve --features problems --example agreement -- [NUMBER [FIRST]] > agreement.jsonl
 #![expect(
+    clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::unwrap_used,
     clippy::indexing_slicing,

@@ -2,7 +2,12 @@
 //! `benches/compare.py` puts to other solvers.
 //!
 //!     cargo run --release -p sensedsl-solve --features problems --example instances -- [FAMILY...] > instances.jsonl
-#![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a developer's program")]
+#![expect(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "a developer's program"
+)]
 #![allow(dead_code, reason = "the support code serves several programs")]
 
 #[path = "../tests/support/mod.rs"]

@@ -20,13 +20,11 @@ mod kind;
 mod lexer;
 mod literal;
 mod parser;
-mod suggest;
 mod unit;
 
 pub use error::{Block, Expected, Found, Item, SyntaxError, SyntaxErrorKind};
 pub use kind::{SenseDsl, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 pub use rowan::{TextRange, TextSize};
-pub use suggest::{distance, nearest};
 pub use unit::Unit;
 
 use ast::AstNode as _;

@@ -1,7 +1,8 @@
 //! The units a number may have, and the way from a word to one of them.
 
-use crate::suggest;
 use std::fmt;
+
+use sensedsl_diagnostics::nearest;
 
 /// The unit of a time, a frequency, a voltage or a resistance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -85,7 +86,7 @@ impl Unit {
             entry.filter(|_| lower.len() > 2).map(|(_, unit)| *unit)
         })
         .map(Self::name)
-        .or_else(|| suggest::nearest(word, Self::ALL.map(Self::name)))
+        .or_else(|| nearest(word, Self::ALL.map(Self::name)))
     }
 }
 

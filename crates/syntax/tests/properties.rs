@@ -1,5 +1,6 @@
 //! What holds for every text: the tree spells it, parsing does not panic or take long, and the
 //! layout keeps the tokens and is stable.
+#![expect(clippy::disallowed_methods, reason = "a test that measures time")]
 
 use proptest::prelude::*;
 use sensedsl_syntax::{SyntaxElement, SyntaxErrorKind, SyntaxKind, parse, parse_within};

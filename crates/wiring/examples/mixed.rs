@@ -4,6 +4,7 @@
 //!
 //!     cargo run --release -p sensedsl-wiring --features problems --example mixed -- [FAMILY [NUMBER [FIRST]]] > mixed.jsonl
 #![expect(
+    clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::print_stderr,
     clippy::unwrap_used,

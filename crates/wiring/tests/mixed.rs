@@ -1,7 +1,7 @@
 //! Boards of different size: the search stays small, and a question ends when it is cancelled.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "only tests")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "only tests")]
 
 mod support {
     pub(crate) mod mixed;

@@ -1,5 +1,4 @@
 //! The three decoders of the wire, in Rust, C and C++, against the definition and each other.
-#![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
 mod agree;
 mod damage;

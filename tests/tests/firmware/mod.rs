@@ -4,7 +4,6 @@
 //! What a machine may lack is skipped loudly (`SKIPPED: …` on stderr); with `SENSEDSL_REQUIRE_TOOLS=1`
 //! a tool that package registries have is then a failure. `CHIBIOS` names a ChibiOS 21.11 source
 //! tree, which no registry has: without it the generated applications are only looked at.
-#![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
 mod applications;
 mod chibios;

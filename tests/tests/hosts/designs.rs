@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::host::{HostBoard, Presentation};
+use sensedsl_codegen::host::HostBoard;
+use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 
 /// `17 sensor IRFront uint16`, a line each.
@@ -13,6 +14,7 @@ pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
         schema: Schema { checksum, items },
         baud: 115_200,
         presentations: BTreeMap::new(),
+        cycles_ms: BTreeMap::new(),
     }
 }
 
@@ -60,10 +62,12 @@ pub(crate) fn all_types() -> Vec<HostBoard> {
             offset: (index % 4 == 1).then_some(-3.0),
             min: (index % 5 == 4 && sensor).then_some(-1e9),
             max: (index % 5 == 3 && sensor).then_some(1e9),
-            cycle_ms: (index % 2 == 0).then_some(40),
             ..Presentation::default()
         };
         board.presentations.insert(item.id, shown);
+        if index % 2 == 0 {
+            board.cycles_ms.insert(item.id, 40);
+        }
     }
     vec![board]
 }

@@ -27,9 +27,7 @@ pub(crate) struct Application<'a> {
 pub(crate) fn design() -> Vec<HostBoard> {
     let mut boards = designs::fig2();
     for id in [17, 18, 19, 20] {
-        let shown =
-            sensedsl_codegen::host::Presentation { cycle_ms: Some(40), ..Default::default() };
-        boards[0].presentations.insert(id, shown);
+        boards[0].cycles_ms.insert(id, 40);
     }
     boards
 }

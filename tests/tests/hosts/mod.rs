@@ -6,7 +6,6 @@
 //! `LIBCLUON` (folder of `cluon-complete.hpp`), `OPENDAVINCI` (prefix of an installed OpenDaVINCI 4)
 //! and `OPENDAVINCI2014` (`libopendavinci/include`, and for running `lib/libopendavinci.a` and
 //! `bin/supercomponent`).
-#![expect(clippy::disallowed_methods, reason = "tests run compilers on files")]
 
 mod compile;
 mod designs;

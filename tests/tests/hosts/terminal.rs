@@ -135,7 +135,7 @@ fn a_board_of_another_design_is_told() {
 #[test]
 fn typed_lines_become_commands() {
     let mut boards = designs::all_types();
-    let limited = sensedsl_codegen::host::Presentation {
+    let limited = sensedsl_model::design::Presentation {
         quantity: Some("deg".into()),
         scale: Some(0.5),
         min: Some(-30.0),
@@ -193,7 +193,7 @@ fn typed_lines_become_commands() {
 #[test]
 fn a_recorded_stream_is_played_with_scaled_values() {
     let mut boards = designs::fig2();
-    let shown = sensedsl_codegen::host::Presentation {
+    let shown = sensedsl_model::design::Presentation {
         quantity: Some("cm".into()),
         scale: Some(0.5),
         offset: Some(3.0),

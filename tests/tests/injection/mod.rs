@@ -2,7 +2,6 @@
 //! consumer (compilers, Make, `CMake`, a browser, parsers of Markdown, CSV, JSON, Prolog, a terminal) must
 //! see text and nothing else. There is no generator of Rust yet, so no Rust is compiled.
 #![expect(
-    clippy::disallowed_methods,
     clippy::indexing_slicing,
     clippy::panic,
     clippy::unwrap_used,

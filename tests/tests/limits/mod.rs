@@ -7,7 +7,6 @@
 //! [`MEMORY_KIB_MAX`] of memory gets no more and aborts, and both are another status than the
 //! expected one. [`WALL`] ends what waits for ever.
 #![cfg(target_os = "linux")]
-#![expect(clippy::disallowed_methods, reason = "tests that make files and run the program")]
 
 mod answers;
 mod files;

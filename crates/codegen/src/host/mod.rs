@@ -12,9 +12,7 @@ mod opendavinci;
 mod opendavinci2014;
 mod plan;
 
-pub use plan::{
-    BoardPlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Presentation, Scaling,
-};
+pub use plan::{BoardPlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Scaling};
 
 use crate::fileset::FileSet;
 

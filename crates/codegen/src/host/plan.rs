@@ -6,30 +6,12 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Schema, ValueType};
 
 /// Distance between a wire identifier and the number of its message on an OpenDaVINCI or libcluon
 /// bus. Those busses are shared with other programs, whose messages have small numbers and four-digit ones.
 pub(super) const MESSAGE_NUMBER_BASE: u32 = 21_000;
-
-/// How a value is shown; never sent on the wire.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Presentation {
-    /// A text for people.
-    pub label: Option<String>,
-    /// The unit of `scale * raw + offset`.
-    pub quantity: Option<String>,
-    /// Factor; 1 when absent.
-    pub scale: Option<f64>,
-    /// Summand; 0 when absent.
-    pub offset: Option<f64>,
-    /// Least shown value that makes sense.
-    pub min: Option<f64>,
-    /// Greatest shown value that makes sense.
-    pub max: Option<f64>,
-    /// From one value to the next; none where values come only when something happens.
-    pub cycle_ms: Option<u32>,
-}
 
 /// One board as the hosts see it.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +24,9 @@ pub struct HostBoard {
     pub baud: u32,
     /// By wire identifier; absent for what is shown as it comes.
     pub presentations: BTreeMap<u8, Presentation>,
+    /// From one value to the next, by wire identifier; absent where values come only when something
+    /// happens.
+    pub cycles_ms: BTreeMap<u8, u32>,
 }
 
 /// All boards of a design, ready to be printed in any language.
@@ -153,6 +138,7 @@ impl BoardPlan {
 
 impl DirectionPlan {
     fn new(board: &HostBoard, direction: Direction) -> Self {
+        let is_sensor = direction == Direction::Sensor;
         let items = board.schema.items.iter().filter(|item| item.direction == direction);
         let messages = items.map(|item| {
             let shown = board.presentations.get(&item.id).cloned().unwrap_or_default();
@@ -167,7 +153,7 @@ impl DirectionPlan {
                     min: shown.min.filter(|min| min.is_finite()),
                     max: shown.max.filter(|max| max.is_finite()),
                 },
-                cycle_ms: shown.cycle_ms.filter(|_| direction == Direction::Sensor),
+                cycle_ms: board.cycles_ms.get(&item.id).copied().filter(|_| is_sensor),
                 label: shown.label,
                 quantity: shown.quantity,
             }

@@ -1,7 +1,12 @@
 //! `sensedsl-verify PROOF [--for FILE…]`: exit status 0 when the certificate proves what it claims,
 //! and that of those files; 1 when not; 2 when there is something that cannot be read. `-` is the
 //! standard input.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "the binary says the result")]
+#![expect(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "the binary reads files and says the result"
+)]
 
 use sensedsl_proof::budget::BYTES_MAX;
 use sensedsl_proof::format::Certificate;

@@ -4,7 +4,6 @@
 //! takes its place, and keeps the permissions and the owner of the one that it replaces; symbolic
 //! links are followed and stay. A device or a pipe is written to and stays what it is. What a
 //! process that was killed left beside a file, the next one that writes this file removes.
-#![expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};

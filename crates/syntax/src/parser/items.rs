@@ -1,10 +1,11 @@
 //! Blocks and their items: what begins an item, what may stand where, and where a block ends that
 //! was never closed.
 
+use sensedsl_diagnostics::{distance, nearest};
+
 use super::{NESTING_LIMIT, Parser};
 use crate::error::{Block, Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
-use crate::suggest;
 
 /// A word that begins an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,7 +192,7 @@ impl Parser<'_> {
                 ident(1) && (self.nth_at(end, SyntaxKind::LBrace) || self.nth_word(end, "on"))
             }
             Keyword::Sensor | Keyword::Actuator => {
-                let near = |verb: &str| suggest::distance(self.nth_text(2), verb) <= 2;
+                let near = |verb: &str| distance(self.nth_text(2), verb) <= 2;
                 ident(1) && ident(2) && (near("returns") || near("accepts"))
             }
             Keyword::Driver => ident(1) && self.nth_word(2, "for"),
@@ -248,8 +249,8 @@ impl Parser<'_> {
     fn unknown_item(&mut self) {
         let (word, block) = (self.nth_text(0), self.block);
         let allowed = KEYWORDS.into_iter().filter(|entry| allows(block, entry.1.item()));
-        let similar = suggest::nearest(word, allowed.map(|entry| entry.0))
-            .or_else(|| suggest::nearest(word, KEYWORDS.map(|entry| entry.0)));
+        let similar = nearest(word, allowed.map(|entry| entry.0))
+            .or_else(|| nearest(word, KEYWORDS.map(|entry| entry.0)));
         let unknown =
             SyntaxErrorKind::UnknownItem { found: word.to_owned(), suggestion: similar, block };
         let keyword = similar.and_then(Keyword::from_word);

@@ -1,5 +1,4 @@
 //! A folder with ST's open pin data in, facts by part number out.
-#![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 use std::collections::BTreeMap;
 use std::fmt;

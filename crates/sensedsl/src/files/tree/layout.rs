@@ -58,7 +58,6 @@ pub(crate) fn listed(list: &Path) -> io::Result<BTreeSet<String>> {
 }
 
 /// The bytes of a file; none where there is no file.
-#[expect(clippy::disallowed_methods, reason = "the binary is where files are read and written")]
 pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     match fs::metadata(path) {
         Ok(found) if found.is_file() => fs::read(path),

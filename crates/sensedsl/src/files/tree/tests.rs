@@ -1,8 +1,6 @@
 //! A run is stopped after each single change, or a single change fails, and so is the run that
 //! puts it right: the folder holds the old tree or the new one, and what is the user's is there.
 
-#![expect(clippy::disallowed_methods, reason = "tests touch the machine")]
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
