@@ -202,6 +202,9 @@ pub(crate) struct ExplainArgs {
     /// With `wiring` and `timing`: how to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
+    /// With `wiring` and `timing`: stop after that time with what is known by then
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "file")]
+    pub(crate) timeout: Option<f64>,
 }
 
 /// For people or for scripts.
@@ -226,6 +229,9 @@ pub(crate) struct CapacityArgs {
     /// Let the wires that are there move
     #[arg(long)]
     pub(crate) rearrange: bool,
+    /// Stop after that time with what is known by then
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) timeout: Option<f64>,
 }
 
 #[derive(Debug, Args)]

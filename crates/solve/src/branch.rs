@@ -20,6 +20,9 @@ pub(crate) enum Branch {
 
 impl Engine<'_> {
     pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Dead> {
+        for board in self.boards_of(branch) {
+            self.state.touch(board);
+        }
         match branch {
             Branch::Alt(alt) => self.state.decide(self.model, alt),
             Branch::Cand(id) => self.state.pin(self.model, id),
@@ -37,28 +40,77 @@ impl Engine<'_> {
         match branch {
             Branch::Alt(alt) => {
                 let device = model.alt_device[alt];
-                let offset = alt - model.alts.range(device).start;
-                for twin in self.twins(device) {
-                    self.state.kill_alt(model, model.alts.range(twin).start + offset)?;
+                let twins = self.twins(device);
+                for alt in self.equals(branch).filter_map(|b| model.boards.alt_on(model, alt, b)) {
+                    let offset = alt - model.alts.range(device).start;
+                    for &twin in &twins {
+                        self.state.kill_alt(model, model.alts.range(twin).start + offset)?;
+                    }
                 }
                 Ok(())
             }
             Branch::Cand(id) => {
                 let device = model.cand_device(id);
-                let offset = id - self.first_cand(device);
-                for twin in self.twins(device) {
-                    self.state.kill_cand(model, self.first_cand(twin) + offset)?;
+                let twins = self.twins(device);
+                for id in self.equals(branch).filter_map(|b| model.boards.cand_on(model, id, b)) {
+                    let offset = id - self.first_cand(device);
+                    for &twin in &twins {
+                        self.state.kill_cand(model, self.first_cand(twin) + offset)?;
+                    }
                 }
                 Ok(())
             }
             Branch::Rule(rule) => self.state.pay_rule(model, rule),
-            Branch::Board(board) => self.state.pay_board(model, board),
+            Branch::Board(_) => {
+                self.equals(branch).try_for_each(|board| self.state.pay_board(model, board))
+            }
             Branch::Facility(facility) => {
                 let Some(prices) = &self.prices else { return Ok(()) };
                 let alts = &prices.terms.facilities[facility].alts;
-                alts.iter().try_for_each(|&alt| self.state.kill_alt(model, alt))
+                for board in self.equals(branch) {
+                    let here = |alt: &usize| model.boards.alt_on(model, *alt, board);
+                    for alt in alts.iter().filter_map(here) {
+                        self.state.kill_alt(model, alt)?;
+                    }
+                }
+                Ok(())
             }
         }
+    }
+
+    /// The boards that a branch is about. Rules are the same on equal boards.
+    fn boards_of(&self, branch: Branch) -> Vec<usize> {
+        let model = self.model;
+        match branch {
+            Branch::Alt(alt) => vec![model.alt_board[alt]],
+            Branch::Cand(id) => vec![model.alt_board[model.cand_alt(id)]],
+            Branch::Rule(_) => Vec::new(),
+            Branch::Board(board) => vec![board],
+            Branch::Facility(facility) => {
+                let terms = self.prices.as_ref().map(|prices| &prices.terms);
+                let alts = terms.iter().flat_map(|terms| &terms.facilities[facility].alts);
+                let mut boards: Vec<usize> = alts.map(|&alt| model.alt_board[alt]).collect();
+                boards.sort_unstable();
+                boards.dedup();
+                boards
+            }
+        }
+    }
+
+    /// The board of a branch and those that are equal to it here and now: nothing is decided of
+    /// any of them. An answer with what is refused on one of them has its like with that on the
+    /// board where it was tried.
+    fn equals(&self, branch: Branch) -> impl Iterator<Item = usize> + use<> {
+        let first = &self.model.boards.first_equal;
+        let mut boards = self.boards_of(branch);
+        if let &[board] = boards.as_slice()
+            && self.mirrors
+            && !self.state.is_touched(board)
+        {
+            let equal = |b: &usize| first[*b] == first[board] && !self.state.is_touched(*b);
+            boards = (0..first.len()).filter(equal).collect();
+        }
+        boards.into_iter()
     }
 
     fn first_cand(&self, device: usize) -> usize {

@@ -79,9 +79,15 @@ impl Engine<'_> {
         if let Some(board) = self.deciding_board() {
             return Ok(Some(board));
         }
-        let Branch::Alt(alt) = fallback else { return Ok(Some(fallback)) };
+        let alt = match fallback {
+            Branch::Alt(alt) => Some(alt),
+            // Which pin of one device is asked last: what the program leaves open says more.
+            Branch::Cand(_) => None,
+            Branch::Rule(_) | Branch::Board(_) | Branch::Facility(_) => return Ok(Some(fallback)),
+        };
         let open = self.open_questions();
         if open.is_empty() {
+            let Some(alt) = alt else { return Ok(Some(fallback)) };
             let alts = self.state.alts(self.model, self.model.alt_device[alt]);
             let likeliest = self.likeliest(alts).map(Branch::Alt);
             return Ok(Some(likeliest.unwrap_or(fallback)));

@@ -5,6 +5,7 @@
 //! an answer without any code of the search. No answer leaves the crate unchecked.
 
 pub mod answer;
+mod boards;
 mod branch;
 mod cancel;
 mod check;
@@ -30,6 +31,7 @@ mod search;
 mod sharing;
 mod solve;
 mod state;
+mod swap;
 mod terms;
 mod view;
 mod wires;

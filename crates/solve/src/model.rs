@@ -6,6 +6,7 @@
 #![expect(clippy::indexing_slicing, reason = "all ids are checked once by `validate`")]
 
 use crate::answer::{Choice, Fault, Objective};
+use crate::boards::Boards;
 use crate::dma;
 use crate::problem::{Claim, Holder, Pin, Problem};
 use crate::proper;
@@ -83,6 +84,8 @@ pub(crate) struct Model {
     pub(crate) weights: Weights,
     pub(crate) pin_weight: Vec<u64>,
     pub(crate) spare: Vec<bool>,
+    /// Boards that can stand for each other.
+    pub(crate) boards: Boards,
     /// First device that is interchangeable with this one.
     pub(crate) class: Vec<usize>,
     /// Device to its alternatives (ids are consecutive).
@@ -157,6 +160,7 @@ impl Model {
         model.find_demands();
         model.find_private_users(problem);
         model.most = model.find_most();
+        model.boards = Boards::new(problem, &model);
         Ok(model)
     }
 

@@ -8,6 +8,7 @@
 use crate::model::Model;
 use crate::search::{Choices, Engine};
 use crate::state::Dead;
+use crate::swap::earliest;
 
 /// One entry of the list by which answers are ordered.
 #[derive(Clone, Copy, Debug)]
@@ -91,11 +92,17 @@ impl Engine<'_> {
 
     /// Keeps only what gives the entry this value, and settles.
     pub(crate) fn restrict(&mut self, entry: Entry, value: Option<usize>) -> Result<(), Dead> {
+        self.restrict_to(entry, &[value])
+    }
+
+    /// Keeps only what gives the entry one of these values, which are in order, and settles.
+    fn restrict_to(&mut self, entry: Entry, values: &[Option<usize>]) -> Result<(), Dead> {
         let model = self.model;
+        let keeps = |value: Option<usize>| values.binary_search(&value).is_ok();
         match entry {
             Entry::Alternative(device) => {
                 for alt in model.alts.range(device) {
-                    if Some(alt) != value {
+                    if !keeps(Some(alt)) {
                         self.state.kill_alt(model, alt)?;
                     }
                 }
@@ -104,54 +111,60 @@ impl Engine<'_> {
                 for alt in model.alts.range(device) {
                     let roles = model.roles.range(alt);
                     if position >= roles.len() {
-                        if value.is_some() {
+                        if !keeps(None) {
                             self.state.kill_alt(model, alt)?;
                         }
                         continue;
                     }
                     for id in model.cands.range(roles.start + position) {
-                        if entry.of_cand(model, id) != value {
+                        if !keeps(entry.of_cand(model, id)) {
                             self.state.kill_cand(model, id)?;
                         }
                     }
                 }
             }
         }
+        let (Entry::Pin(device, _) | Entry::Signal(device, _) | Entry::Alternative(device)) = entry;
+        for alt in model.alts.range(device) {
+            if self.state.alt_on(alt) {
+                self.state.touch(model.alt_board[alt]);
+            }
+        }
         self.settle()
     }
 
     /// The least answer within the limit, given one within it. Leaves the domains restricted to it.
-    pub(crate) fn least(&mut self, limit: u64, mut known: Choices) -> Choices {
+    pub(crate) fn least(&mut self, limit: u64, known: Choices) -> Choices {
         let model = self.model;
         if self.narrow(limit + 1).is_err() {
             return known;
         }
+        let mut known = earliest(model, known);
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;
             }
-            let have = entry.of(model, &known);
             let floor = self.floor(entry, &known);
+            let mut values = self.values(entry);
+            values.retain(|value| *value >= floor);
             let saved = self.flow.save();
             let mark = self.state.mark();
-            let mut fixed = false;
-            for value in self.values(entry) {
-                if value >= have || self.stopped {
+            loop {
+                // All that would be less at once: mostly there is nothing, and to show that takes
+                // hardly more of all than of one.
+                values.truncate(values.partition_point(|v| *v < entry.of(model, &known)));
+                if values.is_empty() || self.stopped {
                     break;
                 }
-                if value < floor {
-                    continue;
-                }
-                if self.restrict(entry, value).is_ok()
-                    && let Some((_, better)) = self.search(limit + 1, true)
-                {
-                    known = better;
-                    fixed = true;
-                    break;
-                }
+                let restricted = self.restrict_to(entry, &values);
+                let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
                 self.back(mark, &saved);
+                match found {
+                    Some((_, better)) => known = earliest(model, better),
+                    None => break,
+                }
             }
-            if !fixed && self.restrict(entry, have).is_err() {
+            if self.restrict(entry, entry.of(model, &known)).is_err() {
                 return known;
             }
         }

@@ -48,6 +48,9 @@ pub(crate) struct Engine<'a> {
     begun: u64,
     /// No answer of the present search is below this.
     pub(crate) proved: u64,
+    /// Whether what is refused on one board may be refused on all equal ones: all that restricts the
+    /// domains says of which boards something is decided.
+    pub(crate) mirrors: bool,
 }
 
 /// What the price bound needs.
@@ -105,6 +108,7 @@ impl<'a> Engine<'a> {
             dive: 0,
             begun: 0,
             proved: 0,
+            mirrors: false,
         })
     }
 
@@ -138,6 +142,7 @@ impl<'a> Engine<'a> {
             dive: 0,
             begun: 0,
             proved: 0,
+            mirrors: false,
         }
     }
 

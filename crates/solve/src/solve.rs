@@ -48,6 +48,7 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else {
         return conflict::explain(problem, None, cancel);
     };
+    engine.mirrors = true;
     if let Err(Dead) = engine.settle() {
         let seed = engine.flow.stuck(&model);
         return conflict::explain(problem, Some(seed), cancel);
@@ -104,6 +105,7 @@ pub(crate) fn feasible_within(
     let model = Model::new(problem)?;
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else { return Ok(Some(false)) };
     engine.effort = effort;
+    engine.mirrors = true;
     let found = engine.search(u64::MAX, true).is_some();
     Ok(if engine.stopped { None } else { Some(found) })
 }

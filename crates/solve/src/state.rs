@@ -25,6 +25,8 @@ enum Event {
     Board(usize, Toll),
     /// The last of `opened`.
     Opened,
+    /// Something is decided of the board.
+    Touched(usize),
 }
 
 /// Nothing is left for some device or role.
@@ -47,6 +49,9 @@ pub(crate) struct State {
     pub(crate) paid: u64,
     /// Facilities (see [`crate::terms`]) that somebody must use.
     pub(crate) opened: Vec<usize>,
+    /// Boards of which something is decided that is not decided of all equal ones. What only
+    /// follows does not count.
+    touched: Vec<bool>,
     trail: Vec<Event>,
     decided: Vec<usize>,
     pinned: Vec<usize>,
@@ -67,6 +72,7 @@ impl State {
             board: vec![Toll::Open; model.spare.len()],
             paid: 0,
             opened: Vec::new(),
+            touched: vec![false; model.spare.len()],
             trail: Vec::new(),
             decided: Vec::new(),
             pinned: Vec::new(),
@@ -183,6 +189,7 @@ impl State {
                 Some(Event::Opened) => {
                     self.opened.pop();
                 }
+                Some(Event::Touched(board)) => self.touched[board] = false,
                 None => {}
             }
         }
@@ -317,6 +324,17 @@ impl State {
     pub(crate) fn open(&mut self, facility: usize) {
         self.trail.push(Event::Opened);
         self.opened.push(facility);
+    }
+
+    /// Says that something is decided of the board.
+    pub(crate) fn touch(&mut self, board: usize) {
+        if !std::mem::replace(&mut self.touched[board], true) {
+            self.trail.push(Event::Touched(board));
+        }
+    }
+
+    pub(crate) fn is_touched(&self, board: usize) -> bool {
+        self.touched[board]
     }
 
     /// Follows every decision to its end.

@@ -3,9 +3,11 @@
 use anyhow::Result;
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::Design;
+use sensedsl_model::kind::KindName;
 use sensedsl_wiring::{Cancel, Capacity, Search, Solved, capacity};
 use serde_json::{Value, json};
 
+use super::deadline::Deadline;
 use super::input;
 use super::table::table;
 use crate::Status;
@@ -16,24 +18,32 @@ use crate::terminal::Terminal;
 const NAMED_MAX: usize = 8;
 
 pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status> {
+    let deadline = Deadline::after(args.timeout);
+    let over = || deadline.is_over();
+    let cancel = Cancel::when(&over);
     let resolved = input::load(&args.file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let answer =
-        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), cancel);
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let capacities = capacity(design, &wiring, args.rearrange, Cancel::NEVER).all;
+    let found = capacity(design, &wiring, args.rearrange, cancel);
+    let capacities = found.all;
+    if !found.complete {
+        let all = design.boards.len() * KindName::ALL.len();
+        let open = all - capacities.len();
+        terminal.aside(&format!("stopped: {open} of {all} were not looked at"))?;
+    }
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &capacities))?,
         TableFormat::Json => {
             let list: Vec<Value> = capacities.iter().map(|one| value(design, one)).collect();
-            let all = json!({ "version": 1, "capacity": list });
+            let all = json!({ "version": 1, "complete": found.complete, "capacity": list });
             terminal.result(&render::json_text(&all))?;
         }
     }

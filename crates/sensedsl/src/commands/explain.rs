@@ -8,6 +8,7 @@ use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Alternative, Cancel, Search, Solved, Wiring};
 use serde_json::{Value, json};
 
+use super::deadline::Deadline;
 use super::input;
 use super::table::table;
 use crate::Status;
@@ -42,6 +43,9 @@ fn code(name: &str, terminal: &Terminal) -> Result<Status> {
 fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let file = args.file.as_deref().context("`explain wiring` needs a file and a device")?;
     let name = args.device.as_deref().context("`explain wiring` needs a device's name")?;
+    let deadline = Deadline::after(args.timeout);
+    let over = || deadline.is_over();
+    let cancel = Cancel::when(&over);
     let resolved = input::load(file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
@@ -54,18 +58,26 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("the file has no device {name}{meant}");
     };
-    let answer =
-        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
+    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), cancel);
     let Some(Solved::Wired(wiring)) = answer.solved else {
         terminal.diagnostics(&answer.diagnostics, &sources)?;
         return Ok(Status::Wrong);
     };
-    let alternatives = Wiring::new(design, None).why(&wiring, DeviceIndex(device)).all;
+    let found = Wiring::within(design, None, cancel).why(&wiring, DeviceIndex(device));
+    let alternatives = found.all;
+    if !found.complete {
+        terminal.aside("stopped: there may be more pins that were not looked at")?;
+    }
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &wiring, &alternatives))?,
         TableFormat::Json => {
             let list: Vec<Value> = alternatives.iter().map(value).collect();
-            let all = json!({ "version": 1, "device": name, "alternatives": list });
+            let all = json!({
+                "version": 1,
+                "device": name,
+                "complete": found.complete,
+                "alternatives": list,
+            });
             terminal.result(&render::json_text(&all))?;
         }
     }

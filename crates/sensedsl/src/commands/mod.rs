@@ -3,6 +3,7 @@
 pub(crate) mod boards;
 pub(crate) mod capacity;
 pub(crate) mod check;
+mod deadline;
 pub(crate) mod diff;
 pub(crate) mod explain;
 pub(crate) mod fmt;

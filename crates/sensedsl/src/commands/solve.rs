@@ -1,7 +1,6 @@
 //! `sensedsl solve`: the best wiring, all wirings, or their number.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use anyhow::{Result, ensure};
 use sensedsl_diagnostics::codes::e0405_too_many_moves;
@@ -12,6 +11,7 @@ use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 
+use super::deadline::Deadline;
 use super::in_the_way;
 use super::input::{self, Answer};
 use super::subject;
@@ -24,8 +24,7 @@ use crate::terminal::Terminal;
 const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
 
 pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
-    // Of the whole command: what is read counts too.
-    let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let deadline = Deadline::after(args.timeout);
     let kept = args.keep.as_deref().map(|path| read_text(path, What::Answer)).transpose()?;
     let keep = args.keep.as_deref().zip(kept.as_deref());
     let keep = keep.map(|(path, text)| input::keep_in(path, text)).transpose()?;
@@ -37,8 +36,8 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
-    let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    let cancel = if deadline.is_some() { Cancel::when(&late) } else { Cancel::NEVER };
+    let late = || deadline.is_over();
+    let cancel = Cancel::when(&late);
     if matches!(args.format, SolveFormat::Prolog | SolveFormat::Alloy) {
         ensure!(
             args.proof.is_none(),

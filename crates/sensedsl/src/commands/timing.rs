@@ -7,6 +7,7 @@ use sensedsl_timing::{BoardTiming, Count, Part, Row, SECOND_NS, Timing, shown_ti
 use sensedsl_wiring::{Cancel, Search, Solved};
 use serde_json::{Value, json};
 
+use super::deadline::Deadline;
 use super::input;
 use super::table::{INDENT, table};
 use crate::Status;
@@ -28,16 +29,22 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     if args.device.is_some() {
         bail!("`explain timing` is about the whole file: it takes no device");
     }
+    let deadline = Deadline::after(args.timeout);
+    let over = || deadline.is_over();
     let resolved = input::load(file, &args.on);
     let sources = resolved.sources;
     let Some(design) = &resolved.design else {
         terminal.diagnostics(&resolved.diagnostics, &sources)?;
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
+    let search = Search::default();
     let answer =
-        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
+        input::solve(design, resolved.diagnostics, None, &search, Cancel::when(&over));
     terminal.diagnostics(&answer.diagnostics, &sources)?;
     let Some(Solved::Wired(wiring)) = answer.solved else { return Ok(Status::Wrong) };
+    if wiring.bound.is_some() {
+        terminal.aside("stopped: this is the best wiring so far, and there may be a better one")?;
+    }
     // What cannot be kept is shown all the same: the table says where the time goes.
     let timing = timing(design, &wiring);
     match args.format {

@@ -128,6 +128,61 @@ fn problem() -> impl Strategy<Value = Problem> {
     })
 }
 
+/// A problem on one board, on several boards that are equal: most devices may go to any of them.
+fn on_equal_boards() -> impl Strategy<Value = Problem> {
+    let device = (device(1, 4), 1..3usize, prop::option::weighted(0.25, 0..3u32));
+    let devices = prop::collection::vec(device, 1..4);
+    let costs = prop::collection::vec((0..3u32, prop::bool::weighted(0.2)), 4);
+    let user = prop::collection::vec(prop::collection::btree_set(0..4u32, 1..3), 1..3);
+    let spares =
+        prop_oneof![2 => Just(0..0_u32), 1 => Just(1..3), 1 => Just(0..3), 1 => Just(2..3)];
+    (devices, costs, prop::collection::vec(user, 3), 2..4u32, spares).prop_map(
+        |(devices, costs, dma, boards, spares)| {
+            let fitted = devices.into_iter().flat_map(|(device, times, board)| {
+                let on = |b: &u32| board.is_none_or(|board| board.min(boards - 1) == *b);
+                let alternatives = (0..boards).filter(on).flat_map(|b| {
+                    device.alternatives.iter().map(move |alternative| copied(alternative, b))
+                });
+                vec![Device { alternatives: alternatives.collect() }; times]
+            });
+            let pin = |board| move |&(cost, shared)| Pin { board: BoardId(board), cost, shared };
+            let request = |board: u32| {
+                move |s: &std::collections::BTreeSet<u32>| DmaRequest {
+                    streams: s.iter().map(|stream| StreamId(4 * board + stream)).collect(),
+                }
+            };
+            let user = |board: u32| {
+                move |user: &Vec<_>| DmaUser { requests: user.iter().map(request(board)).collect() }
+            };
+            Problem {
+                pins: (0..boards).flat_map(|b| costs.iter().map(pin(b))).collect(),
+                boards: (0..boards).map(|b| Board { spare: spares.contains(&b) }).collect(),
+                devices: fitted.take(4).collect(),
+                dma: (0..boards).flat_map(|b| dma.iter().map(user(b))).collect(),
+                rules: RULES,
+                resources: (RESOURCES + 2) * boards,
+                streams: 4 * boards,
+            }
+        },
+    )
+}
+
+/// The alternative of the first board on another one that is equal to it.
+fn copied(alternative: &Alternative, board: u32) -> Alternative {
+    let mut copy = alternative.clone();
+    copy.board = BoardId(board);
+    let move_claims = |claims: &mut Vec<Claim>| {
+        claims.iter_mut().for_each(|claim| claim.resource.0 += (RESOURCES + 2) * board);
+    };
+    move_claims(&mut copy.claims);
+    copy.dma.iter_mut().for_each(|user| user.0 += 3 * board);
+    for candidate in copy.roles.iter_mut().flat_map(|role| &mut role.candidates) {
+        candidate.pin.0 += 4 * board;
+        move_claims(&mut candidate.claims);
+    }
+    copy
+}
+
 fn only(problem: &Problem, keep: impl Fn(u32) -> bool) -> Problem {
     let devices = (0..).zip(&problem.devices).filter(|(i, _)| keep(*i)).map(|(_, d)| d.clone());
     Problem { devices: devices.collect(), ..problem.clone() }
@@ -170,6 +225,12 @@ proptest! {
     #[test]
     fn agrees_with_the_oracle(problem in problem()) {
         prop_assume!(brute::combinations(&problem) < 30_000.0);
+        compare(&problem)?;
+    }
+
+    #[test]
+    fn agrees_with_the_oracle_on_equal_boards(problem in on_equal_boards()) {
+        prop_assume!(brute::combinations(&problem) < 3_000.0);
         compare(&problem)?;
     }
 }
