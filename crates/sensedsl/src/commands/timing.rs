@@ -38,8 +38,7 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         return Ok(input::status(&resolved.diagnostics, &args.on));
     };
     let search = Search::default();
-    let answer =
-        input::solve(design, resolved.diagnostics, None, &search, Cancel::when(&over));
+    let answer = input::solve(design, resolved.diagnostics, None, &search, Cancel::when(&over));
     terminal.diagnostics(&answer.diagnostics, &sources)?;
     let Some(Solved::Wired(wiring)) = answer.solved else { return Ok(Status::Wrong) };
     if wiring.bound.is_some() {

@@ -1,0 +1,91 @@
+//! `--timeout` of the commands that ask many questions: they end with what is known by then.
+#![allow(missing_docs, reason = "tests need none")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    reason = "a test may panic, and runs the program"
+)]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+/// Boards, and devices that may go to any of them.
+fn file(name: &str, boards: usize, devices: usize) -> PathBuf {
+    let mut text = String::new();
+    for board in 0..boards {
+        let _ =
+            writeln!(text, "board Brd{board} on STM32F407VGT6 {{ link {{ transport = none; }} }}");
+    }
+    for id in 1..=devices {
+        let _ = writeln!(text, "sensor Dev{id} returns uint16 {{ id = {id}; type = analog; }}");
+    }
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn run(arguments: &[&str], file: &PathBuf, more: &[&str]) -> (Output, Duration) {
+    let start = Instant::now();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sensedsl"));
+    let output = command.args(arguments).arg(file).args(more).output().unwrap();
+    (output, start.elapsed())
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn capacity_ends_with_the_kinds_that_were_looked_at() {
+    let boards = file("capacity.sense", 60, 1);
+    let (cut, spent) = run(&["capacity"], &boards, &["--timeout", "1", "--format", "json"]);
+    assert!(cut.status.success(), "{}", String::from_utf8_lossy(&cut.stderr));
+    // Far more than is kept to on a quiet machine, far less than all of it takes.
+    assert!(spent < Duration::from_secs(4), "{spent:?}");
+    let answer = json(&cut);
+    assert_eq!(answer["complete"], false);
+    assert!(answer["capacity"].as_array().unwrap().len() < 600);
+    let said = String::from_utf8_lossy(&cut.stderr).into_owned();
+    assert!(said.contains("stopped: ") && said.contains(" of 600 were not looked at"), "{said}");
+
+    let (whole, _) = run(&["capacity"], &file("whole.sense", 1, 1), &["--format", "json"]);
+    assert_eq!(json(&whole)["complete"], true);
+    assert_eq!(json(&whole)["capacity"].as_array().unwrap().len(), 10);
+}
+
+#[test]
+fn explain_ends_with_the_pins_that_were_looked_at() {
+    let boards = file("explain.sense", 60, 60);
+    let more = ["Dev1", "--timeout", "2", "--format", "json"];
+    let (cut, spent) = run(&["explain", "wiring"], &boards, &more);
+    assert!(spent < Duration::from_secs(5), "{spent:?}");
+    let said = String::from_utf8_lossy(&cut.stderr).into_owned();
+    // On a slow machine not even the wiring is found.
+    if cut.status.success() {
+        assert!(said.contains("stopped: there may be more pins"), "{said}");
+        assert_eq!(json(&cut)["complete"], false);
+    } else {
+        assert!(said.contains("E0404"), "{said}");
+    }
+    let one = file("one.sense", 1, 1);
+    let (whole, _) = run(&["explain", "wiring"], &one, &["Dev1", "--format", "json"]);
+    assert_eq!(json(&whole)["complete"], true);
+}
+
+#[test]
+fn no_time_at_all_is_said() {
+    let one = file("none.sense", 1, 1);
+    for (arguments, more) in [
+        (vec!["capacity"], vec!["--timeout", "0"]),
+        (vec!["explain", "wiring"], vec!["Dev1", "--timeout", "0"]),
+        (vec!["explain", "timing"], vec!["--timeout", "0"]),
+    ] {
+        let (output, _) = run(&arguments, &one, &more);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("E0404"), "{arguments:?}");
+    }
+}
