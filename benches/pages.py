@@ -1,0 +1,450 @@
+#!/usr/bin/env python3
+"""Checks our answers against a model of its own, written from the pages.
+
+    python3 -m venv build/venv && build/venv/bin/pip install ortools
+    build/venv/bin/python3 benches/pages.py target/release/sensedsl [NUMBER [FIRST [chibios|none|units]]]
+
+The model knows what docs/language.md and docs/board-tables.md say, reads the tables that `sensedsl boards` and
+`sensedsl parts --table` print, and the files of `silicon/` and `targets/`; it shares no code and no problem with the
+program. Seeded designs with devices of every kind go to both: they must agree whether there is a wiring, and on the
+unmet wishes, the shared pins and the cost of the best. `units` draws soft rules for units, for the pins alone. Ends
+with status 1 on a disagreement.
+"""
+
+import csv
+import io
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PLACES = [
+    ("NUCLEO_F072RB", 1), ("STM32F042K6T6", 0), ("BLUEPILL_F103C8", 1), ("STM32F103RBT6", 0), ("STM32F407VGT6", 0),
+    ("NUCLEO_F401RE", 1), ("STM32G071RBT6", 0), ("STM32G031K8T6", 0), ("NUCLEO_G474RE", 1), ("STM32G431KBT6", 0),
+    ("STM32H743VIT6", 0), ("STM32L432KCU6", 0), ("STM32L476RGT6", 0), ("RASPBERRYPI_PICO", 1), ("ARDUINO_UNO_R3", 1),
+    ("ARDUINO_MEGA_2560", 1),
+]
+DESCRIBING = {"pin", "position", "side", "header", "label", "voltage", "onboard", "note", "af"}
+WIRES = {"i2c": ["SCL", "SDA"], "spi": ["SCK", "MISO", "MOSI"], "uart": ["TX", "RX"], "can": ["RX", "TX"]}
+BUSES = {"i2c": r"(I2C\d+)_(SCL|SDA)", "spi": r"(SPI\d+)_(SCK|MISO|MOSI)", "uart": r"((?:USART|UART|LPUART)\d+)_(TX|RX)",
+         "can": r"((?:FD)?CAN\d*)_(RX|TX)"}
+
+
+def toml(path):
+    with open(os.path.join(ROOT, path), "rb") as file:
+        return tomllib.load(file)
+
+
+SILICON = [toml(f"silicon/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "silicon"))) if name.endswith(".toml")]
+TARGETS = [toml(f"targets/chibios-21.11/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "targets/chibios-21.11")))]
+
+
+def begins(mcu, start):
+    return len(mcu) >= len(start) and all(s in ("?", m) for s, m in zip(start.upper(), mcu.upper()))
+
+
+class Profile:
+    """What the drivers of a target can do on an MCU."""
+
+    def __init__(self, data, line):
+        self.data, self.line, self.units = data, line["name"], set(line["units"].split())
+
+    @staticmethod
+    def of(mcu):
+        for data in TARGETS:
+            for line in data["line"]:
+                if any(begins(mcu, start) for start in line["parts"]):
+                    return Profile(data, line)
+        return None
+
+    def unit(self, group, name):
+        entry = self.data.get(group, {})
+        name = "CAN1" if name == "CAN" else name
+        for unit in entry.get("units", []):
+            if unit["name"] == name and name in self.units and self.line in unit.get("lines", [self.line]):
+                return {**entry.get("rules", {}), **unit}
+        return None
+
+    def requests(self, group, name):
+        unit = self.unit(group, name) or {}
+        listed = {m["name"]: m["streams"] for m in self.data.get("multiplexer", []) if self.line in m.get("lines", [self.line])}
+        both = [("dma",), ("rx",), ("tx",)]
+        # A rule of the same key names the option; the unit's own names the streams.
+        name = "CAN1" if name == "CAN" else name
+        own = next((u for u in self.data.get(group, {}).get("units", []) if u["name"] == name and self.line in u.get("lines", [self.line])), {})
+        found = [own[key] for (key,) in both if key in own] if unit else []
+        return [listed[one] if isinstance(one, str) else one for one in found]
+
+
+class Board:
+    """A table as printed, and what the silicon says of its pins."""
+
+    def __init__(self, binary, place, built_in, target):
+        call = ["boards", place.replace("_", "-")] if built_in else ["parts", "--table", place]
+        text = subprocess.run([binary, *call], capture_output=True, text=True, check=True).stdout
+        head = [line for line in text.splitlines() if line.startswith("#")]
+        self.mcu = next(line.split("=")[1].strip() for line in head if line.startswith("# mcu"))
+        rows = list(csv.DictReader(io.StringIO("\n".join(l for l in text.splitlines() if not l.startswith("#")))))
+        self.profile = Profile.of(self.mcu) if target != "none" else None
+        silicon = next((s for s in SILICON if any(begins(self.mcu, p) for p in s["parts"])), {})
+        self.timers = silicon.get("timers", {})
+        roles = {}
+        for entry in silicon.get("pins", []):
+            if any(begins(self.mcu, part) for part in entry["parts"]):
+                roles.update({name: entry["role"] for name in entry["names"]})
+        if self.profile:
+            roles.update({name: "debug" for name in self.profile.data.get("debug", {}).get("pins", [])})
+        bare = "Onboard" not in rows[0]
+        self.pins, withheld, places = {}, set(), {}
+        for row in rows:
+            name, onboard = row["Pin"], (row.get("Onboard") or "").strip()
+            usages = [u for column, cell in row.items() if column.lower() not in DESCRIBING for u in (cell or "").split() if u != "-"]
+            onboard = "" if onboard == "-" else onboard
+            how = onboard.rsplit(":", 1)[1] if ":" in onboard else "taken" if onboard else ""
+            role = roles.get(name)
+            place = ((row.get("Header") or ""), (row.get("Position") or "").strip())
+            place = place if place[1] not in ("", "-") else None
+            if how == "taken" or role in ("debug", "reset", "boot"):
+                withheld.add(name)
+            shared = bool(onboard) or (bare and role == "oscillator")
+            self.pins[name] = {"usages": usages, "cost": len(usages), "shared": shared, "bus": how == "bus", "place": place}
+            if place:
+                places.setdefault(place, []).append(name)
+        self.pads = {place: names for place, names in places.items() if len(names) > 1}
+        for names in self.pads.values():
+            if withheld & set(names):
+                withheld |= set(names)
+        for name in withheld:
+            del self.pins[name]
+
+    def signals(self):
+        """Pin, signal and blocks of each usage that is offered."""
+        for pin, facts in self.pins.items():
+            for usage in facts["usages"]:
+                name, _, blocks = usage.partition("#")
+                name, _, _ = name.partition("@")
+                blocks = blocks.partition("@")[0]
+                # An MCU with one unit may leave its number out.
+                name = re.sub(r"^(ADC|DAC)_(?=IN|OUT)", r"\g<1>1_", re.sub(r"^(ADC\d*)_INP", r"\1_IN", name.upper().replace("-", "_")))
+                yield pin, name, frozenset(map(int, blocks.split("|"))) if blocks else None
+
+
+class Model:
+    """One board and its devices as constraints."""
+
+    def __init__(self, board, devices, rules):
+        from ortools.sat.python import cp_model
+
+        self.board, self.cp, self.sat = board, cp_model.CpModel(), cp_model
+        # Pin and signal to {holder: its variables}; claims of other things to the same.
+        self.held, self.units, self.blocks, self.broken = {}, {}, {}, {}
+        self.signal_list = list(board.signals())
+        self.possible = True
+        for number, device in enumerate(devices):
+            self.device(number, device, [r for r in rules if r[0] in (None, number)])
+        self.finish()
+
+    def new(self):
+        return self.cp.new_bool_var("")
+
+    def hold(self, thing, holder, var):
+        self.held.setdefault(thing, {}).setdefault(holder, []).append(var)
+
+    def wire(self, number, role, options, unit_var, bus=None):
+        """One of the options (pin, signal, blocks) if the unit is taken; returns their variables."""
+        taken = []
+        for pin, signal, blocks in options:
+            var = self.new()
+            taken.append((pin, signal, var))
+            holder = (bus, role, signal) if bus else number
+            self.hold(("pin", pin), holder, var)
+            if signal:
+                self.hold(("signal", signal), (bus, role, pin) if bus else number, var)
+                if bus:
+                    self.hold(("wire", bus, role), pin, var)
+            pad = self.board.pins[pin]["place"]
+            if pad in self.board.pads:
+                self.hold(("pad", pad), pin, var)
+            if blocks is not None:
+                unit = signal.split("_")[0]
+                self.blocks.setdefault(unit, []).append((blocks, var))
+        self.cp.add(sum(v for *_, v in taken) == unit_var)
+        return taken
+
+    def fitting(self, pattern):
+        return [(p, s, b, m) for p, s, b in self.signal_list for m in [re.fullmatch(pattern, s)] if m]
+
+    def gpio(self):
+        return [(pin, None, None) for pin, facts in self.board.pins.items() if not facts["bus"]]
+
+    def free(self, options):
+        return [o for o in options if not self.board.pins[o[0]]["bus"]]
+
+    def violate(self, number, rules, unit, var):
+        """`unit` is the set of units that can serve; the wire violates by what all or none of them is."""
+        for index, (_, kind, wanted) in enumerate(rules):
+            units = unit if isinstance(unit, set) else {unit}
+            hit = wanted not in units if kind == "prefer" else units == {wanted}
+            if hit:
+                self.broken.setdefault((number, index), []).append(var)
+
+    def device(self, number, device, rules):
+        kind, profile = device["kind"], self.board.profile
+        choices = []
+        one = self.cp.new_constant(1)
+        if kind in BUSES:
+            by_unit = {}
+            for pin, signal, blocks, match in self.fitting(BUSES[kind]):
+                if kind == "uart" and self.board.pins[pin]["bus"]:
+                    continue
+                by_unit.setdefault(match[1], {}).setdefault(match[2], []).append((pin, signal, blocks))
+            group = {"i2c": "i2cs", "spi": "spis", "uart": "serials", "can": "cans"}[kind]
+            for unit, wires in by_unit.items():
+                if profile and not profile.unit(group, unit):
+                    continue
+                if set(wires) != set(WIRES[kind]):
+                    continue
+                var = self.new()
+                choices.append(var)
+                bus = None if kind == "uart" else unit
+                for role in WIRES[kind]:
+                    self.wire(number, role, wires[role], var, bus)
+                if kind == "spi":
+                    self.wire(number, "CS", self.gpio(), var)
+                if kind == "uart":
+                    self.hold(("unit", unit), number, var)
+                if kind == "i2c":
+                    self.hold(("address", unit, device["address"]), number, var)
+                self.use(group, unit, var)
+                self.violate(number, rules, unit, var)
+        elif kind in ("icu", "pwm", "encoder"):
+            choices = self.timer(number, kind, device, rules)
+        elif kind == "digital":
+            taken = self.wire(number, "IO", self.gpio(), one)
+            if device.get("edge") and profile and profile.data["exti"]["rule"] == "one port per number":
+                for pin, _, var in taken:
+                    self.hold(("exti", re.search(r"\d+$", pin)[0]), number, var)
+            choices = [one]
+        elif kind == "analog":
+            options = []
+            for pin, signal, blocks, match in self.fitting(r"ADC(\d+)_IN(\d+)"):
+                units = {f"ADC{digit}" for digit in match[1]}
+                serving = {u for u in units if self.samples(u, int(match[2]))}
+                if serving and not self.board.pins[pin]["bus"]:
+                    options.append((pin, signal, blocks, units, serving))
+            taken = self.wire(number, "IN", [o[:3] for o in options], one)
+            for (_, _, var), (*_, units, serving) in zip(taken, options):
+                self.violate(number, rules, units, var)
+                if profile:
+                    self.convert(var, serving)
+            choices = [one]
+        else:
+            options = []
+            for pin, signal, blocks, match in self.fitting(r"(DAC\d+)_OUT(\d+)"):
+                unit = profile.unit("dacs", match[1]) if profile else None
+                if not profile or unit and int(match[2]) <= len(unit["drivers"]):
+                    options.append((pin, signal, blocks))
+            for (_, signal, var) in self.wire(number, "OUT", self.free(options), one):
+                self.violate(number, rules, signal.split("_")[0], var)
+            choices = [one]
+        self.cp.add(sum(choices) == 1)
+
+    def samples(self, unit, channel):
+        profile = self.board.profile
+        if not profile:
+            return True
+        unit = profile.unit("adcs", unit)
+        return bool(unit) and unit["inputs"][0] <= channel <= unit["inputs"][1]
+
+    def convert(self, var, serving):
+        chosen = []
+        for unit in sorted(serving):
+            one = self.new()
+            chosen.append(one)
+            self.use("adcs", unit, one)
+        self.cp.add(sum(chosen) == var)
+
+    def channels(self, kind, unit):
+        """The channels that serve the kind, and whether the timer is there."""
+        ability = self.board.timers.get({"icu": "capture", "encoder": "encoder"}.get(kind, ""), None)
+        able = set(range(1, 9)) if kind == "pwm" else {1, 2}
+        if ability is not None:
+            able = set(ability["channels"]) if kind == "icu" else able & set(ability["channels"])
+            able &= {1, 2}
+        profile = self.board.profile
+        if profile:
+            timer = profile.unit("timers", unit)
+            if not timer:
+                return set()
+            if kind == "encoder":
+                return able if timer.get("encoder") else set()
+            return able & set(timer.get(kind) or [])
+        return able
+
+    def timer(self, number, kind, device, rules):
+        by_unit = {}
+        for pin, signal, blocks, match in self.fitting(r"(TIM\d+)_CH(\d+)"):
+            if int(match[2]) in self.channels(kind, match[1]) and not self.board.pins[pin]["bus"]:
+                by_unit.setdefault(match[1], {}).setdefault(int(match[2]), []).append((pin, signal, blocks))
+        choices = []
+        for unit, wires in by_unit.items():
+            if kind == "encoder" and set(wires) != {1, 2}:
+                continue
+            var = self.new()
+            choices.append(var)
+            if kind == "encoder":
+                self.wire(number, "A", wires[1], var)
+                self.wire(number, "B", wires[2], var)
+            else:
+                self.wire(number, "IO", [o for options in wires.values() for o in options], var)
+            if self.board.profile:
+                holder = ("frequency", device["frequency"]) if kind == "pwm" else number
+                self.hold(("unit", unit), holder, var)
+            self.violate(number, rules, unit, var)
+        return choices
+
+    def use(self, group, unit, var):
+        if self.board.profile:
+            self.units.setdefault((group, unit), []).append(var)
+
+    def any_of(self, lits):
+        used = self.new()
+        for lit in lits:
+            self.cp.add(lit <= used)
+        return used
+
+    def finish(self):
+        pins = {}
+        for thing, holders in self.held.items():
+            used = [self.any_of(lits) if len(lits) > 1 else lits[0] for lits in holders.values()]
+            # The wires of one device differ: on a pin each stands for itself.
+            if thing[0] in ("pin", "signal"):
+                for holder, lits in holders.items():
+                    if isinstance(holder, int) and len(lits) > 1:
+                        self.cp.add(sum(lits) <= 1)
+            self.cp.add(sum(used) <= 1)
+            if thing[0] == "pin":
+                pins[thing[1]] = sum(used)
+        for wanted in self.blocks.values():
+            chosen = {b: self.new() for blocks, _ in wanted for b in blocks}
+            self.cp.add(sum(chosen.values()) == 1)
+            for blocks, var in wanted:
+                self.cp.add(var <= sum(chosen[b] for b in blocks))
+        streams = {}
+        for (group, unit), lits in self.units.items():
+            used = self.any_of(lits)
+            for request in self.board.profile.requests(group, unit):
+                served = []
+                for stream in request:
+                    served.append(self.new())
+                    streams.setdefault(stream, []).append(served[-1])
+                self.cp.add(sum(served) == used)
+        for lits in streams.values():
+            self.cp.add(sum(lits) <= 1)
+        facts = self.board.pins
+        shared = 1 + sum(f["cost"] for f in facts.values())
+        rule = shared * (1 + len(facts))
+        self.factors = (rule, shared)
+        weight = sum(u * (facts[p]["cost"] + shared * facts[p]["shared"]) for p, u in pins.items())
+        self.cp.minimize(weight + rule * sum(self.any_of(lits) for lits in self.broken.values()))
+
+    def solve(self):
+        solver = self.sat.CpSolver()
+        solver.parameters.num_workers = 1
+        solver.parameters.max_time_in_seconds = 30
+        status = solver.solve(self.cp)
+        if status == self.sat.INFEASIBLE:
+            return None
+        if status != self.sat.OPTIMAL:
+            return "stopped"
+        rule, shared = self.factors
+        value = round(solver.objective_value)
+        return [value // rule, value % rule // shared, value % shared]
+
+
+KINDS = {
+    "analog": ("sensor", "uint16", ""), "i2c": ("sensor", "uint16", "address = {address};"), "icu": ("sensor", "uint16", ""),
+    "encoder": ("sensor", "int16", ""), "digital": ("sensor", "bool", ""), "uart": ("sensor", "uint16", ""),
+    "spi": ("sensor", "uint16", ""), "pwm": ("actuator", "uint16", "frequency = {frequency};"), "dac": ("actuator", "uint16", ""),
+    "can": ("sensor", "uint16", "frame = {frame};"),
+}
+
+
+def design(rng, place, board, units):
+    """Text, devices and rules (device or none for the board, kind, unit)."""
+    served = [k for k in KINDS if rng.random() < 0.75]
+    devices, rules, text = [], [], f"board Bench on {place} {{\n    link {{ transport = none; }}\n"
+    names = set()
+    for _, signal, _ in board.signals():
+        if match := re.fullmatch(r"ADC(\d+)_IN\d+", signal):
+            names |= {f"ADC{digit}" for digit in match[1]}
+        elif match := re.fullmatch(r"((?:I2C|SPI|USART|UART|LPUART|FDCAN|CAN|TIM|DAC)\d+)_(?:SCL|SDA|SCK|MISO|MOSI|TX|RX|CH\d|OUT\d)", signal):
+            names.add(match[1])
+    names = sorted(names)
+    if units and names and rng.random() < 0.5:
+        rules.append((None, rng.choice(["prefer", "avoid"]), rng.choice(names)))
+        text += f"    {rules[-1][1]} unit = {rules[-1][2]};\n"
+    for number in range(rng.randint(1, 12 if len(board.pins) > 30 else 7)):
+        kind = rng.choice(served or ["digital"])
+        device = {"kind": kind, "address": 0x20 + number % rng.choice([2, 16]), "frequency": rng.choice([50, 1000]),
+                  "frame": 16 + number, "edge": kind == "digital" and rng.random() < 0.4}
+        direction, value, more = KINDS[kind]
+        if kind == "digital" and not device["edge"] and rng.random() < 0.5:
+            direction = "actuator"
+        more = more.format(**device) + (" edge = rising;" if device["edge"] else "")
+        if units and names and rng.random() < 0.7:
+            rules.append((number, rng.choice(["prefer", "avoid"]), rng.choice(names)))
+            more += f" {rules[-1][1]} unit = {rules[-1][2]};"
+        takes = "returns" if direction == "sensor" else "accepts"
+        text += f"    {direction} Dev{number} {takes} {value} {{ id = {number + 1}; type = {kind}; {more} }}\n"
+        devices.append(device)
+    return text + "}\n", devices, rules
+
+
+def ours(binary, text, target, folder):
+    path = os.path.join(folder, "bench.sense")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    call = [binary, "solve", path, "--format", "json", *(["--target", "none"] if target == "none" else [])]
+    done = subprocess.run(call, capture_output=True, text=True, check=False)
+    errors = re.findall(r"error\[(E\d+)\]", done.stderr)
+    if done.returncode == 0:
+        answer = json.loads(done.stdout)
+        return [answer["violated"], answer["shared"], answer["cost"]], errors
+    return None, errors
+
+
+def main():
+    binary = os.path.abspath(sys.argv[1])
+    number, first = (int(sys.argv[i]) if len(sys.argv) > i else d for i, d in ((2, 300), (3, 0)))
+    what = sys.argv[4] if len(sys.argv) > 4 else "chibios"
+    target = "none" if what == "units" else what
+    boards, wrong, none, stopped, families = {}, [], 0, 0, set()
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(first, first + number):
+            rng = random.Random(seed)
+            place, built_in = PLACES[seed % len(PLACES)]
+            if place not in boards:
+                boards[place] = Board(binary, place, built_in, target)
+            board = boards[place]
+            families.add(board.mcu[:9])
+            text, devices, rules = design(rng, place, board, what == "units")
+            answer, errors = ours(binary, text, target, folder)
+            theirs = Model(board, devices, rules).solve()
+            none += theirs is None
+            stopped += theirs == "stopped"
+            if theirs != "stopped" and answer != theirs:
+                wrong.append(f"{seed} {place}: we {answer} {errors}, the pages {theirs}\n{text}")
+    print(f"{number} designs ({what}) on {len(families)} MCUs, {none} without a wiring, {stopped} stopped, {len(wrong)} disagreements")
+    for mistake in wrong:
+        print(f"- {mistake}")
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
