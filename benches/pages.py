@@ -228,7 +228,7 @@ class Model:
             taken = self.wire(number, "IO", self.gpio(), one)
             if device.get("edge") and profile and profile.data["exti"]["rule"] == "one port per number":
                 for pin, _, var in taken:
-                    self.hold(("exti", re.search(r"\d+$", pin)[0]), number, var)
+                    self.hold(("exti", re.match(r"P[A-Z](\d+)", pin)[1]), number, var)
             choices = [one]
         elif kind == "analog":
             options = []

@@ -7,8 +7,12 @@
 
 use crate::model::Model;
 use crate::search::{Choices, Engine};
+use crate::solve::Effort;
 use crate::state::Dead;
 use crate::swap::earliest;
+
+/// Nodes that a question about several values is worth.
+const PATIENCE: u64 = 40;
 
 /// One entry of the list by which answers are ordered.
 #[derive(Clone, Copy, Debug)]
@@ -149,20 +153,29 @@ impl Engine<'_> {
             values.retain(|value| *value >= floor);
             let saved = self.flow.save();
             let mark = self.state.mark();
+            // All that would be less at once: mostly there is nothing, and to show that takes hardly
+            // more of all than of one. Where it does, fewer are asked about.
+            let mut number = values.len();
             loop {
-                // All that would be less at once: mostly there is nothing, and to show that takes
-                // hardly more of all than of one.
                 values.truncate(values.partition_point(|v| *v < entry.of(model, &known)));
                 if values.is_empty() || self.stopped {
                     break;
                 }
-                let restricted = self.restrict_to(entry, &values);
+                let some = number.min(values.len());
+                let many = Effort::Nodes(self.nodes + PATIENCE);
+                self.effort = if some > 1 { many } else { Effort::Any };
+                let restricted = self.restrict_to(entry, &values[..some]);
                 let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
                 self.back(mark, &saved);
+                let unknown = self.stopped && !self.cancel.is_over();
+                self.effort = Effort::Any;
                 match found {
                     Some((_, better)) => known = earliest(model, better),
-                    None => break,
+                    None if unknown => number = some / 2,
+                    None if self.stopped => break,
+                    None => drop(values.drain(..some)),
                 }
+                self.stopped &= !unknown;
             }
             if self.restrict(entry, entry.of(model, &known)).is_err() {
                 return known;
