@@ -153,9 +153,9 @@ impl Engine<'_> {
             values.retain(|value| *value >= floor);
             let saved = self.flow.save();
             let mark = self.state.mark();
-            // All that would be less at once: mostly there is nothing, and to show that takes hardly
-            // more of all than of one. Where it does, fewer are asked about.
-            let mut number = values.len();
+            // The least first. Where that is not possible, more at once: mostly nothing is, and to
+            // show that takes hardly more of many than of one. Where it does, fewer are asked about.
+            let mut number = 1;
             loop {
                 values.truncate(values.partition_point(|v| *v < entry.of(model, &known)));
                 if values.is_empty() || self.stopped {
@@ -173,7 +173,10 @@ impl Engine<'_> {
                     Some((_, better)) => known = earliest(model, better),
                     None if unknown => number = some / 2,
                     None if self.stopped => break,
-                    None => drop(values.drain(..some)),
+                    None => {
+                        values.drain(..some);
+                        number = some * 4;
+                    }
                 }
                 self.stopped &= !unknown;
             }
