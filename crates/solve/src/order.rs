@@ -144,6 +144,7 @@ impl Engine<'_> {
             return known;
         }
         let mut known = earliest(model, known);
+        let mut start = 1;
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;
@@ -155,7 +156,7 @@ impl Engine<'_> {
             let mark = self.state.mark();
             // The least first. Where that is not possible, more at once: mostly nothing is, and to
             // show that takes hardly more of many than of one. Where it does, fewer are asked about.
-            let mut number = 1;
+            let mut number = start;
             loop {
                 values.truncate(values.partition_point(|v| *v < entry.of(model, &known)));
                 if values.is_empty() || self.stopped {
@@ -170,7 +171,10 @@ impl Engine<'_> {
                 let unknown = self.stopped && !self.cancel.is_over();
                 self.effort = Effort::Any;
                 match found {
-                    Some((_, better)) => known = earliest(model, better),
+                    Some((_, better)) => {
+                        known = earliest(model, better);
+                        number = 1;
+                    }
                     None if unknown => number = some / 2,
                     None if self.stopped => break,
                     None => {
@@ -180,6 +184,8 @@ impl Engine<'_> {
                 }
                 self.stopped &= !unknown;
             }
+            // What was not possible for one wire is often not possible for the next.
+            start = number;
             if self.restrict(entry, entry.of(model, &known)).is_err() {
                 return known;
             }
