@@ -27,11 +27,16 @@ PLACES = [
     ("NUCLEO_F072RB", 1), ("STM32F042K6T6", 0), ("BLUEPILL_F103C8", 1), ("STM32F103RBT6", 0), ("STM32F407VGT6", 0),
     ("NUCLEO_F401RE", 1), ("STM32G071RBT6", 0), ("STM32G031K8T6", 0), ("NUCLEO_G474RE", 1), ("STM32G431KBT6", 0),
     ("STM32H743VIT6", 0), ("STM32L432KCU6", 0), ("STM32L476RGT6", 0), ("RASPBERRYPI_PICO", 1), ("ARDUINO_UNO_R3", 1),
-    ("ARDUINO_MEGA_2560", 1),
+    ("ARDUINO_MEGA_2560", 1), ("ARDUINO_NANO", 1), ("RASPBERRYPI_PICO_2", 1),
 ]
 DESCRIBING = {"pin", "position", "side", "header", "label", "voltage", "onboard", "note", "af"}
 WIRES = {"i2c": ["SCL", "SDA"], "spi": ["SCK", "MISO", "MOSI"], "uart": ["TX", "RX"], "can": ["RX", "TX"]}
-BUSES = {"i2c": r"(I2C\d+)_(SCL|SDA)", "spi": r"(SPI\d+)_(SCK|MISO|MOSI)", "uart": r"((?:USART|UART|LPUART)\d+)_(TX|RX)",
+# What data sheets of other makers call what STM32 calls otherwise; an OC pin of AVR is an output alone.
+PLAIN = [
+    (r"PWM(\d+)_A", r"PWM\1_CH1"), (r"PWM(\d+)_B", r"PWM\1_CH2"), (r"(SPI[01])_RX", r"\1_MISO"), (r"(SPI[01])_TX", r"\1_MOSI"),
+    (r"OC(\d)A", r"TC\1_OUT1"), (r"OC(\d)B", r"TC\1_OUT2"), (r"OC(\d)C", r"TC\1_OUT3"), (r"ICP(\d)", r"TC\1_IN1"),
+]
+BUSES = {"i2c": r"(I2C\d+|TWI\d*)_(SCL|SDA)", "spi": r"(SPI\d*)_(SCK|MISO|MOSI)", "uart": r"((?:USART|UART|LPUART)\d+)_(TX|RX)",
          "can": r"((?:FD)?CAN\d*)_(RX|TX)"}
 
 
@@ -99,6 +104,7 @@ class Board:
                 roles.update({name: entry["role"] for name in entry["names"]})
         if self.profile:
             roles.update({name: "debug" for name in self.profile.data.get("debug", {}).get("pins", [])})
+        analog = [name for entry in silicon.get("analog", []) if any(begins(self.mcu, part) for part in entry["parts"]) for name in entry["names"]]
         bare = "Onboard" not in rows[0]
         self.pins, withheld, places = {}, set(), {}
         for row in rows:
@@ -112,7 +118,7 @@ class Board:
             if how == "taken" or role in ("debug", "reset", "boot"):
                 withheld.add(name)
             shared = bool(onboard) or (bare and role == "oscillator")
-            self.pins[name] = {"usages": usages, "cost": len(usages), "shared": shared, "bus": how == "bus", "place": place}
+            self.pins[name] = {"usages": usages, "cost": len(usages), "shared": shared, "bus": how == "bus", "analog": name in analog, "place": place}
             if place:
                 places.setdefault(place, []).append(name)
         self.pads = {place: names for place, names in places.items() if len(names) > 1}
@@ -131,6 +137,8 @@ class Board:
                 blocks = blocks.partition("@")[0]
                 # An MCU with one unit may leave its number out.
                 name = re.sub(r"^(ADC|DAC)_(?=IN|OUT)", r"\g<1>1_", re.sub(r"^(ADC\d*)_INP", r"\1_IN", name.upper().replace("-", "_")))
+                for spelled, plain in PLAIN:
+                    name = re.sub(f"^{spelled}$", plain, name)
                 yield pin, name, frozenset(map(int, blocks.split("|"))) if blocks else None
 
 
@@ -180,7 +188,7 @@ class Model:
         return [(p, s, b, m) for p, s, b in self.signal_list for m in [re.fullmatch(pattern, s)] if m]
 
     def gpio(self):
-        return [(pin, None, None) for pin, facts in self.board.pins.items() if not facts["bus"]]
+        return [(pin, None, None) for pin, facts in self.board.pins.items() if not facts["bus"] and not facts["analog"]]
 
     def free(self, options):
         return [o for o in options if not self.board.pins[o[0]]["bus"]]
@@ -288,9 +296,11 @@ class Model:
 
     def timer(self, number, kind, device, rules):
         by_unit = {}
-        for pin, signal, blocks, match in self.fitting(r"(TIM\d+)_CH(\d+)"):
-            if int(match[2]) in self.channels(kind, match[1]) and not self.board.pins[pin]["bus"]:
-                by_unit.setdefault(match[1], {}).setdefault(int(match[2]), []).append((pin, signal, blocks))
+        for pin, signal, blocks, match in self.fitting(r"((?:TIM|PWM|TC)\d+)_(CH|IN|OUT)(\d+)"):
+            if match[2] == {"pwm": "IN", "icu": "OUT", "encoder": "OUT"}[kind]:
+                continue
+            if int(match[3]) in self.channels(kind, match[1]) and not self.board.pins[pin]["bus"]:
+                by_unit.setdefault(match[1], {}).setdefault(int(match[3]), []).append((pin, signal, blocks))
         choices = []
         for unit, wires in by_unit.items():
             if kind == "encoder" and set(wires) != {1, 2}:
@@ -383,7 +393,7 @@ def design(rng, place, board, units):
     for _, signal, _ in board.signals():
         if match := re.fullmatch(r"ADC(\d+)_IN\d+", signal):
             names |= {f"ADC{digit}" for digit in match[1]}
-        elif match := re.fullmatch(r"((?:I2C|SPI|USART|UART|LPUART|FDCAN|CAN|TIM|DAC)\d+)_(?:SCL|SDA|SCK|MISO|MOSI|TX|RX|CH\d|OUT\d)", signal):
+        elif match := re.fullmatch(r"((?:I2C|SPI|USART|UART|LPUART|FDCAN|CAN|TIM|DAC|PWM|TC)\d+|TWI|SPI)_(?:SCL|SDA|SCK|MISO|MOSI|TX|RX|CH\d|IN\d|OUT\d)", signal):
             names.add(match[1])
     names = sorted(names)
     if units and names and rng.random() < 0.5:
