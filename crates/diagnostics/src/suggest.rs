@@ -1,6 +1,6 @@
 //! "Did you mean": the name that is most similar to a misspelled one.
 
-/// Longer words are no slips of the pen.
+/// A word longer than this is not a typing mistake.
 const TYPED_MAX: usize = 64;
 
 /// The least number of letters to insert, delete, replace or swap with their neighbour to turn one
@@ -10,8 +10,8 @@ pub fn distance(left: &str, right: &str) -> usize {
     strsim::osa_distance(&left.to_lowercase(), &right.to_lowercase())
 }
 
-/// The name nearest to `typed`, the first among equals, if it is near enough to be a slip: at most
-/// one edit for every three letters, and at least one.
+/// The name nearest to `typed`, the first among equals, if it is near enough to be a typing mistake:
+/// at most one edit for every three letters, and at least one.
 pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = typed.chars().count();
     if length > TYPED_MAX {
@@ -22,7 +22,7 @@ pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
         let most = (other.max(length) / 3).max(1);
         // The difference in length is a lower bound that costs little.
         let edits = (length.abs_diff(other) <= most).then(|| distance(typed, name))?;
-        // A slip keeps something of the word: `a` is no slip for `b`.
+        // Something of the word must be left: `a` is not a mistyped `b`.
         let keeps = edits == 0 || edits < length.min(other);
         (edits <= most && keeps).then_some((edits, name))
     };
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn only_slips_are_suggested() {
+    fn only_typing_mistakes_are_corrected() {
         let words = ["sensor", "actuator", "link", "a"];
         assert_eq!(nearest("sensr", words), Some("sensor"));
         assert_eq!(nearest("Actuater", words), Some("actuator"));

@@ -1,9 +1,9 @@
-//! Boards that can stand for each other: a model in, the first board that is equal to each out.
+//! Symmetry of boards: a model in, the first equal board of each board out.
 //!
-//! Two boards are equal when all devices have the same choices on both, once pins, resources and
-//! streams are counted in the order in which they come on each. What is on the one board can then go
-//! to the other and back, and the answer is as good: the search refuses a choice on all equal boards
-//! at once of which nothing is decided, and an answer may begin with the first of them.
+//! Two boards are equal when every device has the same choices on both, with pins, resources and
+//! streams numbered in the order in which they appear on each board. Swapping all that is on them
+//! then gives an answer with the same objective. The search uses this twice: it refuses a choice on
+//! all equal boards about which nothing is decided yet, and it tries only the first of them.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::model::Model;

@@ -67,6 +67,11 @@ impl Engine<'_> {
             Branch::Facility(facility) => {
                 let Some(prices) = &self.prices else { return Ok(()) };
                 let alts = &prices.terms.facilities[facility].alts;
+                // What several boards share is refused as it is: the boards need not be equal.
+                let boards = self.boards_of(branch);
+                let [_] = boards.as_slice() else {
+                    return alts.iter().try_for_each(|&alt| self.state.kill_alt(model, alt));
+                };
                 for board in self.equals(branch) {
                     let here = |alt: &usize| model.boards.alt_on(model, *alt, board);
                     for alt in alts.iter().filter_map(here) {
@@ -180,5 +185,65 @@ impl Engine<'_> {
         let here = |c: &usize| Some(model.cand(*c).pin) == flow;
         let mut cands = self.state.cands(model, role);
         cands.clone().find(here).or_else(|| cands.next()).map(Branch::Cand)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may panic")]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::model::Model;
+    use crate::problem::{
+        Alternative, Board, BoardId, Candidate, Claim, Device, Holder, Pin, PinId, Problem,
+        ResourceId, Role, SignalId,
+    };
+
+    /// One pin of a board, and the group as which it holds the resource, if it does.
+    fn on(board: u32, pin: u32, group: Option<u32>) -> Alternative {
+        let candidate = Candidate {
+            pin: PinId(pin),
+            holder: Holder::Own,
+            signal: SignalId(pin),
+            claims: Vec::new(),
+            violates: Vec::new(),
+            moved: false,
+        };
+        let claim = |group| Claim { resource: ResourceId(0), holder: Holder::Group(group) };
+        Alternative {
+            board: BoardId(board),
+            claims: group.map(claim).into_iter().collect(),
+            violates: Vec::new(),
+            dma: Vec::new(),
+            roles: vec![Role { candidates: vec![candidate] }],
+        }
+    }
+
+    #[test]
+    fn a_facility_of_unequal_boards_is_refused_where_it_is_and_nowhere_else() {
+        let first = vec![on(0, 0, Some(1)), on(0, 1, None), on(1, 2, None), on(1, 3, Some(1))];
+        let second = vec![on(0, 1, Some(2)), on(1, 2, None)];
+        let devices = [first, second].map(|alternatives| Device { alternatives });
+        let pin = |pin: u32| Pin { board: BoardId(pin / 2), cost: 1, shared: false };
+        let problem = Problem {
+            pins: (0..4).map(pin).collect(),
+            boards: vec![Board { spare: false }, Board { spare: false }],
+            devices: devices.to_vec(),
+            dma: Vec::new(),
+            rules: 0,
+            resources: 1,
+            streams: 0,
+        };
+        let model = Model::new(&problem).unwrap();
+        let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();
+        engine.mirrors = true;
+        engine.limit = model.most;
+        engine.settle().ok().unwrap();
+        engine.bound_by_prices(1).ok().unwrap();
+        let facilities = &engine.prices.as_ref().unwrap().terms.facilities;
+        let of_both = facilities.iter().position(|facility| facility.alts == [0, 3]).unwrap();
+        engine.refuse(Branch::Facility(of_both)).ok().unwrap();
+        let alive: Vec<usize> = (0..6).filter(|&alt| engine.state.alt_on(alt)).collect();
+        assert_eq!(alive, [1, 2, 4, 5]);
     }
 }

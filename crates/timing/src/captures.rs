@@ -21,9 +21,14 @@ pub(crate) fn interrupts(device: &Device) -> Option<u64> {
     if icu.mode == Mode::Count {
         return Some(captures);
     }
-    // Each edge sets the counter to zero; without any it only overflows.
-    let between = u64::from(icu.tick_hz) / (edges.max(1) * u64::from(COUNTER));
-    Some((captures + edges * between).max(u64::from(icu.tick_hz.div_ceil(COUNTER))))
+    Some(with_overflows(edges, captures, icu.tick_hz))
+}
+
+/// Captures and overflows a second of a counter that each edge sets to zero.
+fn with_overflows(edges: u64, captures: u64, tick_hz: u32) -> u64 {
+    let between = u64::from(tick_hz) / (edges.max(1) * u64::from(COUNTER));
+    // Without any edge the counter only overflows.
+    (captures + edges * between).max(u64::from(tick_hz.div_ceil(COUNTER)))
 }
 
 /// Active edges a second.
@@ -85,4 +90,20 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
         rows.push(row);
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_overflows;
+
+    #[test]
+    fn overflows_are_those_between_the_edges() {
+        // At 1 MHz an overflow comes every 65.5 ms: none in the millisecond between two edges.
+        assert_eq!(with_overflows(1_000, 2_000, 1_000_000), 2_000);
+        // Three in each of five intervals of 200 ms.
+        assert_eq!(with_overflows(5, 10, 1_000_000), 10 + 5 * 3);
+        // The silent input is the worst case of a slow signal.
+        assert_eq!(with_overflows(1, 1, 1_000_000), 16);
+        assert_eq!(with_overflows(0, 0, 1_000_000), 16);
+    }
 }

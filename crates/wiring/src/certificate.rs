@@ -25,9 +25,6 @@ impl Wiring<'_> {
         };
         let labels = labels(self.design, &self.formulation);
         let text = certify(&self.formulation.problem, &labels, subject, claim, self.cancel);
-        if self.cancel.is_over() {
-            return Some(Err(self.uncertified(&Uncertified::Stopped)));
-        }
         Some(text.map_err(|why| self.uncertified(&why)))
     }
 

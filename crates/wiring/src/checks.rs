@@ -197,15 +197,19 @@ fn cannot_serve(
         let row = offer.board.table.pin(pin.value.on(offer.index)?)?;
         Some(offer.board.table_span(row.range.clone()))
     });
+    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    e0314_pin_cannot_serve::pin_cannot_serve(pin.span, &pin.value.shown(), &needs, row, &pins)
+}
+
+/// What a device needs of a pin, and the pins that have it, as reports say them.
+fn needs_and_pins(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    device: &Device,
+    role: Role,
+) -> (String, String) {
     let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    let pins = pins_of(design, offers, device, role);
-    e0314_pin_cannot_serve::pin_cannot_serve(
-        pin.span,
-        &pin.value.shown(),
-        &needs,
-        row,
-        &pins.join(", "),
-    )
+    (needs, pins_of(design, offers, device, role).join(", "))
 }
 
 /// The report for a fixed pin that an on-board part has left to the devices of its bus, where the

@@ -40,7 +40,7 @@ pub(crate) fn why(
 ) -> Found<Alternative> {
     let Some(number) = formulation.askers.iter().position(|one| *one == Asker::Device(device))
     else {
-        return Found { all: Vec::new(), complete: true };
+        return Found { all: Vec::new(), complete: formulation.complete };
     };
     let mut all = Vec::new();
     for (at, role) in roles(design, Asker::Device(device)).into_iter().enumerate() {

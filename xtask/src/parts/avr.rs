@@ -50,7 +50,7 @@ fn one(folder: &Path, name: &str) -> Result<Avr> {
             }
         }
     }
-    // Inputs of the converter that are no pins of a port stand in the pinouts alone.
+    // Converter inputs that are not port pins appear only in the pinouts.
     for pad in nodes("pin").filter_map(|pin| pin.attribute("pad")) {
         if let Some(input) = pad.strip_prefix("ADC").filter(|input| input.parse::<u8>().is_ok()) {
             let usage = (format!("ADC1_IN{input}"), None);

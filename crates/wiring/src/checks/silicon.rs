@@ -7,7 +7,7 @@ use sensedsl_model::design::{Design, Device, Spanned};
 use sensedsl_model::kind::Role;
 use sensedsl_model::pins::PinRef;
 
-use super::pins_of;
+use super::needs_and_pins;
 use crate::alternatives::timers::{Channel, ability, channel};
 use crate::offer::Offer;
 
@@ -53,9 +53,9 @@ pub(super) fn analog_only(
         let row = pin.value.on(offer.index).and_then(|name| offer.board.table.pin(name));
         row.is_some_and(|row| offer.is_analog_only(row))
     })?;
-    let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    let pins = pins_of(design, offers, device, role).join(", ");
-    let (name, because) = (pin.value.shown(), "the pad is an input of the converter alone");
+    let because = "the pad is an input of the converter alone";
+    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    let name = pin.value.shown();
     Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
 }
 
@@ -76,8 +76,7 @@ pub(super) fn by_silicon(
         let mut channels = usages.iter().filter_map(channel);
         channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
     })?;
-    let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    let pins = pins_of(design, offers, device, role).join(", ");
-    let (name, because) = (pin.value.shown(), &ability.because);
-    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
+    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    let name = pin.value.shown();
+    Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, &ability.because, &pins))
 }
