@@ -29,7 +29,7 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
 /// Cycle time and priority of what the hardware measures by itself.
 fn unused_pace(device: &Device) -> Vec<Diagnostic> {
     let pulsed = matches!(&device.kind, Kind::Icu(icu) if icu.pulse_us.is_some());
-    if !device.kind.name().triggers_itself() || pulsed {
+    if !device.kind.name().spec().triggers_itself || pulsed {
         return Vec::new();
     }
     let written = [("delay", device.delay_span), ("prio", device.prio_span)];
@@ -75,22 +75,14 @@ fn impossible_length(device: &Device) -> Option<Diagnostic> {
 
 fn narrow(device: &Device) -> Option<Diagnostic> {
     let value = device.value.value;
-    if device.kind.name().accepts_type(value).is_err() {
+    if device.kind.name().spec().values.accept(value).is_err() {
         return None;
     }
     let (_, most) = value.scalar.integer_range()?;
-    let (bits, wider) = match &device.kind {
-        Kind::Analog(_) => (ADC_BITS, "uint16".to_owned()),
-        Kind::I2c(i2c) if value.length.is_none() => of_bytes(i2c.length_bytes)?,
-        Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => return None,
+    let (bits, wider) = if device.kind.analog().is_some() {
+        (ADC_BITS, "uint16".to_owned())
+    } else {
+        of_bytes(device.kind.i2c().filter(|_| value.length.is_none())?.length_bytes)?
     };
     let value_bits = u32::try_from(value.scalar.size_bytes() * 8).ok()?;
     if value_bits >= bits.next_power_of_two() || most.checked_shr(bits).is_some_and(|high| high > 0)

@@ -153,6 +153,8 @@ impl Transport {
 pub struct Device {
     /// Its name.
     pub name: Spanned<String>,
+    /// The whole block.
+    pub block: Span,
     /// 1 to 254, unique in the design.
     pub id: Spanned<u8>,
     /// Sensor or actuator.
@@ -308,18 +310,7 @@ impl Design {
     /// How long a measurement of the device lasts once it has begun, in microseconds.
     #[must_use]
     pub fn measuring_us(device: &Device) -> u32 {
-        match &device.kind {
-            Kind::I2c(i2c) => i2c.wait_us,
-            Kind::Icu(icu) => icu.wait_us,
-            Kind::Analog(_)
-            | Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => 0,
-        }
+        device.kind.measuring_us()
     }
 
     /// The device at `index`.

@@ -13,7 +13,7 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 use crate::design::{BoardIndex, Device, Group, Level, Placement, Presentation, Spanned};
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
-use crate::kind::{Kind, KindName, analog, can, dac, digital, encoder, i2c, icu, pwm, spi, uart};
+use crate::kind::{Kind, KindName, i2c};
 use crate::rules;
 
 /// The properties of every device, but for those that show its value.
@@ -55,11 +55,11 @@ pub(crate) fn read(
     fields.rename_owner(kind_name.value.with_article());
     let driver = take_driver(&mut fields, kind_name.value, drivers, &name.value);
     let value = value?;
-    if let Err(can) = kind_name.value.accepts_type(value.value) {
+    if let Err(can) = kind_name.value.spec().values.accept(value.value) {
         let (kind, found) = (kind_name.value.with_article(), value.value.to_string());
         fields.say(e0220_impossible_type::impossible_type(value.span, &kind, &found, can));
     }
-    let kind = read_kind(&mut fields, kind_name.value, direction, value.value);
+    let kind = kind_name.value.read(&mut fields, direction, value.value);
     let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
     let prio_span = fields.own_span("prio");
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
@@ -74,6 +74,7 @@ pub(crate) fn read(
     leftovers(&mut fields, kind_name.value);
     Some(Device {
         name,
+        block: span(file, node.range()),
         id: id
             .and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span }))?,
         direction,
@@ -142,9 +143,10 @@ fn kind_name(fields: &mut Fields<'_>, direction: Direction) -> Option<Spanned<Ki
         ));
         return None;
     };
-    if !kind.directions().contains(&direction) {
+    if !kind.spec().directions.contains(&direction) {
         let can: Vec<&str> = kind
-            .directions()
+            .spec()
+            .directions
             .iter()
             .map(|direction| match direction {
                 Direction::Sensor => "a sensor",
@@ -194,26 +196,6 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
     fields
         .peek_integer("address")
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
-}
-
-fn read_kind(
-    fields: &mut Fields<'_>,
-    kind: KindName,
-    direction: Direction,
-    value: ValueType,
-) -> Kind {
-    match kind {
-        KindName::Analog => Kind::Analog(analog::read(fields)),
-        KindName::I2c => Kind::I2c(i2c::read(fields, value)),
-        KindName::Icu => Kind::Icu(icu::read(fields)),
-        KindName::Encoder => Kind::Encoder(encoder::read(fields)),
-        KindName::Digital => Kind::Digital(digital::read(fields, direction)),
-        KindName::Uart => Kind::Uart(uart::read(fields, direction, value)),
-        KindName::Spi => Kind::Spi(spi::read(fields, value)),
-        KindName::Pwm => Kind::Pwm(pwm::read(fields)),
-        KindName::Dac => Kind::Dac(dac::read(fields)),
-        KindName::Can => Kind::Can(can::read(fields)),
-    }
 }
 
 fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Placement {
@@ -287,12 +269,12 @@ fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
 fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
     let others: Vec<&str> = KindName::ALL
         .into_iter()
-        .filter(|other| *other != kind && other.properties().contains(&name))
+        .filter(|other| *other != kind && other.spec().properties.contains(&name))
         .map(KindName::name)
         .collect();
     if others.is_empty() {
         let common = COMMON_PROPERTIES.iter().chain(PRESENTATION);
-        let known = kind.properties().iter().chain(common).copied();
+        let known = kind.spec().properties.iter().chain(common).copied();
         let meant = nearest(name, known);
         return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
     }

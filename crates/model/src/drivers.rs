@@ -3,8 +3,9 @@
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0207_unknown_kind, e0216_unknown_driver, e0217_driver_of_other_kind,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, nearest};
-use sensedsl_syntax::{ast, parse};
+use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _};
+use sensedsl_syntax::parse;
 
 use crate::design::Spanned;
 use crate::devices::{COMMON_PROPERTIES, PRESENTATION};
@@ -66,6 +67,11 @@ impl Drivers {
         self.own.iter().map(|driver| &driver.name).collect()
     }
 
+    /// The file's own drivers: the name of each, and its whole block.
+    pub(crate) fn own_blocks(&self) -> impl Iterator<Item = (&str, Span)> {
+        self.own.iter().map(|one| (one.name.value.as_str(), span(one.file, one.node.range())))
+    }
+
     /// The driver of that name for a device of `kind`; otherwise the reason is reported.
     pub(crate) fn find(
         &self,
@@ -116,7 +122,7 @@ fn read(file: FileId, node: &ast::Driver, diagnostics: &mut Vec<Diagnostic>) -> 
         let Some(property) = property.name() else { continue };
         let known = || {
             let common = COMMON_PROPERTIES.iter().chain(PRESENTATION);
-            kind_name.properties().iter().chain(common).copied()
+            kind_name.spec().properties.iter().chain(common).copied()
         };
         if !known().any(|known| known == property.text()) {
             diagnostics.push(e0201_unknown_property::unknown_property(

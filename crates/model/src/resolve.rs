@@ -8,6 +8,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
 use sensedsl_limits::DIAGNOSTICS_MAX;
+use sensedsl_syntax::{Parse, ast};
 
 use crate::boards::{self, Context, Left};
 use crate::checks;
@@ -17,6 +18,7 @@ use crate::drivers::Drivers;
 use crate::files::Files;
 use crate::names;
 use crate::pins;
+use crate::sound::{Partial, broken_drivers, on_known_boards};
 use crate::sources::{Items, Reader};
 
 /// What is asked for.
@@ -33,16 +35,20 @@ pub struct Request<'a> {
 }
 
 /// What became of it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Resolved {
     /// The design; none when there are errors.
     pub design: Option<Design>,
+    /// What is sound of a design with errors; none without errors, and where no board can be read.
+    pub partial: Option<Partial>,
     /// What is to be said, in the order of the places.
     pub diagnostics: Vec<Diagnostic>,
     /// All texts that were read, and those of what is built in.
     pub sources: SourceMap,
     /// Those that are files, each once: the one that was asked for, those it uses, tables.
     pub files: Vec<FileId>,
+    /// The syntax trees of those that are texts in the language, in the order of reading.
+    pub trees: Vec<(FileId, Parse)>,
 }
 
 /// Reads a file, what it uses and its tables. Never fails on user text.
@@ -53,33 +59,43 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let mut reader = Reader::new(files, &mut sources, &mut diagnostics);
     let file = reader.read(request.path, request.text.to_owned());
     let items = std::mem::take(&mut reader.items);
-    let mut read = std::mem::take(&mut reader.files_read);
+    let trees = std::mem::take(&mut reader.trees);
+    let mut read: Vec<FileId> = trees.iter().map(|(file, _)| *file).collect();
     let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
     let (boards, tables) = read_boards(request, files, &items, &mut sources, &mut diagnostics);
     read.extend(tables);
-    let devices = read_devices(&items, &drivers, &mut diagnostics);
-    check_names(&items, &boards, &devices, &drivers, &mut diagnostics);
+    let (devices, unread) = read_devices(&items, &drivers, &mut diagnostics);
+    let board_names = board_names(&items);
+    check_names(&board_names, &devices, &drivers, &mut diagnostics);
     if items.boards.is_empty() && !items.broken {
         let first = devices.first().map(|device| device.name.span);
         let at = first.unwrap_or_else(|| Span::new(file, 0..0));
         diagnostics.push(e0315_no_board::no_board(at));
     }
-    let boards: Option<Vec<Board>> = boards.into_iter().collect();
-    let mut design = boards.map(|boards| Design { file, boards, devices });
-    if let Some(design) = &mut design {
-        pins::bind(design, &mut diagnostics);
-        check_places(design, &mut diagnostics);
-        checks::run(design, &mut diagnostics);
-    }
+    let (boards, devices, homeless) = on_known_boards(boards, &board_names, devices);
+    let mut design = Design { file, boards, devices };
+    pins::bind(&mut design, &mut diagnostics);
+    check_places(&design, &mut diagnostics);
+    checks::run(&design, &mut diagnostics);
     if items.broken {
         // What is missing may only be unreadable.
         let missing = &e0206_missing_property::INFO;
         diagnostics.retain(|one| one.code.info() != missing);
     }
     sort(&mut diagnostics);
-    let wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
+    let is_wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
+    let (design, partial) = if is_wrong {
+        let left_out = [unread, homeless].concat();
+        let partial = Partial { design, left_out };
+        let broken = broken_drivers(&drivers, &diagnostics);
+        let partial = partial.without(&diagnostics).without_drivers(&broken);
+        let partial = partial.without_doubtful_tables(&diagnostics);
+        (None, Some(partial).filter(|partial| !partial.design.boards.is_empty()))
+    } else {
+        (Some(design), None)
+    };
     limit(&mut diagnostics);
-    Resolved { design: design.filter(|_| !wrong), diagnostics, sources, files: read }
+    Resolved { design, partial, diagnostics, sources, files: read, trees }
 }
 
 /// Leaves as many diagnostics as are listed, and the number of the others.
@@ -125,35 +141,42 @@ fn read_boards(
     (boards, context.tables.into_keys().collect())
 }
 
+/// The devices, and the names of those of which too little is understood.
 fn read_devices(
     items: &Items,
     drivers: &Drivers,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Device> {
-    let read = |(file, node, board): &(FileId, _, Option<usize>)| {
-        devices::read(*file, node, board.map(BoardIndex), drivers, diagnostics)
+) -> (Vec<Device>, Vec<Spanned<String>>) {
+    let (mut devices, mut unread) = (Vec::new(), Vec::new());
+    for (file, node, board) in &items.devices {
+        match devices::read(*file, node, board.map(BoardIndex), drivers, diagnostics) {
+            Some(device) => devices.push(device),
+            None => unread.extend(node.name().map(|name| Spanned {
+                value: name.text().to_owned(),
+                span: crate::fields::span(*file, name.range()),
+            })),
+        }
+    }
+    (devices, unread)
+}
+
+/// The names of the boards, where they have one.
+fn board_names(items: &Items) -> Vec<Option<Spanned<String>>> {
+    let name = |(file, node): &(FileId, ast::Board)| {
+        let name = node.name()?;
+        let span = crate::fields::span(*file, name.range());
+        Some(Spanned { value: name.text().to_owned(), span })
     };
-    items.devices.iter().filter_map(read).collect()
+    items.boards.iter().map(name).collect()
 }
 
 fn check_names(
-    items: &Items,
-    boards: &[Option<Board>],
+    boards: &[Option<Spanned<String>>],
     devices: &[Device],
     drivers: &Drivers,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let board_names: Vec<Spanned<String>> = items
-        .boards
-        .iter()
-        .filter_map(|(file, node)| {
-            let name = node.name()?;
-            let span = crate::fields::span(*file, name.range());
-            Some(Spanned { value: name.text().to_owned(), span })
-        })
-        .collect();
-    debug_assert!(board_names.len() <= boards.len());
-    names::check("board", &board_names.iter().collect::<Vec<_>>(), diagnostics);
+    names::check("board", &boards.iter().flatten().collect::<Vec<_>>(), diagnostics);
     names::check("driver", &drivers.own_names(), diagnostics);
     let device_names: Vec<_> = devices.iter().map(|device| &device.name).collect();
     names::check("device", &device_names, diagnostics);

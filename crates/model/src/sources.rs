@@ -8,7 +8,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 use sensedsl_limits::{ITEMS_MAX, STATEMENTS_MAX, TOKENS_MAX, USE_DEPTH_MAX, USED_FILES_MAX};
 use sensedsl_syntax::ast::{self, AstNode as _, FileItem};
-use sensedsl_syntax::{SyntaxKind, SyntaxNode, parse_within};
+use sensedsl_syntax::{Parse, SyntaxKind, SyntaxNode, parse_within};
 
 use crate::fields::span;
 use crate::files::{Files, Wanted, What};
@@ -30,7 +30,7 @@ pub(crate) struct Reader<'a> {
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
     pub(crate) items: Items,
-    pub(crate) files_read: Vec<FileId>,
+    pub(crate) trees: Vec<(FileId, Parse)>,
     /// Paths of the files that are being read, outermost first.
     open: Vec<String>,
     /// Paths of all files that were read.
@@ -70,15 +70,15 @@ impl<'a> Reader<'a> {
             statements: STATEMENTS_MAX,
             files: USED_FILES_MAX,
         };
-        let (items, files_read) = (Items::default(), Vec::new());
-        Self { files, sources, diagnostics, items, files_read, open, done, left }
+        let (items, trees) = (Items::default(), Vec::new());
+        Self { files, sources, diagnostics, items, trees, open, done, left }
     }
 
     /// Reads the text of `path` (and what it uses).
     pub(crate) fn read(&mut self, path: &str, text: String) -> FileId {
         let file = self.sources.add(path, text);
-        self.files_read.push(file);
         let parsed = parse_within(self.sources.text(file), self.left.tokens);
+        self.trees.push((file, parsed.clone()));
         self.left.tokens -= parsed.tokens();
         for error in parsed.errors() {
             self.diagnostics.push(syntax_errors::diagnostic(error, file));

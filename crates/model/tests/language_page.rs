@@ -7,9 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use sensedsl_diagnostics::{Diagnostic, Severity};
-use sensedsl_model::kind::KindName;
+use sensedsl_model::kind::{KindName, KindSpec};
 use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
 use sensedsl_syntax::parse;
+use sensedsl_wire::Direction;
 
 /// Properties that fix a wire; the page describes them once for all kinds.
 const WIRES: &[&str] =
@@ -34,6 +35,46 @@ fn first_column(page: &str, title: &str) -> BTreeSet<String> {
     cells.flat_map(|cell| cell.split('`').skip(1).step_by(2)).map(str::to_owned).collect()
 }
 
+/// The rows of the table of kinds.
+fn table_of_kinds() -> String {
+    let row = |kind: KindName| {
+        let spec = kind.spec();
+        let direction = match spec.directions {
+            [Direction::Sensor] => "sensor",
+            [Direction::Actuator] => "actuator",
+            _ => "both",
+        };
+        format!("| `{}` | {direction} | {} | {} |\n", spec.name, spec.values.shown(), spec.wires)
+    };
+    KindName::ALL.into_iter().map(row).collect()
+}
+
+#[test]
+fn the_table_of_kinds_is_that_of_the_registry() {
+    const HEAD: &str = "| kind | direction | values | wires |\n| --- | --- | --- | --- |\n";
+    let page = page();
+    let (before, rest) = page.split_once(HEAD).unwrap();
+    let (rows, after) = rest.split_once("\n\n").unwrap();
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        let table = format!("{before}{HEAD}{}\n{after}", table_of_kinds());
+        std::fs::write(root().join("docs/language.md"), table).unwrap();
+    } else {
+        assert_eq!(format!("{rows}\n"), table_of_kinds(), "SENSEDSL_BLESS=1 writes it");
+    }
+}
+
+#[test]
+fn kinds_can_be_told_apart() {
+    let specs = KindName::ALL.map(KindName::spec);
+    let distinct = |of: fn(&KindSpec) -> String| {
+        let all: BTreeSet<String> = specs.iter().map(|spec| of(spec)).collect();
+        assert_eq!(all.len(), specs.len(), "{all:?}");
+    };
+    distinct(|spec| spec.name.to_owned());
+    distinct(|spec| spec.colour.to_owned());
+    distinct(|spec| spec.letter.to_string());
+}
+
 #[test]
 fn every_kind_is_described_with_its_properties() {
     let page = page();
@@ -43,7 +84,7 @@ fn every_kind_is_described_with_its_properties() {
         let described = first_column(&page, kind.name());
         // `trigger` is a wire of an icu and a property of its own of an i2c device.
         let is_wire = |name: &&&str| WIRES.contains(name) && !described.contains(**name);
-        let own = kind.properties().iter().filter(|name| !is_wire(name));
+        let own = kind.spec().properties.iter().filter(|name| !is_wire(name));
         let own: BTreeSet<String> = own.map(|name| (*name).to_owned()).collect();
         assert_eq!(described, own, "section {}", kind.name());
     }

@@ -90,6 +90,15 @@ pub fn with_count(mut value: Value, count: &str) -> Value {
     value
 }
 
+/// The boards and devices that are not in it, because they are in error.
+#[must_use]
+pub fn with_left_out(mut value: Value, names: &[&str]) -> Value {
+    if let Some(object) = value.as_object_mut() {
+        object.insert("left_out".into(), names.into());
+    }
+    value
+}
+
 /// That there is none.
 #[must_use]
 pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {

@@ -11,6 +11,7 @@ use sensedsl_board::pin::natural;
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::visible;
 use sensedsl_model::design::{Board, Design};
+use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
 use crate::rows::{Row, rows};
@@ -25,20 +26,6 @@ const MARGIN: usize = 20;
 const LEGEND_HEIGHT: usize = 30;
 const WIDTH: usize = 2 * LABEL_WIDTH + CHIP_WIDTH + 2 * MARGIN;
 
-/// Fill by kind: a palette that people with colour blindness can tell apart (Okabe and Ito).
-const KIND_COLOURS: [(&str, &str); 10] = [
-    ("analog", "#E69F00"),
-    ("i2c", "#56B4E9"),
-    ("icu", "#009E73"),
-    ("encoder", "#2E7D5B"),
-    ("digital", "#999999"),
-    ("uart", "#CC79A7"),
-    ("spi", "#0072B2"),
-    ("pwm", "#D55E00"),
-    ("dac", "#B8860B"),
-    ("can", "#8E6BBF"),
-];
-
 /// The picture of all boards that carry a device, one below the other.
 #[must_use]
 pub fn svg(design: &Design, assignment: &Assignment) -> String {
@@ -48,9 +35,9 @@ pub fn svg(design: &Design, assignment: &Assignment) -> String {
     for (on, board) in assignment.used(design) {
         top = board_picture(&mut body, top, (on, board), &rows);
     }
-    let kinds: Vec<&str> = KIND_COLOURS
-        .iter()
-        .map(|(kind, _)| *kind)
+    let kinds: Vec<&str> = KindName::ALL
+        .into_iter()
+        .map(KindName::name)
         .filter(|kind| rows.iter().any(|row| row.kind == *kind))
         .collect();
     legend(&mut body, top, &kinds);
@@ -239,7 +226,7 @@ fn legend(out: &mut String, top: usize, kinds: &[&str]) {
 }
 
 fn colour(kind: &str) -> &'static str {
-    KIND_COLOURS.iter().find(|(name, _)| *name == kind).map_or("#DDDDDD", |(_, colour)| colour)
+    KindName::from_name(kind).map_or("#DDDDDD", |kind| kind.spec().colour)
 }
 
 /// Text for an XML document.

@@ -86,6 +86,13 @@ pub(crate) struct On {
     pub(crate) reach: Reach,
 }
 
+impl On {
+    /// As the session wants it.
+    pub(crate) fn asked(&self) -> sensedsl_session::On<'_> {
+        sensedsl_session::On { board: self.board.as_deref(), target: self.target.as_deref() }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// The files; - is the standard input
@@ -123,6 +130,10 @@ pub(crate) struct SolveArgs {
     /// Any wiring will do
     #[arg(long, conflicts_with_all = ["all", "limit", "count"])]
     pub(crate) any: bool,
+    /// Leave out the devices that are in error and print the wiring of the others; the exit status
+    /// stays 1
+    #[arg(long, conflicts_with_all = ["all", "limit", "count", "proof"])]
+    pub(crate) partial: bool,
     /// All wirings, best first
     #[arg(long, conflicts_with = "count")]
     pub(crate) all: bool,

@@ -31,22 +31,48 @@ pub(crate) enum Status {
     Misused,
 }
 
+/// A command ended before its end, and has told why.
+#[derive(Debug)]
+pub(crate) struct Said(pub(crate) Status);
+
+impl std::fmt::Display for Said {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("what is wrong was told before")
+    }
+}
+
+impl std::error::Error for Said {}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Done => Self::SUCCESS,
+            Status::Wrong => Self::from(1),
+            Status::Misused => Self::from(2),
+        }
+    }
+}
+
 fn main() -> ExitCode {
     let cli = Cli::try_parse().unwrap_or_else(|error| refused(&error));
     let mut terminal = Terminal::new(cli.quiet, cli.verbose);
     match run(cli.command, &mut terminal) {
-        Ok(Status::Done) => ExitCode::SUCCESS,
-        Ok(Status::Wrong) => ExitCode::from(1),
-        Ok(Status::Misused) => ExitCode::from(2),
+        Ok(status) => status.into(),
         Err(error) if terminal::is_closed_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => {
-            match error.downcast_ref::<Refused>() {
-                Some(refused) => terminal.refusal(refused),
-                None => terminal.failure(&error),
-            }
-            ExitCode::from(2)
-        }
+        Err(error) => ended(&error, &terminal).into(),
     }
+}
+
+/// Says why a command ended before its end, unless it said so itself.
+fn ended(error: &anyhow::Error, terminal: &Terminal) -> Status {
+    if let Some(Said(status)) = error.downcast_ref::<Said>() {
+        return *status;
+    }
+    match error.downcast_ref::<Refused>() {
+        Some(refused) => terminal.refusal(refused),
+        None => terminal.failure(error),
+    }
+    Status::Misused
 }
 
 /// Ends with what is wrong with the call. It repeats arguments, which a pattern of the shell may have

@@ -1,7 +1,6 @@
 //! Interrupts of captures: how many there are at the greatest value that a device states.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use crate::Context;
@@ -13,7 +12,7 @@ const COUNTER: u32 = 65_536;
 
 /// Interrupts a second of a capture, where the device says enough.
 pub(crate) fn interrupts(device: &Device) -> Option<u64> {
-    let Kind::Icu(icu) = &device.kind else { return None };
+    let icu = device.kind.icu()?;
     let edges = edges(device, icu)?;
     let both = icu.mode == Mode::Count && icu.edge == Edge::Both;
     let has_width = both || matches!(icu.mode, Mode::Width | Mode::Duty);
@@ -63,24 +62,14 @@ fn whole(value: f64) -> Option<u64> {
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     for wired in &context.devices {
-        let has_edges = match &wired.device.kind {
-            Kind::Icu(_) => true,
-            Kind::Digital(digital) => digital.edge.is_some(),
-            Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Encoder(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => false,
-        };
-        if !has_edges {
+        let kind = &wired.device.kind;
+        let is_awaited = kind.digital().is_some_and(|digital| digital.edge.is_some());
+        if kind.icu().is_none() && !is_awaited {
             continue;
         }
         let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
         let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);
-        if let Kind::Icu(icu) = &wired.device.kind {
+        if let Some(icu) = kind.icu() {
             let timers = context.board.profile().map(|profile| &profile.timers);
             let timer = timers.into_iter().flatten().find(|timer| timer.name == row.name);
             let known = timer.and_then(|timer| timer_hz(context, timer)).is_some();

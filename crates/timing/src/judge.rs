@@ -170,7 +170,7 @@ pub(crate) fn of_link(context: &Context<'_>) -> Option<Diagnostic> {
         (Transport::Uart, Some(link)) => link.unit.clone(),
         (Transport::Uart | Transport::Usb | Transport::None, _) => "the USB link".to_owned(),
     };
-    let cyclic = |wired: &&crate::Wired<'_>| !wired.device.kind.name().triggers_itself();
+    let cyclic = |wired: &&crate::Wired<'_>| !wired.device.kind.name().spec().triggers_itself;
     let rate = |wired: &&crate::Wired<'_>| {
         per_second(wired.device.value.value.size_bytes() as u64 + 1, wired.device.delay_ms)
     };

@@ -7,7 +7,7 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::codes::e0620_clock_out_of_reach::clock_out_of_reach;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Transport;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::Sharing;
 use sensedsl_model::kind::analog::Analog;
 use sensedsl_model::kind::icu::Icu;
 
@@ -28,20 +28,16 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
     let mut shared: BTreeMap<UnitName, Vec<&Wired<'_>>> = BTreeMap::new();
     for wired in &context.devices {
         let unit = wired.wiring.unit.as_deref();
-        match &wired.device.kind {
-            Kind::Analog(analog) => diagnostics.extend(of_sampling(context, wired, analog)),
-            Kind::Icu(icu) => diagnostics.extend(of_tick(context, wired, icu)),
-            Kind::Uart(uart) => {
-                let span = uart.baud_span.unwrap_or(wired.device.kind_span);
-                diagnostics.extend(unit.and_then(|unit| of_baud(context, unit, uart.baud, span)));
-            }
-            Kind::Pwm(pwm) => diagnostics.extend(of_pulses(context, wired, pwm.frequency_hz)),
-            Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => {
-                if let Some(unit) = unit {
-                    shared.entry(UnitName::new(unit)).or_default().push(wired);
-                }
-            }
-            Kind::Encoder(_) | Kind::Digital(_) | Kind::Dac(_) => {}
+        let kind = &wired.device.kind;
+        diagnostics.extend(kind.analog().and_then(|one| of_sampling(context, wired, one)));
+        diagnostics.extend(kind.icu().and_then(|icu| of_tick(context, wired, icu)));
+        diagnostics.extend(kind.pwm().and_then(|pwm| of_pulses(context, wired, pwm.frequency_hz)));
+        if let (Some(uart), Some(unit)) = (kind.uart(), unit) {
+            let span = uart.baud_span.unwrap_or(wired.device.kind_span);
+            diagnostics.extend(of_baud(context, unit, uart.baud, span));
+        }
+        if let (true, Some(unit)) = (kind.name().spec().sharing != Sharing::Own, unit) {
+            shared.entry(UnitName::new(unit)).or_default().push(wired);
         }
     }
     for (unit, on_bus) in &shared {
@@ -133,36 +129,25 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     let wired = on_bus.iter().find(asks)?;
     let (name, device) = (unit.as_str(), &wired.device.name.value);
     let kind_span = wired.device.kind_span;
-    let (span, property, slowest) = match &wired.device.kind {
-        Kind::I2c(i2c) => (i2c.speed_span, "speed", i2c_clock::slowest_hz(&profile.i2c, hz)),
-        Kind::Spi(spi) => {
-            let dividers = profile.spi_dividers.as_ref()?;
-            (spi.clock_span, "clock", Some(slowest_hz(dividers, hz)))
+    let kind = &wired.device.kind;
+    if let Some(can) = kind.can() {
+        let exact = nearest(profile.can_dividers.as_ref()?, hz, asked_hz)?;
+        if off_ppm(exact, asked_hz) <= CAN_OFF_PPM_MAX {
+            return None;
         }
-        Kind::Can(can) => {
-            let exact = nearest(profile.can_dividers.as_ref()?, hz, asked_hz)?;
-            if off_ppm(exact, asked_hz) <= CAN_OFF_PPM_MAX {
-                return None;
-            }
-            let message = format!(
-                "{name} of {device} makes {exact} bits a second of its clock, not {asked_hz}"
-            );
-            let help = format!(
-                "write a `bitrate` within 0.5 % of one that it can make: {exact} Hz is the nearest"
-            );
-            return Some(clock_out_of_reach(
-                can.bitrate_span.unwrap_or(kind_span),
-                &message,
-                &help,
-            ));
-        }
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => return None,
+        let message =
+            format!("{name} of {device} makes {exact} bits a second of its clock, not {asked_hz}");
+        let help = format!(
+            "write a `bitrate` within 0.5 % of one that it can make: {exact} Hz is the nearest"
+        );
+        let span = can.bitrate_span.unwrap_or(kind_span);
+        return Some(clock_out_of_reach(span, &message, &help));
+    }
+    let (span, property, slowest) = if let Some(i2c) = kind.i2c() {
+        (i2c.speed_span, "speed", i2c_clock::slowest_hz(&profile.i2c, hz))
+    } else {
+        let dividers = profile.spi_dividers.as_ref()?;
+        (kind.spi()?.clock_span, "clock", Some(slowest_hz(dividers, hz)))
     };
     // Without facts of its dividers nothing is known of the clock.
     let slowest = slowest.filter(|_| exact.is_none())?;

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use sensedsl_model::design::{Device, Transport};
-use sensedsl_model::kind::Kind;
 use sensedsl_wire::{Checksum, Direction};
 
 use crate::buses::i2c_period_ms;
@@ -37,24 +36,19 @@ pub(crate) fn report_ms(context: &Context<'_>) -> u32 {
     if let Some(rate_hz) = context.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
     }
-    let served = context.devices.iter().filter(|wired| !wired.device.kind.name().triggers_itself());
+    let served =
+        context.devices.iter().filter(|wired| !wired.device.kind.name().spec().triggers_itself);
     served.map(|wired| wired.device.delay_ms).fold(REPORT_MS, u32::min).max(1)
 }
 
 /// From one value of a device to the next; none for what measures by itself.
 fn period_ms(device: &Device) -> Option<u32> {
-    match &device.kind {
-        Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
-        Kind::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms),
-        Kind::Encoder(_) => None,
-        Kind::Analog(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => Some(device.delay_ms),
+    let kind = &device.kind;
+    if let Some(i2c) = kind.i2c() {
+        return Some(i2c_period_ms(device.delay_ms, i2c.wait_us));
     }
+    let is_pulsed = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
+    (is_pulsed || !kind.name().spec().triggers_itself).then_some(device.delay_ms)
 }
 
 pub(crate) fn reports(context: &Context<'_>) -> Reports {

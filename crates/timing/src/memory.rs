@@ -38,18 +38,9 @@ pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic>
 
 fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
     let value = value.size_bytes() as u64;
-    match kind {
-        Kind::Analog(analog) => value + u64::from(analog.samples) * SAMPLE_BYTES,
-        Kind::I2c(i2c) => 2 * value + u64::from(i2c.length_bytes),
-        Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => value,
-    }
+    let samples = kind.analog().map_or(0, |analog| u64::from(analog.samples) * SAMPLE_BYTES);
+    let raw = kind.i2c().map_or(0, |i2c| value + u64::from(i2c.length_bytes));
+    value + samples + raw
 }
 
 fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {

@@ -119,34 +119,24 @@ struct Load {
 fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
     let mut loads: BTreeMap<(UnitName, Cycle), Load> = BTreeMap::new();
     for wired in &context.devices {
-        let unit = match &wired.device.kind {
-            Kind::Icu(icu) if icu.pulse_us.is_some() => "pulse",
-            Kind::Icu(_) | Kind::Encoder(_) => continue,
-            kind @ (Kind::Analog(_)
-            | Kind::I2c(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_)) => wired.wiring.unit.as_deref().unwrap_or(kind.name().name()),
-        };
+        let kind = &wired.device.kind;
+        let is_pulsed = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
+        if kind.name().spec().triggers_itself && !is_pulsed {
+            continue;
+        }
+        let of_kind = || wired.wiring.unit.as_deref().unwrap_or(kind.name().name());
+        let unit = if is_pulsed { "pulse" } else { of_kind() };
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
-        match &wired.device.kind {
-            Kind::Analog(analog) => load.samples.push(analog.samples),
-            Kind::Icu(icu) => load.pulses_us.extend(icu.pulse_us),
-            Kind::I2c(_) => {
-                let script = script(context, wired);
-                load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
-            }
-            Kind::Encoder(_)
-            | Kind::Digital(_)
-            | Kind::Uart(_)
-            | Kind::Spi(_)
-            | Kind::Pwm(_)
-            | Kind::Dac(_)
-            | Kind::Can(_) => load.is_unknown = true,
+        if let Some(analog) = kind.analog() {
+            load.samples.push(analog.samples);
+        } else if let Some(icu) = kind.icu() {
+            load.pulses_us.extend(icu.pulse_us);
+        } else if kind.i2c().is_some() {
+            let script = script(context, wired);
+            load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
+        } else {
+            load.is_unknown = true;
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()
@@ -217,7 +207,7 @@ fn times(instructions: u64, cycles: f64) -> u64 {
 fn reporter(context: &Context<'_>, costs: &Costs) -> u64 {
     let reports = reports(context);
     let cycles = 1_000_u64.div_ceil(u64::from(reports.cycle_ms.max(1)));
-    let is_capture = |kind: &Kind| kind.name().triggers_itself();
+    let is_capture = |kind: &Kind| kind.name().spec().triggers_itself;
     let captures = context.devices.iter().filter(|wired| is_capture(&wired.device.kind)).count();
     let mut instructions = cycles
         * (u64::from(costs.report) + captures as u64 * u64::from(costs.capture_look))

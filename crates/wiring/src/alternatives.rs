@@ -1,14 +1,26 @@
 //! The ways to connect one device: which peripheral instances it may take and which pins then.
 
-mod analog;
 mod buses;
 mod candidates;
 mod cases;
 pub(crate) mod timers;
 
+// One file a kind.
+mod analog;
+mod can;
+mod dac;
+mod digital;
+mod encoder;
+mod i2c;
+mod icu;
+mod pwm;
+mod spi;
+mod uart;
+
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
-use sensedsl_model::design::{BoardIndex, Device, Placement, Wish};
+use sensedsl_board::silicon::Ability;
+use sensedsl_model::design::{Board, BoardIndex, Device, Placement, Wish};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
@@ -17,8 +29,6 @@ use sensedsl_wire::Direction;
 use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 use crate::wishes;
-use candidates::Need;
-use timers::TimerUse;
 
 /// A device, or a link, as far as its wires go.
 pub(crate) struct Wanted<'a> {
@@ -82,7 +92,7 @@ pub(crate) fn alternatives<'a>(
     let mut meanings = Vec::new();
     for offer in offers.iter().filter(|offer| wanted.boards.contains(&offer.index)) {
         let mut maker = Maker { builder, offer, wanted, rules: &rules };
-        for (alternative, meaning) in maker.on_board() {
+        for (alternative, meaning) in served(wanted.kind).ways(&mut maker) {
             list.push(alternative);
             meanings.push(meaning);
         }
@@ -90,38 +100,51 @@ pub(crate) fn alternatives<'a>(
     (list, meanings)
 }
 
-struct Maker<'b, 'a> {
+pub(crate) struct Maker<'b, 'a> {
     builder: &'b mut Builder<'a>,
     offer: &'b Offer<'a>,
     wanted: &'b Wanted<'a>,
     rules: &'b wishes::Rules<'a>,
 }
 
-type Made = (Alternative, Meaning);
+pub(crate) type Made = (Alternative, Meaning);
 
 impl Maker<'_, '_> {
     fn profile(&self) -> Option<&TargetProfile> {
         self.offer.board.profile()
     }
+}
 
-    fn on_board(&mut self) -> Vec<Made> {
-        match self.wanted.kind {
-            Kind::Analog(_) => self.analog(),
-            Kind::Icu(_) => self.timers(TimerUse::Icu),
-            Kind::Encoder(_) => self.timers(TimerUse::Encoder),
-            Kind::Pwm(pwm) => self.timers(TimerUse::Pwm(pwm.frequency_hz)),
-            Kind::Digital(digital) => {
-                let interrupt =
-                    digital.edge.is_some() && self.wanted.direction == Direction::Sensor;
-                let need = if interrupt { Need::Interrupt } else { Need::Gpio };
-                let role =
-                    if self.wanted.direction == Direction::Sensor { Role::In } else { Role::Out };
-                let roles = vec![self.role(role, &need, None)];
-                self.finish(None, &[], roles)
-            }
-            Kind::Dac(_) => self.dac(),
-            Kind::I2c(_) | Kind::Uart(_) | Kind::Spi(_) | Kind::Can(_) => self.units(),
-        }
+/// Which pins can serve a kind: one file a kind implements it.
+pub(crate) trait Served {
+    /// All ways to connect the device to the board in question.
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made>;
+
+    /// What the channels of the board's timers can do for the kind, where its silicon differs from
+    /// most.
+    fn ability(&self, _board: &Board) -> Option<&'static Ability> {
+        None
+    }
+
+    /// Whether it needs several channels of one timer.
+    fn takes_whole_timer(&self) -> bool {
+        false
+    }
+}
+
+/// Who knows which pins can serve a kind.
+pub(crate) fn served(kind: &Kind) -> &dyn Served {
+    match kind {
+        Kind::Analog(analog) => analog,
+        Kind::I2c(i2c) => i2c,
+        Kind::Icu(icu) => icu,
+        Kind::Encoder(encoder) => encoder,
+        Kind::Digital(digital) => digital,
+        Kind::Uart(uart) => uart,
+        Kind::Spi(spi) => spi,
+        Kind::Pwm(pwm) => pwm,
+        Kind::Dac(dac) => dac,
+        Kind::Can(can) => can,
     }
 }
 

@@ -5,7 +5,7 @@
 
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{BoardIndex, Design, Device, Placement, Presentation, Spanned};
-use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::kind::{Kind, KindName, Sharing};
 use sensedsl_model::pins::PinRef;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
@@ -83,20 +83,9 @@ fn fix(design: &mut Design, wiring: &Assignment) {
 
 fn of_kind(base: &Design, board: BoardIndex, kind: KindName, cancel: Cancel<'_>) -> Capacity {
     let room = DEVICES_MAX.saturating_sub(base.devices.len());
-    let limit = match kind {
-        KindName::I2c => room.min(free_addresses(base).len()),
-        KindName::Analog
-        | KindName::Icu
-        | KindName::Encoder
-        | KindName::Digital
-        | KindName::Uart
-        | KindName::Spi
-        | KindName::Pwm
-        | KindName::Dac
-        | KindName::Can => room,
-    };
+    let limit = if kind == KindName::I2c { room.min(free_addresses(base).len()) } else { room };
     // A shared bus carries any number of devices as soon as it carries one.
-    let unbounded = matches!(kind, KindName::I2c | KindName::Can);
+    let unbounded = kind.spec().sharing == Sharing::Bus;
     let most = if unbounded { limit.min(1) } else { limit };
     let (mut fits, mut too_many) = (0, most + 1);
     let mut step = 1;
@@ -156,9 +145,10 @@ fn with(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Desig
 }
 
 fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: Span) -> Device {
-    let direction = kind.directions().first().copied().unwrap_or(Direction::Sensor);
+    let direction = kind.spec().directions.first().copied().unwrap_or(Direction::Sensor);
     Device {
         name: Spanned { value: format!("further {}", number + 1), span },
+        block: span,
         id: Spanned { value: 0, span },
         direction,
         value: Spanned { value: ValueType::scalar(ScalarType::Uint16), span },

@@ -16,14 +16,14 @@ use sensedsl_diagnostics::codes::{
     w0610_level_not_known,
 };
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, Level, Spanned, WishFor};
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::pins::PinRef;
 use sensedsl_model::volts::{shown_mv, shown_ohm};
 
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
-use crate::levels::{Stands, divider, is_driven_by_device, stands, supply_mv};
+use crate::levels::{Stands, divider, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
@@ -164,20 +164,11 @@ fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Dia
     };
     let supply = offers.iter().filter_map(|offer| supply_mv(offer.board)).max().unwrap_or(3_300);
     let most = offers.iter().filter_map(most).max().unwrap_or(supply);
-    let help = match device.kind {
-        Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => {
-            format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
-        }
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_) => {
-            let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
-            format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
-        }
+    let help = if device.kind.name().spec().sharing == Sharing::Own {
+        let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
+        format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
+    } else {
+        format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
     };
     let at_pin = level.at_pin_mv();
     let (name, shown) = (&device.name.value, shown_mv(at_pin));
@@ -325,7 +316,7 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
             for wire in &wiring.wires {
                 let Some(pin) = wire.pin(board) else { continue };
                 if let Some(level) = device.level
-                    && is_driven_by_device(wire.role)
+                    && wire.role.is_driven_by_device()
                     && stands(board, pin, &device.kind, level.at_pin_mv()) == Stands::Unknown
                 {
                     let (name, level) = (&device.name.value, shown_mv(level.at_pin_mv()));
@@ -363,7 +354,7 @@ fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for wiring in &on.devices {
         let Some(device) = design.device(wiring.device) else { continue };
-        let (Kind::I2c(i2c), Some(unit)) = (&device.kind, wiring.unit.as_deref()) else { continue };
+        let (Some(i2c), Some(unit)) = (device.kind.i2c(), wiring.unit.as_deref()) else { continue };
         let Some((other, on)) = first.get(&i2c.address) else {
             first.insert(i2c.address, (device, unit));
             continue;

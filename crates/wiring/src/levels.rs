@@ -4,7 +4,7 @@
 use sensedsl_board::silicon::{self, Volts};
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::Board;
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::Kind;
 #[cfg(test)]
 use sensedsl_model::volts::shown_ohm;
 
@@ -28,7 +28,7 @@ pub(crate) enum Stands {
 pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Stands {
     let volts = volts(board);
     let supply = volts.map(|volts| volts.supply_mv);
-    let most = if matches!(kind, Kind::Analog(_)) {
+    let most = if kind.analog().is_some() {
         supply
     } else if supply.is_some_and(|supply| mv <= supply) {
         return Stands::Yes;
@@ -64,14 +64,6 @@ fn stated_mv(pin: &Pin) -> Option<u32> {
     let volts: f64 = said.trim_end_matches(['V', 'v']).trim().parse().ok()?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
     (0.0..1_000.0).contains(&volts).then(|| (volts * 1_000.0).round() as u32)
-}
-
-/// Whether the device, not the MCU, drives a wire.
-pub(crate) const fn is_driven_by_device(role: Role) -> bool {
-    match role {
-        Role::In | Role::Scl | Role::Sda | Role::Rx | Role::Miso | Role::A | Role::B => true,
-        Role::Out | Role::Tx | Role::Sck | Role::Mosi | Role::Cs | Role::Trigger => false,
-    }
 }
 
 /// Resistors of the E12 series, from the device to the pin and from there to ground, in ohms, that

@@ -279,18 +279,7 @@ fn frequencies<'a>(
     devices: &'a [DeviceIndex],
     device: &'a Device,
 ) -> impl Iterator<Item = u32> {
-    let hz = |device: &Device| match &device.kind {
-        Kind::Pwm(pwm) => Some(pwm.frequency_hz),
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    };
+    let hz = |device: &Device| device.kind.pwm().map(|pwm| pwm.frequency_hz);
     let own = hz(device);
     let all = devices.iter().filter_map(move |index| hz(design.device(*index)?));
     let others: BTreeSet<u32> = all.filter(|hz| own.is_some_and(|own| own != *hz)).collect();

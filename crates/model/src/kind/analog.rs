@@ -1,9 +1,24 @@
 //! `analog`: a voltage on an ADC input.
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
+use sensedsl_wire::{Direction, ValueType};
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["samples", "sampling", "pin"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "analog",
+    article: "an",
+    directions: &[Direction::Sensor],
+    values: Values::OneNumber,
+    properties: &["samples", "sampling", "pin"],
+    sharing: Sharing::Own,
+    triggers_itself: false,
+    wires: "one ADC input",
+    example: "",
+    colour: "#E69F00",
+    letter: 'A',
+};
 
 /// Samples per value where the file says nothing: what the car's firmware took.
 const SAMPLES_DEFAULT: u16 = 32;
@@ -19,13 +34,23 @@ pub struct Analog {
     pub sampling_span: Option<sensedsl_diagnostics::Span>,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>) -> Analog {
-    let samples = fields.integer("samples", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
-    let cycles = fields.integer("sampling", 1..=1024);
-    Analog {
-        samples: samples.unwrap_or(SAMPLES_DEFAULT),
-        sampling_cycles: cycles.and_then(|n| u16::try_from(n.value).ok()),
-        sampling_span: cycles.map(|n| n.span),
+impl Properties for Analog {
+    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+        let samples = fields.integer("samples", 1..=1024).and_then(|n| u16::try_from(n.value).ok());
+        let cycles = fields.integer("sampling", 1..=1024);
+        Self {
+            samples: samples.unwrap_or(SAMPLES_DEFAULT),
+            sampling_cycles: cycles.and_then(|n| u16::try_from(n.value).ok()),
+            sampling_span: cycles.map(|n| n.span),
+        }
+    }
+
+    fn plain(_: u8) -> Self {
+        Self::default()
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::In]
     }
 }
 

@@ -1,9 +1,24 @@
 //! `can`: a value in the frames of a CAN bus.
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
+use sensedsl_wire::{Direction, ValueType};
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["bitrate", "frame", "byte", "tx", "rx"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "can",
+    article: "a",
+    directions: &[Direction::Sensor, Direction::Actuator],
+    values: Values::Any,
+    properties: &["bitrate", "frame", "byte", "tx", "rx"],
+    sharing: Sharing::Bus,
+    triggers_itself: false,
+    wires: "RX and TX of one unit, shared by devices of one bit rate",
+    example: "frame = 0x120;",
+    colour: "#8E6BBF",
+    letter: 'N',
+};
 
 /// Bits per second where the file says nothing.
 const BITRATE_DEFAULT_HZ: u32 = 500_000;
@@ -21,15 +36,25 @@ pub struct Can {
     pub byte: u8,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>) -> Can {
-    let bitrate = fields.frequency_hz("bitrate", 10_000..=1_000_000);
-    let frame = fields.required_integer("frame", 0..=0x1FFF_FFFF, "frame = 0x120;");
-    let byte = fields.integer("byte", 0..=63).and_then(|n| u8::try_from(n.value).ok());
-    Can {
-        bitrate_hz: bitrate.map_or(BITRATE_DEFAULT_HZ, |rate| rate.value),
-        bitrate_span: bitrate.map(|rate| rate.span),
-        frame_id: frame.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(0),
-        byte: byte.unwrap_or(0),
+impl Properties for Can {
+    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+        let bitrate = fields.frequency_hz("bitrate", 10_000..=1_000_000);
+        let frame = fields.required_integer("frame", 0..=0x1FFF_FFFF, "frame = 0x120;");
+        let byte = fields.integer("byte", 0..=63).and_then(|n| u8::try_from(n.value).ok());
+        Self {
+            bitrate_hz: bitrate.map_or(BITRATE_DEFAULT_HZ, |rate| rate.value),
+            bitrate_span: bitrate.map(|rate| rate.span),
+            frame_id: frame.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(0),
+            byte: byte.unwrap_or(0),
+        }
+    }
+
+    fn plain(_: u8) -> Self {
+        Self::default()
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::Tx, Role::Rx]
     }
 }
 

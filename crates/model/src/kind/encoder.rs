@@ -1,9 +1,24 @@
 //! `encoder`: a quadrature encoder, counted by a timer.
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
+use sensedsl_wire::{Direction, ValueType};
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["counts", "a", "b"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "encoder",
+    article: "an",
+    directions: &[Direction::Sensor],
+    values: Values::OneNumber,
+    properties: &["counts", "a", "b"],
+    sharing: Sharing::Own,
+    triggers_itself: true,
+    wires: "CH1 and CH2 of one timer, which is taken",
+    example: "",
+    colour: "#2E7D5B",
+    letter: 'E',
+};
 
 /// A quadrature encoder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,7 +27,17 @@ pub struct Encoder {
     pub counts: Option<u32>,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>) -> Encoder {
-    let counts = fields.integer("counts", 1..=10_000_000);
-    Encoder { counts: counts.and_then(|n| u32::try_from(n.value).ok()) }
+impl Properties for Encoder {
+    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+        let counts = fields.integer("counts", 1..=10_000_000);
+        Self { counts: counts.and_then(|n| u32::try_from(n.value).ok()) }
+    }
+
+    fn plain(_: u8) -> Self {
+        Self { counts: None }
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::A, Role::B]
+    }
 }

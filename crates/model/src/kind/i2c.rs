@@ -1,24 +1,38 @@
 //! `i2c`: a device on an I2C bus.
 
 use sensedsl_diagnostics::codes::{e0215_bad_address, h0701_eight_bit_address};
-use sensedsl_wire::ValueType;
+use sensedsl_wire::{Direction, ValueType};
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::design::Spanned;
 use crate::fields::Fields;
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &[
-    "address",
-    "speed",
-    "exclusive",
-    "trigger",
-    "wait",
-    "register",
-    "length",
-    "order",
-    "scl",
-    "sda",
-];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "i2c",
+    article: "an",
+    directions: &[Direction::Sensor, Direction::Actuator],
+    values: Values::Any,
+    properties: &[
+        "address",
+        "speed",
+        "exclusive",
+        "trigger",
+        "wait",
+        "register",
+        "length",
+        "order",
+        "scl",
+        "sda",
+    ],
+    sharing: Sharing::Bus,
+    triggers_itself: false,
+    wires: "SCL and SDA of one unit, shared by devices with different addresses",
+    example: "address = 0x40; register = 0;",
+    colour: "#56B4E9",
+    letter: 'I',
+};
 
 /// The properties that make a protocol; a device without any of them has none of its own.
 pub const PROTOCOL: &[&str] = &["trigger", "wait", "register", "length", "order"];
@@ -67,29 +81,44 @@ pub struct I2c {
     pub order: ByteOrder,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> I2c {
-    let address = read_address(fields);
-    let speed = fields.frequency_hz("speed", 1_000..=1_000_000);
-    let exclusive = fields.boolean("exclusive").is_some_and(|flag| flag.value);
-    let trigger = fields.bytes("trigger", 0..=32);
-    let wait = fields.time_us("wait", 0..=60_000_000);
-    let register = fields.integer("register", 0..=255).and_then(|n| u8::try_from(n.value).ok());
-    let size_bytes = u64::try_from(value.size_bytes()).unwrap_or(u64::MAX);
-    let length = fields.integer("length", 1..=2048).map_or(size_bytes, |n| n.value.unsigned_abs());
-    let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
-    let order = fields.word("order", &orders).map(|word| word.value);
-    I2c {
-        address: address.as_ref().map_or(0, |address| address.value),
-        address_span: address.map(|address| address.span),
-        speed_hz: speed.as_ref().map_or(SPEED_DEFAULT_HZ, |speed| speed.value),
-        speed_span: speed.map(|speed| speed.span),
-        exclusive,
-        trigger: trigger.map(|bytes| bytes.value).unwrap_or_default(),
-        wait_us: wait.map_or(0, |wait| wait.value),
-        wait_span: wait.map(|wait| wait.span),
-        register,
-        length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
-        order: order.unwrap_or_default(),
+impl Properties for I2c {
+    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
+        let address = read_address(fields);
+        let speed = fields.frequency_hz("speed", 1_000..=1_000_000);
+        let exclusive = fields.boolean("exclusive").is_some_and(|flag| flag.value);
+        let trigger = fields.bytes("trigger", 0..=32);
+        let wait = fields.time_us("wait", 0..=60_000_000);
+        let register = fields.integer("register", 0..=255).and_then(|n| u8::try_from(n.value).ok());
+        let size_bytes = u64::try_from(value.size_bytes()).unwrap_or(u64::MAX);
+        let length =
+            fields.integer("length", 1..=2048).map_or(size_bytes, |n| n.value.unsigned_abs());
+        let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
+        let order = fields.word("order", &orders).map(|word| word.value);
+        Self {
+            address: address.as_ref().map_or(0, |address| address.value),
+            address_span: address.map(|address| address.span),
+            speed_hz: speed.as_ref().map_or(SPEED_DEFAULT_HZ, |speed| speed.value),
+            speed_span: speed.map(|speed| speed.span),
+            exclusive,
+            trigger: trigger.map(|bytes| bytes.value).unwrap_or_default(),
+            wait_us: wait.map_or(0, |wait| wait.value),
+            wait_span: wait.map(|wait| wait.span),
+            register,
+            length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+            order: order.unwrap_or_default(),
+        }
+    }
+
+    fn plain(address: u8) -> Self {
+        Self::at(address)
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::Scl, Role::Sda]
+    }
+
+    fn measuring_us(&self) -> u32 {
+        self.wait_us
     }
 }
 

@@ -1,11 +1,26 @@
 //! `icu`: edges on an input-capture channel; the hardware measures, callbacks collect.
 
 use sensedsl_syntax::Unit;
+use sensedsl_wire::{Direction, ValueType};
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["mode", "edge", "resolution", "pulse", "wait", "pin", "trigger"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "icu",
+    article: "an",
+    directions: &[Direction::Sensor],
+    values: Values::OneNumber,
+    properties: &["mode", "edge", "resolution", "pulse", "wait", "pin", "trigger"],
+    sharing: Sharing::Own,
+    triggers_itself: true,
+    wires: "one input-capture channel (CH1 or CH2; B of an RP2 slice, ICP of an AVR timer); the whole timer is taken. With `pulse` also a GPIO",
+    example: "",
+    colour: "#009E73",
+    letter: 'C',
+};
 
 /// What is made of the edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,31 +90,45 @@ const fn tick_default_hz(mode: Mode) -> u32 {
     }
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>) -> Icu {
-    let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty];
-    let modes = modes.map(|mode| (mode.name(), mode));
-    let mode = fields.word("mode", &modes).map(|word| word.value).unwrap_or_default();
-    let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
-    let edge = fields.word("edge", &edges);
-    if let Some(edge) = edge
-        && edge.value == Edge::Both
-        && mode != Mode::Count
-    {
-        fields.contradiction(edge.span, "mode", "`edge = both` is for counting only");
+impl Properties for Icu {
+    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+        let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty];
+        let modes = modes.map(|mode| (mode.name(), mode));
+        let mode = fields.word("mode", &modes).map(|word| word.value).unwrap_or_default();
+        let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
+        let edge = fields.word("edge", &edges);
+        if let Some(edge) = edge
+            && edge.value == Edge::Both
+            && mode != Mode::Count
+        {
+            fields.contradiction(edge.span, "mode", "`edge = both` is for counting only");
+        }
+        let tick = fields.rate_hz("resolution", 1..=100_000_000, Unit::Hertz);
+        let pulse = fields.time_us("pulse", 1..=10_000);
+        let wait = fields.time_us("wait", 0..=60_000_000);
+        if let (Some(wait), None) = (wait, pulse) {
+            fields.contradiction(wait.span, "type", "`wait` is for a device with a `pulse` only");
+        }
+        Self {
+            mode,
+            edge: edge.map(|word| word.value).unwrap_or_default(),
+            tick_hz: tick.map_or(tick_default_hz(mode), |tick| tick.value),
+            tick_span: tick.map(|tick| tick.span),
+            pulse_us: pulse.map(|pulse| pulse.value),
+            wait_us: wait.map_or(0, |wait| wait.value),
+        }
     }
-    let tick = fields.rate_hz("resolution", 1..=100_000_000, Unit::Hertz);
-    let pulse = fields.time_us("pulse", 1..=10_000);
-    let wait = fields.time_us("wait", 0..=60_000_000);
-    if let (Some(wait), None) = (wait, pulse) {
-        fields.contradiction(wait.span, "type", "`wait` is for a device with a `pulse` only");
+
+    fn plain(_: u8) -> Self {
+        Self::default()
     }
-    Icu {
-        mode,
-        edge: edge.map(|word| word.value).unwrap_or_default(),
-        tick_hz: tick.map_or(tick_default_hz(mode), |tick| tick.value),
-        tick_span: tick.map(|tick| tick.span),
-        pulse_us: pulse.map(|pulse| pulse.value),
-        wait_us: wait.map_or(0, |wait| wait.value),
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        if self.pulse_us.is_some() { vec![Role::In, Role::Trigger] } else { vec![Role::In] }
+    }
+
+    fn measuring_us(&self) -> u32 {
+        self.wait_us
     }
 }
 

@@ -1,9 +1,24 @@
 //! `pwm`: a pulse width on a timer output; the value goes from 0 to 10,000 between `min` and `max`.
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
+use sensedsl_wire::{Direction, ValueType};
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["frequency", "min", "max", "failsafe", "pin"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "pwm",
+    article: "a",
+    directions: &[Direction::Actuator],
+    values: Values::OneNumber,
+    properties: &["frequency", "min", "max", "failsafe", "pin"],
+    sharing: Sharing::Own,
+    triggers_itself: false,
+    wires: "one timer output; outputs of one timer share its frequency",
+    example: "",
+    colour: "#D55E00",
+    letter: 'P',
+};
 
 /// Pulses per second where the file says nothing: that of a model servo.
 const FREQUENCY_DEFAULT_HZ: u32 = 50;
@@ -21,22 +36,32 @@ pub struct Pwm {
     pub failsafe: Option<f64>,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>) -> Pwm {
-    let frequency = fields.frequency_hz("frequency", 1..=1_000_000);
-    let frequency_hz = frequency.map_or(FREQUENCY_DEFAULT_HZ, |frequency| frequency.value);
-    let period_us = 1_000_000 / frequency_hz.max(1);
-    let min = fields.time_us("min", 0..=period_us);
-    let max = fields.time_us("max", 0..=period_us);
-    if let (Some(min), Some(max)) = (min, max)
-        && min.value >= max.value
-    {
-        fields.contradiction(min.span, "max", "`min` is not below `max`");
+impl Properties for Pwm {
+    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+        let frequency = fields.frequency_hz("frequency", 1..=1_000_000);
+        let frequency_hz = frequency.map_or(FREQUENCY_DEFAULT_HZ, |frequency| frequency.value);
+        let period_us = 1_000_000 / frequency_hz.max(1);
+        let min = fields.time_us("min", 0..=period_us);
+        let max = fields.time_us("max", 0..=period_us);
+        if let (Some(min), Some(max)) = (min, max)
+            && min.value >= max.value
+        {
+            fields.contradiction(min.span, "max", "`min` is not below `max`");
+        }
+        Self {
+            frequency_hz,
+            min_us: min.map(|time| time.value),
+            max_us: max.map(|time| time.value),
+            failsafe: fields.number("failsafe").map(|number| number.value),
+        }
     }
-    Pwm {
-        frequency_hz,
-        min_us: min.map(|time| time.value),
-        max_us: max.map(|time| time.value),
-        failsafe: fields.number("failsafe").map(|number| number.value),
+
+    fn plain(_: u8) -> Self {
+        Self::default()
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::Out]
     }
 }
 

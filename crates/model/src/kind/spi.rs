@@ -1,11 +1,24 @@
 //! `spi`: a device on an SPI bus, with a chip select of its own.
 
-use sensedsl_wire::ValueType;
-
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
+use sensedsl_wire::{Direction, ValueType};
 
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["clock", "mode", "read", "length", "sck", "miso", "mosi", "cs"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "spi",
+    article: "an",
+    directions: &[Direction::Sensor, Direction::Actuator],
+    values: Values::Any,
+    properties: &["clock", "mode", "read", "length", "sck", "miso", "mosi", "cs"],
+    sharing: Sharing::BusAndSelect,
+    triggers_itself: false,
+    wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
+    example: "",
+    colour: "#0072B2",
+    letter: 'S',
+};
 
 /// Clock where the file says nothing.
 const CLOCK_DEFAULT_HZ: u32 = 1_000_000;
@@ -25,18 +38,28 @@ pub struct Spi {
     pub length_bytes: u16,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>, value: ValueType) -> Spi {
-    let clock = fields.frequency_hz("clock", 1_000..=100_000_000);
-    let mode = fields.integer("mode", 0..=3).and_then(|n| u8::try_from(n.value).ok());
-    let read = fields.bytes("read", 0..=32).map(|bytes| bytes.value).unwrap_or_default();
-    let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
-    let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
-    Spi {
-        clock_hz: clock.map_or(CLOCK_DEFAULT_HZ, |clock| clock.value),
-        clock_span: clock.map(|clock| clock.span),
-        mode: mode.unwrap_or(0),
-        read,
-        length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+impl Properties for Spi {
+    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
+        let clock = fields.frequency_hz("clock", 1_000..=100_000_000);
+        let mode = fields.integer("mode", 0..=3).and_then(|n| u8::try_from(n.value).ok());
+        let read = fields.bytes("read", 0..=32).map(|bytes| bytes.value).unwrap_or_default();
+        let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
+        let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
+        Self {
+            clock_hz: clock.map_or(CLOCK_DEFAULT_HZ, |clock| clock.value),
+            clock_span: clock.map(|clock| clock.span),
+            mode: mode.unwrap_or(0),
+            read,
+            length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+        }
+    }
+
+    fn plain(_: u8) -> Self {
+        Self::default()
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs]
     }
 }
 

@@ -1,12 +1,25 @@
 //! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
 //! `tx = none` takes the receiving wire alone.
 
+use super::spec::Properties;
+use super::{KindSpec, Role, Sharing, Values};
+use crate::fields::Fields;
 use sensedsl_wire::{Direction, ValueType};
 
-use crate::fields::Fields;
-
-/// The properties of this kind.
-pub const PROPERTIES: &[&str] = &["baud", "frame", "start", "end", "length", "tx", "rx"];
+/// What is the same for all devices of this kind.
+pub const SPEC: KindSpec = KindSpec {
+    name: "uart",
+    article: "a",
+    directions: &[Direction::Sensor, Direction::Actuator],
+    values: Values::Any,
+    properties: &["baud", "frame", "start", "end", "length", "tx", "rx"],
+    sharing: Sharing::Own,
+    triggers_itself: false,
+    wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`",
+    example: "",
+    colour: "#CC79A7",
+    letter: 'U',
+};
 
 /// Bits per second where the file says nothing.
 pub const BAUD_DEFAULT: u32 = 9_600;
@@ -46,34 +59,44 @@ pub struct Uart {
     pub receive_only: bool,
 }
 
-pub(crate) fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Uart {
-    let rate = fields.integer("baud", 300..=10_000_000);
-    let baud = rate.and_then(|n| u32::try_from(n.value).ok());
-    let frames = [
-        ("8N1", (8, Parity::None, 1)),
-        ("8N2", (8, Parity::None, 2)),
-        ("8E1", (8, Parity::Even, 1)),
-        ("8O1", (8, Parity::Odd, 1)),
-        ("7E1", (7, Parity::Even, 1)),
-        ("7O1", (7, Parity::Odd, 1)),
-    ];
-    let frame = fields.word("frame", &frames).map(|word| word.value);
-    let (data_bits, parity, stop_bits) = frame.unwrap_or((8, Parity::None, 1));
-    let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
-    let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
-    let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
-    let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
-    let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
-    Uart {
-        baud: baud.unwrap_or(BAUD_DEFAULT),
-        baud_span: rate.map(|rate| rate.span),
-        data_bits,
-        parity,
-        stop_bits,
-        start,
-        end,
-        length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
-        receive_only,
+impl Properties for Uart {
+    fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
+        let rate = fields.integer("baud", 300..=10_000_000);
+        let baud = rate.and_then(|n| u32::try_from(n.value).ok());
+        let frames = [
+            ("8N1", (8, Parity::None, 1)),
+            ("8N2", (8, Parity::None, 2)),
+            ("8E1", (8, Parity::Even, 1)),
+            ("8O1", (8, Parity::Odd, 1)),
+            ("7E1", (7, Parity::Even, 1)),
+            ("7O1", (7, Parity::Odd, 1)),
+        ];
+        let frame = fields.word("frame", &frames).map(|word| word.value);
+        let (data_bits, parity, stop_bits) = frame.unwrap_or((8, Parity::None, 1));
+        let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
+        let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
+        let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
+        let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
+        let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
+        Self {
+            baud: baud.unwrap_or(BAUD_DEFAULT),
+            baud_span: rate.map(|rate| rate.span),
+            data_bits,
+            parity,
+            stop_bits,
+            start,
+            end,
+            length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+            receive_only,
+        }
+    }
+
+    fn plain(_: u8) -> Self {
+        Self::link(BAUD_DEFAULT)
+    }
+
+    fn roles(&self, _: Direction) -> Vec<Role> {
+        if self.receive_only { vec![Role::Rx] } else { vec![Role::Tx, Role::Rx] }
     }
 }
 

@@ -5,7 +5,7 @@ use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::table::Occupation;
 use sensedsl_board::{catalog, mcu};
 use sensedsl_codegen::firmware::chibios;
-use sensedsl_parts::Completion;
+use sensedsl_session::printed_board;
 
 use super::table::{INDENT, table};
 use crate::Status;
@@ -21,18 +21,8 @@ pub(crate) fn run(args: &BoardsArgs, terminal: &mut Terminal) -> Result<Status> 
         let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
         bail!("there is no built-in board {name}{meant} (`sensedsl boards` lists them)");
     };
-    terminal.result(&printed(board))?;
+    terminal.result(&printed_board(board))?;
     Ok(Status::Done)
-}
-
-/// The table of a board with the usages of its MCU.
-pub(crate) fn printed(board: &catalog::Entry) -> String {
-    let mut table = board.table();
-    match sensedsl_parts::complete(&mut table) {
-        Completion::Part { .. } => table.to_csv(),
-        // What lists its usages is printed as it stands.
-        Completion::Own | Completion::Unknown => board.csv().to_owned(),
-    }
 }
 
 /// Prints the boards with all words of `search` somewhere in what is known of them. Scripts read

@@ -4,7 +4,8 @@ use anyhow::Result;
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
-use sensedsl_wiring::{Cancel, Capacity, Search, Solved, capacity};
+use sensedsl_session::Ask;
+use sensedsl_wiring::{Cancel, Capacity, capacity};
 use serde_json::{Value, json};
 
 use super::deadline::Deadline;
@@ -21,18 +22,10 @@ pub(crate) fn run(args: &CapacityArgs, terminal: &mut Terminal) -> Result<Status
     let deadline = Deadline::after(args.timeout);
     let over = || deadline.is_over();
     let cancel = Cancel::when(&over);
-    let resolved = input::load(&args.file, &args.on);
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(input::status(&resolved.diagnostics, &args.on));
-    };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), cancel);
-    let Some(Solved::Wired(wiring)) = answer.solved else {
-        terminal.diagnostics(&answer.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
-    };
-    let found = capacity(design, &wiring, args.rearrange, cancel);
+    let snapshot = input::load(&args.file, &args.on);
+    let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
+    let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
+    let found = capacity(design, wiring, args.rearrange, cancel);
     let capacities = found.all;
     if !found.complete {
         let all = design.boards.len() * KindName::ALL.len();

@@ -7,7 +7,7 @@ use anyhow::Result;
 use sensedsl_diagnostics::render;
 use sensedsl_model::What;
 use sensedsl_report::json::wired;
-use sensedsl_wiring::{Cancel, Search, Solved};
+use sensedsl_session::Ask;
 use serde_json::{Value, json};
 
 use super::input;
@@ -110,19 +110,10 @@ fn wires(path: &Path, on: &On, terminal: &Terminal) -> Result<Option<BTreeMap<Wi
         let missing = || input::not_an_answer(path, "boards, devices or wires are missing");
         return Ok(Some(wires.ok_or_else(missing)?));
     }
-    let resolved = input::resolved(path, &text, on);
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(None);
-    };
-    let answer =
-        input::solve(design, resolved.diagnostics, None, &Search::default(), Cancel::NEVER);
-    let Some(Solved::Wired(wiring)) = answer.solved else {
-        terminal.diagnostics(&answer.diagnostics, &sources)?;
-        return Ok(None);
-    };
-    Ok(of_json(&wired(design, &wiring)))
+    let snapshot = input::of_text(path, text, on);
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = input::wired(&answer, &snapshot, on, terminal)?;
+    Ok(of_json(&wired(design, wiring)))
 }
 
 fn of_json(value: &Value) -> Option<BTreeMap<Wire, Place>> {

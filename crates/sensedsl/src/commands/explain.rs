@@ -4,8 +4,9 @@ use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
 use sensedsl_diagnostics::{Code, nearest, render, visible};
 use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_session::Ask;
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Alternative, Cancel, Search, Solved, Wiring};
+use sensedsl_wiring::{Alternative, Cancel, Wiring};
 use serde_json::{Value, json};
 
 use super::deadline::Deadline;
@@ -46,30 +47,18 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     let deadline = Deadline::after(args.timeout);
     let over = || deadline.is_over();
     let cancel = Cancel::when(&over);
-    let resolved = input::load(file, &args.on);
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(input::status(&resolved.diagnostics, &args.on));
-    };
-    let names = || design.devices.iter().map(|device| device.name.value.as_str());
-    let Some(device) = names().position(|one| one == name) else {
-        let meant = nearest(name, names());
-        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
-        bail!("the file has no device {name}{meant}");
-    };
-    let answer = input::solve(design, resolved.diagnostics, None, &Search::default(), cancel);
-    let Some(Solved::Wired(wiring)) = answer.solved else {
-        terminal.diagnostics(&answer.diagnostics, &sources)?;
-        return Ok(Status::Wrong);
-    };
-    let found = Wiring::within(design, None, cancel).why(&wiring, DeviceIndex(device));
+    let snapshot = input::load(file, &args.on);
+    // A misspelled name is said before anything is solved.
+    snapshot.design().map(|design| device(design, name)).transpose()?;
+    let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
+    let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
+    let found = Wiring::within(design, None, cancel).why(wiring, device(design, name)?);
     let alternatives = found.all;
     if !found.complete {
         terminal.aside("stopped: there may be more pins that were not looked at")?;
     }
     match args.format {
-        TableFormat::Human => terminal.result(&human(design, &wiring, &alternatives))?,
+        TableFormat::Human => terminal.result(&human(design, wiring, &alternatives))?,
         TableFormat::Json => {
             let list: Vec<Value> = alternatives.iter().map(value).collect();
             let all = json!({
@@ -82,6 +71,16 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         }
     }
     Ok(Status::Done)
+}
+
+fn device(design: &Design, name: &str) -> Result<DeviceIndex> {
+    let names = || design.devices.iter().map(|device| device.name.value.as_str());
+    let index = names().position(|one| one == name).map(DeviceIndex);
+    index.with_context(|| {
+        let meant = nearest(name, names());
+        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+        format!("the file has no device {name}{meant}")
+    })
 }
 
 fn value(one: &Alternative) -> Value {

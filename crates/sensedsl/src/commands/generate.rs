@@ -13,8 +13,8 @@ use sensedsl_diagnostics::{Diagnostic, Span, visible};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
 use sensedsl_report::human;
+use sensedsl_session::{Ask, has_errors};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Cancel, Search, Solved};
 
 use super::input;
 use super::output::{self, Changes};
@@ -29,49 +29,36 @@ const NAMED_MAX: usize = 5;
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status> {
     let keep = input::keep(args.keep.as_deref())?;
-    let resolved = input::load(&args.file, &args.on);
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(input::status(&resolved.diagnostics, &args.on));
-    };
-    let answer = input::solve(
-        design,
-        resolved.diagnostics,
-        keep.as_ref(),
-        &Search::default(),
-        Cancel::NEVER,
-    );
-    let mut diagnostics = answer.diagnostics;
-    let Some(Solved::Wired(assignment)) = answer.solved else {
-        terminal.diagnostics(&diagnostics, &sources)?;
-        return Ok(Status::Wrong);
-    };
+    let snapshot = input::load(&args.file, &args.on);
+    let sources = snapshot.sources();
+    let answer = snapshot.solve(&Ask { keep: keep.as_ref(), ..Ask::default() });
+    let (design, assignment) = input::wired(&answer, &snapshot, &args.on, terminal)?;
+    let mut diagnostics = answer.diagnostics.clone();
     let name = design_name(&args.file);
     let files = hosts(args, design)
-        .and_then(|hosts| sensedsl_codegen::project(&name, design, &assignment, &hosts));
+        .and_then(|hosts| sensedsl_codegen::project(&name, design, assignment, &hosts));
     let files = match files {
         Ok(files) => files,
         Err(mut reports) => {
             diagnostics.append(&mut reports);
             apply_allows(design, &mut diagnostics);
             sort(&mut diagnostics);
-            terminal.diagnostics(&diagnostics, &sources)?;
+            terminal.diagnostics(&diagnostics, sources)?;
             return Ok(input::status(&diagnostics, &args.on));
         }
     };
-    terminal.diagnostics(&diagnostics, &sources)?;
-    if input::has_errors(&diagnostics) {
+    terminal.diagnostics(&diagnostics, sources)?;
+    if has_errors(&diagnostics) {
         return Ok(Status::Wrong);
     }
     let changes = match update(args, terminal, design, &files)? {
         Ok(changes) => changes,
         Err(refusal) => {
-            terminal.diagnostics(&[*refusal.why], &sources)?;
+            terminal.diagnostics(&[*refusal.why], sources)?;
             return Ok(refusal.status);
         }
     };
-    report(args, terminal, design, &assignment, &changes)?;
+    report(args, terminal, design, assignment, &changes)?;
     Ok(Status::Done)
 }
 

@@ -1,42 +1,60 @@
-//! From a file on disk to a design: what check, solve and generate have in common.
+//! From a file on disk to a snapshot: what the commands that read a design have in common.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
-use sensedsl_certify::Subject;
+use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{
     e0111_file_unreadable, e0226_not_an_answer, e0301_unknown_board, e0302_table_unreadable,
     e0313_unknown_target, e0404_out_of_time, e0505_unknown_host,
 };
-use sensedsl_diagnostics::{Diagnostic, Severity, Span};
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Design;
-use sensedsl_model::{Request, Resolved, Unread, What, apply_allows, resolve, sort};
-use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
+use sensedsl_model::{Unread, What};
+use sensedsl_session::{Answer, Ask, Goal, Snapshot, Workspace, has_errors};
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Cancel, Keep, Solved};
 
-use crate::Status;
 use crate::cli::On;
 use crate::files::{Disk, Refused, read_text, shown};
+use crate::terminal::Terminal;
+use crate::{Said, Status};
 
 /// How long `check` looks for the best wiring.
 const BEST: Duration = Duration::from_secs(2);
 
-/// Reads and resolves a file. That it cannot be read is a diagnostic like any other.
-pub(crate) fn load(path: &Path, on: &On) -> Resolved {
+/// Reads a file and what it uses. That it cannot be read is a diagnostic like any other.
+pub(crate) fn load(path: &Path, on: &On) -> Snapshot {
     match read_text(path, What::Sense) {
-        Ok(text) => resolved(path, &text, on),
-        Err(Refused { diagnostic, sources }) => {
-            Resolved { design: None, diagnostics: vec![*diagnostic], sources, files: Vec::new() }
-        }
+        Ok(text) => of_text(path, text, on),
+        Err(Refused { diagnostic, sources }) => Snapshot::unread(*diagnostic, sources),
     }
 }
 
-/// Resolves the text of a file.
-pub(crate) fn resolved(path: &Path, text: &str, on: &On) -> Resolved {
+/// As [`load`], of a file with this text.
+pub(crate) fn of_text(path: &Path, text: String, on: &On) -> Snapshot {
     let shown = shown(path);
-    let request =
-        Request { path: &shown, text, board: on.board.as_deref(), target: on.target.as_deref() };
-    resolve(&request, &Disk::of(path, &on.reach.allow_outside))
+    let mut workspace = Workspace::default();
+    workspace.open(&shown, text);
+    let disk = Disk::of(path, &on.reach.allow_outside);
+    workspace.snapshot(&shown, on.asked(), &disk)
+}
+
+/// The design and its wiring, for a command that can do nothing without.
+///
+/// # Errors
+/// [`Said`], once everything that is wrong has been said.
+pub(crate) fn wired<'a>(
+    answer: &'a Answer<'_>,
+    snapshot: &Snapshot,
+    on: &On,
+    terminal: &Terminal,
+) -> Result<(&'a Design, &'a Assignment)> {
+    let Some(wired) = answer.wired() else {
+        terminal.diagnostics(&answer.diagnostics, snapshot.sources())?;
+        bail!(Said(status(&answer.diagnostics, on).max(Status::Wrong)));
+    };
+    Ok(wired)
 }
 
 /// The earlier answer of `--keep`.
@@ -64,80 +82,19 @@ pub(crate) fn not_an_answer(path: &Path, why: &str) -> Refused {
     Refused::new(path, |at, shown| e0226_not_an_answer::not_an_answer(at, shown, why))
 }
 
-/// What one search gave, with everything there is to say.
-pub(crate) struct Answer {
-    pub(crate) solved: Option<Solved>,
-    /// The text that proves it, or why there is none; where one was asked for.
-    pub(crate) certificate: Option<Result<String, Box<Diagnostic>>>,
-    pub(crate) diagnostics: Vec<Diagnostic>,
-}
-
-/// Solves a design unless single devices are hopeless already, and collects all diagnostics.
-pub(crate) fn solve(
-    design: &Design,
-    diagnostics: Vec<Diagnostic>,
-    keep: Option<&Keep>,
-    search: &Search,
-    cancel: Cancel<'_>,
-) -> Answer {
-    answer(design, diagnostics, keep, cancel, |wiring| Proved {
-        solved: wiring.solve(search),
-        certificate: None,
-    })
-}
-
-/// Whether there is a wiring. Warnings speak of the best one, which `solve` gives, or of the best
-/// that was found when that takes long.
-pub(crate) fn feasible(design: &Design, diagnostics: Vec<Diagnostic>) -> Answer {
+/// Whether there is a wiring of what is sound. Warnings speak of the best one, which `solve` gives, or
+/// of the best that was found when that takes long.
+pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
     let deadline = Instant::now() + BEST;
     let late = || Instant::now() >= deadline;
-    let best = Search { any: false };
-    let answer = solve(design, diagnostics.clone(), None, &best, Cancel::when(&late));
+    let best = Ask { partly: true, cancel: Cancel::when(&late), ..Ask::default() };
+    let answer = snapshot.solve(&best);
     match &answer.solved {
         Some(Solved::Failed(why)) if why.code.info() == &e0404_out_of_time::INFO => {
-            solve(design, diagnostics, None, &Search { any: true }, Cancel::NEVER)
+            snapshot.solve(&Ask { goal: Goal::Any, partly: true, ..Ask::default() })
         }
         _ => answer,
     }
-}
-
-/// As [`solve`], with a certificate.
-pub(crate) fn prove(
-    design: &Design,
-    diagnostics: Vec<Diagnostic>,
-    keep: Option<&Keep>,
-    of: &Subject,
-    cancel: Cancel<'_>,
-) -> Answer {
-    answer(design, diagnostics, keep, cancel, |wiring| wiring.solve_with_proof(of))
-}
-
-fn answer(
-    design: &Design,
-    mut diagnostics: Vec<Diagnostic>,
-    keep: Option<&Keep>,
-    cancel: Cancel<'_>,
-    ask: impl FnOnce(&Wiring<'_>) -> Proved,
-) -> Answer {
-    let wiring = Wiring::within(design, keep, cancel);
-    diagnostics.extend(wiring.check());
-    let proved = (!has_errors(&diagnostics)).then(|| ask(&wiring));
-    let (solved, certificate) = match proved {
-        Some(Proved { solved, certificate }) => (Some(solved), certificate),
-        None => (None, None),
-    };
-    match &solved {
-        Some(Solved::Wired(assignment)) => {
-            diagnostics.extend(wiring.warnings(assignment));
-            diagnostics.extend(sensedsl_timing::check(design, assignment));
-        }
-        Some(Solved::Infeasible(conflict)) => diagnostics.push(conflict.diagnostic(design)),
-        Some(Solved::Failed(failure)) => diagnostics.push((**failure).clone()),
-        None => {}
-    }
-    apply_allows(design, &mut diagnostics);
-    sort(&mut diagnostics);
-    Answer { solved, certificate, diagnostics }
 }
 
 /// How a command ends whose diagnostics are these: a wrong input is told from a wrong call, such as
@@ -157,11 +114,6 @@ pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
     } else {
         Status::Done
     }
-}
-
-/// Whether anything makes the input unusable.
-pub(crate) fn has_errors(diagnostics: &[Diagnostic]) -> bool {
-    diagnostics.iter().any(|one| one.severity == Severity::Error)
 }
 
 /// The first board's name: the place of what concerns the whole design.

@@ -17,7 +17,6 @@ mod output;
 pub(crate) mod parts;
 pub(crate) mod solve;
 mod starter;
-mod subject;
 mod sweep;
 mod table;
 mod timing;

@@ -8,17 +8,20 @@ use sensedsl_diagnostics::{SourceMap, render, visible_json};
 use sensedsl_model::What;
 use sensedsl_model::design::Design;
 use sensedsl_report::{csv, human, json, markdown, svg};
+use sensedsl_session::{Answer, Ask, Goal, Origin, has_errors};
 use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
+use sensedsl_wiring::{Cancel, Keep, Solved, Wiring};
 
 use super::deadline::Deadline;
 use super::in_the_way;
-use super::input::{self, Answer};
-use super::subject;
+use super::input;
 use crate::Status;
-use crate::cli::{SolveArgs, SolveFormat};
-use crate::files::{begins_with, is_in_the_way, read_text, write_whole};
+use crate::cli::{On, SolveArgs, SolveFormat};
+use crate::files::{begins_with, is_in_the_way, read_text, shown, write_whole};
 use crate::terminal::Terminal;
+
+/// The program with its version.
+const TOOL: &str = concat!("sensedsl ", env!("CARGO_PKG_VERSION"));
 
 /// How every certificate begins: an earlier one is replaced.
 const CERTIFICATE: &[u8] = b"{\n\"format\": \"SenseDSL certificate";
@@ -28,29 +31,25 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     let kept = args.keep.as_deref().map(|path| read_text(path, What::Answer)).transpose()?;
     let keep = args.keep.as_deref().zip(kept.as_deref());
     let keep = keep.map(|(path, text)| input::keep_in(path, text)).transpose()?;
-    let resolved = input::load(&args.file, &args.on);
-    let proved = resolved.design.as_ref().filter(|_| args.proof.is_some());
-    let of = proved.map(|design| subject::of(args, &resolved, design, kept)).unwrap_or_default();
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(input::status(&resolved.diagnostics, &args.on));
-    };
+    let snapshot = input::load(&args.file, &args.on);
+    let sources = snapshot.sources();
     let late = || deadline.is_over();
     let cancel = Cancel::when(&late);
-    if matches!(args.format, SolveFormat::Prolog | SolveFormat::Alloy) {
+    if let (Some(design), SolveFormat::Prolog | SolveFormat::Alloy) =
+        (snapshot.design(), args.format)
+    {
         ensure!(
             args.proof.is_none(),
             "--format {} asks for the problem alone: no --proof",
             if args.format == SolveFormat::Prolog { "prolog" } else { "alloy" }
         );
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
+        terminal.diagnostics(snapshot.diagnostics(), sources)?;
         let wiring = Wiring::within(design, keep.as_ref(), cancel);
-        return problem(args, terminal, &wiring, &sources);
+        return problem(args, terminal, &wiring, sources);
     }
     // On the standard output the certificate is the result.
     let file = args.proof.as_deref().filter(|path| *path != Path::new("-"));
-    if let Some(path) = file
+    if let (Some(path), Some(_)) = (file, snapshot.design())
         && !args.force
         && is_in_the_way(path, b"")?
         && !begins_with(path, CERTIFICATE)?
@@ -58,30 +57,39 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
         in_the_way::say(path, "the certificate", terminal)?;
         return Ok(Status::Misused);
     }
-    let mut answer = if args.proof.is_some() {
-        input::prove(design, resolved.diagnostics, keep.as_ref(), &of, cancel)
-    } else {
-        let search = Search { any: args.any };
-        input::solve(design, resolved.diagnostics, keep.as_ref(), &search, cancel)
+    let (path, keep_path) = (shown(&args.file), args.keep.as_deref().map(shown));
+    let origin = Origin {
+        tool: TOOL,
+        path: &path,
+        on: args.on.asked(),
+        keep: keep_path.as_deref().zip(kept.as_deref()),
     };
-    if let (Some(Solved::Wired(wiring)), Some(most)) = (&answer.solved, args.max_moves)
+    let of = args.proof.is_some().then(|| snapshot.subject(&origin));
+    let goal = match &of {
+        Some(of) => Goal::Proved(of),
+        None if args.any => Goal::Any,
+        None => Goal::Best,
+    };
+    let keep = keep.as_ref();
+    let mut answer = snapshot.solve(&Ask { goal, keep, partly: args.partial, cancel });
+    if let (Some((design, wiring)), Some(most)) = (answer.wired(), args.max_moves)
         && wiring.moved > most
     {
         let at = input::place(design);
         let report = e0405_too_many_moves::too_many_moves(at, wiring.moved, most);
         answer.diagnostics.push(report);
     }
-    terminal.diagnostics(&answer.diagnostics, &sources)?;
+    terminal.diagnostics(&answer.diagnostics, sources)?;
     let status = if args.proof.is_some() && file.is_none() {
-        status(&answer)
+        status(&answer, &args.on)
     } else {
-        print_answer(args, terminal, design, &answer, keep.as_ref(), &sources)?
+        print_answer(args, terminal, &answer, keep, sources)?
     };
     match (answer.certificate, file) {
         (Some(Ok(text)), Some(path)) => write_whole(path, text.as_bytes())?,
         (Some(Ok(text)), None) => terminal.result(&text)?,
         (Some(Err(report)), _) => {
-            terminal.diagnostics(&[*report], &sources)?;
+            terminal.diagnostics(&[*report], sources)?;
             return Ok(Status::Wrong);
         }
         (None, _) => {}
@@ -89,11 +97,10 @@ pub(crate) fn run(args: &SolveArgs, terminal: &mut Terminal) -> Result<Status> {
     Ok(status)
 }
 
-fn status(answer: &Answer) -> Status {
-    match &answer.solved {
-        Some(Solved::Wired(_)) if !input::has_errors(&answer.diagnostics) => Status::Done,
-        Some(_) | None => Status::Wrong,
-    }
+/// How the command ends: well where there is a wiring without an error.
+fn status(answer: &Answer<'_>, on: &On) -> Status {
+    let least = if answer.wired().is_some() { Status::Done } else { Status::Wrong };
+    input::status(&answer.diagnostics, on).max(least)
 }
 
 /// Prints the problem for another program.
@@ -122,14 +129,26 @@ fn problem(
 fn print_answer(
     args: &SolveArgs,
     terminal: &mut Terminal,
-    design: &Design,
-    answer: &Answer,
+    answer: &Answer<'_>,
     keep: Option<&Keep>,
     sources: &SourceMap,
 ) -> Result<Status> {
+    let Some(design) = &answer.design else { return Ok(status(answer, &args.on)) };
     match &answer.solved {
-        _ if input::has_errors(&answer.diagnostics) => {
-            if let Some(Solved::Infeasible(conflict)) = &answer.solved
+        Some(Solved::Wired(best)) if args.partial && has_errors(&answer.diagnostics) => {
+            let left_out: Vec<&str> =
+                answer.left_out.iter().map(|one| one.value.as_str()).collect();
+            if args.format == SolveFormat::Json {
+                let value = json::with_left_out(json::wired(design, best), &left_out);
+                terminal.result(&render::json_text(&value))?;
+            } else {
+                terminal.result(&printed(args, terminal, design, best))?;
+            }
+            terminal.aside(&format!("left out for their errors: {}", left_out.join(", ")))?;
+            Ok(Status::Wrong)
+        }
+        solved if has_errors(&answer.diagnostics) => {
+            if let Some(Solved::Infeasible(conflict)) = solved
                 && args.format == SolveFormat::Json
             {
                 let mut value = json::infeasible(design, conflict);

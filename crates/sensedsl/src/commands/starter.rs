@@ -6,10 +6,8 @@
 use std::path::Path;
 
 use sensedsl_board::catalog;
-use sensedsl_model::{Request, resolve};
-use sensedsl_wiring::{Solved, Wiring};
+use sensedsl_session::{Ask, Goal, On, Workspace, has_errors};
 
-use super::input::has_errors;
 use crate::files::Disk;
 
 const TEMPLATE: &str = include_str!("../../templates/starter.sense");
@@ -40,11 +38,10 @@ pub(crate) fn robot(board: &catalog::Entry) -> String {
 
 /// Whether a file has a wiring.
 fn is_wired(text: &str) -> bool {
-    let request = Request { path: "robot.sense", text, board: None, target: None };
-    let resolved = resolve(&request, &Disk::of(Path::new("-"), &[]));
-    let Some(design) = resolved.design.filter(|_| !has_errors(&resolved.diagnostics)) else {
-        return false;
-    };
-    let wiring = Wiring::new(&design, None);
-    !has_errors(&wiring.check()) && matches!(wiring.solve_only(true), Solved::Wired(_))
+    const NAME: &str = "robot.sense";
+    let mut workspace = Workspace::default();
+    workspace.open(NAME, text);
+    let snapshot = workspace.snapshot(NAME, On::default(), &Disk::of(Path::new("-"), &[]));
+    let answer = snapshot.solve(&Ask { goal: Goal::Any, ..Ask::default() });
+    answer.wired().is_some() && !has_errors(&answer.diagnostics)
 }

@@ -9,11 +9,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
-use sensedsl_diagnostics::codes::{e0404_out_of_time, e0506_hardware_limit};
-use sensedsl_model::{Request, What, resolve};
+use sensedsl_model::What;
 use sensedsl_parts::{Part, Sheet};
-use sensedsl_wiring::assignment::Assignment;
-use sensedsl_wiring::{Cancel, Solved, Wiring};
+use sensedsl_session::{Fit, On, Workspace, Worth};
+use sensedsl_wiring::Cancel;
 use serde_json::json;
 use signal_hook::consts::SIGINT;
 
@@ -39,27 +38,6 @@ struct Carrier {
     has_profile: bool,
 }
 
-/// How good a wiring is, the better before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Worth {
-    violated: u32,
-    shared: u32,
-    cost: u32,
-}
-
-/// What became of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fit {
-    /// The best wiring is that good.
-    Wired(Worth),
-    /// It cannot carry the devices.
-    Not,
-    /// The solver failed its own check.
-    Failed,
-    /// Nobody looked, or not to the end.
-    Open,
-}
-
 /// Solves the devices of a file on all carriers that the filters leave, and prints those that fit.
 pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> Result<Status> {
     let deadline = args.timeout.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
@@ -67,18 +45,20 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
     let text = read_text(file, What::Sense)?;
     let disk = Disk::of(file, &args.reach.allow_outside);
     let path = shown(file);
-    let request = Request { path: &path, text: &text, board: None, target: args.target.as_deref() };
+    let mut workspace = Workspace::default();
+    workspace.open(&path, text);
+    let on = On { board: None, target: args.target.as_deref() };
     // What is wrong with the devices is told once; that the file's own board is unknown, or does not
     // suit, does not matter here.
-    let resolved = resolve(&request, &disk);
+    let snapshot = workspace.snapshot(&path, on, &disk);
     let carriers = carriers(args);
     if carriers.is_empty() {
         bail!("no part and no board fits the filters");
     }
-    if resolved.design.is_none() {
+    if snapshot.design().is_none() {
         let board = carriers.first().map(|(carrier, _)| carrier.name.as_str());
-        if resolve(&Request { board, ..request }, &disk).design.is_none() {
-            terminal.diagnostics(&resolved.diagnostics, &resolved.sources)?;
+        if workspace.snapshot(&path, On { board, ..on }, &disk).design().is_none() {
+            terminal.diagnostics(snapshot.diagnostics(), snapshot.sources())?;
             return Ok(Status::Wrong);
         }
     }
@@ -86,7 +66,13 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
         interrupted.load(Ordering::Relaxed)
             || deadline.is_some_and(|deadline| Instant::now() >= deadline)
     };
-    let question = Question { request: &request, disk: &disk, cancel: Cancel::when(&over) };
+    let question = Question {
+        workspace: &workspace,
+        path: &path,
+        target: on.target,
+        disk: &disk,
+        cancel: Cancel::when(&over),
+    };
     let answers = solve_all(&question, &carriers, args, terminal);
     let failed = answers.iter().filter(|fit| **fit == Fit::Failed).count();
     let open = answers.iter().filter(|fit| **fit == Fit::Open).count();
@@ -179,7 +165,9 @@ fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
 
 /// What is asked of every carrier.
 struct Question<'a> {
-    request: &'a Request<'a>,
+    workspace: &'a Workspace,
+    path: &'a str,
+    target: Option<&'a str>,
     disk: &'a Disk,
     cancel: Cancel<'a>,
 }
@@ -234,21 +222,8 @@ impl Question<'_> {
         if self.cancel.is_over() {
             return Fit::Open;
         }
-        let resolved = resolve(&Request { board: Some(board), ..*self.request }, self.disk);
-        let Some(design) = &resolved.design else { return Fit::Not };
-        match Wiring::within(design, None, self.cancel).solve_only(false) {
-            // The best so far need not be the best.
-            Solved::Wired(wiring) if wiring.bound.is_some() => Fit::Open,
-            Solved::Wired(wiring) => {
-                let Assignment { violated, shared, cost, .. } = *wiring;
-                Fit::Wired(Worth { violated, shared, cost })
-            }
-            Solved::Infeasible(_) => Fit::Not,
-            // The best wiring leaves the converters without a stream: nothing to build, and no fault.
-            Solved::Failed(why) if why.code.info() == &e0506_hardware_limit::INFO => Fit::Not,
-            Solved::Failed(why) if why.code.info() == &e0404_out_of_time::INFO => Fit::Open,
-            Solved::Failed(_) => Fit::Failed,
-        }
+        let on = On { board: Some(board), target: self.target };
+        self.workspace.snapshot(self.path, on, self.disk).fit(self.cancel)
     }
 }
 

@@ -3,8 +3,9 @@
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::render;
 use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_session::Ask;
 use sensedsl_timing::{BoardTiming, Count, Part, Row, SECOND_NS, Timing, shown_time, timing};
-use sensedsl_wiring::{Cancel, Search, Solved};
+use sensedsl_wiring::Cancel;
 use serde_json::{Value, json};
 
 use super::deadline::Deadline;
@@ -31,21 +32,15 @@ pub(crate) fn run(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     }
     let deadline = Deadline::after(args.timeout);
     let over = || deadline.is_over();
-    let resolved = input::load(file, &args.on);
-    let sources = resolved.sources;
-    let Some(design) = &resolved.design else {
-        terminal.diagnostics(&resolved.diagnostics, &sources)?;
-        return Ok(input::status(&resolved.diagnostics, &args.on));
-    };
-    let search = Search::default();
-    let answer = input::solve(design, resolved.diagnostics, None, &search, Cancel::when(&over));
-    terminal.diagnostics(&answer.diagnostics, &sources)?;
-    let Some(Solved::Wired(wiring)) = answer.solved else { return Ok(Status::Wrong) };
+    let snapshot = input::load(file, &args.on);
+    let answer = snapshot.solve(&Ask { cancel: Cancel::when(&over), ..Ask::default() });
+    let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
+    terminal.diagnostics(&answer.diagnostics, snapshot.sources())?;
     if wiring.bound.is_some() {
         terminal.aside("stopped: this is the best wiring so far, and there may be a better one")?;
     }
     // What cannot be kept is shown all the same: the table says where the time goes.
-    let timing = timing(design, &wiring);
+    let timing = timing(design, wiring);
     match args.format {
         TableFormat::Human => terminal.result(&human(design, &timing))?,
         TableFormat::Json => terminal.result(&render::json_text(&value(design, &timing)))?,

@@ -2,12 +2,12 @@
 
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, RuleId};
 
 use super::{Maker, Wanted};
 use crate::formulate::{Chosen, GPIO};
-use crate::levels::{Stands, is_driven_by_device, stands};
+use crate::levels::{Stands, stands};
 use crate::names::{Group, Resource};
 use crate::offer::Offer;
 
@@ -21,12 +21,13 @@ impl Maker<'_, '_> {
     ) -> (SolverRole, Vec<Chosen>) {
         let mut made: Vec<(Candidate, Chosen)> = Vec::new();
         let (offer, wanted) = (self.offer, self.wanted);
+        // A pin on an on-board bus is for devices that join the bus.
+        let joins_buses = wanted.kind.name().spec().sharing != Sharing::Own;
         for (index, pin) in offer.pins().filter(|(_, pin)| pin_fits(offer, wanted, role, pin)) {
             match need {
                 Need::Usage(serves) => {
                     for (at, usage) in pin.usages.iter().enumerate() {
-                        if serves(usage) && (!offer.bus_only(pin) || joins_buses(self.wanted.kind))
-                        {
+                        if serves(usage) && (!offer.bus_only(pin) || joins_buses) {
                             made.push(self.with_signal(role, (index, pin), (at, usage), bus));
                         }
                     }
@@ -151,11 +152,6 @@ pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: 
 }
 
 fn stands_level(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
-    let Some(mv) = wanted.level_mv.filter(|_| is_driven_by_device(role)) else { return true };
+    let Some(mv) = wanted.level_mv.filter(|_| role.is_driven_by_device()) else { return true };
     !matches!(stands(offer.board, pin, wanted.kind, mv), Stands::No(_))
-}
-
-/// A pin on an on-board bus is for devices that join the bus.
-pub(super) fn joins_buses(kind: &Kind) -> bool {
-    matches!(kind, Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_))
 }

@@ -8,19 +8,19 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::pins::PinRef;
 
 use super::needs_and_pins;
-use crate::alternatives::timers::{Channel, ability, channel};
+use crate::alternatives::served;
+use crate::alternatives::timers::{Channel, channel};
 use crate::offer::Offer;
 
 /// The report for a kind that the silicon of no board in question can do.
 pub(super) fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic> {
-    let kind = device.kind.name();
     let unable = offers.iter().map(|offer| {
-        let ability = ability(offer.board, kind)?;
+        let ability = served(&device.kind).ability(offer.board)?;
         ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
     });
     let all: Option<Vec<_>> = unable.collect();
     let (ability, mcu) = all?.into_iter().next()?;
-    let (name, kind) = (&device.name, kind.with_article());
+    let (name, kind) = (&device.name, device.kind.name().with_article());
     let because = &ability.because;
     Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
 }
@@ -32,7 +32,7 @@ pub(super) fn unit_lacks(
     unit: &str,
 ) -> Option<&'static str> {
     offers.iter().find_map(|offer| {
-        let ability = ability(offer.board, device.kind.name())?;
+        let ability = served(&device.kind).ability(offer.board)?;
         let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
         let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
         let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
@@ -71,7 +71,7 @@ pub(super) fn by_silicon(
         return Some(report);
     }
     let ability = offers.iter().find_map(|offer| {
-        let ability = ability(offer.board, device.kind.name())?;
+        let ability = served(&device.kind).ability(offer.board)?;
         let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
         let mut channels = usages.iter().filter_map(channel);
         channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)

@@ -1,0 +1,86 @@
+//! The wires of devices, in the order of the tie-break: one line each.
+
+use std::fmt;
+
+/// Makes the type and what all wires have of the table below.
+macro_rules! roles {
+    ($($(#[$doc:meta])* $Role:ident($name:literal, pin: $property:literal, driven by $by:ident);)*) => {
+        /// A wire of a device, in the order of the tie-break.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Role {
+            $($(#[$doc])* $Role,)*
+        }
+
+        impl Role {
+            /// All roles, in the order of the tie-break.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$Role),*];
+
+            /// The word in JSON output and, but for `in` and `out`, the property that fixes the pin.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$Role => $name,)* }
+            }
+
+            /// The property that fixes the pin of this role.
+            #[must_use]
+            pub const fn property(self) -> &'static str {
+                match self { $(Self::$Role => $property,)* }
+            }
+
+            /// Whether the device, not the MCU, drives the wire.
+            #[must_use]
+            pub const fn is_driven_by_device(self) -> bool {
+                matches!(match self { $(Self::$Role => Driver::$by,)* }, Driver::Device)
+            }
+        }
+    };
+}
+
+/// Who drives a wire.
+enum Driver {
+    Device,
+    Mcu,
+}
+
+roles! {
+    /// The only wire of a sensor.
+    In("in", pin: "pin", driven by Device);
+    /// The only wire of an actuator.
+    Out("out", pin: "pin", driven by Mcu);
+    /// I2C clock; a device may hold it.
+    Scl("scl", pin: "scl", driven by Device);
+    /// I2C data.
+    Sda("sda", pin: "sda", driven by Device);
+    /// Transmitted by the board.
+    Tx("tx", pin: "tx", driven by Mcu);
+    /// Received by the board.
+    Rx("rx", pin: "rx", driven by Device);
+    /// SPI clock.
+    Sck("sck", pin: "sck", driven by Mcu);
+    /// SPI, from the device.
+    Miso("miso", pin: "miso", driven by Device);
+    /// SPI, to the device.
+    Mosi("mosi", pin: "mosi", driven by Mcu);
+    /// SPI chip select.
+    Cs("cs", pin: "cs", driven by Mcu);
+    /// First encoder line.
+    A("a", pin: "a", driven by Device);
+    /// Second encoder line.
+    B("b", pin: "b", driven by Device);
+    /// The pulse that makes an icu device measure (HC-SR04).
+    Trigger("trigger", pin: "trigger", driven by Mcu);
+}
+
+impl Role {
+    /// The role whose pin that property fixes; none for `pin`, which stands for any only wire.
+    #[must_use]
+    pub fn from_property(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.property() == name && name != Self::In.property())
+    }
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,162 @@
+//! What a snapshot is asked, and what the answer has to say.
+
+use std::borrow::Cow;
+
+use sensedsl_certify::Subject;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::w0604_unused_rule;
+use sensedsl_model::design::{Design, Spanned};
+use sensedsl_model::{Partial, apply_allows, sort};
+use sensedsl_wiring::assignment::Assignment;
+use sensedsl_wiring::{Cancel, Keep, Proved, Search, Solved, Wiring};
+
+use crate::{Snapshot, has_errors};
+
+/// Which wiring is wanted.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Goal<'a> {
+    /// The best one.
+    #[default]
+    Best,
+    /// Any will do.
+    Any,
+    /// The best one with a certificate of what the design was made of.
+    Proved(&'a Subject),
+}
+
+/// A question to a snapshot. The default asks for the best wiring of a design without mistakes.
+#[derive(Clone, Copy, Default)]
+pub struct Ask<'a> {
+    /// Which wiring is wanted.
+    pub goal: Goal<'a>,
+    /// The wiring from which as few wires as possible are to move.
+    pub keep: Option<&'a Keep>,
+    /// Leave out what is in error and wire the rest.
+    pub partly: bool,
+    /// Says when time is up.
+    pub cancel: Cancel<'a>,
+}
+
+/// What a search gave, with everything there is to say.
+#[derive(Debug)]
+pub struct Answer<'s> {
+    /// What was wired; none where the snapshot has nothing that can be.
+    pub design: Option<Cow<'s, Design>>,
+    /// The names of the boards and devices that were left out, in file order.
+    pub left_out: Vec<Spanned<String>>,
+    /// What became of the search; none where mistakes forbade it.
+    pub solved: Option<Solved>,
+    /// The text that proves it, or why there is none; where one was asked for.
+    pub certificate: Option<Result<String, Box<Diagnostic>>>,
+    /// Of the snapshot and of the wiring, in the order of the places.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Answer<'_> {
+    /// The wiring, with its design.
+    #[must_use]
+    pub fn wired(&self) -> Option<(&Design, &Assignment)> {
+        match (&self.design, &self.solved) {
+            (Some(design), Some(Solved::Wired(wiring))) => Some((design, wiring)),
+            (_, _) => None,
+        }
+    }
+}
+
+impl Snapshot {
+    /// Wires the design. One with mistakes is not wired, unless the question is for a part of it.
+    #[must_use]
+    pub fn solve(&self, ask: &Ask<'_>) -> Answer<'_> {
+        let known = self.diagnostics().to_vec();
+        match (self.design(), self.partial()) {
+            (Some(design), _) => {
+                let answer = answer(Cow::Borrowed(design), known, ask);
+                match &answer.design {
+                    // A device that no pin can serve.
+                    Some(design) if ask.partly && answer.solved.is_none() => {
+                        let design = design.clone().into_owned();
+                        let partial = Partial { design, left_out: Vec::new() };
+                        in_part(partial.without(&answer.diagnostics), answer.diagnostics, ask)
+                    }
+                    _ => answer,
+                }
+            }
+            (None, Some(partial)) if ask.partly => in_part(partial.clone(), known, ask),
+            (None, _) => Answer {
+                design: None,
+                left_out: Vec::new(),
+                solved: None,
+                certificate: None,
+                diagnostics: known,
+            },
+        }
+    }
+}
+
+/// Wires a design without mistakes.
+fn answer<'s>(
+    design: Cow<'s, Design>,
+    mut diagnostics: Vec<Diagnostic>,
+    ask: &Ask<'_>,
+) -> Answer<'s> {
+    let wiring = Wiring::within(&design, ask.keep, ask.cancel);
+    diagnostics.extend(wiring.check());
+    let proved = (!has_errors(&diagnostics)).then(|| asked(&wiring, ask));
+    let (solved, certificate) = match proved {
+        Some(Proved { solved, certificate }) => (Some(solved), certificate),
+        None => (None, None),
+    };
+    diagnostics.extend(of_wiring(&design, &wiring, solved.as_ref()));
+    apply_allows(&design, &mut diagnostics);
+    sort(&mut diagnostics);
+    Answer { design: Some(design), left_out: Vec::new(), solved, certificate, diagnostics }
+}
+
+/// Wires what is sound of a design. Of rules without effect nothing is said: they may be about what
+/// was left out.
+fn in_part<'s>(
+    mut partial: Partial,
+    mut diagnostics: Vec<Diagnostic>,
+    ask: &Ask<'_>,
+) -> Answer<'s> {
+    let mut hopeless = Wiring::within(&partial.design, ask.keep, ask.cancel).check();
+    hopeless.retain(|one| !diagnostics.contains(one));
+    partial = partial.without(&hopeless);
+    let Partial { design, left_out } = partial;
+    let wiring = Wiring::within(&design, ask.keep, ask.cancel);
+    let solved = (!design.devices.is_empty()).then(|| asked(&wiring, ask).solved);
+    let mut found = hopeless;
+    found.extend(of_wiring(&design, &wiring, solved.as_ref()));
+    found.retain(|one| one.code.info() != &w0604_unused_rule::INFO);
+    apply_allows(&design, &mut found);
+    found.retain(|one| one.code.info() != &w0604_unused_rule::INFO);
+    // What is known already keeps its order, in which a full list begins with the reason that it is full.
+    if !found.is_empty() {
+        diagnostics.extend(found);
+        sort(&mut diagnostics);
+    }
+    let design = Some(Cow::Owned(design));
+    Answer { design, left_out, solved, certificate: None, diagnostics }
+}
+
+fn asked(wiring: &Wiring<'_>, ask: &Ask<'_>) -> Proved {
+    match ask.goal {
+        Goal::Best => Proved { solved: wiring.solve(&Search { any: false }), certificate: None },
+        Goal::Any => Proved { solved: wiring.solve(&Search { any: true }), certificate: None },
+        Goal::Proved(of) => wiring.solve_with_proof(of),
+    }
+}
+
+/// What the outcome of a search has to say.
+fn of_wiring(design: &Design, wiring: &Wiring<'_>, solved: Option<&Solved>) -> Vec<Diagnostic> {
+    match solved {
+        Some(Solved::Wired(assignment)) => {
+            let mut found = wiring.warnings(assignment);
+            found.extend(sensedsl_timing::check(design, assignment));
+            found
+        }
+        Some(Solved::Infeasible(conflict)) => vec![conflict.diagnostic(design)],
+        Some(Solved::Failed(failure)) => vec![(**failure).clone()],
+        None => Vec::new(),
+    }
+}

@@ -1,0 +1,33 @@
+//! `icu`: an input-capture channel; a driver takes its whole timer.
+
+use sensedsl_board::profile::Timer;
+use sensedsl_board::silicon::Ability;
+use sensedsl_model::design::Board;
+use sensedsl_model::kind::Role;
+use sensedsl_model::kind::icu::Icu;
+
+use super::timers::{Channel, TimerUse};
+use super::{Made, Maker, Served};
+
+/// The channels with which a timer can be both reset and captured.
+const CHANNELS: [u8; 2] = [1, 2];
+
+impl Served for Icu {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+        maker.timers(&TimerUse { wires: &[(Role::In, None)], takes, shared_hz: None })
+    }
+
+    fn ability(&self, board: &Board) -> Option<&'static Ability> {
+        board.silicon()?.timers.capture.as_ref()
+    }
+}
+
+fn takes(ability: Option<&Ability>, timer: Option<&Timer>, channel: Channel<'_>) -> bool {
+    let driven = match timer {
+        None => CHANNELS.contains(&channel.number),
+        Some(timer) => {
+            timer.icu.as_ref().is_some_and(|driver| driver.channels.contains(&channel.number))
+        }
+    };
+    driven && channel.captures(ability)
+}

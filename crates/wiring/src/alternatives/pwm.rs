@@ -1,0 +1,23 @@
+//! `pwm`: a timer output; the outputs of one timer share its frequency.
+
+use sensedsl_board::profile::Timer;
+use sensedsl_board::silicon::Ability;
+use sensedsl_model::kind::Role;
+use sensedsl_model::kind::pwm::Pwm;
+
+use super::timers::{Channel, TimerUse};
+use super::{Made, Maker, Served};
+
+impl Served for Pwm {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+        let shared_hz = Some(self.frequency_hz);
+        maker.timers(&TimerUse { wires: &[(Role::Out, None)], takes, shared_hz })
+    }
+}
+
+fn takes(_: Option<&Ability>, timer: Option<&Timer>, channel: Channel<'_>) -> bool {
+    let driven = timer.is_none_or(|timer| {
+        timer.pwm.as_ref().is_some_and(|driver| driver.channels.contains(&channel.number))
+    });
+    driven && channel.line.is_output()
+}

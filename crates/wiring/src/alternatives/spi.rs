@@ -1,0 +1,27 @@
+//! `spi`: SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of each device.
+
+use sensedsl_board::signal::{Function, SpiLine, UnitName};
+use sensedsl_board::table::Usage;
+use sensedsl_model::kind::Role;
+use sensedsl_model::kind::spi::Spi;
+
+use super::buses::{Bus, Sharing};
+use super::{Made, Maker, Served};
+
+impl Served for Spi {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+        maker.units(&Bus { wire, gpios: &[Role::Cs], sharing: Sharing::Bus(0), address: None })
+    }
+}
+
+fn wire(usage: &Usage) -> Option<(&UnitName, Role)> {
+    let Function::Spi { unit, line } = usage.signal.function() else { return None };
+    let role = match line {
+        SpiLine::Sck => Role::Sck,
+        SpiLine::Miso => Role::Miso,
+        SpiLine::Mosi => Role::Mosi,
+        // Any GPIO selects a chip.
+        SpiLine::Nss => return None,
+    };
+    Some((unit, role))
+}

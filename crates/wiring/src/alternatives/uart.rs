@@ -1,0 +1,24 @@
+//! `uart`: TX and RX of one unit, which is taken; RX alone where nothing is sent.
+
+use sensedsl_board::signal::{Function, UartLine, UnitName};
+use sensedsl_board::table::Usage;
+use sensedsl_model::kind::Role;
+use sensedsl_model::kind::uart::Uart;
+
+use super::buses::{Bus, Sharing};
+use super::{Made, Maker, Served};
+
+impl Served for Uart {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+        maker.units(&Bus { wire, gpios: &[], sharing: Sharing::Exclusive, address: None })
+    }
+}
+
+fn wire(usage: &Usage) -> Option<(&UnitName, Role)> {
+    let Function::Uart { unit, line } = usage.signal.function() else { return None };
+    let role = match line {
+        UartLine::Tx => Role::Tx,
+        UartLine::Rx => Role::Rx,
+    };
+    Some((unit, role))
+}
