@@ -3,12 +3,13 @@
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
 //! break something. `parts` writes the table of known parts, or compares it;
-//! `profiles` compares the target profiles with a tree of ChibiOS.
+//! `profiles` compares the target profiles with a tree of ChibiOS. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
 mod fuzz;
 mod parts;
 mod profiles;
+mod web;
 
 use std::io::Write as _;
 use std::process::{Command, ExitCode};
@@ -33,8 +34,9 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => profiles::run(rest),
+        Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: bless, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
+            "tasks: web, bless, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
         ),
     }
 }

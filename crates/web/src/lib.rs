@@ -1,0 +1,107 @@
+//! The tool as one function: a request in JSON in, an answer in JSON out.
+//!
+//! The request has `path`, the file that is asked for, and `files`, the texts of it and of all that it
+//! uses, by path; `board` and `target` are those of the command line. The answer has
+//!
+//! - `diagnostics`, as `sensedsl check --format json` prints them;
+//! - `answer`, as `sensedsl solve --format json` prints it; null where there is none;
+//! - `svg`, the picture of the wiring; null without one;
+//! - `left_out`, the names of the boards and devices in error, without which the rest was wired.
+//!
+//! A page runs it as WebAssembly (crate `wasm`), in a worker that it can end when it takes too long.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::render;
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_report::{json, svg};
+use sensedsl_session::{Answer, Ask, On, Workspace};
+use sensedsl_wiring::Solved;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// What a page asks.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Request {
+    path: String,
+    files: BTreeMap<String, String>,
+    board: Option<String>,
+    target: Option<String>,
+}
+
+/// There are no files but those of the request.
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+/// Answers a request. One that is not understood has an answer with `error`, which says why.
+#[must_use]
+pub fn ask(request: &str) -> String {
+    match serde_json::from_str::<Request>(request) {
+        Ok(request) => render::json_text(&answer(&request)),
+        Err(why) => render::json_text(&json!({ "error": why.to_string() })),
+    }
+}
+
+fn answer(request: &Request) -> Value {
+    let mut workspace = Workspace::default();
+    for (path, text) in &request.files {
+        workspace.open(path, text.as_str());
+    }
+    let on = On { board: request.board.as_deref(), target: request.target.as_deref() };
+    let snapshot = workspace.snapshot(&request.path, on, &NoFiles);
+    let answer = snapshot.solve(&Ask { partly: true, ..Ask::default() });
+    let diagnostics = answer.diagnostics.iter();
+    let diagnostics: Vec<Value> =
+        diagnostics.map(|one| render::json_value(one, snapshot.sources())).collect();
+    let left_out: Vec<&str> = answer.left_out.iter().map(|one| one.value.as_str()).collect();
+    json!({
+        "diagnostics": diagnostics,
+        "answer": solved(&answer),
+        "svg": answer.wired().map(|(design, wiring)| svg::svg(design, wiring)),
+        "left_out": left_out,
+    })
+}
+
+fn solved(answer: &Answer<'_>) -> Option<Value> {
+    match (answer.design.as_deref()?, answer.solved.as_ref()?) {
+        (design, Solved::Wired(wiring)) => Some(json::wired(design, wiring)),
+        (design, Solved::Infeasible(conflict)) => Some(json::infeasible(design, conflict)),
+        (_, Solved::Failed(_)) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(request: &Value) -> Value {
+        serde_json::from_str(&ask(&request.to_string())).unwrap()
+    }
+
+    #[test]
+    fn a_design_is_wired_and_drawn() {
+        let text = "use \"legs.sense\";\nboard B on STM32F4DiscoveryBoard {}";
+        let legs = "sensor Leg returns uint16 { id = 1; type = analog; }";
+        let files = json!({ "a.sense": text, "legs.sense": legs });
+        let found = asked(&json!({ "path": "a.sense", "files": files }));
+        assert_eq!(found["answer"]["status"], "optimal");
+        assert_eq!(found["answer"]["boards"][0]["devices"][0]["name"], "Leg");
+        assert!(found["svg"].as_str().unwrap().starts_with("<svg"));
+        assert_eq!((&found["diagnostics"], &found["left_out"]), (&json!([]), &json!([])));
+    }
+
+    #[test]
+    fn what_cannot_be_answered_is_said() {
+        let missing = asked(&json!({ "path": "a.sense" }));
+        assert_eq!(missing["diagnostics"][0]["code"], "E0111");
+        assert_eq!((&missing["answer"], &missing["svg"]), (&Value::Null, &Value::Null));
+        assert!(asked(&json!({ "pfad": 1 }))["error"].as_str().unwrap().contains("pfad"));
+        assert!(asked(&json!(1))["error"].is_string());
+    }
+}
