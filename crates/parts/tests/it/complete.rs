@@ -2,26 +2,18 @@
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::{catalog, table};
-use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
+use sensedsl_model::Resolved;
 use sensedsl_parts::{Completion, complete, find};
 use sensedsl_wiring::{Solved, Wiring};
 
-struct One(&'static str);
-
-impl Files for One {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Ok(self.0.to_owned())
-    }
-}
+use super::designs;
 
 const ONE_ANALOG: &str = "board Own on \"own.csv\" {
     sensor Light returns uint16 { id = 1; type = analog; }
 }";
 
 fn resolved(table: &'static str) -> Resolved {
-    let request =
-        Request { path: "own.sense", text: ONE_ANALOG, board: None, target: Some("none") };
-    resolve(&request, &One(table))
+    designs::resolved(ONE_ANALOG, Some("none"), Some(table))
 }
 
 fn codes(table: &'static str) -> Vec<&'static str> {

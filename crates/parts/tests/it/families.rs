@@ -4,43 +4,15 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::profile;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::all;
 use sensedsl_wiring::{Solved, Wiring};
 
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
+use super::designs;
 
 /// The units that the best wiring of devices takes, by device; none where there is no wiring.
-/// Devices are `KIND PROPERTIES`, with `;` between them and `,` between properties.
 fn wired(part: &str, link: &str, devices: &str) -> Option<Vec<String>> {
-    let mut text = format!("board X on {part} {{\nlink {{ {link} }}\n");
-    for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
-        let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
-        let own = match kind {
-            "i2c" => format!("address = {}; register = 0;", 0x10 + id),
-            "uart" => "start = 0x0A; length = 4;".to_owned(),
-            "spi" => "read = [0x80]; length = 2;".to_owned(),
-            "can" => format!("bitrate = 500 kHz; frame = {id};"),
-            "pwm" => "frequency = 50 Hz;".to_owned(),
-            _ => String::new(),
-        };
-        let drives = matches!(kind, "pwm" | "dac");
-        let head = if drives { "actuator D{} accepts" } else { "sensor D{} returns" };
-        let head = head.replace("{}", &id.to_string());
-        let rest: String = rest.split(',').map(|one| format!("{one};")).collect();
-        let rest = if rest == ";" { String::new() } else { rest };
-        text.push_str(&format!("{head} uint16 {{ id = {id}; type = {kind}; {own} {rest} }}\n"));
-    }
-    text.push_str("}\n");
-    let request = Request { path: "x.sense", text: &text, board: None, target: Some("chibios") };
-    let resolved = resolve(&request, &NoFiles);
-    let design = resolved.design.unwrap_or_else(|| panic!("{text}{:#?}", resolved.diagnostics));
+    let link = format!("link {{ {link} }}\n");
+    let design = designs::of_devices(part, "chibios", &link, devices);
     match Wiring::new(&design, None).solve_only(false) {
         Solved::Wired(wiring) => {
             let devices = wiring.boards.iter().flat_map(|board| &board.devices);

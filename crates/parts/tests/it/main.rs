@@ -8,6 +8,7 @@
 )]
 
 mod complete;
+mod designs;
 mod families;
 mod remap;
 mod requests;

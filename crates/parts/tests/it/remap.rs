@@ -4,44 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::table::{self, Table};
-use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::{all, find};
 use sensedsl_wiring::{Solved, Wiring};
 
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
-
-/// Devices on a part; `KIND PROPERTIES`, with `;` between the devices and `,` between properties.
-fn design(part: &str, target: &str, devices: &str) -> Design {
-    let mut text = format!("board X on {part} {{\n");
-    for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
-        let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
-        let own = match kind {
-            "i2c" => format!("address = {}; register = 0;", 0x10 + id),
-            "uart" => "start = 0x0A; length = 4;".to_owned(),
-            "pwm" => "frequency = 50 Hz;".to_owned(),
-            _ => String::new(),
-        };
-        let head = if kind == "pwm" { "actuator D{} accepts" } else { "sensor D{} returns" };
-        let head = head.replace("{}", &id.to_string());
-        let rest: String = rest.split(',').map(|one| format!("{one};")).collect();
-        let rest = if rest == ";" { String::new() } else { rest };
-        text.push_str(&format!("{head} uint16 {{ id = {id}; type = {kind}; {own} {rest} }}\n"));
-    }
-    text.push_str("}\n");
-    let request = Request { path: "x.sense", text: &text, board: None, target: Some(target) };
-    let resolved = resolve(&request, &NoFiles);
-    resolved.design.unwrap_or_else(|| panic!("{text}{:#?}", resolved.diagnostics))
-}
+use super::designs;
 
 fn feasible(part: &str, target: &str, devices: &str) -> bool {
-    let design = design(part, target, devices);
+    let design = designs::of_devices(part, target, "", devices);
     match Wiring::new(&design, None).solve_only(false) {
         Solved::Wired(_) => true,
         Solved::Infeasible(_) => false,
@@ -50,7 +19,8 @@ fn feasible(part: &str, target: &str, devices: &str) -> bool {
 }
 
 fn count(part: &str, devices: &str) -> String {
-    format!("{:?}", Wiring::new(&design(part, "none", devices), None).count().unwrap())
+    let design = designs::of_devices(part, "none", "", devices);
+    format!("{:?}", Wiring::new(&design, None).count().unwrap())
 }
 
 fn table(part: &str) -> Table {

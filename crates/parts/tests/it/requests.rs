@@ -6,9 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::silicon::pin_roles;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::find;
 use sensedsl_wiring::{Solved, Wiring};
+
+use super::designs;
 
 /// Part, devices (a kind with what is fixed), and whether there is a wiring.
 const REQUESTS: [(&str, &str, bool); 40] = [
@@ -87,45 +88,16 @@ fn what_counts_as_a_usage_decides_the_cost() {
     assert_eq!(search.run("analog; analog; i2c; icu"), Some(18));
 }
 
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
-
 /// The solver's cost of the best wiring of devices on the pins of a part.
 fn cost(part: &str, devices: &str) -> Option<u32> {
-    let mut text = format!("board X on {part} {{\n");
     // The search knows of pins alone, not of what they are needed for.
     let sheet = find(part).unwrap().sheet;
-    for pin in pin_roles(part).keys().filter(|pin| sheet.pin(pin).is_some()) {
-        text.push_str(&format!("    release {pin};\n"));
-    }
-    for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
-        let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
-        let extra = match kind {
-            "i2c" => format!("address = {}; register = 0;", 0x10 + id),
-            "uart" => "start = 0x0A; length = 4;".to_owned(),
-            "spi" => "read = [0x80]; length = 2;".to_owned(),
-            "can" => format!("bitrate = 500 kHz; frame = {id};"),
-            _ => String::new(),
-        };
-        let fixed: String =
-            rest.split(' ').filter(|s| !s.is_empty()).map(|s| format!("{s}; ")).collect();
-        let head = match kind {
-            "pwm" | "dac" => format!("actuator D{id} accepts uint16"),
-            "digital" => format!("sensor D{id} returns bool"),
-            "icu" | "encoder" => format!("sensor D{id} returns int32"),
-            _ => format!("sensor D{id} returns uint16"),
-        };
-        text.push_str(&format!("{head} {{ id = {id}; type = {kind}; {extra} {fixed} }}\n"));
-    }
-    text.push_str("}\n");
-    let request = Request { path: "x.sense", text: &text, board: None, target: Some("none") };
-    let resolved = resolve(&request, &NoFiles);
-    let design = resolved.design.unwrap_or_else(|| panic!("{text}{:#?}", resolved.diagnostics));
+    let held = pin_roles(part).into_keys().filter(|pin| sheet.pin(pin).is_some());
+    let released: String = held.map(|pin| format!("    release {pin};\n")).collect();
+    // `uart unit=USART1 rx=PA3` has no commas.
+    let with_commas = |device: &str| device.trim().replace(' ', ", ").replacen(", ", " ", 1);
+    let written: Vec<String> = devices.split(';').map(with_commas).collect();
+    let design = designs::of_devices(part, "none", &released, &written.join(";"));
     match Wiring::new(&design, None).solve_only(false) {
         Solved::Wired(wiring) => {
             // No two pins in use are on one contact.
@@ -134,7 +106,11 @@ fn cost(part: &str, devices: &str) -> Option<u32> {
             let pins: BTreeSet<usize> = wires.map(|wire| wire.pin).collect();
             let places: Vec<&String> =
                 pins.iter().filter_map(|pin| board.table.pins[*pin].position.as_ref()).collect();
-            assert_eq!(places.iter().collect::<BTreeSet<_>>().len(), places.len(), "{text}");
+            assert_eq!(
+                places.iter().collect::<BTreeSet<_>>().len(),
+                places.len(),
+                "{part}: {devices}"
+            );
             Some(wiring.cost)
         }
         Solved::Infeasible(_) => None,

@@ -6,16 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::{PinRole, pin_roles};
 use sensedsl_board::table::Role;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::{Solved, Wiring};
 
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
+use super::designs;
 
 /// The pins of five digital outputs on a part or a board, or none where it has not so many; and the
 /// pins that nothing else is on.
@@ -25,9 +18,7 @@ fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, B
         text.push_str(&format!("actuator D{id} accepts bool {{ id = {id}; type = digital; }}\n"));
     }
     text.push('}');
-    let request = Request { path: "traps.sense", text: &text, board: None, target };
-    let resolved = resolve(&request, &NoFiles);
-    let design = resolved.design.unwrap_or_else(|| panic!("{on}: {:?}", resolved.diagnostics));
+    let design = designs::of_text(&text, target);
     let table = &design.boards[0].table;
     let mcu = design.boards[0].mcu.as_deref().unwrap_or_default();
     // A board's table tells where crystals are.

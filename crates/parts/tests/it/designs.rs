@@ -1,0 +1,57 @@
+//! What several tests share: designs written down in a line, and the file that stands beside them.
+
+use sensedsl_model::design::Design;
+use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
+
+/// What every other file reads as; none where there are no other files.
+struct Beside(Option<&'static str>);
+
+impl Files for Beside {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        self.0.map(str::to_owned).ok_or(Unread::Missing)
+    }
+}
+
+/// What a text means where every file that it names reads as `beside`.
+pub(crate) fn resolved(text: &str, target: Option<&str>, beside: Option<&'static str>) -> Resolved {
+    let request = Request { path: "x.sense", text, board: None, target };
+    resolve(&request, &Beside(beside))
+}
+
+/// The design of a text that needs no other file; a text with a mistake fails the test.
+pub(crate) fn of_text(text: &str, target: Option<&str>) -> Design {
+    let resolved = resolved(text, target, None);
+    resolved.design.unwrap_or_else(|| panic!("{text}{:#?}", resolved.diagnostics))
+}
+
+/// Devices on a part: `KIND PROPERTIES`, with `;` between the devices and `,` between properties.
+/// What a kind cannot do without is added. `opening` stands before the devices.
+pub(crate) fn of_devices(part: &str, target: &str, opening: &str, devices: &str) -> Design {
+    let mut text = format!("board X on {part} {{\n{opening}");
+    for (id, device) in (1..).zip(devices.split(';').map(str::trim)) {
+        let (kind, rest) = device.split_once(' ').unwrap_or((device, ""));
+        let own = match kind {
+            "i2c" => format!("address = {}; register = 0;", 0x10 + id),
+            "uart" => "start = 0x0A; length = 4;".to_owned(),
+            "spi" => "read = [0x80]; length = 2;".to_owned(),
+            "can" => format!("bitrate = 500 kHz; frame = {id};"),
+            "pwm" => "frequency = 50 Hz;".to_owned(),
+            _ => String::new(),
+        };
+        let head = match kind {
+            "pwm" | "dac" => format!("actuator D{id} accepts uint16"),
+            "digital" => format!("sensor D{id} returns bool"),
+            "icu" | "encoder" => format!("sensor D{id} returns int32"),
+            _ => format!("sensor D{id} returns uint16"),
+        };
+        let rest: String = rest
+            .split(',')
+            .map(str::trim)
+            .filter(|one| !one.is_empty())
+            .map(|one| format!("{one};"))
+            .collect();
+        text.push_str(&format!("{head} {{ id = {id}; type = {kind}; {own} {rest} }}\n"));
+    }
+    text.push_str("}\n");
+    of_text(&text, Some(target))
+}
