@@ -109,6 +109,65 @@ fn the_first_ones_in_the_order_asked_for() {
     assert!(cut.contains(&count), "{cut}");
 }
 
+/// Cores and memory are shown, filter and sort, of a file's carriers and of the list alike.
+#[test]
+fn cores_and_memory_narrow_and_sort() {
+    let fig2 = "examples/fig2.sense";
+    let large = ["--min-flash", "512", "--min-ram", "128", "--core", "cortex-m4"];
+    let lines = carriers(fig2, &[&["--family", "F4", "--sort", "ram"], &large[..]].concat());
+    let kb = |line: &Value, key: &str| line[key].as_u64().unwrap() / 1024;
+    let rams: Vec<u64> = lines.iter().map(|line| kb(line, "ram_bytes")).collect();
+    assert!(rams.len() > 50 && rams.is_sorted() && rams[0] == 128, "{rams:?}");
+    assert!(lines.iter().all(|line| kb(line, "flash_bytes") >= 512));
+    assert!(lines.iter().any(|line| line["board"] == "STM32F407G-DISC1"));
+    assert!(lines.iter().all(|line| line["cores"] == serde_json::json!(["Cortex-M4"])));
+    let list = |arguments: &[&str]| -> Vec<Value> {
+        let out = sensedsl(["parts", "--format", "json"]).args(arguments).run().exits(0).stdout;
+        out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    };
+    let flash = list(&["--list", "--sort", "flash"]);
+    let sizes: Vec<u64> =
+        flash.iter().map(|line| line["flash_bytes"].as_u64().unwrap_or(u64::MAX)).collect();
+    assert!(sizes.is_sorted() && sizes[0] < 16 << 10 && sizes[sizes.len() - 1] == u64::MAX);
+    assert_eq!(
+        list(&["--list", "--core", "m0"]).iter().filter(|part| has_core(part, "M0+")).count(),
+        0
+    );
+    // The flash of an RP2040 is as large as you like, that of an AVR is not.
+    let many = list(&["--list", "--min-flash", "100000"]);
+    assert!(
+        many.iter().any(|part| part["part"] == "RP2040")
+            && many.iter().all(|part| part["flash_bytes"].is_null())
+    );
+    let both = list(&["--list", "stm32h745zit6"]);
+    assert_eq!(both[0]["cores"], serde_json::json!(["Cortex-M7", "Cortex-M4"]));
+    assert_eq!(both[0]["numbers"][0], "STM32H745ZIT6");
+    let none = sensedsl(["parts", "--list", "--sort", "cost"]).run().exits(2);
+    assert!(none.stderr.contains("sort by pins, flash or ram"), "{}", none.stderr);
+}
+
+fn has_core(part: &Value, name: &str) -> bool {
+    part["cores"].as_array().unwrap().iter().any(|core| core.as_str().unwrap().ends_with(name))
+}
+
+/// A terminal has 80 columns.
+#[test]
+fn tables_are_as_wide_as_a_terminal() {
+    let list = sensedsl(["parts", "--list"]).run().exits(0).stdout;
+    let found = sensedsl(["parts", "examples/fig2.sense", "--package", "64", "--target", "none"]);
+    let found = found.run().exits(0).stdout;
+    for line in list.lines().chain(found.lines()) {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    let row = |start: &str| found.lines().find(|line| line.contains(start)).unwrap().to_owned();
+    let words = |line: String| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let f446 = words(row("NUCLEO-F446RE "));
+    assert_eq!(f446[1..], ["STM32F446RET6", "NUCLEO-F446RE", "M4", "512", "128", "pins", "only"]);
+    assert_eq!(words(row("STM32F105RBT6 "))[2..6], ["LQFP64", "M3", "128", "64"]);
+    let pico = sensedsl(["parts", "examples/fig2.sense", "--family", "RP2040"]).run().exits(0);
+    assert!(pico.stdout.contains("ext: the flash is a chip beside the part"), "{}", pico.stdout);
+}
+
 #[test]
 fn what_was_found_is_printed_when_time_is_over() {
     let ran = sensedsl(["parts", "examples/fig2.sense", "--timeout", "0"]).run().exits(1);

@@ -9,7 +9,7 @@ use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 
 /// Version of the form.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 /// Bytes that an unpacked table may have: ten times what it has.
 const UNPACKED_MAX: usize = 16 << 20;
 
@@ -26,6 +26,8 @@ pub struct Data {
     pub packages: Vec<String>,
     /// What follows the base of a part number: `T6`.
     pub codes: Vec<String>,
+    /// Processor cores: `Cortex-M7`, and `Cortex-M7 + Cortex-M4` where a part has both.
+    pub cores: Vec<String>,
     /// Pins with their usages.
     pub rows: Vec<Row>,
     /// Lists of rows, each ascending.
@@ -65,14 +67,25 @@ pub struct PartData {
     pub die: usize,
     /// Index into the layouts; none where the package is not known.
     pub layout: Option<usize>,
+    /// Index into the cores.
+    pub core: usize,
+    /// Bytes of flash in the part; zero where all of it is outside.
+    pub flash_bytes: usize,
+    /// Bytes of RAM in the part.
+    pub ram_bytes: usize,
 }
+
+/// Facts of parts that are written column by column.
+const COLUMNS: [fn(&mut PartData) -> &mut usize; 3] =
+    [|part| &mut part.core, |part| &mut part.flash_bytes, |part| &mut part.ram_bytes];
 
 /// Packs the facts.
 #[must_use]
 pub fn pack(data: &Data) -> Vec<u8> {
     let mut out = Writer::default();
     out.number(VERSION);
-    for names in [&data.signals, &data.pins, &data.positions, &data.packages, &data.codes] {
+    let names = [&data.signals, &data.pins, &data.positions, &data.packages, &data.codes];
+    for names in names.into_iter().chain([&data.cores]) {
         out.names(names.iter().map(String::as_str));
     }
     out.count(data.rows.len());
@@ -103,6 +116,14 @@ pub fn pack(data: &Data) -> Vec<u8> {
         out.difference(&mut die, part.die);
         out.difference(&mut layout, part.layout.map_or(0, |index| index + 1));
     }
+    // Column by column: neighbours are alike, which packs well.
+    for of in COLUMNS {
+        let mut before = 0;
+        for part in &data.parts {
+            let mut part = part.clone();
+            out.difference(&mut before, *of(&mut part));
+        }
+    }
     compress_to_vec(&out.bytes, 10)
 }
 
@@ -120,6 +141,7 @@ pub fn unpack(packed: &[u8]) -> Option<Data> {
         positions: input.names()?,
         packages: input.names()?,
         codes: input.names()?,
+        cores: input.names()?,
         ..Data::default()
     };
     let mut pin = 0;
@@ -151,7 +173,15 @@ pub fn unpack(packed: &[u8]) -> Option<Data> {
         let codes = input.differences()?;
         input.difference(&mut die)?;
         input.difference(&mut layout)?;
-        data.parts.push(PartData { base, codes, die, layout: layout.checked_sub(1) });
+        let layout = layout.checked_sub(1);
+        data.parts.push(PartData { base, codes, die, layout, ..PartData::default() });
+    }
+    for of in COLUMNS {
+        let mut before = 0;
+        for part in &mut data.parts {
+            input.difference(&mut before)?;
+            *of(part) = before;
+        }
     }
     input.rest.is_empty().then_some(data)
 }
@@ -278,10 +308,12 @@ mod tests {
                 (0..9_usize, prop::collection::vec((0..300_usize, 0..300_usize), 0..9)), 0..9),
             parts in prop::collection::vec(
                 ("[A-Z0-9]{1,12}", prop::collection::vec(0..9_usize, 0..4), 0..99_usize,
-                 prop::option::of(0..99_usize)), 0..9),
+                 prop::option::of(0..99_usize), (0..9_usize, 0..1_usize << 22, 0..1_usize << 22)),
+                0..9),
         ) -> Data {
             Data {
                 signals, pins, positions: Vec::new(), packages: Vec::new(), codes,
+                cores: vec!["Cortex-M4".to_owned()],
                 rows: rows.into_iter().map(|(pin, usages)| Row { pin, usages }).collect(),
                 dies,
                 layouts: layouts
@@ -290,7 +322,9 @@ mod tests {
                     .collect(),
                 parts: parts
                     .into_iter()
-                    .map(|(base, codes, die, layout)| PartData { base, codes, die, layout })
+                    .map(|(base, codes, die, layout, (core, flash_bytes, ram_bytes))| PartData {
+                        base, codes, die, layout, core, flash_bytes, ram_bytes,
+                    })
                     .collect(),
             }
         }

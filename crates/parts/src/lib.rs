@@ -1,4 +1,4 @@
-//! MCU parts: a part number in, its pins, usages, package and positions out.
+//! MCU parts: a part number in, its pins, usages, package, positions, cores and memory out.
 //!
 //! The facts are one compressed table, made by `cargo xtask parts` from packages of public
 //! registries (see `data/README.md`); RP2040 and RP2350 are rules. The table is unpacked at the

@@ -76,6 +76,33 @@ impl Part {
         tail.split(|c| !digits(c)).next()?.parse().ok()
     }
 
+    /// Its processor cores, the more powerful first: `Cortex-M7`, `Cortex-M4`.
+    pub fn cores(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let core = match self.0 {
+            Origin::Table(part) => data().cores.get(part.core).map_or("", String::as_str),
+            Origin::Rule(chip) => chip.core,
+        };
+        core.split(" + ")
+    }
+
+    /// Bytes of flash in it; none where the flash is a chip beside it.
+    #[must_use]
+    pub fn flash_bytes(&self) -> Option<usize> {
+        match self.0 {
+            Origin::Table(part) => Some(part.flash_bytes).filter(|bytes| *bytes > 0),
+            Origin::Rule(_) => None,
+        }
+    }
+
+    /// Bytes of RAM in it, that of its backup domain not counted.
+    #[must_use]
+    pub fn ram_bytes(&self) -> usize {
+        match self.0 {
+            Origin::Table(part) => part.ram_bytes,
+            Origin::Rule(chip) => chip.ram_bytes,
+        }
+    }
+
     /// Whether it is known where on the package each pin is.
     #[must_use]
     pub fn has_positions(&self) -> bool {

@@ -10,6 +10,10 @@ pub struct Chip {
     pub name: &'static str,
     /// The package.
     pub package: &'static str,
+    /// The cores that run the firmware.
+    pub core: &'static str,
+    /// Bytes of RAM. The flash is a chip of its own, of whatever size.
+    pub ram_bytes: usize,
     /// GPIO pins.
     pub pins: u8,
     /// The first pin that is an input of the converter; all later ones are as well.
@@ -20,11 +24,38 @@ pub struct Chip {
     second: bool,
 }
 
-/// All chips.
+/// All chips; cores and RAM are those of the data sheets' first pages.
 pub static CHIPS: [Chip; 3] = [
-    Chip { name: "RP2040", package: "QFN56", pins: 30, first_analog: 26, pio: 2, second: false },
-    Chip { name: "RP2350A", package: "QFN60", pins: 30, first_analog: 26, pio: 3, second: true },
-    Chip { name: "RP2350B", package: "QFN80", pins: 48, first_analog: 40, pio: 3, second: true },
+    Chip {
+        name: "RP2040",
+        package: "QFN56",
+        core: "Cortex-M0+ + Cortex-M0+",
+        ram_bytes: 264 << 10,
+        pins: 30,
+        first_analog: 26,
+        pio: 2,
+        second: false,
+    },
+    Chip {
+        name: "RP2350A",
+        package: "QFN60",
+        core: "Cortex-M33 + Cortex-M33",
+        ram_bytes: 520 << 10,
+        pins: 30,
+        first_analog: 26,
+        pio: 3,
+        second: true,
+    },
+    Chip {
+        name: "RP2350B",
+        package: "QFN80",
+        core: "Cortex-M33 + Cortex-M33",
+        ram_bytes: 520 << 10,
+        pins: 48,
+        first_analog: 40,
+        pio: 3,
+        second: true,
+    },
 ];
 
 /// A usage and the number of its function.

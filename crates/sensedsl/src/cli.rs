@@ -281,9 +281,18 @@ pub(crate) struct PartsArgs {
     /// Only parts with at most that many contacts
     #[arg(long, value_name = "N")]
     pub(crate) max_pins: Option<u32>,
-    /// What comes first
-    #[arg(long, value_enum, default_value_t, requires = "file")]
-    pub(crate) sort: PartsOrder,
+    /// Only parts with this core: M0+, Cortex-M4, AVR8
+    #[arg(long)]
+    pub(crate) core: Option<String>,
+    /// Only parts with at least so many KB of flash; flash beside the part is as large as you like
+    #[arg(long, value_name = "KB")]
+    pub(crate) min_flash: Option<usize>,
+    /// Only parts with at least so many KB of RAM
+    #[arg(long, value_name = "KB")]
+    pub(crate) min_ram: Option<usize>,
+    /// What comes first: of a file the cheapest wiring unless you say otherwise, of a list the names
+    #[arg(long, value_enum)]
+    pub(crate) sort: Option<PartsOrder>,
     /// Print so many at most
     #[arg(long, value_name = "N", requires = "file")]
     pub(crate) limit: Option<usize>,
@@ -301,13 +310,16 @@ pub(crate) struct PartsArgs {
 }
 
 /// What comes first among parts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PartsOrder {
     /// The cheapest wiring
-    #[default]
     Cost,
     /// The fewest contacts
     Pins,
+    /// The least flash; parts whose flash is beside them come last
+    Flash,
+    /// The least RAM
+    Ram,
 }
 
 #[derive(Debug, Args)]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use roxmltree::{Document, Node};
 
 use super::metapac::Pins;
@@ -13,6 +13,10 @@ use super::sources::text;
 pub(crate) struct Avr {
     pub(crate) base: String,
     pub(crate) pins: Pins,
+    /// `AVR8`.
+    pub(crate) core: String,
+    pub(crate) flash_bytes: usize,
+    pub(crate) ram_bytes: usize,
     /// By order code: the package, and positions with pads.
     pub(crate) variants: BTreeMap<String, (String, Vec<(String, String)>)>,
 }
@@ -81,7 +85,33 @@ fn one(folder: &Path, name: &str) -> Result<Avr> {
             variants.insert(code, (attribute("package"), found));
         }
     }
-    Ok(Avr { base, pins, variants })
+    let core = nodes("device").find_map(|node| node.attribute("architecture"));
+    Ok(Avr {
+        base,
+        pins,
+        core: core.context("no architecture")?.to_owned(),
+        flash_bytes: memory(&document, "flash")?,
+        ram_bytes: memory(&document, "ram")?,
+        variants,
+    })
+}
+
+/// Bytes of the memory of a type that is in the part. Segments for a boot loader are part of the
+/// flash.
+fn memory(document: &Document<'_>, of: &str) -> Result<usize> {
+    let segments = document.descendants().filter(|node| {
+        node.has_tag_name("memory-segment")
+            && node.attribute("type") == Some(of)
+            && node.attribute("external") != Some("true")
+            && node.attribute("name").is_some_and(|name| !name.starts_with("BOOT_"))
+    });
+    let sizes = segments.map(|node| {
+        let size = node.attribute("size").and_then(|size| size.strip_prefix("0x"));
+        usize::from_str_radix(size.context("no size")?, 16).context("no number")
+    });
+    let sum: usize = sizes.sum::<Result<_>>()?;
+    ensure!(sum > 0, "no {of}");
+    Ok(sum)
 }
 
 /// The usage as the data sheets have it, with the unit in front where the signal alone does not tell

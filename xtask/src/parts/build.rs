@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
+use anyhow::{Context as _, Result, ensure};
 use sensedsl_board::pin::natural;
 use sensedsl_parts::format::{Data, Layout, PartData, Row};
 
 use super::avr::Avr;
-use super::metapac::Pins;
+use super::metapac::{Chip, Pins};
 use super::modm::Device;
 
 /// Parts for which the source has the pinout of their variant with a voltage converter (`Q`), and
@@ -18,6 +19,20 @@ const REPLACED: [(&str, &str); 3] = [
     ("STM32L552ZET", "STM32L562ZET6"),
 ];
 
+/// Parts of which the smaller of both sums of RAM counts, as the data sheets have it. STM32F303xB:
+/// `modm-devices` has the RAM of the larger parts. STM32F413 and F423: it has a piece a second time where
+/// other parts have a RAM of its own for the core. STM32H7R and H7S: `stm32-metapac` has a piece also in
+/// the memories of the core that it can be lent to.
+const SMALLER_RAM: [&str; 7] =
+    ["STM32F303CB", "STM32F303RB", "STM32F303VB", "STM32F413", "STM32F423", "STM32H7R", "STM32H7S"];
+
+/// Bytes of RAM of chips without a device file of which `stm32-metapac` has more or less than the data
+/// sheets DS14606 and DS13543.
+const RAM_BYTES: [(&str, usize); 2] = [("STM32WBA50KG", 64 << 10), ("STM32U5A5QI", 2512 << 10)];
+
+/// Cores of families of which no device file is there, as their data sheets have them.
+const CORES: [(&str, &str); 2] = [("STM32N6", "Cortex-M55"), ("STM32WBA", "Cortex-M33")];
+
 /// A part by names.
 #[derive(Clone, Debug)]
 struct Part<'a> {
@@ -25,15 +40,18 @@ struct Part<'a> {
     codes: Vec<String>,
     pins: Cow<'a, Pins>,
     layout: Option<(&'a str, &'a [(String, String)])>,
+    core: &'a str,
+    flash_bytes: usize,
+    ram_bytes: usize,
 }
 
 /// The table, and figures for whoever made it.
 pub(crate) fn build(
-    chips: &BTreeMap<String, Pins>,
+    chips: &BTreeMap<String, Chip>,
     devices: &[Device],
     avrs: &[Avr],
-) -> (Data, String) {
-    let (mut parts, left_out) = stm32(chips, devices);
+) -> Result<(Data, String)> {
+    let (mut parts, left_out) = stm32(chips, devices)?;
     for avr in avrs {
         for (code, (package, places)) in &avr.variants {
             parts.push(Part {
@@ -41,6 +59,9 @@ pub(crate) fn build(
                 codes: vec![code.clone()],
                 pins: Cow::Borrowed(&avr.pins),
                 layout: Some((package, places)),
+                core: &avr.core,
+                flash_bytes: avr.flash_bytes,
+                ram_bytes: avr.ram_bytes,
             });
         }
     }
@@ -59,13 +80,13 @@ pub(crate) fn build(
         data.dies.len(),
         data.layouts.len(),
     );
-    (data, summary)
+    Ok((data, summary))
 }
 
 fn stm32<'a>(
-    chips: &'a BTreeMap<String, Pins>,
+    chips: &'a BTreeMap<String, Chip>,
     devices: &'a [Device],
-) -> (Vec<Part<'a>>, Vec<String>) {
+) -> Result<(Vec<Part<'a>>, Vec<String>)> {
     let mut grouped: BTreeMap<(&str, &str, &str), Vec<&Device>> = BTreeMap::new();
     for device in devices {
         let key = (device.base.as_str(), device.package_code.as_str(), device.variant.as_str());
@@ -83,11 +104,11 @@ fn stm32<'a>(
     for ((base, _, variant), group) in grouped {
         // Dies of another revision have chips of their own: STM32L151CB-A.
         let names = [format!("{base}-{variant}"), base.to_owned()];
-        let Some((chip, pins)) = names.iter().find_map(|name| chips.get_key_value(name)) else {
+        let Some((name, chip)) = names.iter().find_map(|name| chips.get_key_value(name)) else {
             left_out.insert(base.get(..9).unwrap_or(base).to_owned());
             continue;
         };
-        used.insert(chip.as_str());
+        used.insert(name.as_str());
         // Grades of one part may differ in a pin: NRST and PF2 of some G0.
         let mut layouts: BTreeMap<&[(String, String)], Vec<&Device>> = BTreeMap::new();
         for device in group {
@@ -101,20 +122,50 @@ fn stm32<'a>(
             parts.push(Part {
                 base: &first.base,
                 codes: devices.iter().map(code).collect(),
-                pins: with_switches(pins, places),
+                pins: with_switches(&chip.pins, places),
                 layout: Some((&first.package, places)),
+                core: &first.core,
+                flash_bytes: chip.flash_bytes,
+                ram_bytes: ram_bytes(chip, first),
             });
         }
     }
-    for (name, pins) in chips.iter().filter(|(name, _)| !used.contains(name.as_str())) {
+    for (name, chip) in chips.iter().filter(|(name, _)| !used.contains(name.as_str())) {
+        let corrected = RAM_BYTES.iter().find(|(of, _)| of == name);
         parts.push(Part {
             base: name,
             codes: vec![String::new()],
-            pins: Cow::Borrowed(pins),
+            pins: Cow::Borrowed(&chip.pins),
             layout: None,
+            core: core_of(name, devices)?,
+            flash_bytes: chip.flash_bytes,
+            ram_bytes: corrected.map_or(chip.ram_bytes, |(_, bytes)| *bytes),
         });
     }
-    (parts, left_out.into_iter().collect())
+    Ok((parts, left_out.into_iter().collect()))
+}
+
+/// Both sources leave RAM out on some parts, so that the larger sum counts.
+fn ram_bytes(chip: &Chip, device: &Device) -> usize {
+    let sums = [chip.ram_bytes, device.ram_bytes];
+    let of_both = if SMALLER_RAM.iter().any(|start| device.base.starts_with(start)) {
+        sums.into_iter().min()
+    } else {
+        sums.into_iter().max()
+    };
+    of_both.unwrap_or_default()
+}
+
+/// The core of a chip without a device file: the one of all devices of its line.
+fn core_of<'a>(chip: &str, devices: &'a [Device]) -> Result<&'a str> {
+    if let Some((_, core)) = CORES.iter().find(|(family, _)| chip.starts_with(family)) {
+        return Ok(core);
+    }
+    let line = chip.get(..9).unwrap_or(chip);
+    let alike = devices.iter().filter(|device| device.base.starts_with(line));
+    let cores: BTreeSet<&str> = alike.map(|device| device.core.as_str()).collect();
+    ensure!(cores.len() == 1, "the core of {chip} is not known: {cores:?}");
+    cores.first().copied().context("no core")
 }
 
 /// On STM32H7 a pad such as `PC2_C` is connected with `PC2` by an analog switch. Where the package
@@ -157,6 +208,7 @@ fn number(parts: &[Part<'_>]) -> Data {
     let pin_names = Names::new(pins().map(|(pin, _)| pin.as_str()).chain(on_packages));
     let positions = Names::new(places().flat_map(|(_, p)| p).map(|(place, _)| place.as_str()));
     let packages = Names::new(places().map(|(package, _)| package));
+    let cores = Names::new(parts.iter().map(|part| part.core));
     let codes = Names::new(parts.iter().flat_map(|part| &part.codes).map(String::as_str));
     let rows_of = |pins: &Pins| -> Vec<Row> {
         let row = |(pin, usages): (&String, &BTreeSet<(String, Option<u8>)>)| {
@@ -190,6 +242,9 @@ fn number(parts: &[Part<'_>]) -> Data {
         codes: part.codes.iter().map(|code| codes.of(code)).collect(),
         die: dies.binary_search(&die_of(&part.pins)).unwrap_or_default(),
         layout: part.layout.and_then(|layout| layouts.binary_search(&layout_of(layout)).ok()),
+        core: cores.of(part.core),
+        flash_bytes: part.flash_bytes,
+        ram_bytes: part.ram_bytes,
     });
     Data {
         parts: numbered.collect(),
@@ -198,6 +253,7 @@ fn number(parts: &[Part<'_>]) -> Data {
         positions: positions.0,
         packages: packages.0,
         codes: codes.0,
+        cores: cores.0,
         rows,
         dies,
         layouts,

@@ -1,19 +1,27 @@
-//! The crate `stm32-metapac`: its generated sources in, pins and usages of each chip out.
+//! The crate `stm32-metapac`: its generated sources in, pins, usages and memory of each chip out.
 //!
 //! The sources are scanned as text: compiling them would take a build for each chip.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 
 use super::sources::{entries, text};
 
 /// The usages of each pin; an ADC input is one usage of all its units.
 pub(crate) type Pins = BTreeMap<String, BTreeSet<(String, Option<u8>)>>;
 
+/// A chip.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Chip {
+    pub(crate) pins: Pins,
+    pub(crate) flash_bytes: usize,
+    pub(crate) ram_bytes: usize,
+}
+
 /// All chips by name.
-pub(crate) fn read(folder: &Path) -> Result<BTreeMap<String, Pins>> {
+pub(crate) fn read(folder: &Path) -> Result<BTreeMap<String, Chip>> {
     let mut bodies: BTreeMap<String, Pins> = BTreeMap::new();
     let mut chips = BTreeMap::new();
     for path in entries(folder)?.into_iter().filter(|path| path.is_dir()) {
@@ -24,11 +32,12 @@ pub(crate) fn read(folder: &Path) -> Result<BTreeMap<String, Pins>> {
             bodies.insert(body.to_owned(), pins(&text(&folder.join(body))?)?);
         }
         let Some(pins) = bodies.get(body) else { continue };
-        // The cores of a chip share its pins.
-        let own: &mut Pins = chips.entry(name.to_owned()).or_default();
+        // The cores of a chip share its pins and its memory.
+        let own: &mut Chip = chips.entry(name.to_owned()).or_default();
         for (pin, usages) in pins {
-            own.entry(pin.clone()).or_default().extend(usages.iter().cloned());
+            own.pins.entry(pin.clone()).or_default().extend(usages.iter().cloned());
         }
+        (own.flash_bytes, own.ram_bytes) = memory(&head).with_context(|| name.to_owned())?;
     }
     Ok(chips)
 }
@@ -36,6 +45,42 @@ pub(crate) fn read(folder: &Path) -> Result<BTreeMap<String, Pins>> {
 fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
     Some(text.split_once(start)?.1.split_once(end)?.0)
 }
+
+/// Bytes of flash and of RAM. A chip whose flash is one bank or two, as its option bytes have it, has
+/// a list of regions for each: both have the same sum.
+fn memory(head: &str) -> Result<(usize, usize)> {
+    let lists = between(head, "memory: ", "peripherals: ").context("no memory")?;
+    let mut sums = BTreeSet::new();
+    for list in lists.split("&[").filter(|list| list.contains("MemoryRegion {")) {
+        let (mut flash, mut ram) = (0, 0);
+        for region in list.split("MemoryRegion {").skip(1) {
+            let field = |start: &str| between(region, start, ",").context("half a region");
+            let name = field("name: \"")?.trim_end_matches('"');
+            let size: usize = field("size: ")?.parse()?;
+            let address = u32::from_str_radix(field("address: 0x")?, 16)?;
+            match field("kind: MemoryRegionKind::")? {
+                "Flash" if name != "OTP" => flash += size,
+                "Ram" if is_counted(name, address) => ram += size.next_multiple_of(RESERVED),
+                _ => {}
+            }
+        }
+        sums.insert((flash, ram));
+    }
+    ensure!(sums.len() == 1, "lists of regions with other sums: {sums:?}");
+    sums.first().copied().context("no regions")
+}
+
+/// RAM that is counted: not what stands at a second address for the sake of instructions, not what a
+/// battery keeps, and not what an external bus could address.
+fn is_counted(name: &str, address: u32) -> bool {
+    !name.ends_with("_ICODE") && name != "BKPSRAM" && address < EXTERNAL
+}
+
+/// The first address of external memory on a Cortex-M.
+const EXTERNAL: u32 = 0x6000_0000;
+/// A part of RAM that is not the user's, such as the first bytes on STM32WB0, is less than that, and
+/// counted: data sheets do so.
+pub(crate) const RESERVED: usize = 512;
 
 fn pins(source: &str) -> Result<Pins> {
     let mut pins = Pins::new();

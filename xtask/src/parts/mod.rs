@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let chips = metapac::read(&sources.metapac)?;
     let devices = modm::read(&sources.modm)?;
     let avrs = avr::read(&sources.avr)?;
-    let (data, summary) = build::build(&chips, &devices, &avrs);
+    let (data, summary) = build::build(&chips, &devices, &avrs)?;
     let packed = format::pack(&data);
     ensure!(format::unpack(&packed).as_ref() == Some(&data), "the table does not read back");
     let path = root.join("crates/parts/data/parts.bin");

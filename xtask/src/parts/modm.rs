@@ -4,10 +4,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use roxmltree::{Document, Node};
 use sensedsl_board::pin::{PinName, natural};
 
+use super::metapac::RESERVED;
 use super::sources::{entries, text};
 
 /// A part number.
@@ -22,6 +23,9 @@ pub(crate) struct Device {
     pub(crate) package: String,
     /// Position and pin.
     pub(crate) places: Vec<(String, String)>,
+    /// `Cortex-M7 + Cortex-M4`.
+    pub(crate) core: String,
+    pub(crate) ram_bytes: usize,
 }
 
 impl Device {
@@ -43,14 +47,15 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Device>> {
         let root = child(document.root_element(), "device").context("no device")?;
         let schema =
             child(root, "naming-schema").and_then(|node| node.text()).context("no schema")?;
-        let mut seen = BTreeSet::new();
+        // The cores of a device share its pins, and each has a list of the memory that it reaches.
+        let mut cores: BTreeMap<String, Vec<Identity>> = BTreeMap::new();
         for identity in identities(root, schema) {
-            // The cores of a device share its pins.
             let name = spell(schema, &identity);
             let number = name.split('@').next().unwrap_or(&name).to_owned();
-            if seen.insert(number) {
-                devices.extend(device(root, &identity));
-            }
+            cores.entry(number).or_default().push(identity);
+        }
+        for (number, identities) in cores {
+            devices.extend(device(root, &identities).with_context(|| number)?);
         }
     }
     Ok(devices)
@@ -113,14 +118,16 @@ fn applies(node: Node<'_, '_>, identity: &Identity) -> bool {
     })
 }
 
-fn device(root: Node<'_, '_>, identity: &Identity) -> Option<Device> {
+/// The device, where it has a package.
+fn device(root: Node<'_, '_>, cores: &[Identity]) -> Result<Option<Device>> {
+    let identity = cores.first().context("a device without a name")?;
     let field = |name: &str| identity.get(name).cloned().unwrap_or_default().to_uppercase();
     let drivers = children(root, "driver").filter(|node| node.attribute("name") == Some("gpio"));
     let mut packages = drivers
         .chain(children(root, "driver"))
         .flat_map(|driver| children(driver, "package"))
         .filter(|package| applies(*package, identity));
-    let package = packages.next()?;
+    let Some(package) = packages.next() else { return Ok(None) };
     let pins = children(package, "pin").filter(|pin| applies(*pin, identity));
     let places = pins.filter_map(|pin| {
         let name = pin.attribute("name")?;
@@ -131,12 +138,59 @@ fn device(root: Node<'_, '_>, identity: &Identity) -> Option<Device> {
     let mut places: Vec<(String, String)> = places.collect();
     places.sort_by(|(a, p), (b, q)| natural(a, b).then_with(|| natural(p, q)));
     places.dedup();
-    Some(Device {
+    Ok(Some(Device {
         base: format!("STM32{}{}{}{}", field("family"), field("name"), field("pin"), field("size")),
         package_code: field("package"),
         grade: field("temperature"),
         variant: field("variant"),
-        package: package.attribute("name")?.to_owned(),
+        package: package.attribute("name").context("a package without a name")?.to_owned(),
         places,
-    })
+        core: core(root, cores)?,
+        ram_bytes: ram(root, cores)?,
+    }))
+}
+
+/// The driver that describes the cores.
+fn core_driver<'a, 'i>(root: Node<'a, 'i>) -> Result<Node<'a, 'i>> {
+    let mut drivers = children(root, "driver");
+    drivers.find(|node| node.attribute("name") == Some("core")).context("no core")
+}
+
+/// The names of the cores, the more powerful first.
+fn core(root: Node<'_, '_>, cores: &[Identity]) -> Result<String> {
+    let driver = core_driver(root)?;
+    let kind = |identity: &Identity| {
+        let mut own = children(driver, "attribute-type").filter(|node| applies(*node, identity));
+        let kind = own.next().and_then(|node| node.attribute("value"));
+        let kind = kind.or(driver.attribute("type")).context("a core without a type")?;
+        let number = kind.strip_prefix("cortex-m").with_context(|| kind.to_owned())?;
+        Ok(format!("Cortex-M{}", number.replace("plus", "+")))
+    };
+    let mut names: Vec<String> = cores.iter().map(kind).collect::<Result<_>>()?;
+    names.sort();
+    names.reverse();
+    Ok(names.join(" + "))
+}
+
+/// Bytes of RAM that any core reaches: without memory at a second address, and without what a
+/// battery keeps.
+fn ram(root: Node<'_, '_>, cores: &[Identity]) -> Result<usize> {
+    let (mut names, mut starts, mut sum) = (BTreeSet::new(), BTreeSet::new(), 0);
+    for identity in cores {
+        let memories = children(core_driver(root)?, "memory");
+        for memory in memories.filter(|node| applies(*node, identity)) {
+            let attribute = |name: &str| memory.attribute(name);
+            let name = attribute("name").context("a memory without a name")?;
+            let is_ram = attribute("access").is_some_and(|access| access.contains('w'))
+                && attribute("alias").is_none();
+            let is_kept = name == "backup" || name.starts_with("bkp");
+            let start = attribute("start").context("no start")?;
+            if is_ram && !is_kept && names.insert(name) && starts.insert(start) {
+                let size: usize = attribute("size").context("no size")?.parse()?;
+                sum += size.next_multiple_of(RESERVED);
+            }
+        }
+    }
+    ensure!(sum > 0, "no RAM");
+    Ok(sum)
 }

@@ -10,6 +10,7 @@
 mod complete;
 mod designs;
 mod families;
+mod memory;
 mod remap;
 mod requests;
 mod table;

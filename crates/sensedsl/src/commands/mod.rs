@@ -6,6 +6,7 @@ pub(crate) mod check;
 mod deadline;
 pub(crate) mod diff;
 pub(crate) mod explain;
+mod facts;
 pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod help;

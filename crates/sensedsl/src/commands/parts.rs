@@ -3,11 +3,13 @@
 use anyhow::{Result, bail};
 use sensedsl_board::profile;
 use sensedsl_parts::Part;
+use serde_json::json;
 
+use super::facts::{Facts, Filter, units};
 use super::sweep::sweep;
-use super::table::table;
+use super::table::{Head, table};
 use crate::Status;
-use crate::cli::PartsArgs;
+use crate::cli::{PartsArgs, PartsOrder, TableFormat};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
@@ -29,7 +31,7 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
         return Ok(Status::Done);
     }
     if let Some(search) = &args.list {
-        terminal.result(&listing(args, search.as_deref().unwrap_or_default()))?;
+        terminal.result(&listing(args, search.as_deref().unwrap_or_default())?)?;
         return Ok(Status::Done);
     }
     let Some(file) = &args.file else {
@@ -39,63 +41,80 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
 }
 
 /// The parts that the filters leave.
-pub(super) fn parts(args: &PartsArgs) -> impl Iterator<Item = Part> {
-    let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
-    let (family, package) = (upper(&args.family), upper(&args.package));
-    let pins_max = args.max_pins;
-    sensedsl_parts::all().filter(move |part| {
-        fits(part.base(), part.package(), part.contacts(), family.as_deref(), package.as_deref())
-            && pins_max.is_none_or(|most| part.contacts().is_some_and(|pins| pins <= most))
-    })
+pub(super) fn parts(args: &PartsArgs) -> impl Iterator<Item = (Part, Facts)> {
+    let filter = Filter::of(args);
+    let with_facts = sensedsl_parts::all().map(|part| (part, Facts::of(part)));
+    with_facts.filter(move |(part, facts)| filter.leaves(part.base(), facts))
 }
 
-/// Whether a part, or a board's MCU, is of the family and in the package asked for.
-pub(super) fn fits(
-    base: &str,
-    of: Option<&str>,
-    contacts: Option<u32>,
-    family: Option<&str>,
-    package: Option<&str>,
-) -> bool {
-    let begins = |family: &str| {
-        base.starts_with(family)
-            || base.strip_prefix("STM32").is_some_and(|base| base.starts_with(family))
-    };
-    let packed = |package: &str| {
-        of.is_some_and(|of| of.to_uppercase().starts_with(package))
-            || contacts.is_some_and(|contacts| contacts.to_string() == package)
-    };
-    family.is_none_or(begins) && package.is_none_or(packed)
+/// Where a part stands in an order; the cost of a wiring is not known here.
+pub(super) fn rank(order: Option<PartsOrder>, facts: &Facts) -> usize {
+    match order {
+        None | Some(PartsOrder::Cost) => 0,
+        Some(PartsOrder::Pins) => {
+            facts.contacts.and_then(|pins| pins.try_into().ok()).unwrap_or(usize::MAX)
+        }
+        Some(PartsOrder::Flash) => facts.flash_bytes.unwrap_or(usize::MAX),
+        Some(PartsOrder::Ram) => facts.ram_bytes.unwrap_or(usize::MAX),
+    }
 }
 
-fn listing(args: &PartsArgs, search: &str) -> String {
+fn listing(args: &PartsArgs, search: &str) -> Result<String> {
+    if args.sort == Some(PartsOrder::Cost) {
+        bail!("a list has no wirings to sort by cost: name a file, or sort by pins, flash or ram");
+    }
     let search = search.to_uppercase();
     let words: Vec<&str> = search.split_whitespace().collect();
-    let rows = parts(args).filter_map(|part| {
-        let package = part.package().unwrap_or("-");
-        let numbers: Vec<String> = part.numbers().collect();
-        let text = format!("{} {}", numbers.join(" "), package.to_uppercase());
-        let found = words.iter().all(|word| text.contains(word));
-        let others = numbers.get(1..).unwrap_or_default().join(" ");
-        found.then(|| [part.name(), package.to_owned(), others])
+    let found = parts(args).filter(|(part, facts)| {
+        let package = facts.package.unwrap_or("-").to_uppercase();
+        let text = part.numbers().chain([package]).collect::<Vec<_>>().join(" ");
+        words.iter().all(|word| text.contains(word))
     });
-    let rows: Vec<[String; 3]> = rows.collect();
+    let mut found: Vec<(Part, Facts)> = found.collect();
+    // Those that are equal stay in the order of their names.
+    found.sort_by_key(|(_, facts)| rank(args.sort, facts));
+    if args.format == TableFormat::Json {
+        return Ok(found.iter().map(|(part, facts)| value(*part, facts)).collect());
+    }
+    let row = |(part, facts): &(Part, Facts)| {
+        let [package, core, flash, ram] = facts.cells();
+        let code = |number: String| number.replacen(part.base(), "…", 1);
+        let others: Vec<String> = part.numbers().skip(1).map(code).collect();
+        [part.name(), package, core, flash, ram, others.join(" ")]
+    };
+    let rows: Vec<[String; 6]> = found.iter().map(row).collect();
     let count = match rows.len() {
+        0 => return Ok("0 parts\n".to_owned()),
         1 => "1 part".to_owned(),
         some => format!("{some} parts"),
     };
-    let heads = [("Part", false), ("Package", false), ("Also", false)];
-    format!(
-        "{}\n{count}; `sensedsl parts --table PART` prints the pins of one{}\n",
-        table(heads, &rows),
+    Ok(format!(
+        "{}\n{count}; {}\n`sensedsl parts --table PART` prints the pins of one{}\n",
+        table(HEADS, &rows),
+        units(found.iter().map(|(_, facts)| facts)),
         spelled_in_a_file(&rows)
-    )
+    ))
+}
+
+const HEADS: [Head; 6] = [
+    ("Part", false),
+    ("Package", false),
+    ("Core", false),
+    ("Flash", true),
+    ("RAM", true),
+    ("Also", false),
+];
+
+/// A line of JSON.
+fn value(part: Part, facts: &Facts) -> String {
+    let numbers: Vec<String> = part.numbers().collect();
+    facts.json_line(&part.name(), [("numbers", json!(numbers))])
 }
 
 /// How a file spells a part whose name has a hyphen, where one is listed.
-fn spelled_in_a_file(rows: &[[String; 3]]) -> String {
+fn spelled_in_a_file(rows: &[[String; 6]]) -> String {
     let hyphened = rows.iter().find(|[name, ..]| name.contains('-'));
     hyphened.map_or_else(String::new, |[name, ..]| {
-        format!("; in a file write `_` for `-`: `board Robot on {}`", name.replace('-', "_"))
+        format!("\nin a file write `_` for `-`: `board Robot on {}`", name.replace('-', "_"))
     })
 }

@@ -16,10 +16,11 @@ use sensedsl_wiring::Cancel;
 use serde_json::json;
 use signal_hook::consts::SIGINT;
 
-use super::parts::{fits, parts};
+use super::facts::{Facts, Filter, units};
+use super::parts::{parts, rank};
 use super::table::table;
 use crate::Status;
-use crate::cli::{PartsArgs, PartsOrder, TableFormat};
+use crate::cli::{PartsArgs, TableFormat};
 use crate::files::{Disk, read_text, shown};
 use crate::terminal::Terminal;
 
@@ -31,8 +32,7 @@ struct Carrier {
     name: String,
     /// The part number of the MCU.
     mcu: String,
-    package: Option<String>,
-    contacts: Option<u32>,
+    facts: Facts,
     is_board: bool,
     /// Whether the target has a profile of it; otherwise the pins alone are looked at.
     has_profile: bool,
@@ -112,12 +112,10 @@ fn sorted<'a>(
     });
     let mut found: Vec<(&Carrier, Worth)> = fitting.collect();
     found.sort_by_key(|(carrier, worth)| {
-        let contacts = carrier.contacts.unwrap_or(u32::MAX);
-        let first = match args.sort {
-            PartsOrder::Cost => 0,
-            PartsOrder::Pins => contacts,
-        };
-        (first, *worth, contacts, carrier.package.clone(), carrier.name.clone())
+        let facts = &carrier.facts;
+        let contacts = facts.contacts.unwrap_or(u32::MAX);
+        let first = rank(args.sort, facts);
+        (first, *worth, contacts, facts.package, carrier.name.clone())
     });
     found
 }
@@ -125,35 +123,27 @@ fn sorted<'a>(
 /// All carriers, with the key under which their wirings are equal.
 fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
     let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
-    let of_part = |part: Part| {
+    let of_part = |(part, facts): (Part, Facts)| {
         let name = part.name();
         let covered = profile::covered_by(target, &name).unwrap_or_default();
         let key = format!("{covered}\n{}", Sheet::of(part).key());
-        let package = part.package().map(str::to_owned);
         let carrier = Carrier {
             mcu: name.clone(),
             name,
-            package,
-            contacts: part.contacts(),
+            facts,
             is_board: false,
             has_profile: !covered.is_empty(),
         };
         (carrier, key)
     };
+    let filter = Filter::of(args);
     let of_board = |entry: &catalog::Entry| {
-        let found = sensedsl_parts::find(entry.mcu);
-        let package = found.as_ref().and_then(sensedsl_parts::Found::package).map(str::to_owned);
-        let contacts = found.and_then(|found| found.parts.first()?.contacts());
-        let upper = |text: &Option<String>| text.as_ref().map(|text| text.to_uppercase());
-        let (family, wanted) = (upper(&args.family), upper(&args.package));
-        let suits =
-            fits(entry.mcu, package.as_deref(), contacts, family.as_deref(), wanted.as_deref())
-                && args.max_pins.is_none_or(|most| contacts.is_some_and(|pins| pins <= most));
+        let facts = Facts::of_mcu(entry.mcu);
+        let suits = filter.leaves(entry.mcu, &facts);
         let carrier = Carrier {
             name: entry.name.to_owned(),
             mcu: entry.mcu.to_owned(),
-            package,
-            contacts,
+            facts,
             is_board: true,
             has_profile: profile::covered_by(target, entry.mcu).is_some(),
         };
@@ -232,50 +222,59 @@ const fn known(carrier: &Carrier) -> &'static str {
     if carrier.has_profile { "drivers" } else { "pins only" }
 }
 
+/// What a table shows of a carrier beside its cost: the part, its package or the board that it is on,
+/// core, flash, RAM, and what is known. The number of the part tells the package as well.
+fn cells(carrier: &Carrier) -> [String; 6] {
+    let [package, core, flash, ram] = carrier.facts.cells();
+    let place = if carrier.is_board { carrier.name.clone() } else { package };
+    [carrier.mcu.clone(), place, core, flash, ram, known(carrier).to_owned()]
+}
+
 /// A carrier as it is shown when it is found.
 fn line(carrier: &Carrier, worth: Worth) -> String {
-    let board = if carrier.is_board { carrier.name.as_str() } else { "" };
-    let package = carrier.package.as_deref().unwrap_or("-");
+    let [part, place, core, flash, ram, known] = cells(carrier);
     let Worth { cost, .. } = worth;
-    let text =
-        format!("{cost:>6}  {:<18}  {package:<10}  {:<9}  {board}", carrier.mcu, known(carrier));
-    text.trim_end().to_owned()
+    format!("{cost:>6}  {part:<15}  {place:<23}  {core:<6}  {flash:>5}  {ram:>4}  {known}")
 }
 
 /// The carriers that are shown, and how many of those looked at can carry the devices.
 fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
     let row = |(carrier, worth): &(&Carrier, Worth)| {
-        let board = if carrier.is_board { carrier.name.as_str() } else { "" };
-        let package = carrier.package.clone().unwrap_or_else(|| "-".to_owned());
-        let known = known(carrier).to_owned();
-        [worth.cost.to_string(), carrier.mcu.clone(), package, known, board.to_owned()]
+        let [part, place, core, flash, ram, known] = cells(carrier);
+        [worth.cost.to_string(), part, place, core, flash, ram, known]
     };
-    let rows: Vec<[String; 5]> = shown.iter().map(row).collect();
-    let heads =
-        [("Cost", true), ("Part", false), ("Package", false), ("Known", false), ("Board", false)];
+    let rows: Vec<[String; 7]> = shown.iter().map(row).collect();
+    let heads = [
+        ("Cost", true),
+        ("Part", false),
+        ("Package or board", false),
+        ("Core", false),
+        ("Flash", true),
+        ("RAM", true),
+        ("Known", false),
+    ];
     let cut = match shown.len() {
         all if all == fitting => String::new(),
         some => format!("; the first {some} are shown"),
     };
+    let units = match shown {
+        [] => String::new(),
+        some => format!("{}\n", units(some.iter().map(|(carrier, _)| &carrier.facts))),
+    };
     let table = table(heads, &rows);
-    format!("{table}\n{fitting} of {asked} parts and boards can carry the devices{cut}\n")
+    format!("{table}\n{fitting} of {asked} parts and boards can carry the devices{cut}\n{units}")
 }
 
 /// A line of JSON.
 fn value(carrier: &Carrier, worth: Worth) -> String {
-    let mut value = json!({
-        "part": carrier.mcu,
-        "package": carrier.package,
-        "board": carrier.is_board.then_some(&carrier.name),
-        "status": "optimal",
-        "cost": worth.cost,
-        "profile": carrier.has_profile,
-    });
+    let own = [
+        ("board", json!(carrier.is_board.then_some(&carrier.name))),
+        ("status", json!("optimal")),
+        ("cost", json!(worth.cost)),
+        ("profile", json!(carrier.has_profile)),
+    ];
     let beside = [("violated", worth.violated), ("shared", worth.shared)];
-    for (name, number) in beside.into_iter().filter(|(_, number)| *number > 0) {
-        if let Some(object) = value.as_object_mut() {
-            object.insert(name.to_owned(), json!(number));
-        }
-    }
-    format!("{value}\n")
+    let beside = beside.into_iter().filter(|(_, number)| *number > 0);
+    let beside = beside.map(|(name, number)| (name, json!(number)));
+    carrier.facts.json_line(&carrier.mcu, own.into_iter().chain(beside))
 }
