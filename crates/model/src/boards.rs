@@ -144,12 +144,19 @@ fn pins(
             let target = beside(context.sources.name(file), &path.value());
             from_file(context, &target, span(file, path.range()), false)
         }
-        Some(BoardSource::Name(on)) => {
-            let on = Spanned { value: on.text().to_owned(), span: span(file, on.range()) };
-            built_in(context, &on)
+        Some(BoardSource::Name(on)) => built_in(context, &whole(file, &on)),
+        None => {
+            let own = node.name().map(|own| whole(file, &own));
+            built_in(context, own.as_ref().unwrap_or(name))
         }
-        None => built_in(context, name),
     }
+}
+
+/// A board's name with what a hyphen cuts off: that it has one is told already, and which board is
+/// meant is plain.
+fn whole(file: FileId, name: &ast::Name) -> Spanned<String> {
+    let (value, range) = name.whole();
+    Spanned { value, span: span(file, range) }
 }
 
 fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {

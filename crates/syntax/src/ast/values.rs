@@ -56,6 +56,19 @@ impl Name {
     pub fn token(&self) -> &SyntaxToken {
         &self.0
     }
+    /// The name as it was meant, and where that is. A hyphen cuts a name short, which is a mistake
+    /// that is told: of `NUCLEO-F446RE` this has all, [`Name::text`] the first word.
+    #[must_use]
+    pub fn whole(&self) -> (String, TextRange) {
+        let rest = self.0.next_sibling_or_token().and_then(rowan::NodeOrToken::into_node);
+        let rest = rest.filter(|node| node.kind() == SyntaxKind::Error);
+        match rest.filter(|node| node.text().char_at(0.into()) == Some('-')) {
+            Some(rest) => {
+                (format!("{}{}", self.0.text(), rest.text()), self.range().cover(rest.text_range()))
+            }
+            None => (self.0.text().to_owned(), self.range()),
+        }
+    }
 }
 
 /// A string as it stands in the text.
