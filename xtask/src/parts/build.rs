@@ -19,7 +19,7 @@ const REPLACED: [(&str, &str); 3] = [
     ("STM32L552ZET", "STM32L562ZET6"),
 ];
 
-/// Parts of which the smaller of both sums of RAM counts, as the data sheets have it. STM32F303xB:
+/// Parts of which the smaller of both sums of RAM counts, as the data sheets have it. `STM32F303xB`:
 /// `modm-devices` has the RAM of the larger parts. STM32F413 and F423: it has a piece a second time where
 /// other parts have a RAM of its own for the core. STM32H7R and H7S: `stm32-metapac` has a piece also in
 /// the memories of the core that it can be lent to.
