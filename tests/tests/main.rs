@@ -31,4 +31,5 @@ mod soft_units;
 mod spreadsheets;
 mod timing;
 mod traceability;
+mod web;
 mod wiring;

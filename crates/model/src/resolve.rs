@@ -79,8 +79,8 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     checks::run(&design, &mut diagnostics);
     if items.broken {
         // What is missing may only be unreadable.
-        let missing = &e0206_missing_property::INFO;
-        diagnostics.retain(|one| one.code.info() != missing);
+        let missing = e0206_missing_property::CODE;
+        diagnostics.retain(|one| one.code != missing);
     }
     sort(&mut diagnostics);
     let is_wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
@@ -107,7 +107,7 @@ pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
         let report = |at| e0117_more_mistakes::more_mistakes(at, DIAGNOSTICS_MAX, more);
         diagnostics.extend(at.map(report));
         // That a table is too long is said before the mistakes in it, of which people see a few.
-        let ends = |one: &Diagnostic| one.code.info() == &e0317_table_too_large::INFO;
+        let ends = |one: &Diagnostic| one.code == e0317_table_too_large::CODE;
         let end = rest.into_iter().find(ends);
         end.into_iter().for_each(|end| diagnostics.insert(0, end));
     }

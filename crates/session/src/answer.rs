@@ -127,9 +127,9 @@ fn in_part<'s>(
     let solved = (!design.devices.is_empty()).then(|| asked(&wiring, ask).solved);
     let mut found = hopeless;
     found.extend(of_wiring(&design, &wiring, solved.as_ref()));
-    found.retain(|one| one.code.info() != &w0604_unused_rule::INFO);
+    found.retain(|one| one.code != w0604_unused_rule::CODE);
     apply_allows(&design, &mut found);
-    found.retain(|one| one.code.info() != &w0604_unused_rule::INFO);
+    found.retain(|one| one.code != w0604_unused_rule::CODE);
     // What is known already keeps its order, in which a full list begins with the reason that it is full.
     if !found.is_empty() {
         diagnostics.extend(found);

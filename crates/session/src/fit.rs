@@ -45,8 +45,8 @@ impl Snapshot {
             }
             Solved::Infeasible(_) => Fit::Not,
             // The best wiring leaves the converters without a stream: nothing to build, and no fault.
-            Solved::Failed(why) if why.code.info() == &e0506_hardware_limit::INFO => Fit::Not,
-            Solved::Failed(why) if why.code.info() == &e0404_out_of_time::INFO => Fit::Open,
+            Solved::Failed(why) if why.code == e0506_hardware_limit::CODE => Fit::Not,
+            Solved::Failed(why) if why.code == e0404_out_of_time::CODE => Fit::Open,
             Solved::Failed(_) => Fit::Failed,
         }
     }

@@ -3,11 +3,23 @@
 //! Keywords are contextual: the lexer only knows identifiers, and the parser turns an identifier
 //! into a keyword where the grammar has one, so `driver = srf08;` remains a property.
 
-/// What a token or a node of the tree is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u16)]
-#[expect(missing_docs, reason = "each kind is named after the grammar")]
-pub enum SyntaxKind {
+/// Makes the type, and the list of all kinds by their discriminants.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident,)*) => {
+        /// What a token or a node of the tree is.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u16)]
+        #[expect(missing_docs, reason = "each kind is named after the grammar")]
+        pub enum SyntaxKind {
+            $($(#[$doc])* $kind,)*
+        }
+
+        /// Every kind at the index of its discriminant, the way back from a raw kind.
+        const ALL: &[SyntaxKind] = &[$(SyntaxKind::$kind),*];
+    };
+}
+
+kinds! {
     // Trivia: the parser steps over these.
     Bom,
     Whitespace,
@@ -71,7 +83,7 @@ pub enum SyntaxKind {
     NameValue,
     StringValue,
     List,
-    /// Tokens that fit nowhere; always accompanied by an error. Must stay the last kind.
+    /// Tokens that fit nowhere; always accompanied by an error.
     Error,
 }
 
@@ -94,68 +106,6 @@ impl SyntaxKind {
         Self::UseKw <= self && self <= Self::AllowKw
     }
 }
-
-/// Every kind at the index of its discriminant, the way back from a raw kind.
-const ALL: [SyntaxKind; SyntaxKind::Error as usize + 1] = {
-    use SyntaxKind::*;
-    [
-        Bom,
-        Whitespace,
-        LineComment,
-        BlockComment,
-        Unknown,
-        Ident,
-        Int,
-        Float,
-        Str,
-        LBrace,
-        RBrace,
-        LBracket,
-        RBracket,
-        Eq,
-        Semicolon,
-        Comma,
-        Plus,
-        Minus,
-        Unit,
-        UseKw,
-        SpareKw,
-        BoardKw,
-        OnKw,
-        LinkKw,
-        SensorKw,
-        ReturnsKw,
-        ActuatorKw,
-        AcceptsKw,
-        DriverKw,
-        ForKw,
-        PreferKw,
-        AvoidKw,
-        ReserveKw,
-        ReleaseKw,
-        AllowKw,
-        SourceFile,
-        Use,
-        Board,
-        OnClause,
-        Link,
-        Device,
-        Type,
-        Driver,
-        Kind,
-        Property,
-        Prefer,
-        Avoid,
-        Reserve,
-        Release,
-        Allow,
-        Number,
-        NameValue,
-        StringValue,
-        List,
-        Error,
-    ]
-};
 
 /// The binding of [`SyntaxKind`] to the tree library; it has no values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -187,7 +137,7 @@ mod tests {
 
     #[test]
     fn every_kind_survives_the_way_through_its_raw_form() {
-        for kind in ALL {
+        for &kind in ALL {
             assert_eq!(SenseDsl::kind_from_raw(SenseDsl::kind_to_raw(kind)), kind);
         }
     }

@@ -78,6 +78,14 @@ pub enum Solved {
     Failed(Box<Diagnostic>),
 }
 
+/// What an outcome of the solver means for the design.
+enum Meant {
+    Solved(Solved),
+    /// A wiring of the pins whose converters find no DMA stream.
+    NoStreams,
+    Infeasible(Conflict),
+}
+
 /// An answer with its proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proved {
@@ -147,13 +155,13 @@ impl<'a> Wiring<'a> {
     /// The best wiring, or any; otherwise the reason with its repairs.
     #[must_use]
     pub fn solve(&self, search: &Search) -> Solved {
-        match self.ask(search) {
-            Ok(Some(solved)) => solved,
-            Ok(None) => match self.with_converters() {
+        match self.named(self.search(search)) {
+            Meant::Solved(solved) => solved,
+            Meant::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve(search),
                 None => self.no_streams(),
             },
-            Err(conflict) => Solved::Infeasible(self.explained(&conflict)),
+            Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         }
     }
 
@@ -170,13 +178,15 @@ impl<'a> Wiring<'a> {
     /// As [`Self::solve`], without looking for repairs.
     #[must_use]
     pub fn solve_only(&self, any: bool) -> Solved {
-        match self.ask(&Search { any }) {
-            Ok(Some(solved)) => solved,
-            Ok(None) => match self.with_converters() {
+        match self.named(self.search(&Search { any })) {
+            Meant::Solved(solved) => solved,
+            Meant::NoStreams => match self.with_converters() {
                 Some(wiring) => wiring.solve_only(any),
                 None => self.no_streams(),
             },
-            Err(conflict) => Solved::Infeasible(conflict::named(&self.formulation, &conflict)),
+            Meant::Infeasible(conflict) => {
+                Solved::Infeasible(conflict::named(&self.formulation, &conflict))
+            }
         }
     }
 
@@ -187,21 +197,16 @@ impl<'a> Wiring<'a> {
         let outcome = self.search(&Search { any: false });
         let certificate = self.certificate(&outcome, of);
         let solved = match self.named(outcome) {
-            Ok(Some(solved)) => solved,
-            Ok(None) => match self.with_converters() {
+            Meant::Solved(solved) => solved,
+            Meant::NoStreams => match self.with_converters() {
                 Some(wiring) => return wiring.solve_with_proof(of),
                 None => self.no_streams(),
             },
-            Err(conflict) => Solved::Infeasible(self.explained(&conflict)),
+            Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         };
         // What cannot be built is no wiring, whatever was proved of its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
         Proved { solved, certificate: certificate.filter(|_| buildable) }
-    }
-
-    /// Ok(None) is said of a wiring whose converters find no streams.
-    fn ask(&self, search: &Search) -> Result<Option<Solved>, Conflict> {
-        self.named(self.search(search))
     }
 
     fn search(&self, search: &Search) -> Result<Outcome, Fault> {
@@ -212,22 +217,17 @@ impl<'a> Wiring<'a> {
         solver::solve(&self.formulation.problem, &options)
     }
 
-    fn named(&self, outcome: Result<Outcome, Fault>) -> Result<Option<Solved>, Conflict> {
+    fn named(&self, outcome: Result<Outcome, Fault>) -> Meant {
+        let failed = |fault: &Fault| Meant::Solved(Solved::Failed(Box::new(self.fault(fault))));
         match outcome {
-            Ok(Outcome::Solved(answer)) => Ok(self.read(&answer)),
+            Ok(Outcome::Solved(answer)) => self.read(&answer, None),
             Ok(Outcome::Stopped { answer: Some(answer), bound }) => {
-                let mut solved = self.read(&answer);
-                if let Some(Solved::Wired(wiring)) = &mut solved {
-                    let Objective { moved, violated, shared, cost, .. } = bound;
-                    wiring.bound = Some(Bound { moved, violated, shared, cost });
-                }
-                Ok(solved)
+                let Objective { moved, violated, shared, cost, .. } = bound;
+                self.read(&answer, Some(Bound { moved, violated, shared, cost }))
             }
-            Ok(Outcome::Infeasible(conflict)) => Err(conflict),
-            Ok(Outcome::Stopped { answer: None, .. }) => {
-                Ok(Some(Solved::Failed(Box::new(self.fault(&Fault::Cancelled)))))
-            }
-            Err(fault) => Ok(Some(Solved::Failed(Box::new(self.fault(&fault))))),
+            Ok(Outcome::Infeasible(conflict)) => Meant::Infeasible(conflict),
+            Ok(Outcome::Stopped { answer: None, .. }) => failed(&Fault::Cancelled),
+            Err(fault) => failed(&fault),
         }
     }
 
@@ -240,9 +240,9 @@ impl<'a> Wiring<'a> {
     /// All wirings, best first, but for those that leave the converters no streams.
     pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
         let answers: Answers<'_> = solver::enumerate(&self.formulation.problem, self.cancel);
-        answers.filter_map(|answer| match answer {
-            Ok(answer) => self.read(&answer),
-            Err(fault) => Some(Solved::Failed(Box::new(self.fault(&fault)))),
+        answers.filter_map(|answer| match self.named(answer.map(Outcome::Solved)) {
+            Meant::Solved(solved) => Some(solved),
+            Meant::NoStreams | Meant::Infeasible(_) => None,
         })
     }
 
@@ -269,8 +269,8 @@ impl<'a> Wiring<'a> {
     pub fn alloy(&self) -> Result<String, Box<Diagnostic>> {
         let known = match self.search(&Search { any: false }) {
             Ok(Outcome::Solved(answer)) => {
-                if self.read(&answer).is_none()
-                    && let Some(wiring) = self.with_converters()
+                if let (Meant::NoStreams, Some(wiring)) =
+                    (self.read(&answer, None), self.with_converters())
                 {
                     return wiring.alloy();
                 }
@@ -286,9 +286,15 @@ impl<'a> Wiring<'a> {
         Ok(alloy::model(&self.formulation.problem, &labels, known))
     }
 
-    fn read(&self, answer: &solver::Answer) -> Option<Solved> {
-        let assignment = read_back::read_back(self.design, &self.formulation, answer)?;
-        Some(Solved::Wired(Box::new(assignment)))
+    /// The answer in names; `bound` is that of a search that was stopped.
+    fn read(&self, answer: &solver::Answer, bound: Option<Bound>) -> Meant {
+        match read_back::read_back(self.design, &self.formulation, answer) {
+            Some(wiring) => {
+                let bound = bound.or(wiring.bound);
+                Meant::Solved(Solved::Wired(Box::new(Assignment { bound, ..wiring })))
+            }
+            None => Meant::NoStreams,
+        }
     }
 
     fn no_streams(&self) -> Solved {

@@ -21,7 +21,8 @@ Way out: write what the message says is expected, or remove what stands there.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `expected` and `found` are descriptions ("a property name", "`}`").
 #[must_use]

@@ -18,7 +18,8 @@ Way out: remove the character, or put the text between straight quotes.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The character as it stands in the text.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: add the end mark.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `what` is "comment" or "string", `end` its end mark.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: add `;` there.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `span` is the empty place behind the last token.
 #[must_use]

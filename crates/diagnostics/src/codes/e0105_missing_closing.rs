@@ -15,7 +15,8 @@ Way out: add the closing one.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `closing` is `}` or `]`; `opened` is where its partner stands.
 #[must_use]

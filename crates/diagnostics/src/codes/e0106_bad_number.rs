@@ -16,7 +16,8 @@ Way out: write it in one of these forms.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The number as written and what is wrong with it.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: correct the spelling.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The word as written and the keyword that was meant.
 #[must_use]

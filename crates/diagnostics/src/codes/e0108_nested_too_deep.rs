@@ -16,7 +16,8 @@ Way out: remove brackets.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `most` is the depth that is still read.
 #[must_use]

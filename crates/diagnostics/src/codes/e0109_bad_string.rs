@@ -16,7 +16,8 @@ Way out: double the backslash where a backslash is meant.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The escape as written.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: move it where it belongs.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What stands there and where it belongs.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: correct the path, look at the permissions of the file and its folders, 
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path and the reason, in words.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: name the right file, or split it with `use`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path, what the limit is for, and how many bytes are read at most.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: take out what does not belong to the design.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `most` is the number that is still read.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: name the right file, or mend the mistakes that are listed and run the c
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `listed` is the number of mistakes that are listed, `more` that of the others.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: name a file; for the output of a program use `-` or `<(program)` on the
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path and what stands there: `a pipe`.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: correct the spelling, or remove the line.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `of` describes the owner ("an analog device"); `known` is the nearest known name.
 #[must_use]

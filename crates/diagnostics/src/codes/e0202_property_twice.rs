@@ -15,7 +15,8 @@ Way out: remove one of them.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `first` is where the name stood before.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: give one of the devices another number from 1 to 254.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `free` is the least identifier that nobody has.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: rename one of them.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `what` is "board", "device" or "driver".
 #[must_use]

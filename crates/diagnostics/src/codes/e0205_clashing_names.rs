@@ -17,7 +17,8 @@ Way out: rename one of them so that they differ in letters or digits.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `form` is the spelling in which both are equal.
 #[must_use]

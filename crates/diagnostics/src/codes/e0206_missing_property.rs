@@ -16,7 +16,8 @@ Way out: add the line.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `of` describes the owner; `example` is a line that would do.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: write a value of the sort that the message names.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What the property takes, with an example, and what stands there.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: use a unit of the right dimension.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `takes` lists the units that fit.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: take a value inside the range that the message names.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The value as written and the range as text ("1 to 254").
 #[must_use]

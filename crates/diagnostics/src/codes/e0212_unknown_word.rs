@@ -15,7 +15,8 @@ Way out: use one of the words that the message lists.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `words` lists what is possible.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: remove the line, or change the device's `type`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `kinds` lists the kinds that have the property.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: declare the device the other way round, or change its `type`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `kind` and the keyword it can be used with.
 #[must_use]

@@ -18,7 +18,8 @@ write address.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The address as written and why it cannot be.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: correct the spelling, or write the driver.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `meant` is the nearest known driver.
 #[must_use]

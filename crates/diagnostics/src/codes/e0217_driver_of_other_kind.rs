@@ -15,7 +15,8 @@ Way out: change the device's `type`, or take another driver.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The driver, its kind, and the device's kind.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: correct the path.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path as resolved and the machine's reason.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: move what both need into a third file.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The files of the circle, in order.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: use a type that the message names.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The kind, the type as written and which types do.
 #[must_use]

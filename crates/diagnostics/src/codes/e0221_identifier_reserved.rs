@@ -16,7 +16,8 @@ Way out: choose another name.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The name and why it cannot be.
 #[must_use]

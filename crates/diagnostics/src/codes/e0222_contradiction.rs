@@ -15,7 +15,8 @@ Way out: change or remove one of them.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is impossible, and the other place.
 #[must_use]

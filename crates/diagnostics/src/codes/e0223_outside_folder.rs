@@ -18,7 +18,8 @@ Way out: copy the file into the folder, or allow its folder on the command line:
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path as the file names it, and a folder that would have to be allowed.
 #[must_use]

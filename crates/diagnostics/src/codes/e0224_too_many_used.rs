@@ -15,7 +15,8 @@ Way out: put what belongs together into one file.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// A chain of more than `most` files.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: remove what does not belong to the design, or split it into designs wit
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What there is too much of, and how much of it is read.
 #[must_use]

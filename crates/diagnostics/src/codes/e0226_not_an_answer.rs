@@ -16,7 +16,8 @@ Way out: print the answer again, and give the file as it is.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path and what is wrong with it.
 #[must_use]

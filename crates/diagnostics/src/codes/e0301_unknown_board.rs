@@ -17,7 +17,8 @@ Way out: correct the name, or say which table is meant.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `meant` is the nearest built-in board or part; it is shown as a file has to spell it.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: correct the path, or export the spreadsheet as CSV (UTF-8).
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path and the reason.
 #[must_use]

@@ -18,7 +18,8 @@ Way out: add what is missing.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is missing ("the column `Pin`", "rows").
 #[must_use]

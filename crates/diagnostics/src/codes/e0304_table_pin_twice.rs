@@ -15,7 +15,8 @@ Way out: merge the rows.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `first` is the earlier row.
 #[must_use]

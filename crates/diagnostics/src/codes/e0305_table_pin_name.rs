@@ -15,7 +15,8 @@ Way out: correct the cell.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The row and the cell's text.
 #[must_use]

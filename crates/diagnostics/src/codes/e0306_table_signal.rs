@@ -17,7 +17,8 @@ Way out: correct the spelling.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Place by row and column, the cell's text, and the spelling that was meant.
 #[must_use]

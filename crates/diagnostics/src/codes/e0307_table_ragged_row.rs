@@ -15,7 +15,8 @@ Way out: add or remove separators.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Cells of the row and of the head.
 #[must_use]

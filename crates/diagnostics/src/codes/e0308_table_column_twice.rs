@@ -15,7 +15,8 @@ Way out: rename or merge one of them.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The column's name and its earlier place.
 #[must_use]

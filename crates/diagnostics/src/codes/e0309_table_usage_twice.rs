@@ -15,7 +15,8 @@ Way out: remove one of the two.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The usage and its earlier place.
 #[must_use]

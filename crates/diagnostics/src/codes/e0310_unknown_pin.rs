@@ -15,7 +15,8 @@ Way out: correct the name, or add a row to the table.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `meant` is the nearest pin.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: use one of the units that the message lists.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `units` lists what there is for this kind.
 #[must_use]

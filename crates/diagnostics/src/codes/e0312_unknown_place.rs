@@ -15,7 +15,8 @@ Way out: use one of the names that the message lists, or add the column to the t
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `what` is "side" or "header"; `names` what the table knows.
 #[must_use]

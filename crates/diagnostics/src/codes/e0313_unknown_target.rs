@@ -16,7 +16,8 @@ Way out: use one of these.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `known` lists the targets.
 #[must_use]

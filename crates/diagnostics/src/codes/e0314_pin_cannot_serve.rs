@@ -15,7 +15,8 @@ Way out: take one of the pins that the message lists, or leave the choice to the
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What the role needs, where the pin's usages stand, and which pins would do.
 #[must_use]

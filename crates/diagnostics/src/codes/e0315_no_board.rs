@@ -16,7 +16,8 @@ Way out: put the devices into a board.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `span` is the first device, or the file.
 #[must_use]

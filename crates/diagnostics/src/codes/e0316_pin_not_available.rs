@@ -16,7 +16,8 @@ Way out: choose another pin, or `release` it where the part is not needed or the
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Who has the pin, and where that is said.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: name the right file, and remove rows, columns and cells that do not des
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What there is too much of, and how much of it is read.
 #[must_use]

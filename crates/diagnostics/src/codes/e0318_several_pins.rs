@@ -16,7 +16,8 @@ Way out: write the name of one of them.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `pins` are the pins, in order.
 #[must_use]

@@ -17,7 +17,8 @@ lists the parts and boards that can carry the devices.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// A kind that the MCU cannot serve on any pin, and why.
 #[must_use]

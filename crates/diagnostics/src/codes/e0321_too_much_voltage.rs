@@ -17,7 +17,8 @@ there to ground); a level shifter, where wires are driven from both ends; or oth
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The device and where it is, its level and where that is stated, what the pins stand, and what helps.
 #[must_use]

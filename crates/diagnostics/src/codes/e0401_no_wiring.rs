@@ -21,7 +21,8 @@ move one of the devices, or use a kind that needs something else.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The devices' names as a list, and the resources they fight for.
 #[must_use]

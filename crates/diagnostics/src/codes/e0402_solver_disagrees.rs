@@ -17,7 +17,8 @@ it meanwhile.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What the checker said.
 #[must_use]

@@ -19,7 +19,8 @@ choices are left, the shorter is the proof.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `span` is the board; `why` there is none.
 #[must_use]

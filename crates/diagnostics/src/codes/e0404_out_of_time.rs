@@ -15,7 +15,8 @@ Way out: give it more time, ask for any wiring (`--any`), or fix some pins.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `span` is the board.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: allow that many moves, or drop what makes them necessary.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The fewest moves that are possible, and how many are allowed.
 #[must_use]

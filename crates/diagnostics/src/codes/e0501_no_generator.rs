@@ -16,7 +16,8 @@ Way out: `sensedsl solve` gives the wiring; leave the device out of the file for
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The device's kind, and the kinds that can be generated.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: choose another folder, or move the files that the message names.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Some of the foreign files.
 #[must_use]

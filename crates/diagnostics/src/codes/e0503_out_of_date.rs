@@ -15,7 +15,8 @@ Way out: run `generate` without `--check`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What differs ("missing", "differs", "no longer made") with the paths.
 #[must_use]

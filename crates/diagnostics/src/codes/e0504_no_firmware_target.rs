@@ -16,7 +16,8 @@ Way out: say which MCU the table describes, or use `sensedsl solve` for the wiri
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The board and why there is no firmware for it.
 #[must_use]

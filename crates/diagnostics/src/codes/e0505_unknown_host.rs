@@ -15,7 +15,8 @@ Way out: use the names that the message lists.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The name and all there are.
 #[must_use]

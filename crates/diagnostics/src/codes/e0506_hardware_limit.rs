@@ -17,7 +17,8 @@ Way out: change the value that the message names.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What the limit is and how to stay inside.
 #[must_use]

@@ -17,7 +17,8 @@ The lock ends with the process that holds it; there is no file to remove.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Which folder, and how long the run has waited.
 #[must_use]

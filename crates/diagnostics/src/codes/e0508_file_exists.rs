@@ -18,7 +18,8 @@ Way out: choose another name, or give `--force` to replace the file.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Which file is in the way, and of what.
 #[must_use]

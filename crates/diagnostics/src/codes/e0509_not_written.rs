@@ -19,7 +19,8 @@ needs room for the new files beside the old ones for a moment.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The folder is as it was.
 #[must_use]

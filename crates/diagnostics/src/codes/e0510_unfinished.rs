@@ -19,7 +19,8 @@ folder, and run `generate` again.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Which folder.
 #[must_use]

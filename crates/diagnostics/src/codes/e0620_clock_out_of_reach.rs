@@ -17,7 +17,8 @@ Way out: write the value that the message names. `sensedsl explain timing FILE` 
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is asked for and what can be had.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: write the `delay` that the message names: it is the shortest that can b
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is asked for and the shortest that can be kept.
 #[must_use]

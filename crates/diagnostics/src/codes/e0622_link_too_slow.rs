@@ -16,7 +16,8 @@ Way out: longer cycle times, a faster link, or a `rate`: then at most so many re
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is asked for and what can be carried.
 #[must_use]

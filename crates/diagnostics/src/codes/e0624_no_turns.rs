@@ -16,7 +16,8 @@ Way out: give all of them the cycle time that the message names, or leave a devi
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Which device finds no turn, and how long all of them take one after the other.
 #[must_use]

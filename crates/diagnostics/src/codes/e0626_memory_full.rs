@@ -16,7 +16,8 @@ Way out: shorter arrays, fewer `samples`, fewer different cycle times, or a boar
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Which device takes most, and how many KiB are needed and there.
 #[must_use]

@@ -17,7 +17,8 @@ what it is with `--format`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What could not be read, and why.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: call the column of the pins `Pin`; in a workbook, name the sheet with `
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What was looked for and where.
 #[must_use]

@@ -15,7 +15,8 @@ Way out: give one of the names in the message, or leave `--sheet` out.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The name that was asked for, and those there are.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: copy the pins to a new workbook, or export the sheet as CSV.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What of the source there is too much of, and how much of it is read.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: remove the `include` that leads back.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path, and the limit that it is beyond, in words.
 #[must_use]

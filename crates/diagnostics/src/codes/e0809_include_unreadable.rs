@@ -16,7 +16,8 @@ Way out: copy the file there, or allow its folder on the command line: `--allow-
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The path as the source names it, and the reason with the way out.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: nothing to do; write the 7-bit form if you prefer it.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Both forms.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: begin the table with a line such as `# mcu = STM32F407VGT6`, or take a 
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Why there is no target.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: nothing to do if it is one; write `driver = srf08;` to say so, or give 
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The device's name.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: if the other pin is meant, write its name in the MCU.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// `other` is the pin that the name is printed at.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: fill in what is missing and take the comment signs away.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is open.
 #[must_use]

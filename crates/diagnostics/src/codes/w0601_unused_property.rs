@@ -17,7 +17,8 @@ Way out: remove the line, or say that you know: `allow W0601 "reason";`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The property, the kind, and why it is not used.
 #[must_use]

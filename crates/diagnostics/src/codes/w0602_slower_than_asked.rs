@@ -16,7 +16,8 @@ Way out: give a `delay` of at least the time the message names, or set the devic
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What the device needs, in milliseconds, and what was asked for.
 #[must_use]

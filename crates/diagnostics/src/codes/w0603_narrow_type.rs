@@ -16,7 +16,8 @@ Way out: use the type that the message names, or scale the value down.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is measured, its range and the type that holds it.
 #[must_use]

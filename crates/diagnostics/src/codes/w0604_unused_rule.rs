@@ -16,7 +16,8 @@ Way out: remove the rule.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The rule and why it does nothing.
 #[must_use]

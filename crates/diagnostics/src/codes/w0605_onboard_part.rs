@@ -18,7 +18,8 @@ say that you know: `allow W0605 "reason";`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The device, the pin and the part.
 #[must_use]

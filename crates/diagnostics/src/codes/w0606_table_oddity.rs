@@ -15,7 +15,8 @@ Way out: correct the cell, or leave it where it is meant.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// Place by row and, where it is one cell, column.
 #[must_use]

@@ -17,7 +17,8 @@ Way out: write the whole part number, or make a board table from `sensedsl parts
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is not known.
 #[must_use]

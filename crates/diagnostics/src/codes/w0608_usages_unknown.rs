@@ -18,7 +18,8 @@ table, in columns of any name.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The table's MCU is not a known part.
 #[must_use]

@@ -17,7 +17,8 @@ chips, give one of them another address where it has an address pin, or fix `uni
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The second device and its unit, the first one and its unit, and the address as it is on the wire.
 #[must_use]

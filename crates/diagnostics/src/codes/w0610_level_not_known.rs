@@ -16,7 +16,8 @@ into the column `Voltage` of the board's table, put a `divider` in between, or s
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The device, its level and the pin.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: longer cycle times, or `allow W0623 "reason";`. `sensedsl explain timin
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// What is busy, and how much.
 #[must_use]

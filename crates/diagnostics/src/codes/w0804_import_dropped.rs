@@ -16,7 +16,8 @@ Way out: look at the place; correct the source and import again, or correct the 
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The place as its program shows it (`Sheet1!C3`; may be empty) and what is left out.
 #[must_use]

@@ -16,7 +16,8 @@ Way out: compare the place with the result.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The place as its program shows it (`Sheet1!C3`; may be empty) and how it was read.
 #[must_use]

@@ -30,8 +30,8 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
     });
     terminal.diagnostics(&imported.diagnostics, &imported.sources)?;
     let Some((result, beside)) = results(args, &imported) else {
-        let no_sheet = &e0803_import_no_sheet::INFO;
-        let by_flag = imported.diagnostics.iter().any(|one| one.code.info() == no_sheet);
+        let no_sheet = e0803_import_no_sheet::CODE;
+        let by_flag = imported.diagnostics.iter().any(|one| one.code == no_sheet);
         return Ok(if by_flag { Status::Misused } else { Status::Wrong });
     };
     let Some(output) = file_to_write(args) else {

@@ -90,7 +90,7 @@ pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
     let best = Ask { partly: true, cancel: Cancel::when(&late), ..Ask::default() };
     let answer = snapshot.solve(&best);
     match &answer.solved {
-        Some(Solved::Failed(why)) if why.code.info() == &e0404_out_of_time::INFO => {
+        Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => {
             snapshot.solve(&Ask { goal: Goal::Any, partly: true, ..Ask::default() })
         }
         _ => answer,
@@ -101,11 +101,10 @@ pub(crate) fn feasible(snapshot: &Snapshot) -> Answer<'_> {
 /// a target that does not exist or a `--board` that cannot be read.
 pub(crate) fn status(diagnostics: &[Diagnostic], on: &On) -> Status {
     let by_call =
-        [&e0111_file_unreadable::INFO, &e0313_unknown_target::INFO, &e0505_unknown_host::INFO];
-    let by_board = [&e0301_unknown_board::INFO, &e0302_table_unreadable::INFO];
+        [e0111_file_unreadable::CODE, e0313_unknown_target::CODE, e0505_unknown_host::CODE];
+    let by_board = [e0301_unknown_board::CODE, e0302_table_unreadable::CODE];
     let misused = |one: &Diagnostic| {
-        let info = one.code.info();
-        by_call.contains(&info) || (on.board.is_some() && by_board.contains(&info))
+        by_call.contains(&one.code) || (on.board.is_some() && by_board.contains(&one.code))
     };
     if diagnostics.iter().any(misused) {
         Status::Misused

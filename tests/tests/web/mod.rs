@@ -1,0 +1,79 @@
+//! The WebAssembly module says in Node what the same code says here, byte for byte, for every example
+//! and the whole corpus.
+//!
+//! `SENSEDSL_WASM` names the module, which `cargo xtask web` builds.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{fs, io::Write as _};
+
+use sensedsl_tests::{has, missing, read, root};
+
+/// All files in the language below a folder.
+fn texts(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut found: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|end| end == "sense")).collect();
+    found.sort();
+    found
+}
+
+/// A request for a file with all files beside it that are texts.
+fn request(file: &Path) -> String {
+    let entries = fs::read_dir(file.parent().unwrap()).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+    let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
+    let is_near = |path: &PathBuf| {
+        // Files of the corpus are many and use none of the others but tables.
+        path == file || path.extension().is_some_and(|end| end == "csv")
+    };
+    let files = paths.filter(is_near).filter_map(|path| {
+        let text = String::from_utf8(fs::read(&path).unwrap()).ok()?;
+        Some((name(&path), text))
+    });
+    let files: BTreeMap<String, String> = files.collect();
+    serde_json::json!({ "path": name(file), "files": files }).to_string()
+}
+
+#[test]
+fn the_module_says_what_the_program_says() {
+    let Some(module) = std::env::var_os("SENSEDSL_WASM") else {
+        missing("the WebAssembly module (SENSEDSL_WASM; `cargo xtask web` builds it)");
+        return;
+    };
+    if !has("node") {
+        return;
+    }
+    let folders = ["examples", "tests/corpus/ok", "tests/corpus/err"];
+    let files: Vec<PathBuf> =
+        folders.iter().flat_map(|folder| texts(&root().join(folder))).collect();
+    let requests: Vec<String> = files.iter().map(|file| request(file)).collect();
+    let mut node = Command::new("node");
+    node.arg(root().join("tests/tests/web/answers.mjs")).arg(&module);
+    let mut node = node.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut stdin = node.stdin.take().unwrap();
+    let all = serde_json::to_vec(&requests).unwrap();
+    let writer = std::thread::spawn(move || stdin.write_all(&all).unwrap());
+    let output = node.wait_with_output().unwrap();
+    writer.join().unwrap();
+    assert!(output.status.success());
+    let answers: Vec<String> = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answers.len(), requests.len());
+    for ((file, request), answer) in files.iter().zip(&requests).zip(answers) {
+        assert_eq!(answer, sensedsl_web::ask(request), "{}", file.display());
+    }
+}
+
+/// What the page's function gives is what the commands print.
+#[test]
+fn the_answer_is_that_of_the_commands() {
+    for file in texts(&root().join("examples")) {
+        let asked: serde_json::Value =
+            serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
+        let solved = sensedsl_tests::sensedsl(["solve", "-q", "--format"]);
+        let svg = sensedsl_tests::sensedsl(["solve", "-q", "--format", "svg"]).arg(&file);
+        assert_eq!(asked["answer"], solved.arg("json").arg(&file).run().json());
+        assert_eq!(asked["svg"], svg.run().stdout, "{}", read(&file));
+    }
+}
