@@ -203,7 +203,7 @@ impl Cutter<'_> {
     }
 }
 
-/// What a cell says: no blanks around it, no characters that nobody sees, quotes and guard undone.
+/// What a cell says, without the blanks around it, invisible characters, quotes and guard.
 #[must_use]
 pub fn content(raw: &str, quoted: bool) -> String {
     let text = inner(raw, quoted);

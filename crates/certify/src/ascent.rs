@@ -376,7 +376,7 @@ impl<'a> Climber<'a> {
             };
             let below = |one: &f64| (one * units + 1e-6).floor() as i64;
             let mut rents = near(&self.tolls.rents);
-            // Where nobody pays the price, it says nothing.
+            // A price that no device pays says nothing.
             for (rent, owned) in rents.iter_mut().zip(&self.case.owned) {
                 *rent *= i64::from(*owned);
             }

@@ -71,7 +71,7 @@ pub(crate) struct Model {
     pub(crate) places: Vec<Vec<usize>>,
 }
 
-/// Who holds each resource. Who takes one on several behalves can share it with nobody.
+/// Who holds each resource. A device that holds one for several groups cannot share it.
 pub fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
     let mut holders = BTreeMap::new();
     for Claim { resource, holder } in claims {

@@ -120,7 +120,7 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
-    /// Adds a file under the name that people shall see.
+    /// Adds a file under the name that people see.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let file = FileId(small(self.files.len()));
         let name = name.into();

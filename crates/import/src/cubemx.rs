@@ -245,10 +245,10 @@ impl Reader<'_> {
         if let Some((_, first)) = others.first() {
             let names: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
             let what = match names.as_slice() {
-                [one] => format!("`{one}` is no pin of a port and is left out"),
+                [one] => format!("`{one}` is not a port pin and is left out"),
                 [one, .., last] => {
                     format!(
-                        "{} pads are no pins of a port and are left out: {one} … {last}",
+                        "{} pads are not port pins and are left out: {one} … {last}",
                         names.len()
                     )
                 }

@@ -31,7 +31,7 @@ pub(crate) struct Guess {
     pub(crate) bytes: Vec<u8>,
 }
 
-/// Decodes a text; none for what is no text.
+/// Decodes a text; none for bytes that are not text.
 pub(crate) fn decode(bytes: &[u8]) -> Option<Decoded> {
     if let Some(decoded) = utf16(bytes) {
         return Some(decoded);

@@ -33,7 +33,7 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
         let ods = head.windows(8).any(|window| window == b"mimetype");
         return Some(if ods { Format::Ods } else { Format::Xlsx });
     }
-    // The head of a large file says enough; half a character at its end is no matter.
+    // The head of a large file says enough; half a character at its end does not matter.
     let text = decode(bytes.get(..HEAD_BYTES).unwrap_or(bytes))?.text;
     if text.trim().is_empty() {
         return None;

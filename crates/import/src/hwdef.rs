@@ -224,7 +224,7 @@ impl<'a> Reader<'a> {
             }
             _ => Using::Signal(label.to_owned()),
         };
-        // The name of a signal is no name for a device.
+        // A device cannot be named after a signal.
         let label = (using.signal() != Some(label)).then(|| label.to_owned());
         if self.wires.contains_key(&pin) {
             log.doubtful(span, "", &format!("{pin} is defined again; the last line counts"));
@@ -264,8 +264,9 @@ impl<'a> Reader<'a> {
                         found.push(Addressed { name, unit, address, span: *span });
                     }
                     _ => {
-                        let what =
-                            format!("{kind} {name} is left out: `{place}` is no bus and address");
+                        let what = format!(
+                            "{kind} {name} is left out: `{place}` is not a bus with an address"
+                        );
                         log.dropped(*span, "", &what);
                     }
                 }

@@ -36,7 +36,7 @@ pub struct Source<'a> {
     pub format: Option<Format>,
     /// The sheet of a workbook.
     pub sheet: Option<&'a str>,
-    /// The name under which a `.sense` file that is made shall find its table.
+    /// The name under which the `.sense` file finds its table.
     pub table: &'a str,
     /// The content of a file by its path relative to the source, or why it was not read.
     pub beside: &'a (dyn Fn(&str) -> Result<Vec<u8>, Unread> + 'a),

@@ -137,7 +137,7 @@ impl Log {
         }
         let Some(decoded) = decode(bytes) else {
             let file = self.sources.add(name, "");
-            self.unreadable(Span::new(file, 0..0), name, "it is no text");
+            self.unreadable(Span::new(file, 0..0), name, "it is not text");
             return (file, String::new());
         };
         let file = self.sources.add(name, decoded.text.as_str());
@@ -151,7 +151,7 @@ impl Log {
             let bytes: Vec<String> = guess.bytes.iter().map(|b| format!("0x{b:02X}")).collect();
             let (bytes, offset) = (bytes.join(" "), guess.offset);
             let what = if read.contains(char::REPLACEMENT_CHARACTER) {
-                format!("byte {offset} ({bytes}) is no character in UTF-8 or Windows-1252")
+                format!("byte {offset} ({bytes}) is not a character in UTF-8 or Windows-1252")
             } else {
                 format!("byte {offset} ({bytes}) is no UTF-8; read as `{read}` of Windows-1252")
             };

@@ -150,7 +150,7 @@ impl Cells {
         Ok(self)
     }
 
-    /// Whether it is no range, or one that ends behind its beginning.
+    /// Whether it is not a range, or a range that ends after its beginning.
     fn is_forward(self) -> bool {
         self.first.is_none_or(|(column, row)| column <= self.column && row <= self.row)
     }

@@ -18,7 +18,7 @@ use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::place::a1;
 
-/// Heads of the column of the pins, in small letters and without what is no letter.
+/// Heads of the column of the pins, in lower case, letters only.
 const PIN_HEADS: [&str; 11] = [
     "pin", "pins", "pinname", "pinnames", "gpio", "gpiopin", "portpin", "pinport", "io", "ioname",
     "pad",
@@ -59,7 +59,7 @@ pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Lo
     }
     for row in cut.rows.iter().take(head.row) {
         if let Some(cell) = row.iter().find(|cell| !reader.content(cell).is_empty()) {
-            let what = "the row stands above the table and is left out";
+            let what = "the row is above the table and is left out";
             log.dropped(reader.span(cell), &reader.place(cell), what);
         }
     }
@@ -230,7 +230,7 @@ impl Reader<'_> {
         let mut text = self.text.to_owned();
         for row in self.rows.iter().take(head.row) {
             let (Some(first), Some(last)) = (row.first(), row.last()) else { continue };
-            // The quotes around a cell are no part of its range.
+            // The range does not include the quotes around a cell.
             let start = first.range.start - usize::from(first.quoted);
             blank(&mut text, start..last.range.end + usize::from(last.quoted), "");
         }
@@ -290,7 +290,7 @@ impl Reader<'_> {
         let filled = row.iter().any(|cell| !self.content(cell).is_empty());
         let pin = PinName::parse(&spelled);
         if pin.is_none() && filled {
-            let what = format!("`{spelled}` is no pin; the row is left out");
+            let what = format!("`{spelled}` is not a pin; the row is left out");
             log.dropped(self.span(cell), &self.place(cell), &what);
         }
         pin
@@ -431,7 +431,8 @@ impl Reader<'_> {
         let digits = digits.strip_suffix(".0").unwrap_or(digits);
         let number = digits.parse().ok().filter(|number| *number < 16);
         if number.is_none() && !is_empty(&value) {
-            let what = format!("`{value}` is no alternate function from 0 to 15 and is left out");
+            let what =
+                format!("`{value}` is not an alternate function from 0 to 15 and is left out");
             log.dropped(self.span(cell), &self.place(cell), &what);
         }
         number

@@ -139,7 +139,7 @@ fn heads(sheet: &Sheet) -> BTreeMap<u32, String> {
     rows.into_values().find(|row| row.len() >= 2).unwrap_or_default()
 }
 
-/// Reports a value that is no text, where a text belongs.
+/// Reports a value that is not a text where a text is expected.
 fn values(
     sheet: &Sheet,
     (at, value): (At, &Data),
@@ -162,7 +162,7 @@ fn values(
             log.dropped(span, &place, &format!("the error value {error} is left out"));
         }
         Data::Int(_) | Data::Float(_) if matches!(role, Role::Usages | Role::Pin) => {
-            let what = format!("the number {} stands where a name is usual", shown(value));
+            let what = format!("the number {} is where a name is expected", shown(value));
             log.doubtful(span, &place, &what);
         }
         Data::Int(_) | Data::Float(_) | Data::String(_) | Data::Empty => {}

@@ -1,7 +1,7 @@
 //! The properties of one block: taken one by one by name, converted, and complained about.
 //!
 //! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
-//! parts that every device has, and asked at the end what nobody took.
+//! parts that every device has, and asked at the end which were not taken.
 
 mod quantities;
 
@@ -129,7 +129,7 @@ impl<'a> Fields<'a> {
         Some(field.name_span.cover(field.value_span))
     }
 
-    /// What nobody took, those of the driver included.
+    /// Those that were not taken, the driver's included.
     pub(crate) fn rest(&self) -> Vec<Field> {
         self.fields.iter().filter(|field| !field.taken).cloned().collect()
     }
@@ -141,7 +141,7 @@ impl<'a> Fields<'a> {
     }
 
     fn wrong(&mut self, field: &Field, takes: &str) {
-        // What is no number at all has been reported by the parser.
+        // The parser has reported what is not a number at all.
         if let Value::Number(number) = &field.value
             && number.magnitude().is_none()
         {

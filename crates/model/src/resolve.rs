@@ -24,7 +24,7 @@ use crate::sources::{Items, Reader};
 /// What is asked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Request<'a> {
-    /// Path of the file, as people shall see it.
+    /// Path of the file, as people see it.
     pub path: &'a str,
     /// Its text.
     pub text: &'a str,

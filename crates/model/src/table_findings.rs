@@ -79,7 +79,7 @@ fn oddity(kind: &FindingKind) -> String {
         Kind::UnnamedColumn => "cells stand below no column head and are not read".into(),
         Kind::BadQuote => "a quoted cell does not end where it should".into(),
         Kind::UnknownAlternate { signal, nearest } => {
-            format!("`{signal}` is no usage of this row{}", meant(nearest))
+            format!("`{signal}` is not a usage in this row{}", meant(nearest))
         }
         Kind::AlternateCount { expected, found } => {
             format!("{found} alternate functions for {expected} usages")

@@ -50,7 +50,7 @@ impl fmt::Display for Verified {
     }
 }
 
-/// Why a text is no certificate of this format.
+/// Why a text is not a certificate of this format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unusable(pub String);
 

@@ -1,6 +1,6 @@
 //! What a certificate is of: whether the files at hand are those that its problem was made of.
 //!
-//! This tells a certificate from one of another file, or of an earlier state. It is no signature:
+//! This tells a certificate from one of another file, or of an earlier state. It is not a signature:
 //! whoever can change the certificate can change the hashes in it.
 
 use crate::format::Subject;

@@ -156,7 +156,7 @@ pub(crate) struct SolveArgs {
     /// is better, or that there is none. With `-` it is the result, in place of the answer
     #[arg(long, value_name = "FILE", conflicts_with_all = ["any", "all", "limit", "count"])]
     pub(crate) proof: Option<PathBuf>,
-    /// With --proof: replace a file that is no certificate
+    /// With --proof: replace a file that is not a certificate
     #[arg(long, requires = "proof")]
     pub(crate) force: bool,
 }
@@ -249,7 +249,7 @@ pub(crate) struct CapacityArgs {
 pub(crate) struct DiffArgs {
     /// The wiring that is there: an answer in JSON, or a file to solve
     pub(crate) old: PathBuf,
-    /// The wiring that shall be: an answer in JSON, or a file to solve
+    /// The wiring that it is to become: an answer in JSON, or a file to solve
     pub(crate) new: PathBuf,
     #[command(flatten)]
     pub(crate) on: On,

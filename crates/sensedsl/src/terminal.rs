@@ -7,8 +7,8 @@ use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render, visible, vis
 
 use crate::files::Refused;
 
-/// Diagnostics that people are shown at once: who has more begins with the first ones, and a file
-/// that is no text of ours at all has thousands.
+/// Diagnostics that are shown at once. People begin with the first ones, and a file that is not in the
+/// language at all has thousands.
 const SHOWN_MAX: usize = 100;
 
 /// Signs of a progress bar.
@@ -123,7 +123,7 @@ impl Terminal {
     }
 }
 
-/// Whether the reader of our output went away (`sensedsl … | head`), which is no failure.
+/// Whether the reader of our output went away (`sensedsl … | head`), which is not a failure.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -30,7 +30,7 @@ pub enum SyntaxErrorKind {
     UnterminatedComment,
     /// A string that does not end on its line.
     UnterminatedString,
-    /// A `\` in a string followed by what is no escape.
+    /// A `\` in a string followed by something that is not an escape.
     UnknownEscape {
         /// The escape as it is written, with its `\`.
         escape: String,
@@ -124,7 +124,7 @@ pub enum SyntaxErrorKind {
     MissingComma,
     /// A `,` without a value or name after it.
     TrailingComma,
-    /// A number followed by a word that is no unit.
+    /// A number followed by a word that is not a unit.
     UnknownUnit {
         /// The word.
         found: String,

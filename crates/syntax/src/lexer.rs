@@ -221,7 +221,7 @@ impl<'a> Lexer<'a> {
         SyntaxKind::Float
     }
 
-    /// `e`, a sign and digits. Without digits the `e` is no exponent but begins a unit.
+    /// `e`, a sign and digits. Without digits the `e` is not an exponent: it begins a unit.
     fn exponent(&mut self) -> bool {
         if !matches!(self.peek(), Some('e' | 'E')) {
             return false;
@@ -316,7 +316,7 @@ fn starts_token(rest: &str) -> bool {
     }
 }
 
-/// The length of a word such as `8N1`: digits, letters, digits. Such a word is no number with a unit,
+/// The length of a word such as `8N1`: digits, letters, digits. Such a word is not a number with a unit,
 /// since no unit has digits; serial lines call their frames like that.
 fn frame_word(text: &str) -> Option<usize> {
     let run = |from: usize, of: fn(&u8) -> bool| {

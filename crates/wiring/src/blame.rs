@@ -37,7 +37,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// Where the file says so; none for what nobody wrote.
+    /// Where the file says so; none for a rule that is not in the file.
     #[must_use]
     pub const fn span(&self) -> Option<Span> {
         match self {
@@ -178,7 +178,7 @@ fn is_hopeless(design: &Design, cancel: Cancel<'_>) -> bool {
     wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_))
 }
 
-/// All rules of a design, those first that are blamed last: what nobody wrote before what the file
+/// All rules of a design, in the order in which they are dropped from the blame: what is not in the file before what it
 /// says.
 fn in_force(design: &Design) -> Vec<Rule> {
     let mut rules = Vec::new();

@@ -325,7 +325,7 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
                 }
                 let on_bus = |part: &Onboard| part.how == Occupation::Bus;
                 let Some(with) = on.shared_with(wire) else { continue };
-                // Who names the part wants it, and who joins its bus disturbs nobody.
+                // A device that names the part wants it, and one that joins its bus does not disturb it.
                 let named =
                     device.placement.pins.iter().any(|(role, pin)| {
                         *role == wire.role && names_part(&pin.value.spelled, with)

@@ -204,8 +204,10 @@ impl NoWiring {
                     .to_owned();
             }
             [] if names_one(self) => "take another board, or another kind of device".to_owned(),
-            [] => "without any one of them the others can be connected, but more stands in the way"
-                .to_owned(),
+            [] => {
+                "without any one of them the others can be connected, but there are other conflicts"
+                    .to_owned()
+            }
             [..] => format!("it works if you {}", ways.join(", or ")),
         };
         if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {

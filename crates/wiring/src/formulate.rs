@@ -67,7 +67,7 @@ pub(crate) struct Formulation<'a> {
 /// When the converter of an analog device is chosen, where there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Converters {
-    /// After the wiring: it is no wire, and a wiring is one answer whatever converters sample it.
+    /// After the wiring: it is not a wire, and a wiring is one answer whichever converters sample it.
     Later,
     /// With the wiring: where streams are so scarce that not every wiring leaves them any.
     Now,

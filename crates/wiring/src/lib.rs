@@ -204,7 +204,7 @@ impl<'a> Wiring<'a> {
             },
             Meant::Infeasible(conflict) => Solved::Infeasible(self.explained(&conflict)),
         };
-        // What cannot be built is no wiring, whatever was proved of its pins.
+        // A wiring that cannot be built is not one, whatever was proved of its pins.
         let buildable = !matches!(solved, Solved::Failed(_));
         Proved { solved, certificate: certificate.filter(|_| buildable) }
     }

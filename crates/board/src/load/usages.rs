@@ -81,7 +81,7 @@ impl Loader<'_> {
         let nearest = nearest(word, words).map(str::to_owned);
         let kind = FindingKind::BadOccupation { spelled: word.to_owned(), nearest };
         self.report(kind, &range, Some(&column.header));
-        // The careful reading: what nobody understands is not offered.
+        // To be careful: what is not understood is not offered.
         Some(Onboard { part, how: Occupation::Taken })
     }
 

@@ -275,7 +275,7 @@ pub(super) fn mend(name: &str) -> Option<String> {
         let family = nearest(stem, FAMILIES.iter().map(|(family, _)| *family))?;
         (family, name.strip_prefix(stem)?)
     };
-    // A unit that is not given is the first: nobody can know which was meant.
+    // A unit that is not given is the first one, as nothing says which was meant.
     let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
     let (number, line) = rest.split_at_checked(end)?;
     let unit = if number.is_empty() && family != "CAN" { "1" } else { number };

@@ -9,15 +9,15 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0101",
     severity: Severity::Error,
     title: "something else was expected here",
-    explanation: r#"The text does not follow the grammar at this place. A file is made of `board`, `sensor`,
-`actuator`, `driver` and `use`; inside braces stand properties, one `name = value;` a line:
+    explanation: r#"The text does not follow the grammar here. A file consists of `board`, `sensor`, `actuator`,
+`driver` and `use`. Braces hold properties, one `name = value;` per line:
 
     sensor IRFront returns uint16 {
         id = 17;
         type = analog;
     }
 
-Way out: write what the message says is expected, or remove what stands there.
+Way out: write what the message expects, or remove what is there.
 "#,
 };
 

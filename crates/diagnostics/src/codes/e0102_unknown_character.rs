@@ -10,8 +10,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0102",
     severity: Severity::Error,
     title: "a character that means nothing here",
-    explanation: r#"The language is written with letters, digits and `{ } [ ] = ; , + - . " / _`. Other characters may
-stand in comments and strings only; they often come from copying out of a document (typographic
+    explanation: r#"The language is written with letters, digits and `{ } [ ] = ; , + - . " / _`. Other characters are
+allowed only in comments and strings; they often come from copying out of a document (typographic
 quotes, non-breaking spaces).
 
 Way out: remove the character, or put the text between straight quotes.

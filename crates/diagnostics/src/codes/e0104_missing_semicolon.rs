@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0104",
     severity: Severity::Error,
     title: "a semicolon is missing",
-    explanation: r#"Each property and each rule ends with a semicolon, as `id = 17;` does. The mark points behind the
+    explanation: r#"Each property and each rule ends with a semicolon, as `id = 17;` does. The mark is just after the
 last thing that was understood.
 
 Way out: add `;` there.

@@ -1,4 +1,4 @@
-//! E0106: not a number the language knows.
+//! E0106: not a number.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,7 +8,7 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0106",
     severity: Severity::Error,
-    title: "not a number the language knows",
+    title: "not a number",
     explanation: r#"Numbers are decimal (`60`, `0.5`, `1.5e-3`), hexadecimal (`0xE6`) or binary (`0b1010`), with `_`
 between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz`.
 
@@ -22,6 +22,6 @@ pub const CODE: Code = Code(&INFO);
 /// The number as written and what is wrong with it.
 #[must_use]
 pub fn bad_number(span: Span, text: &str, why: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{text}` is no number: {why}"))
+    Diagnostic::new(CODE, span, format!("`{text}` is not a number: {why}"))
         .help("write it like 60, 0.5, 0xE6 or 0b1010, with a unit such as ms or kHz where one is meant")
 }

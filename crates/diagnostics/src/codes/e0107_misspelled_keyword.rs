@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0107",
     severity: Severity::Error,
     title: "probably a misspelled keyword",
-    explanation: r#"At this place only a few words are possible, and the one that stands there is nearly one of them.
+    explanation: r#"Only a few words are possible here, and this one is nearly one of them.
 
 Way out: correct the spelling.
 "#,
@@ -21,7 +21,7 @@ pub const CODE: Code = Code(&INFO);
 /// The word as written and the keyword that was meant.
 #[must_use]
 pub fn misspelled_keyword(span: Span, found: &str, meant: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{found}` is no keyword"))
+    Diagnostic::new(CODE, span, format!("`{found}` is not a keyword"))
         .here(format!("did you mean `{meant}`?"))
         .help(format!("write `{meant}`"))
         .replace(format!("change to `{meant}`"), span, meant)

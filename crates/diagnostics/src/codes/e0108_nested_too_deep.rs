@@ -9,8 +9,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0108",
     severity: Severity::Error,
     title: "lists are nested too deep",
-    explanation: r#"Lists may contain lists, but no property needs more than a few levels; what is deeper is taken for a
-slip of the keyboard.
+    explanation: r#"Lists may contain lists, but no property needs more than a few levels; anything deeper is taken for a
+typing mistake.
 
 Way out: remove brackets.
 "#,

@@ -9,10 +9,10 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0109",
     severity: Severity::Error,
     title: "a string holds an unknown escape",
-    explanation: r#"In a string, `\n`, `\t`, `\"` and `\\` stand for a line break, a tabulator, a quote and a backslash;
-no other escape exists.
+    explanation: r#"In a string, `\n`, `\t`, `\"` and `\\` stand for a line break, a tab, a quote and a backslash;
+there is no other escape.
 
-Way out: double the backslash where a backslash is meant.
+Way out: write two backslashes where you mean one.
 "#,
 };
 
@@ -22,6 +22,6 @@ pub const CODE: Code = Code(&INFO);
 /// The escape as written.
 #[must_use]
 pub fn bad_string(span: Span, escape: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{escape}` is no escape"))
-        .help("write two backslashes where a backslash is meant")
+    Diagnostic::new(CODE, span, format!("`{escape}` is not an escape"))
+        .help("write two backslashes where you mean one")
 }

@@ -1,4 +1,4 @@
-//! E0110: this cannot stand here.
+//! E0110: this does not belong here.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,8 +8,8 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0110",
     severity: Severity::Error,
-    title: "this cannot stand here",
-    explanation: r#"Boards, drivers and `use` stand at the top of a file; rules (`reserve`, `release`) and `link` belong
+    title: "this does not belong here",
+    explanation: r#"Boards, drivers and `use` belong at the top of a file; rules (`reserve`, `release`) and `link` belong
 to a board; `prefer`, `avoid` and `allow` to a board or a device.
 
 Way out: move it where it belongs.
@@ -22,6 +22,6 @@ pub const CODE: Code = Code(&INFO);
 /// What stands there and where it belongs.
 #[must_use]
 pub fn misplaced_item(span: Span, what: &str, belongs: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{what} cannot stand here"))
+    Diagnostic::new(CODE, span, format!("{what} does not belong here"))
         .help(format!("move it: {what} belongs {belongs}"))
 }

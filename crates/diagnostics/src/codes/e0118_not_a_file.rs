@@ -1,4 +1,4 @@
-//! E0118: a pipe, a device or a folder stands where a file is expected.
+//! E0118: a pipe, a device or a folder is where a file is expected.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,7 +8,7 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0118",
     severity: Severity::Error,
-    title: "a pipe, a device or a folder stands where a file is expected",
+    title: "a pipe, a device or a folder is where a file is expected",
     explanation: r#"What a file names by `use`, as a table or as an include must be a regular file: reading a pipe or a device
 may never end. A pipe can be read where the command line names it, and a program must be writing to it.
 

@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0202",
     severity: Severity::Error,
     title: "a property is given twice",
-    explanation: r#"Each property may stand once in a block; which of two values would count is nobody's guess.
+    explanation: r#"A property may be given once in a block. With two values there is no telling which one counts.
 
 Way out: remove one of them.
 "#,

@@ -9,8 +9,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0203",
     severity: Severity::Error,
     title: "two devices have the same identifier",
-    explanation: r#"The `id` is the one byte by which the host tells the values apart, so it is unique over the whole
-file, whatever board a device is on.
+    explanation: r#"The `id` is the one byte by which the host tells the values apart, so it is unique in the whole
+file, whichever board a device is on.
 
 Way out: give one of the devices another number from 1 to 254.
 "#,
@@ -23,7 +23,7 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn duplicate_identifier(span: Span, id: u8, first: Span, free: Option<u8>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("identifier {id} is taken"))
-        .here("the same again")
+        .here("taken again here")
         .label(first, format!("{id} is used here"));
     match free {
         Some(free) => diagnostic

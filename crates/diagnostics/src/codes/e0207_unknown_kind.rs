@@ -22,7 +22,7 @@ pub const CODE: Code = Code(&INFO);
 /// `known` are all kinds; `meant` the nearest.
 #[must_use]
 pub fn unknown_kind(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {
-    let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is no kind of device"))
+    let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a kind of device"))
         .help(format!("use one of {known}"));
     match meant {
         Some(meant) => diagnostic

@@ -24,6 +24,6 @@ pub const CODE: Code = Code(&INFO);
 /// The address as written and why it cannot be.
 #[must_use]
 pub fn bad_address(span: Span, address: &str, why: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{address} is no I2C address: {why}"))
+    Diagnostic::new(CODE, span, format!("{address} is not an I2C address: {why}"))
         .help("write the 7-bit address (0x08 to 0x7F) or the even 8-bit write address (0x80 to 0xFE)")
 }

@@ -9,8 +9,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0220",
     severity: Severity::Error,
     title: "the device cannot give a value of this type",
-    explanation: r#"What a device measures or takes decides which value types make sense: a single reading is no array
-unless the protocol reads several elements, and an on/off input is no `float64`.
+    explanation: r#"What a device measures or takes decides which value types make sense: a single reading is not an
+array unless the protocol reads several elements, and an on/off input is not a `float64`.
 
 Way out: use a type that the message names.
 "#,

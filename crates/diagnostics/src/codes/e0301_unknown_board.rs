@@ -30,6 +30,6 @@ pub fn unknown_board(span: Span, name: &str, meant: Option<&str>) -> Diagnostic 
             .here(format!("did you mean `{meant}`?"))
             .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`")),
         None => diagnostic
-            .help("`sensedsl boards` and `sensedsl parts --list` list them; a table of your own goes by `on \"table.csv\"` or `--board table.csv`"),
+            .help("`sensedsl boards` and `sensedsl parts --list` list them; name a table of your own with `on \"table.csv\"` or `--board table.csv`"),
     }
 }

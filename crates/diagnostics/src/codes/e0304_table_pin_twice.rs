@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0304",
     severity: Severity::Error,
     title: "a pin has two rows",
-    explanation: r#"Each pin has one row; several usages of one kind stand in one cell, separated by spaces.
+    explanation: r#"Each pin has one row; several usages of one kind go into one cell, separated by spaces.
 
 Way out: merge the rows.
 "#,

@@ -21,6 +21,6 @@ pub const CODE: Code = Code(&INFO);
 /// The row and the cell's text.
 #[must_use]
 pub fn table_pin_name(span: Span, row: usize, found: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("row {row}, column Pin: `{found}` is no pin name"))
+    Diagnostic::new(CODE, span, format!("row {row}, column Pin: `{found}` is not a pin name"))
         .help("write the name of the data sheet, such as PA1 or GP4")
 }

@@ -24,7 +24,7 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn table_signal(span: Span, row: usize, column: &str, found: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic =
-        Diagnostic::new(CODE, span, format!("row {row}, column {column}: `{found}` is no signal"));
+        Diagnostic::new(CODE, span, format!("row {row}, column {column}: `{found}` is not a signal"));
     match meant {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))

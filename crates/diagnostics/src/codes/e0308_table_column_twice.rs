@@ -1,4 +1,4 @@
-//! E0308: a column stands twice in the head.
+//! E0308: the head names a column twice.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,8 +8,8 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0308",
     severity: Severity::Error,
-    title: "a column stands twice in the head",
-    explanation: r#"Two columns of one name: which is meant cannot be told.
+    title: "the head names a column twice",
+    explanation: r#"With two columns of the same name, there is no telling which one is meant.
 
 Way out: rename or merge one of them.
 "#,
@@ -21,7 +21,7 @@ pub const CODE: Code = Code(&INFO);
 /// The column's name and its earlier place.
 #[must_use]
 pub fn table_column_twice(span: Span, column: &str, first: Span) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("the column `{column}` stands twice"))
+    Diagnostic::new(CODE, span, format!("there are two columns `{column}`"))
         .here("again here")
         .label(first, "first here")
         .help("rename or merge one of the two")

@@ -1,4 +1,4 @@
-//! E0309: a usage stands twice in one row.
+//! E0309: a row lists a usage twice.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,7 +8,7 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0309",
     severity: Severity::Error,
-    title: "a usage stands twice in one row",
+    title: "a row lists a usage twice",
     explanation: r#"A usage that is listed twice would count twice in the pin's opportunity cost.
 
 Way out: remove one of the two.
@@ -21,7 +21,7 @@ pub const CODE: Code = Code(&INFO);
 /// The usage and its earlier place.
 #[must_use]
 pub fn table_usage_twice(span: Span, row: usize, usage: &str, first: Span) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("row {row}: `{usage}` stands twice"))
+    Diagnostic::new(CODE, span, format!("row {row} lists `{usage}` twice"))
         .here("again here")
         .label(first, "first here")
         .help("remove one of the two")

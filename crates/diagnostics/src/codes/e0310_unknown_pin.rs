@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0310",
     severity: Severity::Error,
     title: "the board has no such pin",
-    explanation: r#"The pin is not in the board's table, so nothing is known of it.
+    explanation: r#"The pin is not in the board's table, so nothing is known about it.
 
 Way out: correct the name, or add a row to the table.
 "#,

@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0311",
     severity: Severity::Error,
     title: "the board has no such peripheral",
-    explanation: r#"`unit` names a peripheral instance such as ADC1, I2C2 or TIM3 that stands in the board's table and that
+    explanation: r#"`unit` names a peripheral instance such as ADC1, I2C2 or TIM3 that the board's table has and that
 this kind of device can use.
 
 Way out: use one of the units that the message lists.

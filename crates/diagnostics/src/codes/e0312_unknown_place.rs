@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0312",
     severity: Severity::Error,
     title: "the board has no such side or header",
-    explanation: r#"`side` and `header` are names out of the columns Side and Header of the board's table.
+    explanation: r#"`side` and `header` are names from the columns Side and Header of the board's table.
 
 Way out: use one of the names that the message lists, or add the column to the table.
 "#,

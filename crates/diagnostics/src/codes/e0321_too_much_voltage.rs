@@ -9,10 +9,10 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0321",
     severity: Severity::Error,
     title: "too much voltage for the pins",
-    explanation: r#"The device puts a voltage (`level`, its own or its driver's) on its wire that no pin it could have stands. An analog
-input measures up to the MCU's supply alone; a digital input stands what its data sheet says (on STM32: FT pins 5 V).
+    explanation: r#"The device puts a voltage (`level`, its own or its driver's) on its wire that none of the pins it could have tolerates. An
+analog input measures only up to the MCU's supply; a digital input tolerates what its data sheet says (on STM32: FT pins 5 V).
 
-Way out: two resistors, which the file then knows of (`divider = [5.6 kOhm, 10 kOhm];`: from the device to the pin, and from
+Way out: two resistors, which the file must then state (`divider = [5.6 kOhm, 10 kOhm];`: from the device to the pin, and from
 there to ground); a level shifter, where wires are driven from both ends; or other pins.
 "#,
 };
@@ -20,7 +20,7 @@ there to ground); a level shifter, where wires are driven from both ends; or oth
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The device and where it is, its level and where that is stated, what the pins stand, and what helps.
+/// The device and where it is, its level and where that is stated, what the pins tolerate, and what helps.
 #[must_use]
 pub fn too_much_voltage(
     (span, device): (Span, &str),
@@ -28,7 +28,7 @@ pub fn too_much_voltage(
     most: &str,
     help: &str,
 ) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{device} puts {level} on its wire, but its pins stand {most}"))
+    Diagnostic::new(CODE, span, format!("{device} puts {level} on its wire, but its pins tolerate {most}"))
         .label(stated, "stated here")
         .help(help)
 }

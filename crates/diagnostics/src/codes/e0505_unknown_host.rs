@@ -22,5 +22,5 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn unknown_host(span: Span, name: &str, known: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no host application `{name}`"))
-        .help(format!("use some of {known}"))
+        .help(format!("choose from {known}"))
 }

@@ -10,7 +10,7 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "the file to write exists",
     explanation: r#"`import -o`, `new` and `solve --proof` do not replace what is there, so that nothing of yours is lost.
-A file that is empty, or that already holds what would be written, is in nobody's way, and `--proof`
+A file that is empty, or that already holds what would be written, may be replaced, and `--proof`
 replaces an earlier certificate. `import -o NAME.sense` of a project also writes `NAME.csv` beside it.
 When one of several files is in the way, none is written. `new` wants an empty folder.
 

@@ -26,12 +26,12 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn not_written(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{folder}` could not be written: {why}"))
-        .help("it is as it was before; put right what the message says and run `generate` again")
+        .help("it is as it was before; fix what the message says and run `generate` again")
 }
 
 /// The new files are there, or will be when the next run has completed what is left.
 #[must_use]
 pub fn not_completed(span: Span, folder: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("writing `{folder}` could not be completed: {why}"))
-        .help("put right what the message says; the next `generate` completes what is left")
+        .help("fix what the message says; the next `generate` completes what is left")
 }

@@ -25,7 +25,7 @@ pub const CODE: Code = Code(&INFO);
 /// Which folder.
 #[must_use]
 pub fn unfinished(span: Span, folder: &str, left: &str) -> Diagnostic {
-    let message = format!("`{left}` is left of an earlier run and does not belong to `{folder}`");
+    let message = format!("`{left}` is left over from an earlier run and does not belong to `{folder}`");
     Diagnostic::new(CODE, span, message)
-        .help("move what is yours out of it, remove it, and run `generate` again")
+        .help("move your files out of it, remove it, and run `generate` again")
 }

@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0622",
     severity: Severity::Error,
     title: "the link cannot carry the reports",
-    explanation: r#"The values that are read each cycle come to more bytes in a second than the link carries. Values would be older with each
+    explanation: r#"The values that are read each cycle come to more bytes in a second than the link carries. Values would get older with each
 report, and most would never be sent. What measures by itself (a counter, an encoder) is not counted here: it is sent as often as there is room.
 
 Way out: longer cycle times, a faster link, or a `rate`: then at most so many reports go out in a second, each with the latest values.

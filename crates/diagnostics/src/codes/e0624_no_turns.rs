@@ -22,6 +22,6 @@ pub const CODE: Code = Code(&INFO);
 /// Which device finds no turn, and how long all of them take one after the other.
 #[must_use]
 pub fn no_turns(span: Span, device: &str, group: &str, count: usize, all_ms: u32) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{device} finds no turn in group {group}: {count} devices measure {all_ms} ms in all"))
+    Diagnostic::new(CODE, span, format!("{device} gets no turn in group {group}: its {count} devices take {all_ms} ms together"))
         .help(format!("write `delay = {all_ms} ms;` or more for all {count}, or `group = none;`"))
 }

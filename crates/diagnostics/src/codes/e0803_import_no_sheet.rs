@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0803",
     severity: Severity::Error,
     title: "the workbook has no such sheet",
-    explanation: r#"`--sheet` names a sheet that is not in the workbook, or the source is no workbook.
+    explanation: r#"`--sheet` names a sheet that is not in the workbook, or the source is not a workbook.
 
 Way out: give one of the names in the message, or leave `--sheet` out.
 "#,

@@ -8,9 +8,9 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "H0702",
     severity: Severity::Hint,
-    title: "only the pins are looked at",
+    title: "only the pins are checked",
     explanation: r#"Nothing says which MCU the table describes, or there is no target profile for its family. So only the pins
-are looked at: timers, DMA streams, interrupt lines and drivers are not, there is no link, and no firmware can be generated.
+are checked: timers, DMA streams, interrupt lines and drivers are not, there is no link, and no firmware can be generated.
 
 Way out: begin the table with a line such as `# mcu = STM32F407VGT6`, or take a board of a family with a profile
 (`sensedsl boards` tells which have firmware). `--target none` says that the pins are all that matters.
@@ -23,7 +23,7 @@ pub const CODE: Code = Code(&INFO);
 /// Why there is no target.
 #[must_use]
 pub fn target_none(span: Span, table: &str, why: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("only the pins of {table} are looked at: {why}"))
+    Diagnostic::new(CODE, span, format!("only the pins of {table} are checked: {why}"))
         .help("begin the table with a line such as `# mcu = STM32F407VGT6`")
 }
 
@@ -31,7 +31,7 @@ pub fn target_none(span: Span, table: &str, why: &str) -> Diagnostic {
 #[must_use]
 pub fn no_profile(span: Span, table: &str, mcu: &str, covered: &str) -> Diagnostic {
     let message =
-        format!("only the pins of {table} are looked at: there is no target profile for {mcu}");
+        format!("only the pins of {table} are checked: there is no target profile for {mcu}");
     Diagnostic::new(CODE, span, message).help(format!(
         "there are profiles for {covered}; `--target none` says that the pins are all that matters"
     ))

@@ -23,6 +23,6 @@ pub const CODE: Code = Code(&INFO);
 /// The device's name.
 #[must_use]
 pub fn default_protocol(span: Span, device: &str, driver: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{device} has no protocol: by its address it is read as `{driver}`"))
+    Diagnostic::new(CODE, span, format!("{device} has no protocol; its address says that it is a `{driver}`"))
         .help(format!("write `driver = {driver};` to say so, or give `register` and `length`"))
 }

@@ -1,4 +1,4 @@
-//! H0704: the name of a pin is printed at another.
+//! H0704: the name of a pin is printed beside another.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,9 +8,8 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "H0704",
     severity: Severity::Hint,
-    title: "the name of a pin is printed at another",
-    explanation: r#"The MCU has a pin of that name, and the board has the same name printed beside another pin. The MCU's name is what is
-meant.
+    title: "the name of a pin is printed beside another",
+    explanation: r#"The MCU has a pin of that name, and the board has the same name printed beside another pin. The MCU's name counts.
 
 Way out: if the other pin is meant, write its name in the MCU.
 "#,
@@ -22,6 +21,6 @@ pub const CODE: Code = Code(&INFO);
 /// `other` is the pin that the name is printed at.
 #[must_use]
 pub fn printed_elsewhere(span: Span, pin: &str, board: &str, other: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{pin} is the MCU's pin; {board} has {pin} printed at {other}"))
+    Diagnostic::new(CODE, span, format!("{pin} is taken for the MCU's pin; {board} has {pin} printed beside {other}"))
         .help(format!("write {other} if that pin is meant"))
 }

@@ -34,7 +34,7 @@ pub fn slower_than_asked(
         format!("{device} needs {needs_ms} ms for a measurement and is asked every {delay_ms} ms"),
     )
     .here("asked here")
-    .help(format!("write `delay = {needs_ms};` or more: new values come no faster than that"));
+    .help(format!("write `delay = {needs_ms};` or more: there are no new values sooner"));
     match source {
         Some(source) => diagnostic.label(source, format!("waits {needs_ms} ms")),
         None => diagnostic,

@@ -1,4 +1,4 @@
-//! W0610: whether a pin stands a voltage is not known.
+//! W0610: it is not known whether a pin tolerates a voltage.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,10 +8,10 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "W0610",
     severity: Severity::Warning,
-    title: "whether a pin stands a voltage is not known",
-    explanation: r#"The device puts more than the MCU's supply on its wire, and nothing is known of what the pin stands.
+    title: "it is not known whether a pin tolerates a voltage",
+    explanation: r#"The device puts more than the MCU's supply on its wire, and the tool does not know what the pin tolerates.
 
-Way out: look the pin up in the MCU's data sheet (FT: it stands 5 V; TT, TTa, TC: it does not). Then write what you found
+Way out: look the pin up in the MCU's data sheet (FT: it tolerates 5 V; TT, TTa, TC: it does not). Then write what you found
 into the column `Voltage` of the board's table, put a `divider` in between, or say that you know: `allow W0610 "reason";`.
 "#,
 };
@@ -22,7 +22,7 @@ pub const CODE: Code = Code(&INFO);
 /// The device, its level and the pin.
 #[must_use]
 pub fn level_not_known(span: Span, device: &str, level: &str, pin: &str) -> Diagnostic {
-    let text = format!("{device} puts {level} on {pin}, and whether that pin stands it is not known");
+    let text = format!("{device} puts {level} on {pin}, and the tool does not know whether that pin tolerates it");
     Diagnostic::new(CODE, span, text)
-        .help("look it up in the MCU's data sheet (FT stands 5 V), or put a `divider` in between")
+        .help("look it up in the MCU's data sheet (FT tolerates 5 V), or put a `divider` in between")
 }

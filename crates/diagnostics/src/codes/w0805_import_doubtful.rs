@@ -10,7 +10,7 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Warning,
     title: "something of the source may mean something else",
     explanation: r#"A cell was read, but it may not mean what it seems to: the value of a formula as it was last computed, a
-merged cell, a number where a name is usual, bytes that are no UTF-8.
+merged cell, a number where a name is usual, bytes that are not UTF-8.
 
 Way out: compare the place with the result.
 "#,

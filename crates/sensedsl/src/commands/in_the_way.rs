@@ -36,7 +36,7 @@ pub(crate) fn say_not_empty(folder: &Path, file: &Path, terminal: &Terminal) -> 
 
 fn show(path: &Path, terminal: &Terminal, why: impl FnOnce(Span) -> Diagnostic) -> Result<()> {
     let mut sources = SourceMap::default();
-    // The place is the file itself; what is in it is nobody's business here.
+    // The place is the file itself; its content does not matter here.
     let at = Span::new(sources.add(shown(path), ""), 0..0);
     Ok(terminal.diagnostics(&[why(at)], &sources)?)
 }

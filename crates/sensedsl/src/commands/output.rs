@@ -20,7 +20,7 @@ pub(crate) struct Changes {
     pub(crate) different: Vec<String>,
     /// Generated files that are no longer made.
     pub(crate) stale: Vec<String>,
-    /// Files that nobody generated.
+    /// Files that were not generated.
     pub(crate) foreign: Vec<String>,
     /// Parts of files that earlier versions left behind when they were stopped.
     parts: Vec<String>,

@@ -135,7 +135,7 @@ impl Staged {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
-                    // Without locks leftovers stay, as nobody can tell them from files in use.
+                    // Without locks leftovers stay, as they cannot be told from files in use.
                     let _ = file.try_lock();
                     return Ok(Self { file, part, place, is_published: false });
                 }

@@ -245,7 +245,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A word that is no keyword and has no `=` after it.
+    /// A word that is not a keyword and has no `=` after it.
     fn unknown_item(&mut self) {
         let (word, block) = (self.nth_text(0), self.block);
         let allowed = KEYWORDS.into_iter().filter(|entry| allows(block, entry.1.item()));

@@ -2,7 +2,7 @@
 //!
 //! A complete new tree is written beside the old one. Where a folder of the user's is, it has a
 //! symbolic link, so that there is only one such folder at any time. When all is on the disk the
-//! names of the two trees are exchanged, and everybody sees the new one. The old tree, which now
+//! names of the two trees are exchanged, and every reader sees the new one. The old tree, which now
 //! stands beside, is changed into the new one as well, and the names are exchanged once more: so
 //! the folder remains what it was for a shell that works in it, and the user's folders have never
 //! been moved, copied or opened. Whatever moment a run is stopped at, the next one finds in these
