@@ -11,7 +11,8 @@ use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
 use sensedsl_report::{csv, human, json, markdown, svg};
-use sensedsl_wiring::assignment::Assignment;
+use sensedsl_session::{self as session, Goal, On, Workspace};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use sensedsl_wiring::{Cancel, Keep, Search, Solved, Wiring};
 
 use crate::design::{self, Input};
@@ -73,6 +74,7 @@ fn pipeline(input: &Input, ask: Ask) {
     let resolved = resolved(input, &input.text);
     let Some(design) = &resolved.design else {
         said(resolved.diagnostics, &resolved.sources);
+        in_part(input);
         laid_out(input, None);
         return;
     };
@@ -114,6 +116,28 @@ fn pipeline(input: &Input, ask: Ask) {
     if ask.again && !ask.any {
         laid_out(input, files.as_ref());
     }
+}
+
+/// What is sound of a design with mistakes is wired, and the mistakes are said all the same.
+fn in_part(input: &Input) {
+    let mut workspace = Workspace::default();
+    workspace.open("robot.sense", input.text.as_str());
+    let on = On { board: input.board, target: input.target };
+    let snapshot = workspace.snapshot("robot.sense", on, input);
+    let steps = AtomicU32::new(0);
+    let stop = || stop_after(&steps, STEPS_MAX);
+    let cancel = Cancel::when(&stop);
+    let answer =
+        snapshot.solve(&session::Ask { goal: Goal::Any, partly: true, cancel, keep: None });
+    assert!(has_errors(&answer.diagnostics), "a mistake is gone");
+    if let Some((design, wiring)) = answer.wired() {
+        let count = |boards: &[BoardAssignment]| -> usize {
+            boards.iter().map(|board| board.devices.len()).sum()
+        };
+        assert_eq!(count(&wiring.boards), design.devices.len());
+        reports(design, wiring);
+    }
+    said(answer.diagnostics, snapshot.sources());
 }
 
 fn resolved(input: &Input, text: &str) -> Resolved {
