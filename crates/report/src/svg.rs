@@ -152,6 +152,9 @@ fn pin_picture(out: &mut String, y: usize, on_left: bool, pin: &Pin, uses: &[&Ro
          stroke=\"{stroke}\"/>",
         middle - 6
     );
+    if let Some(kind) = kind {
+        letter(out, (edge, middle + 3), kind);
+    }
     let (name_x, name_anchor) = if on_left { (edge + 15, "start") } else { (edge - 15, "end") };
     let weight = if uses.is_empty() { "normal" } else { "bold" };
     let ink = if uses.is_empty() { "#8492A0" } else { "#1B2733" };
@@ -221,8 +224,30 @@ fn legend(out: &mut String, top: usize, kinds: &[&str]) {
             x + 24,
             top + 14
         );
+        letter(out, (x + 9, top + 13), kind);
         x += 92;
     }
+}
+
+/// The sign of a kind in its colour, for those who cannot tell the colours, and for prints.
+fn letter(out: &mut String, (x, y): (usize, usize), kind: &str) {
+    let Some(spec) = KindName::from_name(kind).map(KindName::spec) else { return };
+    let ink = if is_dark(spec.colour) { "#FFFFFF" } else { "#1B2733" };
+    let _ = writeln!(
+        out,
+        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"9\" fill=\"{ink}\">{}</text>",
+        spec.letter
+    );
+}
+
+/// Whether white can be read on a colour better than black, by its luma (ITU-R BT.601).
+fn is_dark(colour: &str) -> bool {
+    const HALF: u32 = 140_000;
+    let part = |at: usize| {
+        let digits = colour.get(at..at + 2).unwrap_or_default();
+        u32::from_str_radix(digits, 16).unwrap_or_default()
+    };
+    299 * part(1) + 587 * part(3) + 114 * part(5) < HALF
 }
 
 fn colour(kind: &str) -> &'static str {
