@@ -45,6 +45,9 @@ pub(crate) struct Fields<'a> {
     owner: String,
     owner_span: Span,
     diagnostics: &'a mut Vec<Diagnostic>,
+    /// The names that were asked for, written or not.
+    #[cfg(test)]
+    pub(crate) asked: std::collections::BTreeSet<String>,
 }
 
 impl<'a> Fields<'a> {
@@ -57,7 +60,15 @@ impl<'a> Fields<'a> {
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
         let (owner, names) = (owner.to_owned(), BTreeMap::new());
-        let mut fields = Self { fields: Vec::new(), names, owner, owner_span, diagnostics };
+        let mut fields = Self {
+            fields: Vec::new(),
+            names,
+            owner,
+            owner_span,
+            diagnostics,
+            #[cfg(test)]
+            asked: std::collections::BTreeSet::new(),
+        };
         fields.add(own, file, false);
         fields
     }
@@ -135,6 +146,8 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn take(&mut self, name: &str) -> Option<Field> {
+        #[cfg(test)]
+        self.asked.insert(name.to_owned());
         let field = self.fields.get_mut(*self.names.get(name)?)?;
         field.taken = true;
         Some(field.clone())
@@ -201,6 +214,8 @@ impl<'a> Fields<'a> {
 
     /// Reports that a required property is missing.
     pub(crate) fn missing(&mut self, name: &str, example: &str) {
+        #[cfg(test)]
+        self.asked.insert(name.to_owned());
         self.diagnostics.push(e0206_missing_property::missing_property(
             self.owner_span,
             name,

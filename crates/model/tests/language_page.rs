@@ -7,14 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use sensedsl_diagnostics::{Diagnostic, Severity};
-use sensedsl_model::kind::{KindName, KindSpec};
+use sensedsl_model::kind::{KindName, KindSpec, Role};
 use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
 use sensedsl_syntax::parse;
 use sensedsl_wire::Direction;
-
-/// Properties that fix a wire; the page describes them once for all kinds.
-const WIRES: &[&str] =
-    &["pin", "scl", "sda", "tx", "rx", "sck", "miso", "mosi", "cs", "a", "b", "trigger"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -64,11 +60,21 @@ fn the_table_of_kinds_is_that_of_the_registry() {
 }
 
 #[test]
+fn every_wire_is_named() {
+    let page = page();
+    let start = page.find("is least in natural order").unwrap();
+    let order = page.get(..start).unwrap().rsplit("\n\n").next().unwrap();
+    for role in Role::ALL {
+        assert!(order.contains(&format!("`{role}`")), "the tie-break on the page lacks {role}");
+    }
+}
+
+#[test]
 fn kinds_can_be_told_apart() {
     let specs = KindName::ALL.map(KindName::spec);
     let distinct = |of: fn(&KindSpec) -> String| {
         let all: BTreeSet<String> = specs.iter().map(|spec| of(spec)).collect();
-        assert_eq!(all.len(), specs.len(), "{all:?}");
+        assert_eq!(all.len(), specs.len(), "two kinds have one of these: {all:?}");
     };
     distinct(|spec| spec.name.to_owned());
     distinct(|spec| spec.colour.to_owned());
@@ -82,8 +88,10 @@ fn every_kind_is_described_with_its_properties() {
     assert_eq!(first_column(&page, "Kinds"), kinds);
     for kind in KindName::ALL {
         let described = first_column(&page, kind.name());
-        // `trigger` is a wire of an icu and a property of its own of an i2c device.
-        let is_wire = |name: &&&str| WIRES.contains(name) && !described.contains(**name);
+        // The page describes the properties that fix a wire once for all kinds. `trigger` is a wire of an
+        // icu and a property of its own of an i2c device.
+        let wires = Role::ALL.map(Role::property);
+        let is_wire = |name: &&&str| wires.contains(name) && !described.contains(**name);
         let own = kind.spec().properties.iter().filter(|name| !is_wire(name));
         let own: BTreeSet<String> = own.map(|name| (*name).to_owned()).collect();
         assert_eq!(described, own, "section {}", kind.name());

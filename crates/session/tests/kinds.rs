@@ -4,14 +4,66 @@
 
 use sensedsl_model::kind::KindName;
 use sensedsl_model::{Files, Unread, Wanted};
-use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_session::{Ask, Goal, On, Snapshot, Workspace};
 use sensedsl_wire::Direction;
+use sensedsl_wiring::{Cancel, capacity};
 
 struct NoFiles;
 
 impl Files for NoFiles {
     fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
         Err(Unread::Missing)
+    }
+}
+
+/// Most devices that are tried at once.
+const MANY: u32 = 20;
+
+/// A small part with something for every kind, with an analog sensor and so many devices of a kind.
+fn several(kind: KindName, count: u32) -> String {
+    let head = match kind.spec().directions {
+        [Direction::Actuator, ..] => "actuator D{} accepts",
+        _ => "sensor D{} returns",
+    };
+    let devices = (1..=count).map(|id| {
+        // What must differ from one device to the next on one bus.
+        let example = kind.spec().example.replace("0x40", &format!("{}", 0x10 + id));
+        let head = head.replace("{}", &id.to_string());
+        format!("{head} uint16 {{ id = {id}; type = {kind}; {example} }}\n")
+    });
+    let devices: String = devices.collect();
+    let first = "sensor First returns uint16 { id = 254; type = analog; }";
+    format!("board B on STM32F303K8T6 {{\n{first}\n{devices}}}")
+}
+
+fn snapshot(text: &str) -> Snapshot {
+    let mut workspace = Workspace::default();
+    workspace.open("kind.sense", text);
+    let on = On { board: None, target: Some("none") };
+    workspace.snapshot("kind.sense", on, &NoFiles)
+}
+
+fn is_wired(text: &str) -> bool {
+    let snapshot = snapshot(text);
+    let answer = snapshot.solve(&Ask { goal: Goal::Any, ..Ask::default() });
+    answer.wired().is_some()
+}
+
+/// What a kind says of sharing its wires is true: as many devices fit as `capacity` promises.
+#[test]
+fn as_many_devices_fit_as_are_promised() {
+    let snapshot = snapshot(&several(KindName::Analog, 0));
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = answer.wired().unwrap();
+    let found = capacity(design, wiring, true, Cancel::NEVER).all;
+    assert_eq!(found.len(), KindName::ALL.len());
+    for one in found {
+        let (kind, more) = (one.kind, u32::try_from(one.more).unwrap());
+        assert!(more > 0, "{kind}: take a part that has it");
+        assert!(is_wired(&several(kind, more.min(MANY))), "{kind}: {more} are promised");
+        if more < MANY {
+            assert!(!is_wired(&several(kind, more + 1)), "{kind}: only {more} are promised");
+        }
     }
 }
 

@@ -153,3 +153,60 @@ impl fmt::Display for KindName {
         f.write_str(self.name())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use sensedsl_diagnostics::{SourceMap, Span};
+    use sensedsl_wire::ScalarType;
+
+    use super::*;
+
+    /// The properties that a kind's `read` asks for.
+    fn asked(kind: KindName) -> BTreeSet<String> {
+        let mut sources = SourceMap::default();
+        let file = sources.add("x.sense", "");
+        let mut all = BTreeSet::new();
+        for direction in kind.spec().directions {
+            let (mut said, at) = (Vec::new(), Span::new(file, 0..0));
+            let mut fields = Fields::new(std::iter::empty(), file, "a device", at, &mut said);
+            kind.read(&mut fields, *direction, ValueType::scalar(ScalarType::Uint16));
+            all.append(&mut fields.asked);
+        }
+        all
+    }
+
+    #[test]
+    fn the_properties_of_a_kind_are_those_that_it_reads() {
+        for kind in KindName::ALL {
+            let own = kind.spec().properties.iter().map(|name| (*name).to_owned());
+            let (listed, asked): (BTreeSet<String>, _) = (own.collect(), asked(kind));
+            let unlisted: Vec<_> = asked.difference(&listed).collect();
+            assert!(unlisted.is_empty(), "{kind}: {unlisted:?} are read and not in its SPEC");
+            let wires = Role::ALL.map(|role| role.property().to_owned());
+            let unread = listed.difference(&asked).filter(|name| !wires.contains(name));
+            let unread: Vec<_> = unread.collect();
+            assert!(unread.is_empty(), "{kind}: {unread:?} are in its SPEC and not read");
+        }
+    }
+
+    #[test]
+    fn the_wires_of_a_kind_are_in_order_and_can_be_fixed() {
+        let names: BTreeSet<&str> = Role::ALL.into_iter().map(Role::name).collect();
+        assert_eq!(names.len(), Role::ALL.len(), "two wires have one name");
+        for kind in KindName::ALL {
+            for direction in kind.spec().directions {
+                let roles = Kind::plain(kind, 0x40).roles(*direction);
+                assert!(
+                    roles.is_sorted(),
+                    "{kind}: {roles:?} are not in the order of the tie-break"
+                );
+                for role in roles {
+                    let property = role.property();
+                    assert!(kind.spec().properties.contains(&property), "{kind}: `{property}`");
+                }
+            }
+        }
+    }
+}
