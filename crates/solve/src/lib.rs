@@ -5,42 +5,20 @@
 //! an answer without any code of the search. No answer leaves the crate unchecked.
 
 pub mod answer;
-mod boards;
-mod branch;
+mod bounds;
 mod cancel;
 mod check;
-mod conflict;
-mod count;
-mod dma;
-mod dual;
-mod enumerate;
-mod flow;
-mod frontier;
-mod guide;
-mod lore;
-mod lp;
+mod domains;
+mod index;
 mod model;
-mod order;
 pub mod problem;
-mod program;
-mod proper;
-mod read;
-mod relax;
-mod rows;
+mod questions;
 mod search;
-mod sharing;
-mod solve;
-mod state;
-mod swap;
-mod terms;
-mod view;
-mod wires;
 
 pub use answer::{Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome};
 pub use cancel::Cancel;
 pub use check::{Violation, check};
-pub use count::count;
-pub use enumerate::{Answers, enumerate};
-
 pub use problem::Problem;
-pub use solve::{Options, alike, feasible, solve};
+pub use questions::count::count;
+pub use questions::enumerate::{Answers, enumerate};
+pub use questions::solve::{Options, alike, feasible, solve};

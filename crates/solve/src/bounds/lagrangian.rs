@@ -2,50 +2,55 @@
 //!
 //! Every thing that can be held once gets a price instead of a limit; then each group of alike
 //! devices, and each shared unit, chooses for itself what is cheapest, and the sum less the prices
-//! is a lower bound whatever the prices are; the linear program ([`crate::relax`]) finds the best.
+//! is a lower bound whatever the prices are; the linear program ([`crate::bounds::relaxation`]) finds the best.
 //! Unlike the flow, this bound sees that a device's wires come from one alternative, that a shared unit is
 //! opened as a whole and that groups exclude each other. What would cost too much at the prices
 //! found is struck from the domains. All arithmetic is in integers, so the bound is exact.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
+use crate::bounds::dualized::Dualized;
+use crate::bounds::node_costs::{Group, NodeCosts, Way};
+use crate::domains::{Charge, Dead, Domains};
 use crate::model::{Kind, Model, NONE};
-use crate::state::{Dead, State, Toll};
-use crate::terms::Terms;
-use crate::view::{Group, View, Way};
 
 /// More than any sum of costs ([`crate::answer::Fault::TooLarge`] sees to that).
 const FAR: i64 = 1 << 54;
 
 /// Prices, and the domains as last assessed.
 #[derive(Clone, Debug)]
-pub(crate) struct Dual {
+pub(crate) struct Lagrangian {
     prices: Vec<i64>,
     /// The bound as last assessed, without what is paid.
     value: i64,
-    view: View,
+    view: NodeCosts,
     opening_of: Vec<usize>,
 }
 
-impl Dual {
-    pub(crate) fn new(terms: &Terms) -> Self {
+impl Lagrangian {
+    pub(crate) fn new(terms: &Dualized) -> Self {
         Self {
             prices: vec![0; terms.prices],
             value: 0,
-            view: View::default(),
+            view: NodeCosts::default(),
             opening_of: Vec::new(),
         }
     }
 
     /// The greatest weight, beside what is paid and no penalty, of an answer below the limit.
-    pub(crate) fn most(terms: &Terms, model: &Model, state: &State, limit: u64) -> Option<u64> {
+    pub(crate) fn most(
+        terms: &Dualized,
+        model: &Model,
+        domains: &Domains,
+        limit: u64,
+    ) -> Option<u64> {
         let unit = model.weights.cost;
-        Some((limit - 1).checked_sub(Self::beside(terms, model, state))? / unit * unit)
+        Some((limit - 1).checked_sub(Self::beside(terms, model, domains))? / unit * unit)
     }
 
     /// What is paid, but for the penalties.
-    fn beside(terms: &Terms, model: &Model, state: &State) -> u64 {
-        let paid = terms.penalties.iter().filter(|p| state.rule[p.rule] == Toll::Paid).count();
-        state.paid - paid as u64 * model.weights.rule
+    fn beside(terms: &Dualized, model: &Model, domains: &Domains) -> u64 {
+        let paid = terms.penalties.iter().filter(|p| domains.rule[p.rule] == Charge::Paid).count();
+        domains.paid - paid as u64 * model.weights.rule
     }
 
     /// Takes other prices.
@@ -54,34 +59,34 @@ impl Dual {
     }
 
     /// The bound at the present prices, which counts everything.
-    pub(crate) fn assess(&mut self, terms: &Terms, model: &Model, state: &State) -> u64 {
-        self.build(terms, model, state);
-        self.value = self.evaluate(terms) + self.pay(terms, model, state);
+    pub(crate) fn assess(&mut self, terms: &Dualized, model: &Model, domains: &Domains) -> u64 {
+        self.build(terms, model, domains);
+        self.value = self.evaluate(terms) + self.pay(terms, model, domains);
         // The weight of pins, moves and rules is a multiple of the unit.
         let unit = model.weights.cost;
         let units = self.value.max(0).unsigned_abs().div_ceil(unit << terms.shift);
-        units * unit + Self::beside(terms, model, state)
+        units * unit + Self::beside(terms, model, domains)
     }
 
     /// Strikes what no answer below the limit can use, as last assessed. Returns whether anything was struck.
     pub(crate) fn strike(
         &mut self,
-        terms: &Terms,
+        terms: &Dualized,
         model: &Model,
-        state: &mut State,
+        domains: &mut Domains,
         limit: u64,
     ) -> Result<bool, Dead> {
-        let Some(most) = Self::most(terms, model, state, limit) else { return Ok(false) };
+        let Some(most) = Self::most(terms, model, domains, limit) else { return Ok(false) };
         // An answer of weight limit - 1 must survive.
         let room = ((most as i64) << terms.shift) - self.value;
-        let mark = state.mark();
-        self.strike_groups(model, state, room)?;
-        self.strike_openings(terms, model, state, room)?;
-        self.strike_penalties(terms, model, state, room)?;
-        Ok(state.mark() > mark)
+        let mark = domains.mark();
+        self.strike_groups(model, domains, room)?;
+        self.strike_openings(terms, model, domains, room)?;
+        self.strike_penalties(terms, model, domains, room)?;
+        Ok(domains.mark() > mark)
     }
 
-    fn strike_groups(&self, model: &Model, state: &mut State, room: i64) -> Result<(), Dead> {
+    fn strike_groups(&self, model: &Model, domains: &mut Domains, room: i64) -> Result<(), Dead> {
         for (index, group) in self.view.groups.iter().enumerate() {
             let margin = self.view.margin[index];
             for choice in &self.view.choices[group.choices.0..group.choices.1] {
@@ -95,7 +100,7 @@ impl Dual {
                 if (!group.spread || choice.once) && over > room {
                     for &device in &group.devices {
                         let start = model.alts.range(device).start;
-                        state.kill_alt(model, start + choice.alt - first)?;
+                        domains.kill_alt(model, start + choice.alt - first)?;
                     }
                     continue;
                 }
@@ -114,7 +119,7 @@ impl Dual {
                         if extra > room {
                             for &device in &group.devices {
                                 let twin = twin_cand(model, group.devices[0], device, way.id);
-                                state.kill_cand(model, twin)?;
+                                domains.kill_cand(model, twin)?;
                             }
                         }
                     }
@@ -126,16 +131,16 @@ impl Dual {
 
     fn strike_openings(
         &self,
-        terms: &Terms,
+        terms: &Dualized,
         model: &Model,
-        state: &mut State,
+        domains: &mut Domains,
         room: i64,
     ) -> Result<(), Dead> {
         for opening in &self.view.openings {
             let over = if opening.open { 0 } else { (opening.cost - opening.spares).max(0) };
             if over > room {
                 for &alt in &terms.facilities[opening.facility].alts {
-                    state.kill_alt(model, alt)?;
+                    domains.kill_alt(model, alt)?;
                 }
                 continue;
             }
@@ -151,7 +156,7 @@ impl Dual {
                     for &other in model.wire_cands.at(wire) {
                         let o = model.cand(other);
                         if (o.pin, o.signal, o.holder) == (c.pin, c.signal, c.holder) {
-                            state.kill_cand(model, other)?;
+                            domains.kill_cand(model, other)?;
                         }
                     }
                 }
@@ -163,19 +168,19 @@ impl Dual {
     /// Rules that would cost too much are kept, those that save too much are paid.
     fn strike_penalties(
         &self,
-        terms: &Terms,
+        terms: &Dualized,
         model: &Model,
-        state: &mut State,
+        domains: &mut Domains,
         room: i64,
     ) -> Result<(), Dead> {
         for (penalty, &cost) in terms.penalties.iter().zip(&self.view.penalties) {
-            if state.rule[penalty.rule] != Toll::Open {
+            if domains.rule[penalty.rule] != Charge::Open {
                 continue;
             }
             if cost > room {
-                state.close_rule(model, penalty.rule)?;
+                domains.close_rule(model, penalty.rule)?;
             } else if -cost > room {
-                state.pay_rule(model, penalty.rule)?;
+                domains.pay_rule(model, penalty.rule)?;
             }
         }
         Ok(())
@@ -192,7 +197,7 @@ impl Dual {
     }
 
     /// The bound at the present prices (without what is paid).
-    fn evaluate(&mut self, terms: &Terms) -> i64 {
+    fn evaluate(&mut self, terms: &Dualized) -> i64 {
         for role in 0..self.view.roles.len() {
             let (start, end) = self.view.roles[role];
             let costs = self.view.ways[start..end].iter().map(|way| self.way_cost(way));
@@ -204,7 +209,7 @@ impl Dual {
     }
 
     /// Rules are violated where that pays, and where it is certain.
-    fn pay(&mut self, terms: &Terms, model: &Model, state: &State) -> i64 {
+    fn pay(&mut self, terms: &Dualized, model: &Model, domains: &Domains) -> i64 {
         let weight = (model.weights.rule as i64) << terms.shift;
         self.view.penalties.clear();
         let mut sum = 0;
@@ -212,10 +217,10 @@ impl Dual {
             let linked = penalty.links.iter().map(|&(l, times)| self.prices[l] * times);
             let cost = weight - linked.sum::<i64>();
             self.view.penalties.push(cost);
-            sum += match state.rule[penalty.rule] {
-                Toll::Open => cost.min(0),
-                Toll::Paid => cost,
-                Toll::Closed => 0,
+            sum += match domains.rule[penalty.rule] {
+                Charge::Open => cost.min(0),
+                Charge::Paid => cost,
+                Charge::Closed => 0,
             };
         }
         sum
@@ -278,7 +283,7 @@ impl Dual {
     }
 
     /// Facilities open where that pays, and as many as their families need.
-    fn open(&mut self, terms: &Terms) -> i64 {
+    fn open(&mut self, terms: &Dualized) -> i64 {
         for index in 0..self.view.openings.len() {
             let (facility, roles) =
                 (self.view.openings[index].facility, self.view.openings[index].roles);
@@ -317,7 +322,7 @@ impl Dual {
     }
 
     /// Brings the living domains into the view.
-    fn build(&mut self, terms: &Terms, model: &Model, state: &State) {
+    fn build(&mut self, terms: &Dualized, model: &Model, domains: &Domains) {
         let view = &mut self.view;
         view.groups.clear();
         view.choices.clear();
@@ -333,13 +338,13 @@ impl Dual {
             let devices: Vec<usize> = (device..model.devices)
                 .filter(|&d| {
                     model.class[d] == model.class[device]
-                        && (d == device || state.same_domain(model, device, d))
+                        && (d == device || domains.same_domain(model, device, d))
                 })
                 .collect();
             devices.iter().for_each(|&d| done[d] = true);
             let start = view.choices.len();
-            for alt in state.alts(model, device) {
-                view.add_choice(terms, model, state, alt);
+            for alt in domains.alts(model, device) {
+                view.add_choice(terms, model, domains, alt);
             }
             let single = view.choices[start..].iter().all(|c| c.roles.1 - c.roles.0 == 1);
             let choices = (start, view.choices.len());
@@ -348,9 +353,9 @@ impl Dual {
         self.opening_of.clear();
         self.opening_of.resize(terms.facilities.len(), NONE);
         for (index, facility) in terms.facilities.iter().enumerate() {
-            if facility.alts.iter().any(|&alt| state.alt_on(alt)) {
+            if facility.alts.iter().any(|&alt| domains.alt_on(alt)) {
                 self.opening_of[index] = self.view.openings.len();
-                self.view.add_opening(terms, model, state, index, facility);
+                self.view.add_opening(terms, model, domains, index, facility);
             }
         }
         self.view.cheapest.clear();

@@ -1,9 +1,9 @@
 //! How roles hold their pins: finds shared wires, gates, and rules that only one wire can violate.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::index::Rows;
 use crate::model::{Cand, Kind, Model, NONE, User, code};
 use crate::problem::{Holder, Problem, Role};
-use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Model {

@@ -5,11 +5,11 @@
 //! still leads to an answer within the limit; the answer at hand saves most of the questions.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::domains::Dead;
 use crate::model::Model;
+use crate::questions::solve::Effort;
+use crate::search::canonical::earliest;
 use crate::search::{Choices, Engine};
-use crate::solve::Effort;
-use crate::state::Dead;
-use crate::swap::earliest;
 
 /// Nodes that a question about several values is worth.
 const PATIENCE: u64 = 40;
@@ -61,16 +61,16 @@ impl Engine<'_> {
         let mut values = Vec::new();
         match entry {
             Entry::Alternative(device) => {
-                return self.state.alts(model, device).map(Some).collect();
+                return self.domains.alts(model, device).map(Some).collect();
             }
             Entry::Pin(device, position) | Entry::Signal(device, position) => {
-                for alt in self.state.alts(model, device) {
+                for alt in self.domains.alts(model, device) {
                     let roles = model.roles.range(alt);
                     if position >= roles.len() {
                         values.push(None);
                         continue;
                     }
-                    let cands = self.state.cands(model, roles.start + position);
+                    let cands = self.domains.cands(model, roles.start + position);
                     values.extend(cands.map(|id| entry.of_cand(model, id)));
                 }
             }
@@ -84,11 +84,11 @@ impl Engine<'_> {
     pub(crate) fn settled(&self, entry: Entry) -> bool {
         let model = self.model;
         match entry {
-            Entry::Alternative(device) => self.state.decided(device).is_some(),
+            Entry::Alternative(device) => self.domains.decided(device).is_some(),
             Entry::Pin(device, position) | Entry::Signal(device, position) => {
-                self.state.decided(device).is_some_and(|alt| {
+                self.domains.decided(device).is_some_and(|alt| {
                     let roles = model.roles.range(alt);
-                    position >= roles.len() || self.state.pinned(roles.start + position).is_some()
+                    position >= roles.len() || self.domains.pinned(roles.start + position).is_some()
                 })
             }
         }
@@ -107,7 +107,7 @@ impl Engine<'_> {
             Entry::Alternative(device) => {
                 for alt in model.alts.range(device) {
                     if !keeps(Some(alt)) {
-                        self.state.kill_alt(model, alt)?;
+                        self.domains.kill_alt(model, alt)?;
                     }
                 }
             }
@@ -116,13 +116,13 @@ impl Engine<'_> {
                     let roles = model.roles.range(alt);
                     if position >= roles.len() {
                         if !keeps(None) {
-                            self.state.kill_alt(model, alt)?;
+                            self.domains.kill_alt(model, alt)?;
                         }
                         continue;
                     }
                     for id in model.cands.range(roles.start + position) {
                         if !keeps(entry.of_cand(model, id)) {
-                            self.state.kill_cand(model, id)?;
+                            self.domains.kill_cand(model, id)?;
                         }
                     }
                 }
@@ -130,8 +130,8 @@ impl Engine<'_> {
         }
         let (Entry::Pin(device, _) | Entry::Signal(device, _) | Entry::Alternative(device)) = entry;
         for alt in model.alts.range(device) {
-            if self.state.alt_on(alt) {
-                self.state.touch(model.alt_board[alt]);
+            if self.domains.alt_on(alt) {
+                self.domains.touch(model.alt_board[alt]);
             }
         }
         self.settle()
@@ -153,7 +153,7 @@ impl Engine<'_> {
             let mut values = self.values(entry);
             values.retain(|value| *value >= floor);
             let saved = self.flow.save();
-            let mark = self.state.mark();
+            let mark = self.domains.mark();
             // The least first. Where that is not possible, more at once: mostly nothing is, and to
             // show that takes hardly more of many than of one. Where it does, fewer are asked about.
             let mut number = start;

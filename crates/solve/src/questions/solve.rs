@@ -3,12 +3,12 @@
 use crate::answer::{Answer, Fault, Objective, Optimality, Outcome};
 use crate::cancel::Cancel;
 use crate::check::check;
-use crate::conflict;
-use crate::dma;
+use crate::domains::Dead;
+use crate::domains::streams;
 use crate::model::Model;
 use crate::problem::Problem;
+use crate::questions::conflict;
 use crate::search::{Choices, Engine};
-use crate::state::Dead;
 use std::collections::BTreeSet;
 
 /// What is asked for.
@@ -127,7 +127,7 @@ pub(crate) fn finish(
         .collect();
     let answer = Answer {
         choices: choice,
-        dma: dma::assign(problem, &users).unwrap_or_default(),
+        dma: streams::assign(problem, &users).unwrap_or_default(),
         objective: model.weights.unpack(model.evaluate(choices)),
         optimality,
     };

@@ -101,13 +101,13 @@ impl Engine<'_> {
     pub(crate) fn dma_possible(&self) -> bool {
         let model = self.model;
         let mut users: Vec<usize> = (0..model.devices)
-            .filter_map(|d| self.state.decided(d))
+            .filter_map(|d| self.domains.decided(d))
             .flat_map(|alt| model.alt_dma.at(alt).iter().copied())
             .collect();
         users.sort_unstable();
         users.dedup();
         let mut unions: Vec<Vec<StreamId>> = Vec::new();
-        for device in (0..model.devices).filter(|&d| self.state.decided(d).is_none()) {
+        for device in (0..model.devices).filter(|&d| self.domains.decided(d).is_none()) {
             self.undecided_requests(device, &mut unions);
         }
         let mut matching = Matching::new(self.problem.streams);
@@ -123,10 +123,10 @@ impl Engine<'_> {
             let users = model.alt_dma.at(alt).iter();
             users.filter(|u| model.user_private[**u]).flat_map(|&u| &self.problem.dma[u].requests)
         };
-        let least = self.state.alts(model, device).map(|a| requests(a).count()).min();
+        let least = self.domains.alts(model, device).map(|a| requests(a).count()).min();
         for position in 0..least.unwrap_or(0) {
             let mut union = Vec::new();
-            for alt in self.state.alts(model, device) {
+            for alt in self.domains.alts(model, device) {
                 union.extend(requests(alt).nth(position).into_iter().flat_map(|r| &r.streams));
             }
             unions.push(union);

@@ -8,8 +8,8 @@
 //! that lost their pin.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::domains::{Dead, Domains};
 use crate::model::{Kind, Model, NONE};
-use crate::state::{Dead, State};
 use std::collections::VecDeque;
 
 const FAR: i64 = i64::MAX / 2;
@@ -127,30 +127,30 @@ impl Flow {
     ///
     /// # Errors
     /// [`Dead`] when a wire finds no pin; [`Self::stuck`] then tells whose.
-    pub(crate) fn refresh(&mut self, model: &Model, state: &State) -> Result<(), Dead> {
-        self.find_wanted(model, state);
+    pub(crate) fn refresh(&mut self, model: &Model, domains: &Domains) -> Result<(), Dead> {
+        self.find_wanted(model, domains);
         // Taking one demand out can move another into a gate whose pin is no longer possible.
         let mut changed = true;
         while changed {
             changed = false;
             for demand in 0..self.demands {
                 if self.now.active[demand]
-                    && (!self.wanted[demand] || !self.holds(model, state, demand))
+                    && (!self.wanted[demand] || !self.holds(model, domains, demand))
                 {
-                    self.withdraw(model, state, demand);
+                    self.withdraw(model, domains, demand);
                     changed = model.gates > 0;
                 }
             }
         }
         for demand in 0..self.demands {
             if self.wanted[demand] && !self.now.active[demand] {
-                self.augment(model, state, demand)?;
+                self.augment(model, domains, demand)?;
             }
         }
         Ok(())
     }
 
-    fn find_wanted(&mut self, model: &Model, state: &State) {
+    fn find_wanted(&mut self, model: &Model, domains: &Domains) {
         let devices = model.demand[model.devices];
         self.wanted[..devices].copy_from_slice(&self.always);
         if self.wanted.len() == devices && self.always.iter().all(|a| *a) {
@@ -160,7 +160,7 @@ impl Flow {
         self.wire_role.fill(NONE);
         self.wire_covered.fill(false);
         for device in 0..model.devices {
-            let Some(alt) = state.decided(device) else { continue };
+            let Some(alt) = domains.decided(device) else { continue };
             for (position, role) in model.roles.range(alt).enumerate() {
                 match model.role_kind[role] {
                     Kind::Own => self.wanted[model.demand[device] + position] = true,
@@ -176,15 +176,15 @@ impl Flow {
             }
         }
         for device in 0..model.devices {
-            if state.decided(device).is_none() {
-                self.want_undecided(model, state, device);
+            if domains.decided(device).is_none() {
+                self.want_undecided(model, domains, device);
             }
         }
     }
 
     /// A device that may still choose wants the role positions that are its own in every
     /// alternative, and shared ones as long as nobody it might join has them.
-    fn want_undecided(&mut self, model: &Model, state: &State, device: usize) {
+    fn want_undecided(&mut self, model: &Model, domains: &Domains, device: usize) {
         let demands = model.demand[device]..model.demand[device + 1];
         if demands.clone().all(|d| self.always[d]) {
             return;
@@ -195,19 +195,19 @@ impl Flow {
                 Kind::Own | Kind::Odd => None,
             })
         };
-        let free = state.alts(model, device).flat_map(wires).all(|w| !self.wire_covered[w]);
+        let free = domains.alts(model, device).flat_map(wires).all(|w| !self.wire_covered[w]);
         for (position, demand) in demands.enumerate() {
             let kind = |alt: usize| {
                 let role = model.roles.range(alt).start + position;
                 let exists = position < model.roles.range(alt).len();
                 if exists { model.role_kind[role] } else { Kind::Odd }
             };
-            let mut kinds = state.alts(model, device).map(kind);
+            let mut kinds = domains.alts(model, device).map(kind);
             self.wanted[demand] = kinds.clone().all(|k| k == Kind::Own)
                 || (free && kinds.all(|k| matches!(k, Kind::Wire(_))));
         }
         if free {
-            for wire in state.alts(model, device).flat_map(wires) {
+            for wire in domains.alts(model, device).flat_map(wires) {
                 self.wire_covered[wire] = true;
             }
         }
@@ -225,17 +225,17 @@ impl Flow {
     }
 
     /// Whether the demand may stay where it is.
-    fn holds(&self, model: &Model, state: &State, demand: usize) -> bool {
+    fn holds(&self, model: &Model, domains: &Domains, demand: usize) -> bool {
         let held = self.now.arc[demand];
         let c = model.cand(held);
         let straight = c.gate == NONE || self.now.gate_out[c.gate] == c.pin;
-        if straight && demand < model.demand[model.devices] && state.cand_on(model, held) {
+        if straight && demand < model.demand[model.devices] && domains.cand_on(model, held) {
             return true;
         }
         if c.gate == NONE {
             // The representative of a shared wire changes; any candidate on the pin will do.
             return self.arcs(model, demand).any(|id| {
-                state.cand_on(model, id)
+                domains.cand_on(model, id)
                     && model.cand(id).pin == c.pin
                     && model.cand(id).extra == c.extra
             });
@@ -243,9 +243,9 @@ impl Flow {
         let pin = self.now.gate_out[c.gate];
         let enters = |id: usize| {
             let o = model.cand(id);
-            o.gate == c.gate && o.extra == c.extra && state.cand_on(model, id)
+            o.gate == c.gate && o.extra == c.extra && domains.cand_on(model, id)
         };
-        let leaves = |id: &usize| model.cand(*id).pin == pin && state.cand_on(model, *id);
+        let leaves = |id: &usize| model.cand(*id).pin == pin && domains.cand_on(model, *id);
         self.arcs(model, demand).any(enters) && model.gate_cands.at(c.gate).iter().any(leaves)
     }
 
@@ -282,7 +282,7 @@ impl Flow {
     }
 
     /// Shortest residual paths from what is queued (label correcting; most arcs cost nothing).
-    fn explore(&mut self, model: &Model, state: &State) {
+    fn explore(&mut self, model: &Model, domains: &Domains) {
         while let Some(index) = self.queue.pop_front() {
             self.queued[index] = false;
             let dist = self.dist[index];
@@ -291,7 +291,7 @@ impl Flow {
                     let held = self.now.arc[demand];
                     let held = if held == NONE { NONE } else { self.entry(model, held) };
                     for id in self.arcs(model, demand) {
-                        if !state.cand_on(model, id) {
+                        if !domains.cand_on(model, id) {
                             continue;
                         }
                         let target = self.entry(model, id);
@@ -325,7 +325,7 @@ impl Flow {
                 Node::GateOut(gate) => {
                     for &id in model.gate_cands.at(gate) {
                         let pin = model.cand(id).pin;
-                        if pin != self.now.gate_out[gate] && state.cand_on(model, id) {
+                        if pin != self.now.gate_out[gate] && domains.cand_on(model, id) {
                             self.reach(self.pin(model, pin), dist, index, id);
                         }
                     }
@@ -343,10 +343,10 @@ impl Flow {
         if c.gate == NONE { self.pin(model, c.pin) } else { self.gate_in(c.gate) }
     }
 
-    fn augment(&mut self, model: &Model, state: &State, demand: usize) -> Result<(), Dead> {
+    fn augment(&mut self, model: &Model, domains: &Domains, demand: usize) -> Result<(), Dead> {
         self.dist.fill(FAR);
         self.reach(demand, 0, NONE, NONE);
-        self.explore(model, state);
+        self.explore(model, domains);
         let first = self.pin(model, 0);
         let mut best = (FAR, NONE);
         for pin in 0..model.pins {
@@ -365,14 +365,14 @@ impl Flow {
     }
 
     /// Takes a demand out of the flow, at the greatest gain.
-    fn withdraw(&mut self, model: &Model, state: &State, demand: usize) {
+    fn withdraw(&mut self, model: &Model, domains: &Domains, demand: usize) {
         self.dist.fill(FAR);
         for pin in 0..model.pins {
             if self.now.owner[pin] != NONE {
                 self.reach(self.pin(model, pin), -(model.pin_weight[pin] as i64), NONE, NONE);
             }
         }
-        self.explore(model, state);
+        self.explore(model, domains);
         self.now.active[demand] = false;
         self.now.cost += self.dist[demand];
         self.apply(model, demand);

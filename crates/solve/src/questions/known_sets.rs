@@ -7,7 +7,7 @@
 
 use crate::answer::Fault;
 use crate::problem::Problem;
-use crate::solve::alike;
+use crate::questions::solve::alike;
 use std::collections::BTreeMap;
 
 /// From so many alike things on it is worth asking what one of them tells of all.
@@ -18,7 +18,7 @@ type Counts = Vec<u32>;
 
 /// What has been found out.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Lore {
+pub(crate) struct KnownSets {
     /// Class of each device.
     class: Vec<usize>,
     classes: usize,
@@ -27,14 +27,14 @@ pub(crate) struct Lore {
 }
 
 /// Nothing is known yet but which devices are alike.
-pub(crate) fn alike_devices(problem: &Problem) -> Result<Lore, Fault> {
+pub(crate) fn alike_devices(problem: &Problem) -> Result<KnownSets, Fault> {
     let mut numbers = BTreeMap::new();
     let number = |first: &usize| {
         let next = numbers.len();
         *numbers.entry(*first).or_insert(next)
     };
     let class: Vec<usize> = alike(problem)?.iter().map(number).collect();
-    Ok(Lore { class, classes: numbers.len(), ..Lore::default() })
+    Ok(KnownSets { class, classes: numbers.len(), ..KnownSets::default() })
 }
 
 /// Whether there are at most as many of each class in the one as in the other.
@@ -42,7 +42,7 @@ fn within(one: &Counts, other: &Counts) -> bool {
     one.iter().zip(other).all(|(one, other)| one <= other)
 }
 
-impl Lore {
+impl KnownSets {
     fn counts(&self, devices: &[usize]) -> Counts {
         let mut counts = vec![0; self.classes];
         let classes = devices.iter().filter_map(|&device| self.class.get(device));

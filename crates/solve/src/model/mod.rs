@@ -5,12 +5,15 @@
 //! lexicographic order of the objective.
 #![expect(clippy::indexing_slicing, reason = "all ids are checked once by `validate`")]
 
+mod board_symmetry;
+mod validate;
+mod wires;
+
+use self::board_symmetry::Boards;
 use crate::answer::{Choice, Fault, Objective};
-use crate::boards::Boards;
-use crate::dma;
+use crate::domains::streams;
+use crate::index::Rows;
 use crate::problem::{Claim, Holder, Pin, Problem};
-use crate::proper;
-use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No gate, no candidate, no owner.
@@ -139,13 +142,13 @@ pub(crate) fn agree(one: usize, other: usize) -> bool {
 
 impl Model {
     pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
-        proper::validate(problem)?;
+        validate::validate(problem)?;
         let mut model = Self {
             devices: problem.devices.len(),
             pins: problem.pins.len(),
-            weights: proper::weights(problem)?,
+            weights: validate::weights(problem)?,
             spare: problem.boards.iter().map(|b| b.spare).collect(),
-            dma_matters: !dma::all_fit(problem),
+            dma_matters: !streams::all_fit(problem),
             ..Self::default()
         };
         let Weights { shared, cost, .. } = model.weights;

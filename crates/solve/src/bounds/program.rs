@@ -6,11 +6,11 @@
 //! less sharp. A role with one way left has no columns; its entries go to who needs it.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
-use crate::lp::{Matrix, Simplex};
+use crate::bounds::dualized::Dualized;
+use crate::bounds::lp::{Matrix, Simplex};
+use crate::domains::Domains;
+use crate::index::Rows;
 use crate::model::{Kind, Model, NONE};
-use crate::rows::Rows;
-use crate::state::State;
-use crate::terms::Terms;
 use std::collections::BTreeMap;
 
 /// Costs are moved by at most this part of a unit, so that hardly two columns are alike.
@@ -52,9 +52,9 @@ struct Way {
 }
 
 struct Builder<'a> {
-    terms: &'a Terms,
+    terms: &'a Dualized,
     model: &'a Model,
-    state: &'a State,
+    domains: &'a Domains,
     matrix: Matrix,
     cost: Vec<f64>,
     /// Bounds of rows.
@@ -74,11 +74,11 @@ struct Builder<'a> {
 
 impl Program {
     /// The program of what the domains allow now.
-    pub(crate) fn new(terms: &Terms, model: &Model, state: &State) -> Self {
+    pub(crate) fn new(terms: &Dualized, model: &Model, domains: &Domains) -> Self {
         let mut builder = Builder {
             terms,
             model,
-            state,
+            domains,
             matrix: Matrix::default(),
             cost: Vec::new(),
             bounds: Vec::new(),
@@ -189,7 +189,7 @@ impl Builder<'_> {
         for alt in range.clone() {
             let twins: Vec<usize> =
                 devices.iter().map(|&d| model.alts.range(d).start + alt - range.start).collect();
-            if twins.iter().any(|&twin| self.state.alt_on(twin)) {
+            if twins.iter().any(|&twin| self.domains.alt_on(twin)) {
                 self.alternative(&twins, convexity, lone);
             }
         }
@@ -242,7 +242,7 @@ impl Builder<'_> {
                 model.cands.range(role).start + id - place
             };
             let ids: Vec<usize> = twins.iter().map(twin).collect();
-            if ids.iter().any(|&id| self.state.cand_on(model, id)) {
+            if ids.iter().any(|&id| self.domains.cand_on(model, id)) {
                 ways.push(self.way(ids, terms.cand_prices.at(id)));
             }
         }
@@ -252,7 +252,7 @@ impl Builder<'_> {
     fn facility(&mut self, index: usize) {
         let (model, terms) = (self.model, self.terms);
         let facility = &terms.facilities[index];
-        if !facility.alts.iter().any(|&alt| self.state.alt_on(alt)) {
+        if !facility.alts.iter().any(|&alt| self.domains.alt_on(alt)) {
             return;
         }
         let mut entries: Entries = self.family_rows[index].iter().map(|&row| (row, 1.0)).collect();
@@ -266,7 +266,7 @@ impl Builder<'_> {
                 let c = model.cand(id);
                 places.entry((c.pin, c.signal, c.holder)).or_default().push(id);
             }
-            let living = |ids: &Vec<usize>| ids.iter().any(|&id| self.state.cand_on(model, id));
+            let living = |ids: &Vec<usize>| ids.iter().any(|&id| self.domains.cand_on(model, id));
             let places: Vec<_> = places.into_values().filter(living).collect();
             roles.push(places.into_iter().map(|ids| self.way(ids, &[])).collect());
         }

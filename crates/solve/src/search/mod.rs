@@ -2,31 +2,37 @@
 //!
 //! Each node propagates, bounds by the flow, and tries to read a wiring off the flow. Where that
 //! fails, it bounds by prices, tries the wiring that the linear program comes nearest to
-//! ([`crate::guide`]), and branches ([`crate::branch`]): on what the program leaves open, or on the
+//! ([`crate::search::strong_branching`]), and branches ([`crate::search::branching`]): on what the program leaves open, or on the
 //! choice at fault. The best answer is looked for little above the bound first, then farther up.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::branch::Branch;
+pub(crate) mod branching;
+pub(crate) mod canonical;
+pub(crate) mod read_off;
+pub(crate) mod strong_branching;
+pub(crate) mod tie_break;
+
+use crate::bounds::dualized::Dualized;
+use crate::bounds::flow::{Flow, Saved};
+use crate::bounds::lagrangian::Lagrangian;
+use crate::bounds::relaxation::Relaxation;
 use crate::cancel::Cancel;
-use crate::dual::Dual;
-use crate::flow::{Flow, Saved};
-use crate::guide::History;
+use crate::domains::{Dead, Domains};
 use crate::model::Model;
 use crate::problem::Problem;
-use crate::read::Scratch;
-use crate::relax::Relaxation;
-use crate::solve::Effort;
-use crate::state::{Dead, State};
-use crate::terms::Terms;
+use crate::questions::solve::Effort;
+use crate::search::branching::Branch;
+use crate::search::read_off::Scratch;
+use crate::search::strong_branching::PseudoCosts;
 
 /// Alternative and candidates of each device, by id.
 pub(crate) type Choices = Vec<(usize, Vec<usize>)>;
 
-/// The search and all its state.
+/// The search and all its domains.
 pub(crate) struct Engine<'a> {
     pub(crate) problem: &'a Problem,
     pub(crate) model: &'a Model,
-    pub(crate) state: State,
+    pub(crate) domains: Domains,
     pub(crate) flow: Flow,
     /// Only answers below this are looked for.
     pub(crate) limit: u64,
@@ -55,17 +61,17 @@ pub(crate) struct Engine<'a> {
 
 /// What the price bound needs.
 pub(crate) struct Prices {
-    pub(crate) terms: Terms,
-    dual: Dual,
+    pub(crate) terms: Dualized,
+    dual: Lagrangian,
     pub(crate) relaxation: Relaxation,
-    pub(crate) history: History,
+    pub(crate) history: PseudoCosts,
     /// The bound as last assessed.
     pub(crate) bound: u64,
 }
 
 /// An engine without what it borrows, to be kept between two steps of an iterator.
 pub(crate) struct Parked {
-    state: State,
+    domains: Domains,
     flow: Flow,
     nodes: u64,
     scratch: Scratch,
@@ -93,7 +99,7 @@ impl<'a> Engine<'a> {
         Ok(Self {
             problem,
             model,
-            state: State::new(model)?,
+            domains: Domains::new(model)?,
             flow: Flow::new(model),
             limit: u64::MAX,
             first: false,
@@ -113,8 +119,8 @@ impl<'a> Engine<'a> {
     }
 
     pub(crate) fn park(self) -> Parked {
-        let Self { state, flow, nodes, scratch, prices, .. } = self;
-        Parked { state, flow, nodes, scratch, prices }
+        let Self { domains, flow, nodes, scratch, prices, .. } = self;
+        Parked { domains, flow, nodes, scratch, prices }
     }
 
     pub(crate) fn unpark(
@@ -123,11 +129,11 @@ impl<'a> Engine<'a> {
         parked: Parked,
         cancel: Cancel<'a>,
     ) -> Self {
-        let Parked { state, flow, nodes, scratch, prices } = parked;
+        let Parked { domains, flow, nodes, scratch, prices } = parked;
         Self {
             problem,
             model,
-            state,
+            domains,
             flow,
             limit: u64::MAX,
             first: false,
@@ -151,7 +157,7 @@ impl<'a> Engine<'a> {
         self.limit = limit.min(self.model.most);
         self.first = first;
         self.best = None;
-        let mark = self.state.mark();
+        let mark = self.domains.mark();
         let saved = self.flow.save();
         self.begun = self.nodes;
         if limit == u64::MAX {
@@ -187,7 +193,7 @@ impl<'a> Engine<'a> {
     /// Looks for answers little above the bound first, then farther and farther up: what would be
     /// too dear is struck early, and no search goes on long below a bad answer.
     fn climb(&mut self, bound: u64) {
-        let mark = self.state.mark();
+        let mark = self.domains.mark();
         let saved = self.flow.save();
         let most = self.limit;
         let mut step = self.model.weights.cost;
@@ -216,17 +222,17 @@ impl<'a> Engine<'a> {
     }
 
     pub(crate) fn bound(&self) -> u64 {
-        self.state.paid + self.flow.cost()
+        self.domains.paid + self.flow.cost()
     }
 
     /// Propagates and updates the bound.
     pub(crate) fn settle(&mut self) -> Result<(), Dead> {
-        self.state.propagate(self.model)?;
-        self.flow.refresh(self.model, &self.state)
+        self.domains.propagate(self.model)?;
+        self.flow.refresh(self.model, &self.domains)
     }
 
     pub(crate) fn back(&mut self, mark: usize, saved: &Saved) {
-        self.state.undo(self.model, mark);
+        self.domains.undo(self.model, mark);
         self.flow.restore(saved);
     }
 
@@ -309,7 +315,7 @@ impl<'a> Engine<'a> {
     /// Searches where the branch is taken, then refuses it here (unless the limit has improved,
     /// which makes the root start again, or the first answer was enough).
     fn follow(&mut self, branch: Branch, depth: usize) -> Result<(), Dead> {
-        let mark = self.state.mark();
+        let mark = self.domains.mark();
         let saved = self.flow.save();
         let limit = self.limit;
         if self.take(branch).is_ok() {
@@ -337,27 +343,27 @@ impl<'a> Engine<'a> {
         self.bound_by_prices(LP_STEPS)?;
         let (model, limit) = (self.model, self.limit);
         let Some(prices) = &mut self.prices else { return Ok(false) };
-        prices.dual.strike(&prices.terms, model, &mut self.state, limit)
+        prices.dual.strike(&prices.terms, model, &mut self.domains, limit)
     }
 
     /// The bound by the best prices that so many steps find, as the linear program sees it.
     pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Dead> {
         let (problem, model) = (self.problem, self.model);
         let prices = self.prices.get_or_insert_with(|| {
-            let terms = Terms::new(problem, model);
-            let dual = Dual::new(&terms);
-            let relaxation = Relaxation::new(&terms, model, &self.state);
-            let history = History::default();
+            let terms = Dualized::new(problem, model);
+            let dual = Lagrangian::new(&terms);
+            let relaxation = Relaxation::new(&terms, model, &self.domains);
+            let history = PseudoCosts::default();
             Box::new(Prices { terms, dual, relaxation, history, bound: 0 })
         });
         let Prices { terms, dual, relaxation, bound, .. } = &mut **prices;
-        let unused = |f: &usize| terms.facilities[*f].alts.iter().all(|&a| !self.state.alt_on(a));
-        if self.state.opened.iter().any(unused) {
+        let unused = |f: &usize| terms.facilities[*f].alts.iter().all(|&a| !self.domains.alt_on(a));
+        if self.domains.opened.iter().any(unused) {
             return Err(Dead);
         }
-        let most = Dual::most(terms, model, &self.state, self.limit).ok_or(Dead)?;
-        relaxation.run(terms, model, &self.state, dual, (most, steps, self.cancel));
-        *bound = dual.assess(terms, model, &self.state);
+        let most = Lagrangian::most(terms, model, &self.domains, self.limit).ok_or(Dead)?;
+        relaxation.run(terms, model, &self.domains, dual, (most, steps, self.cancel));
+        *bound = dual.assess(terms, model, &self.domains);
         if *bound >= self.limit {
             return Err(Dead);
         }

@@ -35,9 +35,9 @@ impl Boards {
         if boards < 2 {
             return Self { first_equal, place };
         }
-        let homes = Homes::new(problem, model);
+        let homes = Sites::new(problem, model);
         let looks: Vec<Vec<u64>> =
-            (0..boards).map(|board| Look::of(problem, model, &homes, board)).collect();
+            (0..boards).map(|board| Signature::of(problem, model, &homes, board)).collect();
         for board in 1..boards {
             let equal = |b: &usize| first_equal[*b] == *b && looks[*b] == looks[board];
             first_equal[board] = (0..board).find(equal).unwrap_or(board);
@@ -63,20 +63,20 @@ impl Boards {
 }
 
 /// Whose each resource, DMA user and stream is.
-struct Homes {
-    resources: Vec<Home>,
-    users: Vec<Home>,
-    streams: Vec<Home>,
+struct Sites {
+    resources: Vec<Site>,
+    users: Vec<Site>,
+    streams: Vec<Site>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Home {
+enum Site {
     Unused,
     On(usize),
     Several,
 }
 
-impl Home {
+impl Site {
     fn add(&mut self, board: usize) {
         *self = match *self {
             Self::Unused => Self::On(board),
@@ -86,11 +86,11 @@ impl Home {
     }
 }
 
-impl Homes {
+impl Sites {
     fn new(problem: &Problem, model: &Model) -> Self {
-        let mut resources = vec![Home::Unused; problem.resources as usize];
-        let mut users = vec![Home::Unused; problem.dma.len()];
-        let mut streams = vec![Home::Unused; problem.streams as usize];
+        let mut resources = vec![Site::Unused; problem.resources as usize];
+        let mut users = vec![Site::Unused; problem.dma.len()];
+        let mut streams = vec![Site::Unused; problem.streams as usize];
         for alt in 0..model.alt_device.len() {
             let board = model.alt_board[alt];
             let cands = model.roles.range(alt).flat_map(|role| model.cands.range(role));
@@ -109,8 +109,8 @@ impl Homes {
 }
 
 /// What a board looks like, in numbers that are the same for equal boards.
-struct Look<'a> {
-    homes: &'a Homes,
+struct Signature<'a> {
+    homes: &'a Sites,
     /// Numbers of things in the order in which they come.
     names: BTreeMap<(Thing, usize), u64>,
     text: Vec<u64>,
@@ -124,8 +124,8 @@ enum Thing {
     Stream,
 }
 
-impl<'a> Look<'a> {
-    fn of(problem: &Problem, model: &Model, homes: &'a Homes, board: usize) -> Vec<u64> {
+impl<'a> Signature<'a> {
+    fn of(problem: &Problem, model: &Model, homes: &'a Sites, board: usize) -> Vec<u64> {
         let mut look = Self { homes, names: BTreeMap::new(), text: Vec::new() };
         look.text.push(u64::from(model.spare[board]));
         let alts = model.board_alts.at(board);
@@ -164,7 +164,7 @@ impl<'a> Look<'a> {
             let home = self.homes.resources[resource];
             self.named(Thing::Resource, resource, home);
             // Of what several boards have, all must mean the same by a group.
-            if home == Home::Several {
+            if home == Site::Several {
                 self.text.push(holder as u64);
             } else {
                 self.group(holder);
@@ -177,7 +177,7 @@ impl<'a> Look<'a> {
         if holder == 0 {
             self.text.push(u64::MAX);
         } else {
-            self.named(Thing::Group, holder, Home::Unused);
+            self.named(Thing::Group, holder, Site::Unused);
         }
     }
 
@@ -194,9 +194,9 @@ impl<'a> Look<'a> {
     }
 
     /// The number of a thing on this board; its own, and a mark, where other boards have it too.
-    fn named(&mut self, thing: Thing, id: usize, home: Home) {
+    fn named(&mut self, thing: Thing, id: usize, home: Site) {
         let next = self.names.len() as u64;
-        let shared = home == Home::Several;
+        let shared = home == Site::Several;
         let name = if shared { id as u64 } else { *self.names.entry((thing, id)).or_insert(next) };
         self.text.extend([u64::from(shared), name]);
     }

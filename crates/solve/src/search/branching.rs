@@ -4,8 +4,8 @@
 //! which is what breaks their symmetry.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::domains::{Charge, Dead};
 use crate::search::{Choices, Engine};
-use crate::state::{Dead, Toll};
 
 /// What a node splits on: taken first, then refused.
 #[derive(Clone, Copy, Debug)]
@@ -21,15 +21,15 @@ pub(crate) enum Branch {
 impl Engine<'_> {
     pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Dead> {
         for board in self.boards_of(branch) {
-            self.state.touch(board);
+            self.domains.touch(board);
         }
         match branch {
-            Branch::Alt(alt) => self.state.decide(self.model, alt),
-            Branch::Cand(id) => self.state.pin(self.model, id),
-            Branch::Rule(rule) => self.state.close_rule(self.model, rule),
-            Branch::Board(board) => self.state.close_board(self.model, board),
+            Branch::Alt(alt) => self.domains.decide(self.model, alt),
+            Branch::Cand(id) => self.domains.pin(self.model, id),
+            Branch::Rule(rule) => self.domains.close_rule(self.model, rule),
+            Branch::Board(board) => self.domains.close_board(self.model, board),
             Branch::Facility(facility) => {
-                self.state.open(facility);
+                self.domains.open(facility);
                 Ok(())
             }
         }
@@ -44,7 +44,7 @@ impl Engine<'_> {
                 for alt in self.equals(branch).filter_map(|b| model.boards.alt_on(model, alt, b)) {
                     let offset = alt - model.alts.range(device).start;
                     for &twin in &twins {
-                        self.state.kill_alt(model, model.alts.range(twin).start + offset)?;
+                        self.domains.kill_alt(model, model.alts.range(twin).start + offset)?;
                     }
                 }
                 Ok(())
@@ -55,14 +55,14 @@ impl Engine<'_> {
                 for id in self.equals(branch).filter_map(|b| model.boards.cand_on(model, id, b)) {
                     let offset = id - self.first_cand(device);
                     for &twin in &twins {
-                        self.state.kill_cand(model, self.first_cand(twin) + offset)?;
+                        self.domains.kill_cand(model, self.first_cand(twin) + offset)?;
                     }
                 }
                 Ok(())
             }
-            Branch::Rule(rule) => self.state.pay_rule(model, rule),
+            Branch::Rule(rule) => self.domains.pay_rule(model, rule),
             Branch::Board(_) => {
-                self.equals(branch).try_for_each(|board| self.state.pay_board(model, board))
+                self.equals(branch).try_for_each(|board| self.domains.pay_board(model, board))
             }
             Branch::Facility(facility) => {
                 let Some(prices) = &self.prices else { return Ok(()) };
@@ -70,12 +70,12 @@ impl Engine<'_> {
                 // What several boards share is refused as it is: the boards need not be equal.
                 let boards = self.boards_of(branch);
                 let [_] = boards.as_slice() else {
-                    return alts.iter().try_for_each(|&alt| self.state.kill_alt(model, alt));
+                    return alts.iter().try_for_each(|&alt| self.domains.kill_alt(model, alt));
                 };
                 for board in self.equals(branch) {
                     let here = |alt: &usize| model.boards.alt_on(model, *alt, board);
                     for alt in alts.iter().filter_map(here) {
-                        self.state.kill_alt(model, alt)?;
+                        self.domains.kill_alt(model, alt)?;
                     }
                 }
                 Ok(())
@@ -110,9 +110,9 @@ impl Engine<'_> {
         let mut boards = self.boards_of(branch);
         if let &[board] = boards.as_slice()
             && self.mirrors
-            && !self.state.is_touched(board)
+            && !self.domains.is_touched(board)
         {
-            let equal = |b: &usize| first[*b] == first[board] && !self.state.is_touched(*b);
+            let equal = |b: &usize| first[*b] == first[board] && !self.domains.is_touched(*b);
             boards = (0..first.len()).filter(equal).collect();
         }
         boards.into_iter()
@@ -128,7 +128,7 @@ impl Engine<'_> {
         let class = self.model.class[device];
         let same = |&d: &usize| {
             self.model.class[d] == class
-                && (d == device || self.state.same_domain(self.model, d, device))
+                && (d == device || self.domains.same_domain(self.model, d, device))
         };
         (class..self.model.devices).filter(same).collect()
     }
@@ -138,7 +138,8 @@ impl Engine<'_> {
         let model = self.model;
         for (alt, cands) in choices {
             let rules = model.alt_rules.at(*alt).iter();
-            let open = |r: &&usize| self.state.rule[**r] == Toll::Open && !model.rule_local[**r];
+            let open =
+                |r: &&usize| self.domains.rule[**r] == Charge::Open && !model.rule_local[**r];
             let mut rules = rules.chain(cands.iter().flat_map(|&c| model.cand_rules.at(c)));
             if let Some(&rule) = rules.find(open) {
                 return Some(Branch::Rule(rule));
@@ -146,7 +147,7 @@ impl Engine<'_> {
         }
         for (alt, _) in choices {
             let board = model.alt_board[*alt];
-            if model.spare[board] && self.state.board[board] == Toll::Open {
+            if model.spare[board] && self.domains.board[board] == Charge::Open {
                 return Some(Branch::Board(board));
             }
         }
@@ -157,7 +158,7 @@ impl Engine<'_> {
     pub(crate) fn deciding_board(&self) -> Option<Branch> {
         let unit = self.model.weights.cost;
         let bound = self.prices.as_ref()?.bound;
-        let open = |b: &usize| self.model.spare[*b] && self.state.board[*b] == Toll::Open;
+        let open = |b: &usize| self.model.spare[*b] && self.domains.board[*b] == Charge::Open;
         let tight = (self.limit - 1) / unit == bound / unit;
         (0..self.model.spare.len()).find(open).filter(|_| tight).map(Branch::Board)
     }
@@ -165,25 +166,25 @@ impl Engine<'_> {
     /// Any open choice.
     pub(crate) fn any_branch(&self) -> Option<Branch> {
         let model = self.model;
-        let open = (0..model.devices).filter(|&d| self.state.device_left(d) > 1);
-        if let Some(device) = open.min_by_key(|&d| self.state.device_left(d)) {
-            return self.state.alts(model, device).next().map(Branch::Alt);
+        let open = (0..model.devices).filter(|&d| self.domains.device_left(d) > 1);
+        if let Some(device) = open.min_by_key(|&d| self.domains.device_left(d)) {
+            return self.domains.alts(model, device).next().map(Branch::Alt);
         }
         (0..model.devices).find_map(|d| self.open_role(d))
     }
 
     pub(crate) fn open_role(&self, device: usize) -> Option<Branch> {
         let model = self.model;
-        let alt = self.state.decided(device)?;
+        let alt = self.domains.decided(device)?;
         let (position, role) = model
             .roles
             .range(alt)
             .enumerate()
-            .filter(|(_, r)| self.state.role_left(*r) > 1)
-            .min_by_key(|(_, r)| self.state.role_left(*r))?;
+            .filter(|(_, r)| self.domains.role_left(*r) > 1)
+            .min_by_key(|(_, r)| self.domains.role_left(*r))?;
         let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
         let here = |c: &usize| Some(model.cand(*c).pin) == flow;
-        let mut cands = self.state.cands(model, role);
+        let mut cands = self.domains.cands(model, role);
         cands.clone().find(here).or_else(|| cands.next()).map(Branch::Cand)
     }
 }
@@ -243,7 +244,7 @@ mod tests {
         let facilities = &engine.prices.as_ref().unwrap().terms.facilities;
         let of_both = facilities.iter().position(|facility| facility.alts == [0, 3]).unwrap();
         engine.refuse(Branch::Facility(of_both)).ok().unwrap();
-        let alive: Vec<usize> = (0..6).filter(|&alt| engine.state.alt_on(alt)).collect();
+        let alive: Vec<usize> = (0..6).filter(|&alt| engine.domains.alt_on(alt)).collect();
         assert_eq!(alive, [1, 2, 4, 5]);
     }
 }

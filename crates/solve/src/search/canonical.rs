@@ -5,8 +5,8 @@
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
 use crate::model::Model;
-use crate::order::{Entry, entries};
 use crate::search::Choices;
+use crate::search::tie_break::{Entry, entries};
 
 /// Puts alike devices in order, and what is on equal boards on the first of them.
 pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {

@@ -4,9 +4,9 @@
 //! most; what earlier tries have shown is remembered.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::branch::Branch;
+use crate::domains::{Charge, Dead};
 use crate::search::Engine;
-use crate::state::{Dead, Toll};
+use crate::search::branching::Branch;
 
 /// Values nearer to a whole number count as whole.
 const WHOLE: f64 = 0.01;
@@ -28,7 +28,7 @@ impl Engine<'_> {
     /// the wiring that the flow then has.
     pub(crate) fn round(&mut self) {
         let model = self.model;
-        let mark = self.state.mark();
+        let mark = self.domains.mark();
         let saved = self.flow.save();
         if self.decide_whole().is_ok()
             && self.settle().is_ok()
@@ -54,19 +54,20 @@ impl Engine<'_> {
             let first = model.alts.range(class).start;
             for alt in model.alts.range(class) {
                 let of = |d: usize| model.alts.range(d).start + alt - first;
-                let has = |d: &&usize| self.state.decided(**d) == Some(of(**d));
+                let has = |d: &&usize| self.domains.decided(**d) == Some(of(**d));
                 let have = devices.iter().filter(has).count();
                 let whole = (prices.relaxation.value(model, alt) + WHOLE) as usize;
                 let open: Vec<usize> = devices
                     .iter()
                     .map(|&d| of(d))
                     .filter(|&a| {
-                        self.state.alt_on(a) && self.state.decided(model.alt_device[a]).is_none()
+                        self.domains.alt_on(a)
+                            && self.domains.decided(model.alt_device[a]).is_none()
                     })
                     .take(whole.saturating_sub(have))
                     .collect();
                 for alt in open {
-                    self.state.decide(model, alt)?;
+                    self.domains.decide(model, alt)?;
                 }
             }
         }
@@ -88,7 +89,7 @@ impl Engine<'_> {
         let open = self.open_questions();
         if open.is_empty() {
             let Some(alt) = alt else { return Ok(Some(fallback)) };
-            let alts = self.state.alts(self.model, self.model.alt_device[alt]);
+            let alts = self.domains.alts(self.model, self.model.alt_device[alt]);
             let likeliest = self.likeliest(alts).map(Branch::Alt);
             return Ok(Some(likeliest.unwrap_or(fallback)));
         }
@@ -127,7 +128,7 @@ impl Engine<'_> {
 
     /// The bound on one side of a branch.
     fn probe(&mut self, branch: Branch, side: bool) -> Result<f64, Dead> {
-        let mark = self.state.mark();
+        let mark = self.domains.mark();
         let saved = self.flow.save();
         let went = if side { self.take(branch) } else { self.refuse(branch) };
         let bound = went.and_then(|()| self.settle()).and_then(|()| {
@@ -157,14 +158,14 @@ impl Engine<'_> {
         let facilities = prices.terms.facilities.len();
         for (index, facility) in prices.terms.facilities.iter().enumerate() {
             // Only what changes the domains, whichever way it is answered.
-            let usable = facility.alts.iter().any(|&alt| self.state.alt_on(alt));
-            if usable && !self.state.opened.contains(&index) {
+            let usable = facility.alts.iter().any(|&alt| self.domains.alt_on(alt));
+            if usable && !self.domains.opened.contains(&index) {
                 add(Branch::Facility(index), index, prices.relaxation.opened(index));
             }
         }
         let after = facilities + model.alt_device.len();
         for (index, penalty) in prices.terms.penalties.iter().enumerate() {
-            if self.state.rule[penalty.rule] == Toll::Open {
+            if self.domains.rule[penalty.rule] == Charge::Open {
                 // Taken is the side without it.
                 add(
                     Branch::Rule(penalty.rule),
@@ -174,8 +175,8 @@ impl Engine<'_> {
             }
         }
         let mut seen = vec![false; model.alt_device.len()];
-        for device in (0..model.devices).filter(|&d| self.state.device_left(d) > 1) {
-            for alt in self.state.alts(model, device) {
+        for device in (0..model.devices).filter(|&d| self.domains.device_left(d) > 1) {
+            for alt in self.domains.alts(model, device) {
                 let offset = alt - model.alts.range(device).start;
                 let of_class = model.alts.range(model.class[device]).start + offset;
                 if !std::mem::replace(&mut seen[of_class], true) {
@@ -202,11 +203,11 @@ struct Question {
 
 /// How much earlier answers to a question have raised the bound, for each whole that was missing.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct History {
+pub(crate) struct PseudoCosts {
     known: Vec<[(f64, u32); 2]>,
 }
 
-impl History {
+impl PseudoCosts {
     fn missing(question: &Question) -> [f64; 2] {
         [1.0 - question.part, question.part]
     }

@@ -4,9 +4,9 @@
 //! facility within which it happens.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
+use crate::index::Rows;
 use crate::model::{Kind, Model, NONE};
 use crate::problem::Problem;
-use crate::rows::Rows;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A price may be so many powers of two above the greatest weight: where there is no answer, the
@@ -15,7 +15,7 @@ const DEARER: u32 = 4;
 
 /// What never changes: who is tied to which price.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Terms {
+pub(crate) struct Dualized {
     pub(crate) prices: usize,
     /// Prices count in weights times 2^shift.
     pub(crate) shift: u32,
@@ -86,7 +86,7 @@ pub(crate) struct Family {
     pub(crate) need: usize,
 }
 
-impl Terms {
+impl Dualized {
     pub(crate) fn new(problem: &Problem, model: &Model) -> Self {
         let first_stream = model.pins + model.resource_users.len();
         let first_link = first_stream + problem.streams as usize;

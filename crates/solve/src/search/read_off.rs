@@ -2,8 +2,8 @@
 //! out.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::branch::Branch;
 use crate::model::{Kind, NONE, agree};
+use crate::search::branching::Branch;
 use crate::search::{Choices, Engine};
 
 const NOBODY: usize = NONE;
@@ -36,9 +36,9 @@ impl Engine<'_> {
         let mut wires = vec![NONE; model.wires];
         let mut fault = None;
         // Decided devices first: the others adapt.
-        let order = (0..model.devices).filter(|&d| self.state.device_left(d) == 1);
+        let order = (0..model.devices).filter(|&d| self.domains.device_left(d) == 1);
         let order: Vec<usize> =
-            order.chain((0..model.devices).filter(|&d| self.state.device_left(d) > 1)).collect();
+            order.chain((0..model.devices).filter(|&d| self.domains.device_left(d) > 1)).collect();
         choices.resize(model.devices, (NONE, Vec::new()));
         for device in order {
             match self.read_device(device, &mut wires) {
@@ -60,8 +60,8 @@ impl Engine<'_> {
         }
         if model.dma_matters && !self.dma_fits(&choices) {
             let uses = |d: &usize| {
-                self.state.device_left(*d) > 1
-                    && self.state.alts(model, *d).any(|a| !model.alt_dma.at(a).is_empty())
+                self.domains.device_left(*d) > 1
+                    && self.domains.alts(model, *d).any(|a| !model.alt_dma.at(a).is_empty())
             };
             let device = (0..model.devices).find(uses);
             return Err(device.map(|d| Branch::Alt(choices[d].0)));
@@ -73,7 +73,7 @@ impl Engine<'_> {
     fn blame(&self, device: usize, culprit: usize) -> Option<Branch> {
         let model = self.model;
         for d in [device, culprit] {
-            if d != NOBODY && self.state.device_left(d) > 1 {
+            if d != NOBODY && self.domains.device_left(d) > 1 {
                 return self.preferred(d).map(Branch::Alt);
             }
         }
@@ -91,8 +91,8 @@ impl Engine<'_> {
         let mut flow = positions
             .filter_map(|p| self.flow.at(model, device, p))
             .map(|(_, id)| model.cand_alt(id))
-            .filter(|&alt| model.alt_device[alt] == device && self.state.alt_on(alt));
-        flow.next().or_else(|| self.state.alts(model, device).next())
+            .filter(|&alt| model.alt_device[alt] == device && self.domains.alt_on(alt));
+        flow.next().or_else(|| self.domains.alts(model, device).next())
     }
 
     fn read_device(
@@ -103,7 +103,7 @@ impl Engine<'_> {
         let model = self.model;
         let first = self.preferred(device);
         let mut culprit = NOBODY;
-        let others = self.state.alts(model, device).filter(|a| Some(*a) != first);
+        let others = self.domains.alts(model, device).filter(|a| Some(*a) != first);
         let alts: Vec<usize> = first.into_iter().chain(others).collect();
         for alt in alts {
             let resources = self.scratch.touched_resources.len();
@@ -145,7 +145,7 @@ impl Engine<'_> {
         for (position, role) in model.roles.range(alt).enumerate() {
             let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
             let wanted = match model.role_kind[role] {
-                _ if self.state.role_left(role) == 1 => None,
+                _ if self.domains.role_left(role) == 1 => None,
                 Kind::Own => flow,
                 Kind::Wire(wire) => self
                     .flow
@@ -157,7 +157,7 @@ impl Engine<'_> {
             let mut culprit = NOBODY;
             let mut found = None;
             for id in model.cands.range(role) {
-                if !self.state.cand_on(model, id) {
+                if !self.domains.cand_on(model, id) {
                     continue;
                 }
                 let pin = model.cand(id).pin;

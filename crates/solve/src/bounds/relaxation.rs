@@ -1,18 +1,18 @@
 //! The linear relaxation: what the price bound prices, as a linear program whose row prices are
 //! the best prices there are.
 //!
-//! Terms and domains in, prices and the number of devices at each alternative out. The program is
+//! Dualized and domains in, prices and the number of devices at each alternative out. The program is
 //! made once; a node changes bounds of columns, and the basis of the node before is the start.
-//! Nothing here needs to be exact (see [`crate::lp`]): [`crate::dual`] judges the prices.
+//! Nothing here needs to be exact (see [`crate::bounds::lp`]): [`crate::bounds::lagrangian`] judges the prices.
 #![expect(clippy::indexing_slicing, reason = "all indices are made here or come from the model")]
 
+use crate::bounds::dualized::Dualized;
+use crate::bounds::lagrangian::Lagrangian;
+use crate::bounds::lp::Status;
+use crate::bounds::program::{MERGED, Program};
 use crate::cancel::Cancel;
-use crate::dual::Dual;
-use crate::lp::Status;
+use crate::domains::{Charge, Domains};
 use crate::model::{Kind, Model, NONE};
-use crate::program::{MERGED, Program};
-use crate::state::{State, Toll};
-use crate::terms::Terms;
 
 /// The program, and the bounds of its columns at the present node.
 #[derive(Clone, Debug)]
@@ -24,14 +24,14 @@ pub(crate) struct Relaxation {
 
 impl Relaxation {
     /// The program of what the domains allow now.
-    pub(crate) fn new(terms: &Terms, model: &Model, state: &State) -> Self {
-        let program = Program::new(terms, model, state);
+    pub(crate) fn new(terms: &Dualized, model: &Model, domains: &Domains) -> Self {
+        let program = Program::new(terms, model, domains);
         let columns = program.columns;
         Self { program, most: vec![0.0; columns], least: vec![0.0; columns] }
     }
 
     /// Brings the bounds up to date; false when the program lacks something that is possible now.
-    fn update(&mut self, terms: &Terms, model: &Model, state: &State) -> bool {
+    fn update(&mut self, terms: &Dualized, model: &Model, domains: &Domains) -> bool {
         let Program { alt_column, cand_column, opening, penalty, loose, ceiling, .. } =
             &self.program;
         self.most.fill(0.0);
@@ -39,8 +39,8 @@ impl Relaxation {
         for device in 0..model.devices {
             let class = model.alts.range(model.class[device]).start;
             let first = model.alts.range(device).start;
-            let decided = state.decided(device);
-            for alt in state.alts(model, device) {
+            let decided = domains.decided(device);
+            for alt in domains.alts(model, device) {
                 match alt_column[class + alt - first] {
                     NONE => return false,
                     MERGED => {}
@@ -50,14 +50,14 @@ impl Relaxation {
                     }
                 }
                 for role in model.roles.range(alt).filter(|_| decided == Some(alt)) {
-                    if let Some(&column) = state.pinned(role).map(|id| &cand_column[id])
+                    if let Some(&column) = domains.pinned(role).map(|id| &cand_column[id])
                         && column < MERGED
                     {
                         let wire = matches!(model.role_kind[role], Kind::Wire(_));
                         self.least[column] = if wire { 1.0 } else { self.least[column] + 1.0 };
                     }
                 }
-                for id in model.roles.range(alt).flat_map(|role| state.cands(model, role)) {
+                for id in model.roles.range(alt).flat_map(|role| domains.cands(model, role)) {
                     match cand_column[id] {
                         NONE => return false,
                         MERGED => {}
@@ -68,15 +68,15 @@ impl Relaxation {
         }
         for (index, &column) in opening.iter().enumerate().filter(|o| *o.1 != NONE) {
             let alts = &terms.facilities[index].alts;
-            let used = |a: &usize| state.decided(model.alt_device[*a]) == Some(*a);
-            let forced = state.opened.contains(&index) || alts.iter().any(used);
-            self.most[column] = f64::from(u8::from(alts.iter().any(|&a| state.alt_on(a))));
+            let used = |a: &usize| domains.decided(model.alt_device[*a]) == Some(*a);
+            let forced = domains.opened.contains(&index) || alts.iter().any(used);
+            self.most[column] = f64::from(u8::from(alts.iter().any(|&a| domains.alt_on(a))));
             self.least[column] = f64::from(u8::from(forced));
         }
         for (&column, penalty) in penalty.iter().zip(&terms.penalties) {
-            let toll = state.rule[penalty.rule];
-            self.most[column] = f64::from(u8::from(toll != Toll::Closed));
-            self.least[column] = f64::from(u8::from(toll == Toll::Paid));
+            let toll = domains.rule[penalty.rule];
+            self.most[column] = f64::from(u8::from(toll != Charge::Closed));
+            self.least[column] = f64::from(u8::from(toll == Charge::Paid));
         }
         loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
         // All of them may: no limit.
@@ -95,15 +95,15 @@ impl Relaxation {
     /// `cutoff` (a weight) is enough.
     pub(crate) fn run(
         &mut self,
-        terms: &Terms,
+        terms: &Dualized,
         model: &Model,
-        state: &State,
-        dual: &mut Dual,
+        domains: &Domains,
+        dual: &mut Lagrangian,
         (cutoff, steps, cancel): (u64, usize, Cancel<'_>),
     ) -> Status {
-        if !self.update(terms, model, state) {
-            *self = Self::new(terms, model, state);
-            self.update(terms, model, state);
+        if !self.update(terms, model, domains) {
+            *self = Self::new(terms, model, domains);
+            self.update(terms, model, domains);
         }
         let unit = model.weights.cost as f64;
         let status = self.program.simplex.solve(cutoff as f64 / unit + 0.03, steps, cancel);

@@ -1,14 +1,16 @@
 //! What is still possible: restrictions in, their consequences out, all of it undone on demand.
 //!
 //! Domains only shrink. Every change is written on a trail, so a search returns to an earlier
-//! state by unwinding it.
+//! domains by unwinding it.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+
+pub(crate) mod streams;
 
 use crate::model::{Kind, Model, agree};
 
 /// A soft rule or a spare board, as far as decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Toll {
+pub(crate) enum Charge {
     /// May still be avoided.
     Open,
     /// Its weight is in `paid`.
@@ -21,8 +23,8 @@ pub(crate) enum Toll {
 enum Event {
     Alt(usize),
     Cand(usize),
-    Rule(usize, Toll),
-    Board(usize, Toll),
+    Rule(usize, Charge),
+    Board(usize, Charge),
     /// The last of `opened`.
     Opened,
     /// Something is decided of the board.
@@ -35,7 +37,7 @@ pub(crate) struct Dead;
 
 /// The domains.
 #[derive(Clone, Debug)]
-pub(crate) struct State {
+pub(crate) struct Domains {
     alt_on: Vec<bool>,
     cand_on: Vec<bool>,
     device_left: Vec<usize>,
@@ -43,11 +45,11 @@ pub(crate) struct State {
     device_mix: Vec<usize>,
     role_left: Vec<usize>,
     role_mix: Vec<usize>,
-    pub(crate) rule: Vec<Toll>,
-    pub(crate) board: Vec<Toll>,
+    pub(crate) rule: Vec<Charge>,
+    pub(crate) board: Vec<Charge>,
     /// Weight of the rules and spare boards that are certain.
     pub(crate) paid: u64,
-    /// Facilities (see [`crate::terms`]) that somebody must use.
+    /// Facilities (see [`crate::bounds::dualized`]) that somebody must use.
     pub(crate) opened: Vec<usize>,
     /// Boards of which something is decided that is not decided of all equal ones. What only
     /// follows does not count.
@@ -57,19 +59,19 @@ pub(crate) struct State {
     pinned: Vec<usize>,
 }
 
-impl State {
+impl Domains {
     pub(crate) fn new(model: &Model) -> Result<Self, Dead> {
         let mix = |range: std::ops::Range<usize>| range.fold(0, |a, b| a ^ b);
         let roles = model.role_alt.len();
-        let mut state = Self {
+        let mut domains = Self {
             alt_on: vec![true; model.alt_device.len()],
             cand_on: vec![true; model.cand_count()],
             device_left: (0..model.devices).map(|d| model.alts.range(d).len()).collect(),
             device_mix: (0..model.devices).map(|d| mix(model.alts.range(d))).collect(),
             role_left: (0..roles).map(|r| model.cands.range(r).len()).collect(),
             role_mix: (0..roles).map(|r| mix(model.cands.range(r))).collect(),
-            rule: vec![Toll::Open; model.rule_users.len()],
-            board: vec![Toll::Open; model.spare.len()],
+            rule: vec![Charge::Open; model.rule_users.len()],
+            board: vec![Charge::Open; model.spare.len()],
             paid: 0,
             opened: Vec::new(),
             touched: vec![false; model.spare.len()],
@@ -78,20 +80,20 @@ impl State {
             pinned: Vec::new(),
         };
         for device in 0..model.devices {
-            match state.device_left[device] {
+            match domains.device_left[device] {
                 0 => return Err(Dead),
-                1 => state.decided.push(device),
+                1 => domains.decided.push(device),
                 _ => {}
             }
         }
         for role in 0..roles {
             let alt = model.role_alt[role];
-            if state.role_left[role] == 0 && state.alt_on[alt] {
-                state.kill_alt(model, alt)?;
+            if domains.role_left[role] == 0 && domains.alt_on[alt] {
+                domains.kill_alt(model, alt)?;
             }
         }
-        state.propagate(model)?;
-        Ok(state)
+        domains.propagate(model)?;
+        Ok(domains)
     }
 
     pub(crate) fn alt_on(&self, alt: usize) -> bool {
@@ -175,13 +177,13 @@ impl State {
                     self.role_mix[model.cand(id).role] ^= id;
                 }
                 Some(Event::Rule(rule, old)) => {
-                    if self.rule[rule] == Toll::Paid && old != Toll::Paid {
+                    if self.rule[rule] == Charge::Paid && old != Charge::Paid {
                         self.paid -= model.weights.rule;
                     }
                     self.rule[rule] = old;
                 }
                 Some(Event::Board(board, old)) => {
-                    if self.board[board] == Toll::Paid && old != Toll::Paid {
+                    if self.board[board] == Charge::Paid && old != Charge::Paid {
                         self.paid -= 1;
                     }
                     self.board[board] = old;
@@ -271,23 +273,23 @@ impl State {
 
     pub(crate) fn pay_rule(&mut self, model: &Model, rule: usize) -> Result<(), Dead> {
         match self.rule[rule] {
-            Toll::Open if !model.rule_local[rule] => {
-                self.trail.push(Event::Rule(rule, Toll::Open));
-                self.rule[rule] = Toll::Paid;
+            Charge::Open if !model.rule_local[rule] => {
+                self.trail.push(Event::Rule(rule, Charge::Open));
+                self.rule[rule] = Charge::Paid;
                 self.paid += model.weights.rule;
                 Ok(())
             }
-            Toll::Open | Toll::Paid => Ok(()),
-            Toll::Closed => Err(Dead),
+            Charge::Open | Charge::Paid => Ok(()),
+            Charge::Closed => Err(Dead),
         }
     }
 
     pub(crate) fn close_rule(&mut self, model: &Model, rule: usize) -> Result<(), Dead> {
-        if self.rule[rule] != Toll::Open {
-            return if self.rule[rule] == Toll::Paid { Err(Dead) } else { Ok(()) };
+        if self.rule[rule] != Charge::Open {
+            return if self.rule[rule] == Charge::Paid { Err(Dead) } else { Ok(()) };
         }
-        self.trail.push(Event::Rule(rule, Toll::Open));
-        self.rule[rule] = Toll::Closed;
+        self.trail.push(Event::Rule(rule, Charge::Open));
+        self.rule[rule] = Charge::Closed;
         for user in model.rule_users.at(rule) {
             if user.is_candidate {
                 self.kill_cand(model, user.id)?;
@@ -300,20 +302,20 @@ impl State {
 
     pub(crate) fn pay_board(&mut self, model: &Model, board: usize) -> Result<(), Dead> {
         match self.board[board] {
-            Toll::Open if model.spare[board] => {
-                self.trail.push(Event::Board(board, Toll::Open));
-                self.board[board] = Toll::Paid;
+            Charge::Open if model.spare[board] => {
+                self.trail.push(Event::Board(board, Charge::Open));
+                self.board[board] = Charge::Paid;
                 self.paid += 1;
                 Ok(())
             }
-            Toll::Open | Toll::Paid => Ok(()),
-            Toll::Closed => Err(Dead),
+            Charge::Open | Charge::Paid => Ok(()),
+            Charge::Closed => Err(Dead),
         }
     }
 
     pub(crate) fn close_board(&mut self, model: &Model, board: usize) -> Result<(), Dead> {
         self.trail.push(Event::Board(board, self.board[board]));
-        self.board[board] = Toll::Closed;
+        self.board[board] = Charge::Closed;
         for &alt in model.board_alts.at(board) {
             self.kill_alt(model, alt)?;
         }

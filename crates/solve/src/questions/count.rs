@@ -7,11 +7,11 @@
 
 use crate::answer::{Count, Fault};
 use crate::cancel::Cancel;
-use crate::dma::Matching;
-use crate::frontier::{Class, Counter, Place};
+use crate::domains::streams::Matching;
+use crate::domains::{Dead, Domains};
 use crate::model::{Kind, Model};
 use crate::problem::Problem;
-use crate::state::{Dead, State};
+use crate::questions::placements::{Class, Counter, Place};
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,12 +21,12 @@ use std::collections::{BTreeMap, BTreeSet};
 /// [`Fault`] when the problem is no proper problem, or when the search was cancelled.
 pub fn count(problem: &Problem, cancel: Cancel<'_>) -> Result<Count, Fault> {
     let model = Model::new(problem)?;
-    let Ok(state) = State::new(&model) else { return Ok(BigUint::ZERO) };
+    let Ok(domains) = Domains::new(&model) else { return Ok(BigUint::ZERO) };
     let complex = (0..model.devices).filter(|&d| !simple(&model, d));
     let mut order: Vec<usize> = complex.collect();
     order.sort_by_key(|&d| (model.class[d], d));
     let counter = Counter::new(cancel);
-    let mut census = Census { problem, model: &model, state, order, counter, cancel };
+    let mut census = Census { problem, model: &model, domains, order, counter, cancel };
     let number = census.alternatives(0, 0, BigUint::from(1u32));
     if cancel.is_over() { Err(Fault::Cancelled) } else { Ok(number) }
 }
@@ -44,7 +44,7 @@ fn simple(model: &Model, device: usize) -> bool {
 struct Census<'a> {
     problem: &'a Problem,
     model: &'a Model,
-    state: State,
+    domains: Domains,
     /// Devices whose alternatives are tried, interchangeable ones together.
     order: Vec<usize>,
     counter: Counter<'a>,
@@ -64,32 +64,32 @@ impl Census<'_> {
         let position = (0..index).rev().take_while(|&i| class(i) == class(index)).count();
         let before = position.checked_sub(1).and_then(|_| {
             let twin = self.order[index - 1];
-            self.state.decided(twin).map(|alt| alt - model.alts.range(twin).start)
+            self.domains.decided(twin).map(|alt| alt - model.alts.range(twin).start)
         });
         let mut total = BigUint::ZERO;
         for offset in before.unwrap_or(0)..model.alts.range(device).len() {
             if self.cancel.is_over() {
                 break;
             }
-            let mark = self.state.mark();
-            let step = |state: &mut State| -> Result<(), Dead> {
-                state.decide(model, first + offset)?;
-                state.propagate(model)
+            let mark = self.domains.mark();
+            let step = |domains: &mut Domains| -> Result<(), Dead> {
+                domains.decide(model, first + offset)?;
+                domains.propagate(model)
             };
-            if step(&mut self.state).is_ok() {
+            if step(&mut self.domains).is_ok() {
                 // Alike devices are tried in order only: a multinomial coefficient grows.
                 let run = if before == Some(offset) { run + 1 } else { 1 };
                 let times = &times * (position as u32 + 1) / run;
                 total += self.alternatives(index + 1, run, times);
             }
-            self.state.undo(model, mark);
+            self.domains.undo(model, mark);
         }
         total
     }
 
     fn dma_fits(&self) -> bool {
         let model = self.model;
-        let decided = self.order.iter().filter_map(|&d| self.state.decided(d));
+        let decided = self.order.iter().filter_map(|&d| self.domains.decided(d));
         let users: BTreeSet<usize> =
             decided.flat_map(|alt| model.alt_dma.at(alt)).copied().collect();
         let mut matching = Matching::new(self.problem.streams);
@@ -102,31 +102,31 @@ impl Census<'_> {
         let model = self.model;
         let mut open = None;
         for &device in &self.order {
-            let Some(alt) = self.state.decided(device) else { continue };
+            let Some(alt) = self.domains.decided(device) else { continue };
             let roles = model.roles.range(alt);
             open = open.or(roles.into_iter().find(|&role| {
-                self.state.pinned(role).is_none()
+                self.domains.pinned(role).is_none()
                     && (model.role_kind[role] == Kind::Odd || self.entangled(alt, role))
             }));
         }
         let Some(role) = open else { return self.place() };
         let mut total = BigUint::ZERO;
         for id in model.cands.range(role) {
-            if !self.state.cand_on(model, id) {
+            if !self.domains.cand_on(model, id) {
                 continue;
             }
             if self.cancel.is_over() {
                 break;
             }
-            let mark = self.state.mark();
-            let step = |state: &mut State| -> Result<(), Dead> {
-                state.pin(model, id)?;
-                state.propagate(model)
+            let mark = self.domains.mark();
+            let step = |domains: &mut Domains| -> Result<(), Dead> {
+                domains.pin(model, id)?;
+                domains.propagate(model)
             };
-            if step(&mut self.state).is_ok() {
+            if step(&mut self.domains).is_ok() {
                 total += self.odd_roles();
             }
-            self.state.undo(model, mark);
+            self.domains.undo(model, mark);
         }
         total
     }
@@ -148,13 +148,13 @@ impl Census<'_> {
         let mut shared: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         let model = self.model;
         for device in 0..model.devices {
-            let Some(alt) = self.state.decided(device).filter(|_| self.order.contains(&device))
+            let Some(alt) = self.domains.decided(device).filter(|_| self.order.contains(&device))
             else {
                 wires.push(self.free_places(device));
                 continue;
             };
             // What is down to one candidate has been propagated and takes no further part.
-            for role in model.roles.range(alt).filter(|&r| self.state.pinned(r).is_none()) {
+            for role in model.roles.range(alt).filter(|&r| self.domains.pinned(r).is_none()) {
                 match model.role_kind[role] {
                     Kind::Own => wires.push(self.role_places(role, &[role])),
                     Kind::Wire(wire) => shared.entry(wire).or_default().push(role),
@@ -189,8 +189,8 @@ impl Census<'_> {
     fn free_places(&self, device: usize) -> Vec<Place> {
         let model = self.model;
         let mut places = Vec::new();
-        for alt in self.state.alts(model, device) {
-            for id in self.state.cands(model, model.roles.range(alt).start) {
+        for alt in self.domains.alts(model, device) {
+            for id in self.domains.cands(model, model.roles.range(alt).start) {
                 let claims = model.alt_claims.at(alt).iter().chain(model.cand_claims.at(id));
                 places.push(Place { pin: model.cand(id).pin, claims: merged(claims) });
             }
@@ -202,7 +202,7 @@ impl Census<'_> {
     fn role_places(&self, role: usize, together: &[usize]) -> Vec<Place> {
         let model = self.model;
         let mut places = Vec::new();
-        for id in self.state.cands(model, role) {
+        for id in self.domains.cands(model, role) {
             let c = model.cand(id);
             let mut claims = Vec::new();
             for &other in together {
@@ -216,7 +216,7 @@ impl Census<'_> {
                     let held = model.alt_claims.at(alt).iter().find(|c| c.0 == claim.0);
                     held.is_none_or(|held| held.1 != 0 && held.1 != claim.1)
                 };
-                let cands = self.state.cands(model, other).filter(here);
+                let cands = self.domains.cands(model, other).filter(here);
                 claims.extend(cands.flat_map(|o| model.cand_claims.at(o)).filter(own));
             }
             if quarrel(&claims, together.len() > 1) {

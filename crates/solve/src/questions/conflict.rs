@@ -6,14 +6,14 @@
 //! for: streams, resources and pins stop being exclusive as long as there is still no answer.
 //!
 //! Of devices that are alike only the number counts, and of alike things any one tells of all, so
-//! most of these questions are never asked ([`crate::lore`]).
+//! most of these questions are never asked ([`crate::questions::known_sets`]).
 
 use crate::answer::{Conflict, Fault, Outcome};
 use crate::cancel::Cancel;
-use crate::lore::{CROWD, Lore, alike_devices};
 use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
-use crate::sharing::Things;
-use crate::solve::{Effort, feasible_within};
+use crate::questions::known_sets::{CROWD, KnownSets, alike_devices};
+use crate::questions::sharing::Things;
+use crate::questions::solve::{Effort, feasible_within};
 use std::collections::BTreeSet;
 
 /// Nodes of the search, beside three for each device, after which a proof is no longer quick.
@@ -27,7 +27,7 @@ struct Questions<'a> {
     cancel: Cancel<'a>,
     effort: Effort,
     /// What is known of sets of the devices.
-    lore: Lore,
+    lore: KnownSets,
 }
 
 /// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is

@@ -1,7 +1,7 @@
 //! Linear programs: a matrix with bounds and costs in, prices of its rows out.
 //!
 //! All of this is in floating point and none of it is believed: prices only say where the exact
-//! bound of [`crate::dual`] is to look, and values only which branch is tried first.
+//! bound of [`crate::bounds::lagrangian`] is to look, and values only which branch is tried first.
 
 mod factor;
 mod matrix;

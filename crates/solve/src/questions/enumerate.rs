@@ -6,17 +6,17 @@
 #![expect(clippy::indexing_slicing, reason = "frames hold positions in `entries`")]
 
 use crate::answer::{Answer, Fault, Optimality};
+use crate::bounds::flow::Saved;
 use crate::cancel::Cancel;
-use crate::flow::Saved;
 use crate::model::Model;
-use crate::order::{Entry, entries};
 use crate::problem::Problem;
+use crate::questions::solve::finish;
+use crate::search::tie_break::{Entry, entries};
 use crate::search::{Choices, Engine, Parked};
-use crate::solve::finish;
 
 /// Iterator over all answers of a problem: by objective, then pins, then signals.
 ///
-/// An item is an error only as [`crate::solve`] gives one, or [`Fault::Cancelled`]; nothing follows
+/// An item is an error only as [`crate::questions::solve`] gives one, or [`Fault::Cancelled`]; nothing follows
 /// it.
 pub struct Answers<'a> {
     problem: &'a Problem,
@@ -156,7 +156,7 @@ fn open(
         entry,
         values: engine.values(entries[entry]),
         next: 0,
-        mark: engine.state.mark(),
+        mark: engine.domains.mark(),
         saved: engine.flow.save(),
         known,
     });

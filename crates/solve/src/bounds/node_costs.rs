@@ -1,9 +1,9 @@
 //! The domains of one node in a form that is quick to price, over and over.
 #![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::bounds::dualized::{Dualized, Facility};
+use crate::domains::Domains;
 use crate::model::{Kind, Model, NONE};
-use crate::state::State;
-use crate::terms::{Facility, Terms};
 use std::collections::BTreeSet;
 
 /// Several ways to fill a role, or a DMA request: a price each, and a fixed cost.
@@ -13,7 +13,7 @@ pub(crate) struct Way {
     /// Pin or stream.
     pub(crate) price: usize,
     pub(crate) fixed: i64,
-    /// More prices, as a range of `View::lists`.
+    /// More prices, as a range of `NodeCosts::lists`.
     pub(crate) more: (usize, usize),
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Opening {
 
 /// The domains of one node in a form that is quick to price.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct View {
+pub(crate) struct NodeCosts {
     pub(crate) groups: Vec<Group>,
     pub(crate) choices: Vec<Choice>,
     /// Ranges of `ways`.
@@ -64,8 +64,8 @@ pub(crate) struct View {
     pub(crate) order: Vec<(i64, usize)>,
 }
 
-impl View {
-    pub(crate) fn add_way(&mut self, terms: &Terms, model: &Model, more: &[usize], id: usize) {
+impl NodeCosts {
+    pub(crate) fn add_way(&mut self, terms: &Dualized, model: &Model, more: &[usize], id: usize) {
         let start = self.lists.len();
         self.lists.extend_from_slice(more);
         let c = model.cand(id);
@@ -87,7 +87,13 @@ impl View {
         }
     }
 
-    pub(crate) fn add_choice(&mut self, terms: &Terms, model: &Model, state: &State, alt: usize) {
+    pub(crate) fn add_choice(
+        &mut self,
+        terms: &Dualized,
+        model: &Model,
+        domains: &Domains,
+        alt: usize,
+    ) {
         let prices = self.lists.len();
         self.lists.extend_from_slice(terms.alt_prices.at(alt));
         let prices = (prices, self.lists.len());
@@ -97,7 +103,7 @@ impl View {
                 continue;
             }
             let start = self.ways.len();
-            for id in state.cands(model, role) {
+            for id in domains.cands(model, role) {
                 self.add_way(terms, model, terms.cand_prices.at(id), id);
             }
             self.roles.push((start, self.ways.len()));
@@ -114,22 +120,22 @@ impl View {
 
     pub(crate) fn add_opening(
         &mut self,
-        terms: &Terms,
+        terms: &Dualized,
         model: &Model,
-        state: &State,
+        domains: &Domains,
         index: usize,
         facility: &Facility,
     ) {
         let roles = self.roles.len();
         let decided =
-            facility.alts.iter().find(|&&alt| state.decided(model.alt_device[alt]) == Some(alt));
+            facility.alts.iter().find(|&&alt| domains.decided(model.alt_device[alt]) == Some(alt));
         for &wire in &facility.wires {
             let start = self.ways.len();
             let mut seen = BTreeSet::new();
             for &id in model.wire_cands.at(wire) {
                 let c = model.cand(id);
                 let here = decided.is_none_or(|&alt| model.role_alt[c.role] == alt);
-                if here && state.cand_on(model, id) && seen.insert((c.pin, c.signal, c.holder)) {
+                if here && domains.cand_on(model, id) && seen.insert((c.pin, c.signal, c.holder)) {
                     self.add_way(terms, model, &[], id);
                 }
             }
@@ -139,7 +145,7 @@ impl View {
         self.openings.push(Opening {
             facility: index,
             roles: (roles, self.roles.len()),
-            forced: decided.is_some() || state.opened.contains(&index),
+            forced: decided.is_some() || domains.opened.contains(&index),
             cost: 0,
             open: false,
             spares: 0,
