@@ -1,90 +1,173 @@
-//! The bound: every wire that must exist gets a pin of its own at least total cost.
+//! The assignment bound: every wire that must exist gets a pin of its own at least total cost.
 //!
 //! Domains in, a cheapest flow wire -> (gate) -> pin out, or the wires for which there is none. A
 //! gate is a resource of one holder (a timer, an interrupt line) that the wires of different
 //! devices pass one at a time. The flow forgets that a device's roles must agree on one
 //! alternative and that groups exclude each other, so its cost is a lower bound; whoever takes it
-//! for a wiring must check it. It stays optimal while domains shrink by rerouting only the wires
-//! that lost their pin.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//! for a wiring must check it.
+//!
+//! The method is successive shortest paths with label correction (R. K. Ahuja, T. L. Magnanti and
+//! J. B. Orlin, *Network Flows*, 1993, ch. 9). The flow stays optimal while domains shrink by
+//! rerouting only the wires that lost their pin; such a bound within constraint programming is
+//! from F. Focacci, A. Lodi and M. Milano, *Cost-based domain filtering*, 1999.
 
-use crate::domains::{Dead, Domains};
-use crate::model::{Kind, Model, NONE};
+use crate::domains::{Domains, Pruned};
+use crate::index::{AltId, CandId, DemandId, GateId, Id, IdIter, IdVec, NodeId, RoleId, WireId};
+use crate::model::{Cand, Holding, Model};
+use crate::problem::{DeviceId, PinId};
 use std::collections::VecDeque;
 
+/// The distance of what is not reached.
 const FAR: i64 = i64::MAX / 2;
 
+/// Who holds a pin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Owner {
+    Demand(DemandId),
+    Gate(GateId),
+}
+
 /// What a search returns to.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Saved {
     /// Candidate by which a demand leaves.
-    arc: Vec<usize>,
-    /// Demand that holds a pin, or gate + number of demands.
-    owner: Vec<usize>,
-    gate_in: Vec<usize>,
-    gate_out: Vec<usize>,
-    active: Vec<bool>,
+    arc: IdVec<DemandId, Option<CandId>>,
+    owner: IdVec<PinId, Option<Owner>>,
+    /// Demand that passes a gate, and the pin to which.
+    gate_in: IdVec<GateId, Option<DemandId>>,
+    gate_out: IdVec<GateId, Option<PinId>>,
+    active: IdVec<DemandId, bool>,
     cost: i64,
 }
+
+impl Clone for Saved {
+    fn clone(&self) -> Self {
+        Self {
+            arc: self.arc.clone(),
+            owner: self.owner.clone(),
+            gate_in: self.gate_in.clone(),
+            gate_out: self.gate_out.clone(),
+            active: self.active.clone(),
+            cost: self.cost,
+        }
+    }
+
+    /// Reuses the memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.arc.clone_from(&other.arc);
+        self.owner.clone_from(&other.owner);
+        self.gate_in.clone_from(&other.gate_in);
+        self.gate_out.clone_from(&other.gate_out);
+        self.active.clone_from(&other.active);
+        self.cost = other.cost;
+    }
+}
+
+/// How nodes are numbered: demands, then two for each gate, then pins.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    /// Demands of devices; those of shared wires follow.
+    device_demands: usize,
+    demands: usize,
+    gates: usize,
+}
+
+#[derive(Clone, Copy)]
+enum Node {
+    Demand(DemandId),
+    GateIn(GateId),
+    GateOut(GateId),
+    Pin(PinId),
+}
+
+impl Layout {
+    fn wire(self, wire: WireId) -> DemandId {
+        DemandId::new(self.device_demands + wire.index())
+    }
+
+    /// The shared wire of a demand, if it is one.
+    fn wire_of(self, demand: DemandId) -> Option<WireId> {
+        demand.index().checked_sub(self.device_demands).map(WireId::new)
+    }
+
+    #[inline]
+    fn id(self, node: Node) -> NodeId {
+        NodeId::new(match node {
+            Node::Demand(demand) => demand.index(),
+            Node::GateIn(gate) => self.demands + 2 * gate.index(),
+            Node::GateOut(gate) => self.demands + 2 * gate.index() + 1,
+            Node::Pin(pin) => self.demands + 2 * self.gates + pin.index(),
+        })
+    }
+
+    #[inline]
+    fn node(self, id: NodeId) -> Node {
+        let index = id.index();
+        let pins = self.demands + 2 * self.gates;
+        if index < self.demands {
+            Node::Demand(DemandId::new(index))
+        } else if index >= pins {
+            Node::Pin(PinId::new(index - pins))
+        } else {
+            let gate = GateId::new((index - self.demands) / 2);
+            let enters = (index - self.demands).is_multiple_of(2);
+            if enters { Node::GateIn(gate) } else { Node::GateOut(gate) }
+        }
+    }
+}
+
+/// The last arc of a shortest path: the node before, and the candidate where it is one.
+type Arc = (NodeId, Option<CandId>);
 
 /// The flow. Demands are the role positions of all devices, then the shared wires.
 #[derive(Clone, Debug)]
 pub(crate) struct Flow {
     now: Saved,
-    demands: usize,
-    /// Device position that is a wire of its own in every alternative.
-    always: Vec<bool>,
+    layout: Layout,
+    /// Demands that are a wire of their own in every alternative.
+    always: IdVec<DemandId, bool>,
     /// Role whose candidates stand for a shared wire.
-    wire_role: Vec<usize>,
-    wire_covered: Vec<bool>,
-    wanted: Vec<bool>,
-    dist: Vec<i64>,
-    from: Vec<(usize, usize)>,
-    queue: VecDeque<usize>,
-    queued: Vec<bool>,
-    path: Vec<(usize, usize, usize)>,
-}
-
-#[derive(Clone, Copy)]
-enum Node {
-    Demand(usize),
-    GateIn(usize),
-    GateOut(usize),
-    Pin(usize),
+    wire_role: IdVec<WireId, Option<RoleId>>,
+    wire_covered: IdVec<WireId, bool>,
+    wanted: IdVec<DemandId, bool>,
+    dist: IdVec<NodeId, i64>,
+    from: IdVec<NodeId, Option<Arc>>,
+    queue: VecDeque<NodeId>,
+    queued: IdVec<NodeId, bool>,
+    path: Vec<(NodeId, NodeId, Option<CandId>)>,
 }
 
 impl Flow {
     pub(crate) fn new(model: &Model) -> Self {
-        let devices = model.demand.last().copied().unwrap_or(0);
-        let demands = devices + model.wires;
-        let nodes = demands + 2 * model.gates + model.pins;
-        let mut always = vec![false; devices];
-        for device in 0..model.devices {
-            for (position, demand) in (model.demand[device]..model.demand[device + 1]).enumerate() {
-                always[demand] = model.alts.range(device).all(|alt| {
-                    let role = model.roles.range(alt).start + position;
-                    position < model.roles.range(alt).len() && model.role_kind[role] == Kind::Own
-                });
+        let device_demands = model.demands.total();
+        let demands = device_demands + model.wires.len();
+        let gates = model.gates.len();
+        let nodes = demands + 2 * gates + model.pins.len();
+        let mut always = IdVec::same(false, demands);
+        for device in model.devices {
+            for (position, demand) in model.demands.of(device).iter().enumerate() {
+                let own = |alt| own_at(model, alt, position);
+                always[demand] = model.alts.of(device).iter().all(own);
             }
         }
         Self {
             now: Saved {
-                arc: vec![NONE; demands],
-                owner: vec![NONE; model.pins],
-                gate_in: vec![NONE; model.gates],
-                gate_out: vec![NONE; model.gates],
-                active: vec![false; demands],
+                arc: IdVec::same(None, demands),
+                owner: IdVec::same(None, model.pins.len()),
+                gate_in: IdVec::same(None, gates),
+                gate_out: IdVec::same(None, gates),
+                active: IdVec::same(false, demands),
                 cost: 0,
             },
-            demands,
+            layout: Layout { device_demands, demands, gates },
             always,
-            wire_role: vec![NONE; model.wires],
-            wire_covered: vec![false; model.wires],
-            wanted: vec![false; demands],
-            dist: vec![FAR; nodes],
-            from: vec![(NONE, NONE); nodes],
+            wire_role: IdVec::same(None, model.wires.len()),
+            wire_covered: IdVec::same(false, model.wires.len()),
+            wanted: IdVec::same(false, demands),
+            dist: IdVec::same(FAR, nodes),
+            from: IdVec::same(None, nodes),
             queue: VecDeque::new(),
-            queued: vec![false; nodes],
+            queued: IdVec::same(false, nodes),
             path: Vec::new(),
         }
     }
@@ -105,44 +188,46 @@ impl Flow {
     pub(crate) fn at(
         &self,
         model: &Model,
-        device: usize,
+        device: DeviceId,
         position: usize,
-    ) -> Option<(usize, usize)> {
-        let demand = model.demand[device] + position;
-        self.now.active[demand].then(|| (self.pin_of(model, demand), self.now.arc[demand]))
+    ) -> Option<(PinId, CandId)> {
+        let demand = model.demands.of(device).at(position);
+        let held = self.now.arc[demand].filter(|_| self.now.active[demand])?;
+        Some((self.pin_of(&model.cand[held])?, held))
     }
 
     /// Pin of a shared wire, when a decided device wants it.
-    pub(crate) fn wire(&self, model: &Model, wire: usize) -> Option<usize> {
-        let demand = model.demand[model.devices] + wire;
-        self.now.active[demand].then(|| self.pin_of(model, demand))
+    pub(crate) fn wire(&self, model: &Model, wire: WireId) -> Option<PinId> {
+        let demand = self.layout.wire(wire);
+        let held = self.now.arc[demand].filter(|_| self.now.active[demand])?;
+        self.pin_of(&model.cand[held])
     }
 
-    fn pin_of(&self, model: &Model, demand: usize) -> usize {
-        let c = model.cand(self.now.arc[demand]);
-        if c.gate == NONE { c.pin } else { self.now.gate_out[c.gate] }
+    /// The pin of a demand that leaves by this candidate.
+    fn pin_of(&self, c: &Cand) -> Option<PinId> {
+        c.gate.map_or(Some(c.pin), |gate| self.now.gate_out[gate])
     }
 
     /// Brings the flow up to date with the domains.
     ///
     /// # Errors
-    /// [`Dead`] when a wire finds no pin; [`Self::stuck`] then tells whose.
-    pub(crate) fn refresh(&mut self, model: &Model, domains: &Domains) -> Result<(), Dead> {
+    /// [`Pruned`] when a wire finds no pin; [`Self::stuck`] then tells whose.
+    pub(crate) fn refresh(&mut self, model: &Model, domains: &Domains) -> Result<(), Pruned> {
         self.find_wanted(model, domains);
         // Taking one demand out can move another into a gate whose pin is no longer possible.
         let mut changed = true;
         while changed {
             changed = false;
-            for demand in 0..self.demands {
+            for demand in self.wanted.ids() {
                 if self.now.active[demand]
                     && (!self.wanted[demand] || !self.holds(model, domains, demand))
                 {
                     self.withdraw(model, domains, demand);
-                    changed = model.gates > 0;
+                    changed = self.layout.gates > 0;
                 }
             }
         }
-        for demand in 0..self.demands {
+        for demand in self.wanted.ids() {
             if self.wanted[demand] && !self.now.active[demand] {
                 self.augment(model, domains, demand)?;
             }
@@ -151,31 +236,28 @@ impl Flow {
     }
 
     fn find_wanted(&mut self, model: &Model, domains: &Domains) {
-        let devices = model.demand[model.devices];
-        self.wanted[..devices].copy_from_slice(&self.always);
-        if self.wanted.len() == devices && self.always.iter().all(|a| *a) {
+        self.wanted.copy_from(&self.always);
+        if model.wires.is_empty() && self.always.iter().all(|a| *a) {
             return;
         }
-        self.wanted[devices..].fill(false);
-        self.wire_role.fill(NONE);
+        self.wire_role.fill(None);
         self.wire_covered.fill(false);
-        for device in 0..model.devices {
+        for device in model.devices {
             let Some(alt) = domains.decided(device) else { continue };
-            for (position, role) in model.roles.range(alt).enumerate() {
-                match model.role_kind[role] {
-                    Kind::Own => self.wanted[model.demand[device] + position] = true,
-                    Kind::Wire(wire) => {
-                        self.wanted[devices + wire] = true;
+            let demands = model.demands.of(device);
+            for (role, demand) in model.roles.of(alt).iter().zip(demands) {
+                match model.holding[role] {
+                    Holding::Own => self.wanted[demand] = true,
+                    Holding::Wire(wire) => {
+                        self.wanted[self.layout.wire(wire)] = true;
                         self.wire_covered[wire] = true;
-                        if self.wire_role[wire] == NONE {
-                            self.wire_role[wire] = role;
-                        }
+                        self.wire_role[wire].get_or_insert(role);
                     }
-                    Kind::Odd => {}
+                    Holding::Irregular => {}
                 }
             }
         }
-        for device in 0..model.devices {
+        for device in model.devices {
             if domains.decided(device).is_none() {
                 self.want_undecided(model, domains, device);
             }
@@ -184,96 +266,68 @@ impl Flow {
 
     /// A device that may still choose wants the role positions that are its own in every
     /// alternative, and shared ones as long as nobody it might join has them.
-    fn want_undecided(&mut self, model: &Model, domains: &Domains, device: usize) {
-        let demands = model.demand[device]..model.demand[device + 1];
-        if demands.clone().all(|d| self.always[d]) {
+    fn want_undecided(&mut self, model: &Model, domains: &Domains, device: DeviceId) {
+        let demands = model.demands.of(device);
+        if demands.iter().all(|d| self.always[d]) {
             return;
         }
-        let wires = |alt: usize| {
-            model.roles.range(alt).filter_map(|role| match model.role_kind[role] {
-                Kind::Wire(wire) => Some(wire),
-                Kind::Own | Kind::Odd => None,
-            })
-        };
-        let free = domains.alts(model, device).flat_map(wires).all(|w| !self.wire_covered[w]);
-        for (position, demand) in demands.enumerate() {
-            let kind = |alt: usize| {
-                let role = model.roles.range(alt).start + position;
-                let exists = position < model.roles.range(alt).len();
-                if exists { model.role_kind[role] } else { Kind::Odd }
+        let mut wires = domains.alts(model, device).flat_map(|alt| model.alt_wires(alt));
+        let free = wires.all(|wire| !self.wire_covered[wire]);
+        for (position, demand) in demands.iter().enumerate() {
+            let shared = |alt| {
+                let role = model.roles.of(alt).nth(position);
+                role.is_some_and(|role| matches!(model.holding[role], Holding::Wire(_)))
             };
-            let mut kinds = domains.alts(model, device).map(kind);
-            self.wanted[demand] = kinds.clone().all(|k| k == Kind::Own)
-                || (free && kinds.all(|k| matches!(k, Kind::Wire(_))));
+            let mut alts = domains.alts(model, device);
+            self.wanted[demand] =
+                alts.clone().all(|alt| own_at(model, alt, position)) || (free && alts.all(shared));
         }
         if free {
-            for wire in domains.alts(model, device).flat_map(wires) {
+            for wire in domains.alts(model, device).flat_map(|alt| model.alt_wires(alt)) {
                 self.wire_covered[wire] = true;
             }
         }
     }
 
     /// The candidates a demand may leave by.
-    fn arcs<'a>(&self, model: &'a Model, demand: usize) -> Arcs<'a> {
-        let devices = model.demand[model.devices];
-        if demand < devices {
-            Arcs::List(model.demand_cands.at(demand).iter())
-        } else {
-            let role = self.wire_role[demand - devices];
-            Arcs::Range(if role == NONE { 0..0 } else { model.cands.range(role) })
+    fn arcs<'a>(&self, model: &'a Model, demand: DemandId) -> Arcs<'a> {
+        match self.layout.wire_of(demand) {
+            None => Arcs::Listed(model.demand_cands[demand].iter()),
+            Some(wire) => Arcs::OfRole(
+                self.wire_role[wire].map(|role| model.cands.of(role)).unwrap_or_default().iter(),
+            ),
         }
     }
 
     /// Whether the demand may stay where it is.
-    fn holds(&self, model: &Model, domains: &Domains, demand: usize) -> bool {
-        let held = self.now.arc[demand];
-        let c = model.cand(held);
-        let straight = c.gate == NONE || self.now.gate_out[c.gate] == c.pin;
-        if straight && demand < model.demand[model.devices] && domains.cand_on(model, held) {
+    fn holds(&self, model: &Model, domains: &Domains, demand: DemandId) -> bool {
+        let Some(held) = self.now.arc[demand] else { return false };
+        let c = &model.cand[held];
+        let pin = self.pin_of(c);
+        let own = self.layout.wire_of(demand).is_none();
+        if pin == Some(c.pin) && own && domains.has_cand(model, held) {
             return true;
         }
-        if c.gate == NONE {
+        let Some(gate) = c.gate else {
             // The representative of a shared wire changes; any candidate on the pin will do.
             return self.arcs(model, demand).any(|id| {
-                domains.cand_on(model, id)
-                    && model.cand(id).pin == c.pin
-                    && model.cand(id).extra == c.extra
+                domains.has_cand(model, id)
+                    && model.cand[id].pin == c.pin
+                    && model.cand[id].extra == c.extra
             });
-        }
-        let pin = self.now.gate_out[c.gate];
-        let enters = |id: usize| {
-            let o = model.cand(id);
-            o.gate == c.gate && o.extra == c.extra && domains.cand_on(model, id)
         };
-        let leaves = |id: &usize| model.cand(*id).pin == pin && domains.cand_on(model, *id);
-        self.arcs(model, demand).any(enters) && model.gate_cands.at(c.gate).iter().any(leaves)
+        let enters = |id: CandId| {
+            let o = &model.cand[id];
+            o.gate == c.gate && o.extra == c.extra && domains.has_cand(model, id)
+        };
+        let leaves = |id: &CandId| Some(model.cand[*id].pin) == pin && domains.has_cand(model, *id);
+        self.arcs(model, demand).any(enters) && model.gate_cands[gate].iter().any(leaves)
     }
 
-    fn node(&self, model: &Model, index: usize) -> Node {
-        let pins = self.demands + 2 * model.gates;
-        if index < self.demands {
-            Node::Demand(index)
-        } else if index >= pins {
-            Node::Pin(index - pins)
-        } else if (index - self.demands).is_multiple_of(2) {
-            Node::GateIn((index - self.demands) / 2)
-        } else {
-            Node::GateOut((index - self.demands) / 2)
-        }
-    }
-
-    fn gate_in(&self, gate: usize) -> usize {
-        self.demands + 2 * gate
-    }
-
-    fn pin(&self, model: &Model, pin: usize) -> usize {
-        self.demands + 2 * model.gates + pin
-    }
-
-    fn reach(&mut self, node: usize, dist: i64, from: usize, cand: usize) {
+    fn reach(&mut self, node: NodeId, dist: i64, arc: Option<Arc>) {
         if dist < self.dist[node] {
             self.dist[node] = dist;
-            self.from[node] = (from, cand);
+            self.from[node] = arc;
             if !self.queued[node] {
                 self.queued[node] = true;
                 self.queue.push_back(node);
@@ -283,132 +337,136 @@ impl Flow {
 
     /// Shortest residual paths from what is queued (label correcting; most arcs cost nothing).
     fn explore(&mut self, model: &Model, domains: &Domains) {
-        while let Some(index) = self.queue.pop_front() {
-            self.queued[index] = false;
-            let dist = self.dist[index];
-            match self.node(model, index) {
-                Node::Demand(demand) => {
-                    let held = self.now.arc[demand];
-                    let held = if held == NONE { NONE } else { self.entry(model, held) };
-                    for id in self.arcs(model, demand) {
-                        if !domains.cand_on(model, id) {
-                            continue;
-                        }
-                        let target = self.entry(model, id);
-                        if target != held {
-                            self.reach(target, dist + model.cand(id).extra as i64, index, id);
-                        }
+        while let Some(node) = self.queue.pop_front() {
+            self.queued[node] = false;
+            let dist = self.dist[node];
+            let back = Some((node, None));
+            match self.layout.node(node) {
+                Node::Demand(demand) => self.leave(model, domains, demand, dist),
+                Node::Pin(pin) => match self.now.owner[pin] {
+                    None => {}
+                    Some(Owner::Demand(owner)) => self.return_to(model, owner, dist, back),
+                    Some(Owner::Gate(gate)) => {
+                        self.reach(self.layout.id(Node::GateOut(gate)), dist, back);
                     }
-                }
-                Node::Pin(pin) => {
-                    let owner = self.now.owner[pin];
-                    if owner == NONE {
-                        continue;
-                    }
-                    if owner < self.demands {
-                        let extra = model.cand(self.now.arc[owner]).extra as i64;
-                        self.reach(owner, dist - extra, index, NONE);
-                    } else {
-                        let out = self.gate_in(owner - self.demands) + 1;
-                        self.reach(out, dist, index, NONE);
-                    }
-                }
-                Node::GateIn(gate) => {
-                    let demand = self.now.gate_in[gate];
-                    if demand == NONE {
-                        self.reach(index + 1, dist, index, NONE);
-                    } else {
-                        let extra = model.cand(self.now.arc[demand]).extra as i64;
-                        self.reach(demand, dist - extra, index, NONE);
-                    }
-                }
+                },
+                Node::GateIn(gate) => match self.now.gate_in[gate] {
+                    None => self.reach(self.layout.id(Node::GateOut(gate)), dist, back),
+                    Some(demand) => self.return_to(model, demand, dist, back),
+                },
                 Node::GateOut(gate) => {
-                    for &id in model.gate_cands.at(gate) {
-                        let pin = model.cand(id).pin;
-                        if pin != self.now.gate_out[gate] && domains.cand_on(model, id) {
-                            self.reach(self.pin(model, pin), dist, index, id);
+                    for &id in &model.gate_cands[gate] {
+                        let pin = model.cand[id].pin;
+                        if Some(pin) != self.now.gate_out[gate] && domains.has_cand(model, id) {
+                            let target = self.layout.id(Node::Pin(pin));
+                            self.reach(target, dist, Some((node, Some(id))));
                         }
                     }
-                    if self.now.gate_in[gate] != NONE {
-                        self.reach(index - 1, dist, index, NONE);
+                    if self.now.gate_in[gate].is_some() {
+                        self.reach(self.layout.id(Node::GateIn(gate)), dist, back);
                     }
                 }
             }
+        }
+    }
+
+    /// Reaches whatever the demand could have instead of what it has.
+    fn leave(&mut self, model: &Model, domains: &Domains, demand: DemandId, dist: i64) {
+        let node = self.layout.id(Node::Demand(demand));
+        let held = self.now.arc[demand].map(|held| self.entry(&model.cand[held]));
+        for id in self.arcs(model, demand) {
+            if !domains.has_cand(model, id) {
+                continue;
+            }
+            let c = &model.cand[id];
+            let target = self.entry(c);
+            if Some(target) != held {
+                self.reach(target, dist + c.extra as i64, Some((node, Some(id))));
+            }
+        }
+    }
+
+    /// Goes back along the arc by which the demand left.
+    fn return_to(&mut self, model: &Model, demand: DemandId, dist: i64, arc: Option<Arc>) {
+        if let Some(held) = self.now.arc[demand] {
+            let node = self.layout.id(Node::Demand(demand));
+            self.reach(node, dist - model.cand[held].extra as i64, arc);
         }
     }
 
     /// Where a candidate's arc leads.
-    fn entry(&self, model: &Model, id: usize) -> usize {
-        let c = model.cand(id);
-        if c.gate == NONE { self.pin(model, c.pin) } else { self.gate_in(c.gate) }
+    fn entry(&self, c: &Cand) -> NodeId {
+        self.layout.id(c.gate.map_or(Node::Pin(c.pin), Node::GateIn))
     }
 
-    fn augment(&mut self, model: &Model, domains: &Domains, demand: usize) -> Result<(), Dead> {
+    fn augment(
+        &mut self,
+        model: &Model,
+        domains: &Domains,
+        demand: DemandId,
+    ) -> Result<(), Pruned> {
         self.dist.fill(FAR);
-        self.reach(demand, 0, NONE, NONE);
+        self.reach(self.layout.id(Node::Demand(demand)), 0, None);
         self.explore(model, domains);
-        let first = self.pin(model, 0);
-        let mut best = (FAR, NONE);
-        for pin in 0..model.pins {
-            if self.now.owner[pin] == NONE && self.dist[first + pin] < FAR {
-                let dist = self.dist[first + pin] + model.pin_weight[pin] as i64;
-                best = best.min((dist, first + pin));
-            }
-        }
-        if best.1 == NONE {
-            return Err(Dead);
-        }
+        let free = model.pins.iter().filter(|&pin| self.now.owner[pin].is_none());
+        let ends = free.filter_map(|pin| {
+            let node = self.layout.id(Node::Pin(pin));
+            let dist = self.dist[node];
+            (dist < FAR).then(|| (dist + model.pin_weight[pin] as i64, node))
+        });
+        let (dist, last) = ends.min().ok_or(Pruned)?;
         self.now.active[demand] = true;
-        self.now.cost += best.0;
-        self.apply(model, best.1);
+        self.now.cost += dist;
+        self.reroute(last);
         Ok(())
     }
 
     /// Takes a demand out of the flow, at the greatest gain.
-    fn withdraw(&mut self, model: &Model, domains: &Domains, demand: usize) {
+    fn withdraw(&mut self, model: &Model, domains: &Domains, demand: DemandId) {
         self.dist.fill(FAR);
-        for pin in 0..model.pins {
-            if self.now.owner[pin] != NONE {
-                self.reach(self.pin(model, pin), -(model.pin_weight[pin] as i64), NONE, NONE);
+        for pin in model.pins {
+            if self.now.owner[pin].is_some() {
+                let node = self.layout.id(Node::Pin(pin));
+                self.reach(node, -(model.pin_weight[pin] as i64), None);
             }
         }
         self.explore(model, domains);
+        let node = self.layout.id(Node::Demand(demand));
         self.now.active[demand] = false;
-        self.now.cost += self.dist[demand];
-        self.apply(model, demand);
-        self.now.arc[demand] = NONE;
+        self.now.cost += self.dist[node];
+        self.reroute(node);
+        self.now.arc[demand] = None;
     }
 
     /// Reroutes along the path found to `last`.
-    fn apply(&mut self, model: &Model, last: usize) {
+    fn reroute(&mut self, last: NodeId) {
         self.path.clear();
         let mut node = last;
-        while self.from[node].0 != NONE {
-            let (from, cand) = self.from[node];
+        while let Some((from, cand)) = self.from[node] {
             self.path.push((from, node, cand));
             node = from;
         }
         // A path that starts at a pin frees it first.
-        if let Node::Pin(pin) = self.node(model, node) {
-            self.now.owner[pin] = NONE;
+        if let Node::Pin(pin) = self.layout.node(node) {
+            self.now.owner[pin] = None;
         }
         while let Some((from, to, cand)) = self.path.pop() {
-            match (self.node(model, from), self.node(model, to)) {
+            match (self.layout.node(from), self.layout.node(to)) {
                 (Node::Demand(demand), Node::Pin(pin)) => {
                     self.now.arc[demand] = cand;
-                    self.now.owner[pin] = demand;
+                    self.now.owner[pin] = Some(Owner::Demand(demand));
                 }
                 (Node::Demand(demand), Node::GateIn(gate)) => {
                     self.now.arc[demand] = cand;
-                    self.now.gate_in[gate] = demand;
+                    self.now.gate_in[gate] = Some(demand);
                 }
                 (Node::GateOut(gate), Node::Pin(pin)) => {
-                    self.now.gate_out[gate] = pin;
-                    self.now.owner[pin] = self.demands + gate;
+                    self.now.gate_out[gate] = Some(pin);
+                    self.now.owner[pin] = Some(Owner::Gate(gate));
                 }
                 (Node::GateOut(gate), Node::GateIn(_)) => {
-                    self.now.gate_in[gate] = NONE;
-                    self.now.gate_out[gate] = NONE;
+                    self.now.gate_in[gate] = None;
+                    self.now.gate_out[gate] = None;
                 }
                 _ => {}
             }
@@ -416,27 +474,32 @@ impl Flow {
     }
 
     /// Devices that fight for too few pins, after [`Self::refresh`] failed.
-    pub(crate) fn stuck(&self, model: &Model) -> Vec<usize> {
-        let reached = |d: &usize| {
-            (model.demand[*d]..model.demand[*d + 1]).any(|demand| self.dist[demand] < FAR)
-        };
-        (0..model.devices).filter(reached).collect()
+    pub(crate) fn stuck(&self, model: &Model) -> Vec<DeviceId> {
+        let reached = |demand| self.dist[self.layout.id(Node::Demand(demand))] < FAR;
+        let fights = |&device: &DeviceId| model.demands.of(device).iter().any(reached);
+        model.devices.iter().filter(fights).collect()
     }
+}
+
+/// Whether the alternative has a wire of its own at the position.
+fn own_at(model: &Model, alt: AltId, position: usize) -> bool {
+    let role = model.roles.of(alt).nth(position);
+    role.is_some_and(|role| model.holding[role] == Holding::Own)
 }
 
 /// Candidates of a demand.
 enum Arcs<'a> {
-    List(std::slice::Iter<'a, usize>),
-    Range(std::ops::Range<usize>),
+    Listed(std::slice::Iter<'a, CandId>),
+    OfRole(IdIter<CandId>),
 }
 
 impl Iterator for Arcs<'_> {
-    type Item = usize;
+    type Item = CandId;
 
-    fn next(&mut self) -> Option<usize> {
+    fn next(&mut self) -> Option<CandId> {
         match self {
-            Self::List(list) => list.next().copied(),
-            Self::Range(range) => range.next(),
+            Self::Listed(list) => list.next().copied(),
+            Self::OfRole(range) => range.next(),
         }
     }
 }

@@ -7,6 +7,6 @@ pub(crate) mod dualized;
 pub(crate) mod flow;
 pub(crate) mod lagrangian;
 pub(crate) mod lp;
-mod node_costs;
 pub(crate) mod program;
 pub(crate) mod relaxation;
+mod subproblems;

@@ -1,14 +1,16 @@
-//! What is still possible: restrictions in, their consequences out, all of it undone on demand.
+//! What is still possible: restrictions in, what remains out, all of it undone on demand.
 //!
 //! Domains only shrink. Every change is written on a trail, so a search returns to an earlier
-//! domains by unwinding it.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//! state by unwinding it. What follows from a restriction is in [`propagate`].
 
+mod propagate;
 pub(crate) mod streams;
 
-use crate::model::{Kind, Model, agree};
+use crate::index::{AltId, CandId, FacilityId, IdVec, Ids, RoleId};
+use crate::model::{Holding, Model};
+use crate::problem::{BoardId, DeviceId, RuleId};
 
-/// A soft rule or a spare board, as far as decided.
+/// A cost that is paid once however many cause it: a soft rule or a spare board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Charge {
     /// May still be avoided.
@@ -21,160 +23,191 @@ pub(crate) enum Charge {
 
 #[derive(Clone, Copy, Debug)]
 enum Event {
-    Alt(usize),
-    Cand(usize),
-    Rule(usize, Charge),
-    Board(usize, Charge),
+    Alt(AltId),
+    Cand(CandId),
+    Rule(RuleId, Charge),
+    Board(BoardId, Charge),
     /// The last of `opened`.
     Opened,
     /// Something is decided of the board.
-    Touched(usize),
+    Touched(BoardId),
 }
 
-/// Nothing is left for some device or role.
+/// There is no answer here, or none below the limit.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Dead;
+pub(crate) struct Pruned;
+
+/// The living ids among consecutive ones.
+#[derive(Clone, Copy, Debug, Default)]
+struct Living {
+    number: usize,
+    /// Exclusive or of the ids, which is the id itself when one is left.
+    xor: u32,
+}
+
+impl Living {
+    fn all(ids: impl Iterator<Item = u32>) -> Self {
+        ids.fold(Self::default(), |all, id| Self { number: all.number + 1, xor: all.xor ^ id })
+    }
+
+    fn remove(&mut self, id: u32) {
+        self.number -= 1;
+        self.xor ^= id;
+    }
+
+    fn restore(&mut self, id: u32) {
+        self.number += 1;
+        self.xor ^= id;
+    }
+
+    fn only(self) -> Option<u32> {
+        (self.number == 1).then_some(self.xor)
+    }
+}
 
 /// The domains.
 #[derive(Clone, Debug)]
 pub(crate) struct Domains {
-    alt_on: Vec<bool>,
-    cand_on: Vec<bool>,
-    device_left: Vec<usize>,
-    /// Exclusive or of the living ids, which is the id when one is left.
-    device_mix: Vec<usize>,
-    role_left: Vec<usize>,
-    role_mix: Vec<usize>,
-    pub(crate) rule: Vec<Charge>,
-    pub(crate) board: Vec<Charge>,
+    has_alt: IdVec<AltId, bool>,
+    has_cand: IdVec<CandId, bool>,
+    device: IdVec<DeviceId, Living>,
+    role: IdVec<RoleId, Living>,
+    pub(crate) rule: IdVec<RuleId, Charge>,
+    pub(crate) board: IdVec<BoardId, Charge>,
     /// Weight of the rules and spare boards that are certain.
     pub(crate) paid: u64,
     /// Facilities (see [`crate::bounds::dualized`]) that somebody must use.
-    pub(crate) opened: Vec<usize>,
+    pub(crate) opened: Vec<FacilityId>,
     /// Boards of which something is decided that is not decided of all equal ones. What only
     /// follows does not count.
-    touched: Vec<bool>,
+    touched: IdVec<BoardId, bool>,
     trail: Vec<Event>,
-    decided: Vec<usize>,
-    pinned: Vec<usize>,
+    /// Devices and roles with one choice left whose consequences are not drawn yet.
+    decided: Vec<DeviceId>,
+    chosen: Vec<RoleId>,
 }
 
 impl Domains {
-    pub(crate) fn new(model: &Model) -> Result<Self, Dead> {
-        let mix = |range: std::ops::Range<usize>| range.fold(0, |a, b| a ^ b);
-        let roles = model.role_alt.len();
+    pub(crate) fn new(model: &Model) -> Result<Self, Pruned> {
+        let alts = |d| Living::all(model.alts.of(d).iter().map(|alt| alt.0));
+        let cands = |r| Living::all(model.cands.of(r).iter().map(|id| id.0));
+        let roles = model.role_alt.ids();
         let mut domains = Self {
-            alt_on: vec![true; model.alt_device.len()],
-            cand_on: vec![true; model.cand_count()],
-            device_left: (0..model.devices).map(|d| model.alts.range(d).len()).collect(),
-            device_mix: (0..model.devices).map(|d| mix(model.alts.range(d))).collect(),
-            role_left: (0..roles).map(|r| model.cands.range(r).len()).collect(),
-            role_mix: (0..roles).map(|r| mix(model.cands.range(r))).collect(),
-            rule: vec![Charge::Open; model.rule_users.len()],
-            board: vec![Charge::Open; model.spare.len()],
+            has_alt: IdVec::same(true, model.alt_device.len()),
+            has_cand: IdVec::same(true, model.cand.len()),
+            device: model.devices.iter().map(alts).collect(),
+            role: roles.iter().map(cands).collect(),
+            rule: IdVec::same(Charge::Open, model.rule_users.len()),
+            board: IdVec::same(Charge::Open, model.spare.len()),
             paid: 0,
             opened: Vec::new(),
-            touched: vec![false; model.spare.len()],
+            touched: IdVec::same(false, model.spare.len()),
             trail: Vec::new(),
             decided: Vec::new(),
-            pinned: Vec::new(),
+            chosen: Vec::new(),
         };
-        for device in 0..model.devices {
-            match domains.device_left[device] {
-                0 => return Err(Dead),
+        for device in model.devices {
+            match domains.device[device].number {
+                0 => return Err(Pruned),
                 1 => domains.decided.push(device),
                 _ => {}
             }
         }
-        for role in 0..roles {
+        for role in roles {
             let alt = model.role_alt[role];
-            if domains.role_left[role] == 0 && domains.alt_on[alt] {
-                domains.kill_alt(model, alt)?;
+            if domains.role[role].number == 0 && domains.has_alt[alt] {
+                domains.remove_alt(model, alt)?;
             }
         }
         domains.propagate(model)?;
         Ok(domains)
     }
 
-    pub(crate) fn alt_on(&self, alt: usize) -> bool {
-        self.alt_on[alt]
+    #[inline]
+    pub(crate) fn has_alt(&self, alt: AltId) -> bool {
+        self.has_alt[alt]
     }
 
-    pub(crate) fn cand_on(&self, model: &Model, id: usize) -> bool {
-        self.cand_on[id] && self.alt_on[model.cand_alt(id)]
+    #[inline]
+    pub(crate) fn has_cand(&self, model: &Model, id: CandId) -> bool {
+        self.has_cand[id] && self.has_alt[model.cand_alt(id)]
     }
 
-    /// The alternative, when only one is left.
-    pub(crate) fn decided(&self, device: usize) -> Option<usize> {
-        (self.device_left[device] == 1).then(|| self.device_mix[device])
+    /// The alternative of a device, when only one is left.
+    #[inline]
+    pub(crate) fn decided(&self, device: DeviceId) -> Option<AltId> {
+        self.device[device].only().map(AltId)
     }
 
-    /// The candidate, when only one is left.
-    pub(crate) fn pinned(&self, role: usize) -> Option<usize> {
-        (self.role_left[role] == 1).then(|| self.role_mix[role])
+    /// The candidate of a role, when only one is left.
+    #[inline]
+    pub(crate) fn chosen(&self, role: RoleId) -> Option<CandId> {
+        self.role[role].only().map(CandId)
     }
 
-    pub(crate) fn role_left(&self, role: usize) -> usize {
-        self.role_left[role]
+    /// Number of candidates that a role has left.
+    pub(crate) fn cands_left(&self, role: RoleId) -> usize {
+        self.role[role].number
     }
 
-    pub(crate) fn device_left(&self, device: usize) -> usize {
-        self.device_left[device]
+    /// Number of alternatives that a device has left.
+    pub(crate) fn alts_left(&self, device: DeviceId) -> usize {
+        self.device[device].number
     }
 
     pub(crate) fn alts<'a>(
         &'a self,
         model: &'a Model,
-        device: usize,
-    ) -> impl Iterator<Item = usize> + Clone + 'a {
-        model.alts.range(device).filter(|&a| self.alt_on[a])
+        device: DeviceId,
+    ) -> impl Iterator<Item = AltId> + Clone + 'a {
+        model.alts.of(device).iter().filter(|&a| self.has_alt[a])
     }
 
     /// The living candidates of a role whose alternative is known to live.
     pub(crate) fn cands<'a>(
         &'a self,
         model: &'a Model,
-        role: usize,
-    ) -> impl Iterator<Item = usize> + Clone + 'a {
-        model.cands.range(role).filter(|&c| self.cand_on[c])
+        role: RoleId,
+    ) -> impl Iterator<Item = CandId> + Clone + 'a {
+        model.cands.of(role).iter().filter(|&c| self.has_cand[c])
     }
 
     /// Whether two interchangeable devices have the same choices left.
-    pub(crate) fn same_domain(&self, model: &Model, one: usize, other: usize) -> bool {
-        let (a, b) = (model.alts.range(one), model.alts.range(other));
-        self.device_left[one] == self.device_left[other]
-            && a.zip(b).all(|(a, b)| {
-                if self.alt_on[a] != self.alt_on[b] {
-                    return false;
-                }
-                let (r, s) = (model.roles.range(a), model.roles.range(b));
-                !self.alt_on[a]
-                    || r.zip(s).all(|(r, s)| {
-                        let (c, d) = (model.cands.range(r), model.cands.range(s));
-                        self.role_left[r] == self.role_left[s]
-                            && c.zip(d).all(|(c, d)| self.cand_on[c] == self.cand_on[d])
-                    })
+    pub(crate) fn same_domain(&self, model: &Model, one: DeviceId, other: DeviceId) -> bool {
+        let (a, b) = (model.alts.of(one), model.alts.of(other));
+        self.alts_left(one) == self.alts_left(other)
+            && a.iter().zip(b).all(|(a, b)| {
+                self.has_alt[a] == self.has_alt[b]
+                    && (!self.has_alt[a]
+                        || self.same_cands(model, model.roles.of(a), model.roles.of(b)))
             })
+    }
+
+    fn same_cands(&self, model: &Model, one: Ids<RoleId>, other: Ids<RoleId>) -> bool {
+        one.iter().zip(other).all(|(r, s)| {
+            let mut cands = model.cands.of(r).iter().zip(model.cands.of(s));
+            self.cands_left(r) == self.cands_left(s)
+                && cands.all(|(c, d)| self.has_cand[c] == self.has_cand[d])
+        })
     }
 
     pub(crate) fn mark(&self) -> usize {
         self.trail.len()
     }
 
+    /// Takes back all that happened after the mark.
     pub(crate) fn undo(&mut self, model: &Model, mark: usize) {
         self.decided.clear();
-        self.pinned.clear();
+        self.chosen.clear();
         while self.trail.len() > mark {
             match self.trail.pop() {
                 Some(Event::Alt(alt)) => {
-                    self.alt_on[alt] = true;
-                    self.device_left[model.alt_device[alt]] += 1;
-                    self.device_mix[model.alt_device[alt]] ^= alt;
+                    self.has_alt[alt] = true;
+                    self.device[model.alt_device[alt]].restore(alt.0);
                 }
                 Some(Event::Cand(id)) => {
-                    self.cand_on[id] = true;
-                    self.role_left[model.cand(id).role] += 1;
-                    self.role_mix[model.cand(id).role] ^= id;
+                    self.has_cand[id] = true;
+                    self.role[model.cand[id].role].restore(id.0);
                 }
                 Some(Event::Rule(rule, old)) => {
                     if self.rule[rule] == Charge::Paid && old != Charge::Paid {
@@ -197,17 +230,16 @@ impl Domains {
         }
     }
 
-    pub(crate) fn kill_alt(&mut self, model: &Model, alt: usize) -> Result<(), Dead> {
-        if !self.alt_on[alt] {
+    pub(crate) fn remove_alt(&mut self, model: &Model, alt: AltId) -> Result<(), Pruned> {
+        if !self.has_alt[alt] {
             return Ok(());
         }
         let device = model.alt_device[alt];
-        self.alt_on[alt] = false;
-        self.device_left[device] -= 1;
-        self.device_mix[device] ^= alt;
+        self.has_alt[alt] = false;
+        self.device[device].remove(alt.0);
         self.trail.push(Event::Alt(alt));
-        match self.device_left[device] {
-            0 => Err(Dead),
+        match self.alts_left(device) {
+            0 => Err(Pruned),
             1 => {
                 self.decided.push(device);
                 Ok(())
@@ -216,62 +248,51 @@ impl Domains {
         }
     }
 
-    pub(crate) fn kill_cand(&mut self, model: &Model, id: usize) -> Result<(), Dead> {
-        let role = model.cand(id).role;
+    pub(crate) fn remove_cand(&mut self, model: &Model, id: CandId) -> Result<(), Pruned> {
+        let role = model.cand[id].role;
         let alt = model.role_alt[role];
-        if !self.cand_on[id] || !self.alt_on[alt] {
+        if !self.has_cand[id] || !self.has_alt[alt] {
             return Ok(());
         }
-        self.cand_on[id] = false;
-        self.role_left[role] -= 1;
-        self.role_mix[role] ^= id;
+        self.has_cand[id] = false;
+        self.role[role].remove(id.0);
         self.trail.push(Event::Cand(id));
-        if self.role_left[role] == 0 {
-            return self.kill_alt(model, alt);
+        if self.cands_left(role) == 0 {
+            return self.remove_alt(model, alt);
         }
-        if self.device_left[model.alt_device[alt]] == 1 {
-            if self.role_left[role] == 1 {
-                self.pinned.push(role);
+        if self.alts_left(model.alt_device[alt]) == 1 {
+            if self.cands_left(role) == 1 {
+                self.chosen.push(role);
             }
-            if let Kind::Wire(wire) = model.role_kind[role] {
-                self.kill_on_wire(model, wire, id)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// A decided device cannot take this candidate, so nobody on its wire can.
-    fn kill_on_wire(&mut self, model: &Model, wire: usize, id: usize) -> Result<(), Dead> {
-        let c = model.cand(id);
-        for &other in model.wire_cands.at(wire) {
-            let o = model.cand(other);
-            if (o.pin, o.signal) == (c.pin, c.signal) {
-                self.kill_cand(model, other)?;
+            if let Holding::Wire(wire) = model.holding[role] {
+                self.remove_on_wire(model, wire, id)?;
             }
         }
         Ok(())
     }
 
-    pub(crate) fn decide(&mut self, model: &Model, alt: usize) -> Result<(), Dead> {
-        for other in model.alts.range(model.alt_device[alt]) {
+    /// Leaves the device this alternative only.
+    pub(crate) fn choose_alt(&mut self, model: &Model, alt: AltId) -> Result<(), Pruned> {
+        for other in model.alts.of(model.alt_device[alt]) {
             if other != alt {
-                self.kill_alt(model, other)?;
+                self.remove_alt(model, other)?;
             }
         }
-        if self.alt_on[alt] { Ok(()) } else { Err(Dead) }
+        if self.has_alt[alt] { Ok(()) } else { Err(Pruned) }
     }
 
-    pub(crate) fn pin(&mut self, model: &Model, id: usize) -> Result<(), Dead> {
-        self.decide(model, model.cand_alt(id))?;
-        for other in model.cands.range(model.cand(id).role) {
+    /// Leaves the device this candidate's alternative, and its role this candidate only.
+    pub(crate) fn choose_cand(&mut self, model: &Model, id: CandId) -> Result<(), Pruned> {
+        self.choose_alt(model, model.cand_alt(id))?;
+        for other in model.cands.of(model.cand[id].role) {
             if other != id {
-                self.kill_cand(model, other)?;
+                self.remove_cand(model, other)?;
             }
         }
-        if self.cand_on[id] { Ok(()) } else { Err(Dead) }
+        if self.has_cand[id] { Ok(()) } else { Err(Pruned) }
     }
 
-    pub(crate) fn pay_rule(&mut self, model: &Model, rule: usize) -> Result<(), Dead> {
+    pub(crate) fn pay_rule(&mut self, model: &Model, rule: RuleId) -> Result<(), Pruned> {
         match self.rule[rule] {
             Charge::Open if !model.rule_local[rule] => {
                 self.trail.push(Event::Rule(rule, Charge::Open));
@@ -280,27 +301,22 @@ impl Domains {
                 Ok(())
             }
             Charge::Open | Charge::Paid => Ok(()),
-            Charge::Closed => Err(Dead),
+            Charge::Closed => Err(Pruned),
         }
     }
 
-    pub(crate) fn close_rule(&mut self, model: &Model, rule: usize) -> Result<(), Dead> {
-        if self.rule[rule] != Charge::Open {
-            return if self.rule[rule] == Charge::Paid { Err(Dead) } else { Ok(()) };
+    pub(crate) fn close_rule(&mut self, model: &Model, rule: RuleId) -> Result<(), Pruned> {
+        match self.rule[rule] {
+            Charge::Paid => return Err(Pruned),
+            Charge::Closed => return Ok(()),
+            Charge::Open => {}
         }
         self.trail.push(Event::Rule(rule, Charge::Open));
         self.rule[rule] = Charge::Closed;
-        for user in model.rule_users.at(rule) {
-            if user.is_candidate {
-                self.kill_cand(model, user.id)?;
-            } else {
-                self.kill_alt(model, user.id)?;
-            }
-        }
-        Ok(())
+        model.rule_users[rule].iter().try_for_each(|part| self.remove_part(model, *part))
     }
 
-    pub(crate) fn pay_board(&mut self, model: &Model, board: usize) -> Result<(), Dead> {
+    pub(crate) fn pay_board(&mut self, model: &Model, board: BoardId) -> Result<(), Pruned> {
         match self.board[board] {
             Charge::Open if model.spare[board] => {
                 self.trail.push(Event::Board(board, Charge::Open));
@@ -309,130 +325,30 @@ impl Domains {
                 Ok(())
             }
             Charge::Open | Charge::Paid => Ok(()),
-            Charge::Closed => Err(Dead),
+            Charge::Closed => Err(Pruned),
         }
     }
 
-    pub(crate) fn close_board(&mut self, model: &Model, board: usize) -> Result<(), Dead> {
+    pub(crate) fn close_board(&mut self, model: &Model, board: BoardId) -> Result<(), Pruned> {
         self.trail.push(Event::Board(board, self.board[board]));
         self.board[board] = Charge::Closed;
-        for &alt in model.board_alts.at(board) {
-            self.kill_alt(model, alt)?;
-        }
-        Ok(())
+        model.board_alts[board].iter().try_for_each(|alt| self.remove_alt(model, *alt))
     }
 
     /// Only answers in which somebody uses the facility are looked for.
-    pub(crate) fn open(&mut self, facility: usize) {
+    pub(crate) fn open(&mut self, facility: FacilityId) {
         self.trail.push(Event::Opened);
         self.opened.push(facility);
     }
 
     /// Says that something is decided of the board.
-    pub(crate) fn touch(&mut self, board: usize) {
+    pub(crate) fn touch(&mut self, board: BoardId) {
         if !std::mem::replace(&mut self.touched[board], true) {
             self.trail.push(Event::Touched(board));
         }
     }
 
-    pub(crate) fn is_touched(&self, board: usize) -> bool {
+    pub(crate) fn is_touched(&self, board: BoardId) -> bool {
         self.touched[board]
-    }
-
-    /// Follows every decision to its end.
-    pub(crate) fn propagate(&mut self, model: &Model) -> Result<(), Dead> {
-        loop {
-            if let Some(device) = self.decided.pop() {
-                let alt = self.device_mix[device];
-                self.follow_alt(model, device, alt)?;
-            } else if let Some(role) = self.pinned.pop() {
-                self.follow_cand(model, self.role_mix[role])?;
-            } else {
-                return Ok(());
-            }
-        }
-    }
-
-    fn follow_alt(&mut self, model: &Model, device: usize, alt: usize) -> Result<(), Dead> {
-        self.follow_claims(model, device, model.alt_claims.at(alt))?;
-        for &rule in model.alt_rules.at(alt) {
-            self.pay_rule(model, rule)?;
-        }
-        self.pay_board(model, model.alt_board[alt])?;
-        for role in model.roles.range(alt) {
-            if self.role_left[role] == 1 {
-                self.pinned.push(role);
-            }
-            if let Kind::Wire(wire) = model.role_kind[role] {
-                self.join_wire(model, role, wire)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// A device has come to a wire: nobody there can leave its candidates.
-    fn join_wire(&mut self, model: &Model, role: usize, wire: usize) -> Result<(), Dead> {
-        for &other in model.wire_cands.at(wire) {
-            if !self.cand_on(model, other) {
-                continue;
-            }
-            let o = model.cand(other);
-            let here = |c: usize| {
-                let c = model.cand(c);
-                (c.pin, c.signal, c.holder) == (o.pin, o.signal, o.holder)
-            };
-            if o.role != role
-                && model.cand_device(other) != model.alt_device[model.role_alt[role]]
-                && !self.cands(model, role).any(here)
-            {
-                self.kill_cand(model, other)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn follow_claims(
-        &mut self,
-        model: &Model,
-        device: usize,
-        claims: &[(usize, usize)],
-    ) -> Result<(), Dead> {
-        for &(resource, holder) in claims {
-            for user in model.resource_users.at(resource) {
-                if agree(user.holder, holder) {
-                    continue;
-                }
-                if model.alt_device[model.user_alt(user)] == device {
-                    continue;
-                }
-                if user.is_candidate {
-                    self.kill_cand(model, user.id)?;
-                } else {
-                    self.kill_alt(model, user.id)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn follow_cand(&mut self, model: &Model, id: usize) -> Result<(), Dead> {
-        let c = model.cand(id);
-        let device = model.cand_device(id);
-        self.follow_claims(model, device, model.cand_claims.at(id))?;
-        for &rule in model.cand_rules.at(id) {
-            self.pay_rule(model, rule)?;
-        }
-        for &other in model.pin_cands.at(c.pin) {
-            let o = model.cand(other);
-            let clash = if model.cand_device(other) == device {
-                o.role != c.role
-            } else {
-                !agree(o.holder, c.holder) || o.signal != c.signal
-            };
-            if clash {
-                self.kill_cand(model, other)?;
-            }
-        }
-        Ok(())
     }
 }

@@ -1,42 +1,37 @@
-//! DMA streams as a bipartite matching: requests in, a stream for each out; whether what a search
-//! has decided leaves one.
-#![expect(clippy::indexing_slicing, reason = "streams are below `Problem::streams`, as validated")]
+//! DMA streams as a bipartite matching: requests in, a stream of its own for each of them out.
+//!
+//! A matching grows by augmenting paths (C. Berge, *Two theorems in graph theory*, 1957).
 
-use crate::problem::{DmaUserId, Problem, StreamId};
-use crate::search::{Choices, Engine};
+use super::Domains;
+use crate::index::{AltId, IdVec};
+use crate::model::{Choices, Model};
+use crate::problem::{DeviceId, DmaUserId, Problem, StreamId};
 use std::collections::BTreeSet;
-
-const FREE: usize = usize::MAX;
 
 /// A growing matching of requests to streams.
 pub(crate) struct Matching<'a> {
-    requests: Vec<&'a [StreamId]>,
-    /// Request that holds the stream.
-    holder: Vec<usize>,
+    /// The request that holds the stream, as the list of those that can serve it.
+    holder: IdVec<StreamId, Option<&'a [StreamId]>>,
 }
 
 impl<'a> Matching<'a> {
     pub(crate) fn new(streams: u32) -> Self {
-        Self { requests: Vec::new(), holder: vec![FREE; streams as usize] }
+        Self { holder: IdVec::same(None, streams as usize) }
     }
 
     /// Serves one more request, moving others where needed; false when it cannot be.
     pub(crate) fn add(&mut self, streams: &'a [StreamId]) -> bool {
-        self.requests.push(streams);
-        let mut seen = vec![false; self.holder.len()];
-        self.serve(self.requests.len() - 1, &mut seen)
+        let mut seen = IdVec::same(false, self.holder.len());
+        self.serve(streams, &mut seen)
     }
 
-    fn serve(&mut self, request: usize, seen: &mut [bool]) -> bool {
-        let streams = self.requests[request];
-        for stream in streams {
-            let stream = stream.0 as usize;
-            if seen[stream] {
+    fn serve(&mut self, request: &'a [StreamId], seen: &mut IdVec<StreamId, bool>) -> bool {
+        for &stream in request {
+            if std::mem::replace(&mut seen[stream], true) {
                 continue;
             }
-            seen[stream] = true;
-            if self.holder[stream] == FREE || self.serve(self.holder[stream], seen) {
-                self.holder[stream] = request;
+            if self.holder[stream].is_none_or(|other| self.serve(other, seen)) {
+                self.holder[stream] = Some(request);
                 return true;
             }
         }
@@ -46,11 +41,24 @@ impl<'a> Matching<'a> {
 
 /// Whether all users of the problem could be served at once.
 pub(crate) fn all_fit(problem: &Problem) -> bool {
-    let mut matching = Matching::new(problem.streams);
-    problem.dma.iter().flat_map(|u| &u.requests).all(|r| matching.add(&r.streams))
+    let requests = problem.dma.iter().flat_map(|user| &user.requests);
+    fit(problem, requests.map(|r| r.streams.as_slice()))
 }
 
-fn fits<'a>(problem: &Problem, requests: impl Iterator<Item = &'a [StreamId]>) -> bool {
+/// Whether these users can be served at once.
+pub(crate) fn users_fit(problem: &Problem, users: &BTreeSet<DmaUserId>) -> bool {
+    fit(problem, requests(problem, users))
+}
+
+fn requests<'a>(
+    problem: &'a Problem,
+    users: &'a BTreeSet<DmaUserId>,
+) -> impl Iterator<Item = &'a [StreamId]> + Clone {
+    let requests = users.iter().flat_map(|&user| &problem.dma_user(user).requests);
+    requests.map(|r| r.streams.as_slice())
+}
+
+fn fit<'a>(problem: &Problem, requests: impl Iterator<Item = &'a [StreamId]>) -> bool {
     let mut matching = Matching::new(problem.streams);
     let mut requests = requests;
     requests.all(|r| matching.add(r))
@@ -59,77 +67,62 @@ fn fits<'a>(problem: &Problem, requests: impl Iterator<Item = &'a [StreamId]>) -
 /// The streams of these users, the first that works for each request in turn.
 pub(crate) fn assign(
     problem: &Problem,
-    users: &BTreeSet<usize>,
+    users: &BTreeSet<DmaUserId>,
 ) -> Option<Vec<(DmaUserId, Vec<StreamId>)>> {
-    let mut lists: Vec<Vec<StreamId>> = users
-        .iter()
-        .flat_map(|&u| problem.dma[u].requests.iter().map(|r| r.streams.clone()))
-        .collect();
-    if !fits(problem, lists.iter().map(Vec::as_slice)) {
-        return None;
+    let all: Vec<&[StreamId]> = requests(problem, users).collect();
+    let mut chosen: Vec<StreamId> = Vec::new();
+    for (number, request) in all.iter().enumerate() {
+        let works = |stream: &&StreamId| {
+            let before = chosen.chunks(1).chain([std::slice::from_ref(*stream)]);
+            fit(problem, before.chain(all.iter().skip(number + 1).copied()))
+        };
+        let stream = *request.iter().find(works)?;
+        chosen.push(stream);
     }
-    for i in 0..lists.len() {
-        for stream in lists[i].clone() {
-            let all = std::mem::replace(&mut lists[i], vec![stream]);
-            if fits(problem, lists.iter().map(Vec::as_slice)) {
-                break;
-            }
-            lists[i] = all;
-        }
-    }
-    let mut chosen = lists.into_iter().flatten();
-    let user = |&u: &usize| {
-        let streams = chosen.by_ref().take(problem.dma[u].requests.len()).collect();
-        (DmaUserId(u as u32), streams)
+    let mut chosen = chosen.into_iter();
+    let user = |&user: &DmaUserId| {
+        let number = problem.dma_user(user).requests.len();
+        (user, chosen.by_ref().take(number).collect())
     };
     Some(users.iter().map(user).collect())
 }
 
-impl Engine<'_> {
-    /// Whether the streams suffice for these choices.
-    pub(crate) fn dma_fits(&self, choices: &Choices) -> bool {
-        let mut users: Vec<usize> =
-            choices.iter().flat_map(|(alt, _)| self.model.alt_dma.at(*alt)).copied().collect();
-        users.sort_unstable();
-        users.dedup();
-        let mut matching = Matching::new(self.problem.streams);
-        let mut requests = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
-        requests.all(|r| matching.add(&r.streams))
-    }
+/// Whether the streams suffice for these choices.
+pub(crate) fn suffice(problem: &Problem, model: &Model, choices: &Choices) -> bool {
+    let users = choices.iter().flat_map(|chosen| &model.alt_dma[chosen.alt]).copied().collect();
+    users_fit(problem, &users)
+}
 
-    /// Whether the streams suffice for all that is certain.
-    pub(crate) fn dma_possible(&self) -> bool {
-        let model = self.model;
-        let mut users: Vec<usize> = (0..model.devices)
-            .filter_map(|d| self.domains.decided(d))
-            .flat_map(|alt| model.alt_dma.at(alt).iter().copied())
-            .collect();
-        users.sort_unstable();
-        users.dedup();
-        let mut unions: Vec<Vec<StreamId>> = Vec::new();
-        for device in (0..model.devices).filter(|&d| self.domains.decided(d).is_none()) {
-            self.undecided_requests(device, &mut unions);
-        }
-        let mut matching = Matching::new(self.problem.streams);
-        let certain = users.iter().flat_map(|&u| &self.problem.dma[u].requests);
-        let mut all = certain.map(|r| r.streams.as_slice()).chain(unions.iter().map(Vec::as_slice));
-        all.all(|streams| matching.add(streams))
+/// Whether the streams may suffice for all that is certain.
+pub(crate) fn may_suffice(problem: &Problem, model: &Model, domains: &Domains) -> bool {
+    let decided = model.devices.iter().filter_map(|d| domains.decided(d));
+    let users = decided.flat_map(|alt| &model.alt_dma[alt]).copied().collect();
+    let mut unions: Vec<Vec<StreamId>> = Vec::new();
+    for device in model.devices.iter().filter(|&d| domains.decided(d).is_none()) {
+        add_undecided_requests(problem, model, domains, device, &mut unions);
     }
+    fit(problem, requests(problem, &users).chain(unions.iter().map(Vec::as_slice)))
+}
 
-    /// The requests of a device that needs streams of its own whatever it chooses.
-    fn undecided_requests(&self, device: usize, unions: &mut Vec<Vec<StreamId>>) {
-        let model = self.model;
-        let requests = |alt: usize| {
-            let users = model.alt_dma.at(alt).iter();
-            users.filter(|u| model.user_private[**u]).flat_map(|&u| &self.problem.dma[u].requests)
-        };
-        let least = self.domains.alts(model, device).map(|a| requests(a).count()).min();
-        for position in 0..least.unwrap_or(0) {
-            let mut union = Vec::new();
-            for alt in self.domains.alts(model, device) {
-                union.extend(requests(alt).nth(position).into_iter().flat_map(|r| &r.streams));
-            }
-            unions.push(union);
+/// The requests of a device that needs streams of its own whatever it chooses. Each stands for one
+/// request of every alternative, so any stream of those may serve it.
+fn add_undecided_requests(
+    problem: &Problem,
+    model: &Model,
+    domains: &Domains,
+    device: DeviceId,
+    unions: &mut Vec<Vec<StreamId>>,
+) {
+    let requests = |alt: AltId| {
+        let private = model.alt_dma[alt].iter().filter(|user| model.user_private[**user]);
+        private.flat_map(|&user| &problem.dma_user(user).requests)
+    };
+    let least = domains.alts(model, device).map(|alt| requests(alt).count()).min();
+    for position in 0..least.unwrap_or(0) {
+        let mut union = Vec::new();
+        for alt in domains.alts(model, device) {
+            union.extend(requests(alt).nth(position).into_iter().flat_map(|r| &r.streams));
         }
+        unions.push(union);
     }
 }

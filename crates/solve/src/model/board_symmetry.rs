@@ -4,80 +4,78 @@
 //! streams numbered in the order in which they appear on each board. Swapping all that is on them
 //! then gives an answer with the same objective. The search uses this twice: it refuses a choice on
 //! all equal boards about which nothing is decided yet, and it tries only the first of them.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
+use crate::index::{AltId, CandId, Id, IdVec};
 use crate::model::Model;
-use crate::problem::Problem;
+use crate::problem::{
+    BoardId, Claim, DmaUserId, Holder, PinId, Problem, ResourceId, RuleId, StreamId,
+};
 use std::collections::BTreeMap;
 
 /// Which boards are equal, and what corresponds to what.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Boards {
+pub(crate) struct BoardSymmetry {
     /// For each board the first that is equal to it.
-    pub(crate) first_equal: Vec<usize>,
+    pub(crate) first_equal: IdVec<BoardId, BoardId>,
     /// Place of each alternative among those of its device on its board.
-    place: Vec<usize>,
+    place: IdVec<AltId, usize>,
 }
 
-impl Boards {
+impl BoardSymmetry {
     pub(crate) fn new(problem: &Problem, model: &Model) -> Self {
-        let boards = model.spare.len();
-        let mut first_equal: Vec<usize> = (0..boards).collect();
-        let mut place = vec![0; model.alt_device.len()];
-        for device in 0..model.devices {
-            let mut next = vec![0; boards];
-            for alt in model.alts.range(device) {
+        let boards = model.spare.ids();
+        let mut first_equal: IdVec<BoardId, BoardId> = boards.iter().collect();
+        let mut place = IdVec::same(0, model.alt_device.len());
+        for device in model.devices {
+            let mut next: IdVec<BoardId, usize> = IdVec::same(0, boards.len());
+            for alt in model.alts.of(device) {
                 let board = model.alt_board[alt];
                 place[alt] = next[board];
                 next[board] += 1;
             }
         }
-        if boards < 2 {
+        if boards.len() < 2 {
             return Self { first_equal, place };
         }
-        let homes = Sites::new(problem, model);
-        let looks: Vec<Vec<u64>> =
-            (0..boards).map(|board| Signature::of(problem, model, &homes, board)).collect();
-        for board in 1..boards {
-            let equal = |b: &usize| first_equal[*b] == *b && looks[*b] == looks[board];
-            first_equal[board] = (0..board).find(equal).unwrap_or(board);
+        let sites = Sites::new(problem, model);
+        let signatures: IdVec<BoardId, Vec<u64>> =
+            boards.iter().map(|board| Signature::of(problem, model, &sites, board)).collect();
+        for board in boards.iter().skip(1) {
+            let equal = |&b: &BoardId| first_equal[b] == b && signatures[b] == signatures[board];
+            let first = boards.iter().take(board.index()).find(equal);
+            first_equal[board] = first.unwrap_or(board);
         }
         Self { first_equal, place }
     }
 
     /// What the alternative is on an equal board.
-    pub(crate) fn alt_on(&self, model: &Model, alt: usize, board: usize) -> Option<usize> {
-        let mut alts = model.alts.range(model.alt_device[alt]);
+    pub(crate) fn alt_on(&self, model: &Model, alt: AltId, board: BoardId) -> Option<AltId> {
+        let mut alts = model.alts.of(model.alt_device[alt]).iter();
         alts.find(|&other| model.alt_board[other] == board && self.place[other] == self.place[alt])
     }
 
     /// What the candidate is on an equal board.
-    pub(crate) fn cand_on(&self, model: &Model, id: usize, board: usize) -> Option<usize> {
-        let role = model.cand(id).role;
-        let alt = model.role_alt[role];
-        let other = self.alt_on(model, alt, board)?;
-        let position = role - model.roles.range(alt).start;
-        let place = id - model.cands.range(role).start;
-        Some(model.cands.range(model.roles.range(other).start + position).start + place)
+    pub(crate) fn cand_on(&self, model: &Model, id: CandId, board: BoardId) -> Option<CandId> {
+        Some(model.twin_cand(id, self.alt_on(model, model.cand_alt(id), board)?))
     }
 }
 
-/// Whose each resource, DMA user and stream is.
+/// The board on which each resource, DMA user and stream is used.
 struct Sites {
-    resources: Vec<Site>,
-    users: Vec<Site>,
-    streams: Vec<Site>,
+    resources: IdVec<ResourceId, Site>,
+    users: IdVec<DmaUserId, Site>,
+    streams: IdVec<StreamId, Site>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Site {
     Unused,
-    On(usize),
+    On(BoardId),
     Several,
 }
 
 impl Site {
-    fn add(&mut self, board: usize) {
+    fn add(&mut self, board: BoardId) {
         *self = match *self {
             Self::Unused => Self::On(board),
             Self::On(one) if one == board => Self::On(one),
@@ -88,116 +86,122 @@ impl Site {
 
 impl Sites {
     fn new(problem: &Problem, model: &Model) -> Self {
-        let mut resources = vec![Site::Unused; problem.resources as usize];
-        let mut users = vec![Site::Unused; problem.dma.len()];
-        let mut streams = vec![Site::Unused; problem.streams as usize];
-        for alt in 0..model.alt_device.len() {
-            let board = model.alt_board[alt];
-            let cands = model.roles.range(alt).flat_map(|role| model.cands.range(role));
-            let of_cands = cands.flat_map(|id| model.cand_claims.at(id));
-            for claim in model.alt_claims.at(alt).iter().chain(of_cands) {
-                resources[claim.0].add(board);
+        let mut sites = Self {
+            resources: IdVec::same(Site::Unused, problem.resources as usize),
+            users: IdVec::same(Site::Unused, problem.dma.len()),
+            streams: IdVec::same(Site::Unused, problem.streams as usize),
+        };
+        for (alt, &board) in model.alt_board.enumerate() {
+            let of_cands = model.alt_cands(alt).iter().flat_map(|id| &model.cand_claims[id]);
+            for claim in model.alt_claims[alt].iter().chain(of_cands) {
+                sites.resources[claim.resource].add(board);
             }
-            for &user in model.alt_dma.at(alt) {
-                users[user].add(board);
-                let requests = problem.dma[user].requests.iter();
-                requests.flat_map(|r| &r.streams).for_each(|s| streams[s.0 as usize].add(board));
+            for &user in &model.alt_dma[alt] {
+                sites.users[user].add(board);
+                let requests = problem.dma_user(user).requests.iter();
+                requests.flat_map(|r| &r.streams).for_each(|&s| sites.streams[s].add(board));
             }
         }
-        Self { resources, users, streams }
+        sites
     }
 }
 
 /// What a board looks like, in numbers that are the same for equal boards.
 struct Signature<'a> {
-    homes: &'a Sites,
+    sites: &'a Sites,
     /// Numbers of things in the order in which they come.
-    names: BTreeMap<(Thing, usize), u64>,
+    names: BTreeMap<Thing, u64>,
     text: Vec<u64>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Thing {
-    Resource,
-    Group,
-    User,
-    Stream,
+    Resource(ResourceId),
+    Group(u32),
+    User(DmaUserId),
+    Stream(StreamId),
 }
 
 impl<'a> Signature<'a> {
-    fn of(problem: &Problem, model: &Model, homes: &'a Sites, board: usize) -> Vec<u64> {
-        let mut look = Self { homes, names: BTreeMap::new(), text: Vec::new() };
-        look.text.push(u64::from(model.spare[board]));
-        let alts = model.board_alts.at(board);
-        let pins = alts.iter().flat_map(|&alt| model.roles.range(alt));
-        let first = pins.flat_map(|r| model.cands.at(r)).map(|c| c.pin).min().unwrap_or(0);
+    fn of(problem: &Problem, model: &Model, sites: &'a Sites, board: BoardId) -> Vec<u64> {
+        let mut signature = Self { sites, names: BTreeMap::new(), text: Vec::new() };
+        signature.text.push(u64::from(model.spare[board]));
+        let alts = &model.board_alts[board];
+        let cands = alts.iter().flat_map(|&alt| model.alt_cands(alt));
+        let first = cands.map(|id| model.cand[id].pin).min().unwrap_or(PinId(0));
         for &alt in alts {
-            look.text.extend([model.alt_device[alt] as u64, model.roles.range(alt).len() as u64]);
-            look.claims(model.alt_claims.at(alt));
-            look.numbers(model.alt_rules.at(alt));
-            look.text.push(model.alt_dma.at(alt).len() as u64);
-            model.alt_dma.at(alt).iter().for_each(|&user| look.user(problem, user));
-            for role in model.roles.range(alt) {
-                look.text.push(model.cands.range(role).len() as u64);
-                for id in model.cands.range(role) {
-                    let c = *model.cand(id);
-                    let pin = [(c.pin - first) as u64, model.pin_weight[c.pin]];
-                    look.text.extend(pin);
-                    look.text.extend([c.signal as u64, u64::from(c.moved), c.extra]);
-                    look.group(c.holder);
-                    look.claims(model.cand_claims.at(id));
-                    look.numbers(model.cand_rules.at(id));
+            let roles = model.roles.of(alt);
+            signature.text.extend([u64::from(model.alt_device[alt].0), roles.len() as u64]);
+            signature.claims(&model.alt_claims[alt]);
+            signature.rules(&model.alt_rules[alt]);
+            signature.text.push(model.alt_dma[alt].len() as u64);
+            model.alt_dma[alt].iter().for_each(|&user| signature.user(problem, user));
+            for role in roles {
+                signature.text.push(model.cands.of(role).len() as u64);
+                for id in model.cands.of(role) {
+                    let c = &model.cand[id];
+                    let pin = [u64::from(c.pin.0 - first.0), model.pin_weight[c.pin]];
+                    signature.text.extend(pin);
+                    signature.text.extend([u64::from(c.signal.0), u64::from(c.moved), c.extra]);
+                    signature.holder(c.holder);
+                    signature.claims(&model.cand_claims[id]);
+                    signature.rules(&model.cand_rules[id]);
                 }
             }
         }
-        look.text
+        signature.text
     }
 
-    fn numbers(&mut self, numbers: &[usize]) {
-        self.text.push(numbers.len() as u64);
-        self.text.extend(numbers.iter().map(|&number| number as u64));
+    fn rules(&mut self, rules: &[RuleId]) {
+        self.text.push(rules.len() as u64);
+        self.text.extend(rules.iter().map(|rule| u64::from(rule.0)));
     }
 
-    fn claims(&mut self, claims: &[(usize, usize)]) {
+    fn claims(&mut self, claims: &[Claim]) {
         self.text.push(claims.len() as u64);
-        for &(resource, holder) in claims {
-            let home = self.homes.resources[resource];
-            self.named(Thing::Resource, resource, home);
+        for &Claim { resource, holder } in claims {
+            let site = self.sites.resources[resource];
+            self.name(Thing::Resource(resource), u64::from(resource.0), site);
+            if site != Site::Several {
+                self.holder(holder);
+                continue;
+            }
             // Of what several boards have, all must mean the same by a group.
-            if home == Site::Several {
-                self.text.push(holder as u64);
-            } else {
-                self.group(holder);
+            self.text.push(match holder {
+                Holder::Own => 0,
+                Holder::Group(number) => u64::from(number) + 1,
+            });
+        }
+    }
+
+    /// The device alone is the same on every board.
+    fn holder(&mut self, holder: Holder) {
+        match holder {
+            Holder::Own => self.text.push(u64::MAX),
+            Holder::Group(number) => {
+                self.name(Thing::Group(number), u64::from(number), Site::Unused);
             }
         }
     }
 
-    /// 0 is the device alone on every board.
-    fn group(&mut self, holder: usize) {
-        if holder == 0 {
-            self.text.push(u64::MAX);
-        } else {
-            self.named(Thing::Group, holder, Site::Unused);
-        }
-    }
-
-    fn user(&mut self, problem: &Problem, user: usize) {
-        self.named(Thing::User, user, self.homes.users[user]);
-        self.text.push(problem.dma[user].requests.len() as u64);
-        for request in &problem.dma[user].requests {
+    fn user(&mut self, problem: &Problem, user: DmaUserId) {
+        self.name(Thing::User(user), u64::from(user.0), self.sites.users[user]);
+        let requests = &problem.dma_user(user).requests;
+        self.text.push(requests.len() as u64);
+        for request in requests {
             self.text.push(request.streams.len() as u64);
-            for stream in &request.streams {
-                let stream = stream.0 as usize;
-                self.named(Thing::Stream, stream, self.homes.streams[stream]);
+            for &stream in &request.streams {
+                let site = self.sites.streams[stream];
+                self.name(Thing::Stream(stream), u64::from(stream.0), site);
             }
         }
     }
 
     /// The number of a thing on this board; its own, and a mark, where other boards have it too.
-    fn named(&mut self, thing: Thing, id: usize, home: Site) {
+    fn name(&mut self, thing: Thing, own: u64, site: Site) {
         let next = self.names.len() as u64;
-        let shared = home == Site::Several;
-        let name = if shared { id as u64 } else { *self.names.entry((thing, id)).or_insert(next) };
+        let shared = site == Site::Several;
+        let name = if shared { own } else { *self.names.entry(thing).or_insert(next) };
         self.text.extend([u64::from(shared), name]);
     }
 }

@@ -1,4 +1,7 @@
-//! Whether a problem is one: ids that exist and costs that fit; the weights of its objective.
+//! Whether a problem is well-formed: a problem in, the weights of its objective out, or what it
+//! names and does not have.
+//!
+//! Everything after this relies on it: ids are not checked a second time.
 
 use crate::answer::Fault;
 use crate::model::Weights;

@@ -1,141 +1,163 @@
-//! How roles hold their pins: finds shared wires, gates, and rules that only one wire can violate.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//! How roles hold their pins: a flat model in, its shared wires, its gates and the rules that only
+//! one wire can violate out.
 
-use crate::index::Rows;
-use crate::model::{Cand, Kind, Model, NONE, User, code};
-use crate::problem::{Holder, Problem, Role};
+use crate::index::{AltId, CandId, Id, Ids, RoleId, Rows, WireId};
+use crate::model::{Cand, Holding, Model, Part};
+use crate::problem::{Claim, Holder, PinId, Problem, ResourceId, Role, RuleId};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Model {
     /// Finds the wires: roles all of whose candidates claim one resource as a group of their pin,
     /// so that all devices on it must take one pin.
-    pub(crate) fn find_kinds(&mut self, problem: &Problem) {
-        let shares = |o: &Cand, c: &Cand| (o.holder, o.signal) == (c.holder, c.signal);
-        let shared = |c: &Cand| {
-            let device = self.alt_device[self.role_alt[c.role]];
-            c.holder != 0
-                && self
-                    .pin_cands
-                    .at(c.pin)
-                    .iter()
-                    .any(|&o| shares(self.cand(o), c) && self.cand_device(o) != device)
-        };
-        self.role_kind = (0..self.role_alt.len())
-            .map(|r| if self.cands.at(r).iter().any(shared) { Kind::Odd } else { Kind::Own })
-            .collect();
-        if self.role_kind.iter().all(|k| *k == Kind::Own) {
-            self.wire_cands = Rows::default();
+    pub(super) fn find_holdings(&mut self, problem: &Problem) {
+        self.holding = self.role_alt.ids().iter().map(|role| self.own_or_irregular(role)).collect();
+        if self.holding.iter().all(|holding| *holding == Holding::Own) {
             return;
         }
-        let mut wires = Ties::default();
+        let mut ties = Ties::default();
         let all = problem.devices.iter().flat_map(|d| &d.alternatives).flat_map(|a| &a.roles);
-        for (role, r) in all.enumerate() {
-            if self.role_kind[role] == Kind::Odd {
-                wires.read(role, r);
+        for (role, r) in self.holding.ids().iter().zip(all) {
+            if self.holding[role] == Holding::Irregular {
+                ties.read(role, r);
             }
         }
-        self.wires = wires.number(self);
+        self.wires = Ids::first(ties.number(self));
         let mut pairs = Vec::new();
-        for (id, c) in self.cands.items.iter().enumerate() {
-            if let Kind::Wire(wire) = self.role_kind[c.role] {
+        for (id, c) in self.cand.enumerate() {
+            if let Holding::Wire(wire) = self.holding[c.role] {
                 pairs.push((wire, id));
             }
         }
-        self.wire_cands = Rows::collect(self.wires, &pairs);
+        self.wire_cands = Rows::collect(self.wires.len(), &pairs);
         self.cheapen_wires();
+    }
+
+    /// Irregular as soon as another device may hold the same pin together with this one.
+    fn own_or_irregular(&self, role: RoleId) -> Holding {
+        let device = self.alt_device[self.role_alt[role]];
+        let shared = |c: &Cand| {
+            let joins = |&o: &CandId| {
+                let other = &self.cand[o];
+                (other.holder, other.signal) == (c.holder, c.signal)
+                    && self.cand_device(o) != device
+            };
+            c.holder != Holder::Own && self.pin_cands[c.pin].iter().any(joins)
+        };
+        let shares = self.cand.of(self.cands.of(role)).iter().any(shared);
+        if shares { Holding::Irregular } else { Holding::Own }
     }
 
     /// Devices of one wire may disagree on whether a pin is a move: the bound takes the least.
     fn cheapen_wires(&mut self) {
-        let place = |c: &Cand| (c.pin, c.signal, c.holder);
-        for wire in 0..self.wires {
+        for wire in self.wires {
             let mut least = BTreeMap::new();
-            for &id in self.wire_cands.at(wire) {
-                let c = self.cand(id);
-                let entry = least.entry(place(c)).or_insert(c.extra);
+            for &id in &self.wire_cands[wire] {
+                let c = &self.cand[id];
+                let entry = least.entry(c.place()).or_insert(c.extra);
                 *entry = c.extra.min(*entry);
             }
-            for &id in self.wire_cands.at(wire) {
-                let c = &mut self.cands.items[id];
-                c.extra = least.get(&place(c)).copied().unwrap_or(c.extra);
+            for &id in &self.wire_cands[wire] {
+                let c = &mut self.cand[id];
+                c.extra = least.get(&c.place()).copied().unwrap_or(c.extra);
             }
         }
     }
 
     /// A rule that one wire alone can violate costs that wire; no branching is needed.
-    pub(crate) fn find_local_rules(&mut self) {
-        self.rule_local = vec![false; self.rule_users.len()];
-        for rule in 0..self.rule_users.len() {
-            let users = self.rule_users.at(rule);
-            let place = |user: &User| {
-                let alt = self.user_alt(user);
-                let first = self.roles.range(alt).start;
-                let role = if user.is_candidate { self.cand(user.id).role } else { first };
-                let empty = self.roles.range(alt).is_empty();
-                let own = !empty && self.role_kind[role] == Kind::Own;
-                own.then(|| (self.alt_device[alt], role - first))
-            };
-            let pin = |user: &User| {
-                let own = user.is_candidate && self.role_kind[self.cand(user.id).role] == Kind::Own;
-                own.then(|| self.cand(user.id).pin)
-            };
-            let Some(first) = users.first() else { continue };
-            let one_wire = place(first).is_some() && users.iter().all(|u| place(u) == place(first));
-            let one_pin = pin(first).is_some() && users.iter().all(|u| pin(u) == pin(first));
-            self.rule_local[rule] = one_wire || one_pin;
-        }
-        for rule in (0..self.rule_users.len()).filter(|&r| self.rule_local[r]) {
+    pub(super) fn find_local_rules(&mut self) {
+        let rules = self.rule_users.ids();
+        self.rule_local = rules.iter().map(|rule| self.is_local(rule)).collect();
+        for rule in rules.iter().filter(|&rule| self.rule_local[rule]) {
             let mut charged = BTreeSet::new();
-            for user in self.rule_users.at(rule) {
-                let range = if user.is_candidate {
-                    user.id..user.id + 1
-                } else {
-                    self.cands.range(self.roles.range(user.id).start)
-                };
-                charged.extend(range);
+            for part in &self.rule_users[rule] {
+                match *part {
+                    Part::Cand(id) => {
+                        charged.insert(id);
+                    }
+                    Part::Alt(alt) => {
+                        let role = self.roles.of(alt).at(0);
+                        charged.extend(self.cands.of(role));
+                    }
+                }
             }
             for id in charged {
-                self.cands.items[id].extra += self.weights.rule;
+                self.cand[id].extra += self.weights.rule;
             }
         }
+    }
+
+    /// Whether all who can violate the rule are one role position of one device, or one pin.
+    fn is_local(&self, rule: RuleId) -> bool {
+        let users = &self.rule_users[rule];
+        let Some(&first) = users.first() else { return false };
+        let position = |part: Part| {
+            let alt = self.part_alt(part);
+            let roles = self.roles.of(alt);
+            let role = match part {
+                Part::Cand(id) => self.cand[id].role,
+                Part::Alt(_) => roles.nth(0)?,
+            };
+            let own = self.holding[role] == Holding::Own;
+            own.then(|| (self.alt_device[alt], roles.position(role)))
+        };
+        let pin = |part: Part| match part {
+            Part::Cand(id) => {
+                let c = &self.cand[id];
+                (self.holding[c.role] == Holding::Own).then_some(c.pin)
+            }
+            Part::Alt(_) => None,
+        };
+        let one_wire = position(first)
+            .is_some_and(|first| users.iter().all(|&part| position(part) == Some(first)));
+        one_wire
+            || pin(first).is_some_and(|first| users.iter().all(|&part| pin(part) == Some(first)))
     }
 
     /// Gives each own wire the most contested resource that only one device can hold.
-    pub(crate) fn find_gates(&mut self) {
+    pub(super) fn find_gates(&mut self) {
         let mut numbers = BTreeMap::new();
-        let crowd = |r: usize| self.resource_users.at(r).len();
         let mut pairs = Vec::new();
-        for id in 0..self.cand_count() {
-            let role = self.cand(id).role;
-            if self.role_kind[role] != Kind::Own {
-                continue;
-            }
-            let alt = self.role_alt[role];
-            let own = |claims: &[(usize, usize)]| {
-                let owned = claims.iter().filter(|c| c.1 == 0).map(|c| c.0);
-                owned.max_by_key(|&r| (crowd(r), std::cmp::Reverse(r)))
-            };
-            let position = role - self.roles.range(alt).start;
-            let key = own(self.alt_claims.at(alt)).map(|r| (r, position)).or_else(|| {
-                let resource = own(self.cand_claims.at(id))?;
-                self.claimed_by_one_role(resource, alt).then_some((resource, NONE))
-            });
-            if let Some(key) = key {
+        for id in self.cand.ids() {
+            if let Some(gate) = self.gate_of(id) {
                 let next = numbers.len();
-                pairs.push((*numbers.entry(key).or_insert(next), id));
+                pairs.push((Id::new(*numbers.entry(gate).or_insert(next)), id));
             }
         }
         for &(gate, id) in &pairs {
-            self.cands.items[id].gate = gate;
+            self.cand[id].gate = Some(gate);
         }
-        self.gates = numbers.len();
-        self.gate_cands = Rows::collect(self.gates, &pairs);
+        self.gates = Ids::first(numbers.len());
+        self.gate_cands = Rows::collect(self.gates.len(), &pairs);
+    }
+
+    /// The resource that a candidate has to pass: one of its alternative, for the wires at one
+    /// position, or one of its own, which no other role of the alternative may claim.
+    fn gate_of(&self, id: CandId) -> Option<(ResourceId, Option<usize>)> {
+        let role = self.cand[id].role;
+        if self.holding[role] != Holding::Own {
+            return None;
+        }
+        let alt = self.role_alt[role];
+        let position = self.roles.of(alt).position(role);
+        if let Some(resource) = self.most_contested(&self.alt_claims[alt]) {
+            return Some((resource, Some(position)));
+        }
+        let resource = self.most_contested(&self.cand_claims[id])?;
+        self.claimed_by_one_role(resource, alt).then_some((resource, None))
+    }
+
+    /// Of what is claimed for the device alone, what most others claim too.
+    fn most_contested(&self, claims: &[Claim]) -> Option<ResourceId> {
+        let owned = claims.iter().filter(|c| c.holder == Holder::Own).map(|c| c.resource);
+        owned.max_by_key(|&r| (self.resource_users[r].len(), Reverse(r)))
     }
 
     /// Whether no other role of the alternative can claim the resource too.
-    fn claimed_by_one_role(&self, resource: usize, alt: usize) -> bool {
-        let claims = |id: usize| self.cand_claims.at(id).iter().any(|c| c.0 == resource);
-        self.roles.range(alt).filter(|&r| self.cands.range(r).any(claims)).count() == 1
+    fn claimed_by_one_role(&self, resource: ResourceId, alt: AltId) -> bool {
+        let claims = |id: CandId| self.cand_claims[id].iter().any(|c| c.resource == resource);
+        let claimant = |&role: &RoleId| self.cands.of(role).iter().any(claims);
+        self.roles.of(alt).iter().filter(claimant).count() == 1
     }
 }
 
@@ -143,21 +165,21 @@ impl Model {
 #[derive(Default)]
 struct Ties {
     /// Role and the resources that may tie it.
-    roles: Vec<(usize, Vec<usize>)>,
-    /// Resource and group to the one pin that all its claimants mean.
-    pins: BTreeMap<(usize, usize), BTreeSet<usize>>,
+    roles: Vec<(RoleId, Vec<ResourceId>)>,
+    /// For each resource and group the one pin that all its claimants mean.
+    pins: BTreeMap<ResourceId, BTreeMap<Holder, BTreeSet<PinId>>>,
 }
 
 impl Ties {
-    fn read(&mut self, role: usize, r: &Role) {
-        let mut common: Option<Vec<usize>> = None;
+    fn read(&mut self, role: RoleId, r: &Role) {
+        let mut common: Option<Vec<ResourceId>> = None;
         for c in &r.candidates {
             let grouped = c.claims.iter().filter(|claim| claim.holder != Holder::Own);
             let mut resources = Vec::new();
             for claim in grouped.filter(|_| c.holder != Holder::Own) {
-                let (resource, pin) = (claim.resource.0 as usize, c.pin.0 as usize);
-                resources.push(resource);
-                self.pins.entry((resource, code(claim.holder))).or_default().insert(pin);
+                resources.push(claim.resource);
+                let groups = self.pins.entry(claim.resource).or_default();
+                groups.entry(claim.holder).or_default().insert(c.pin);
             }
             common = Some(match common {
                 None => resources,
@@ -167,31 +189,17 @@ impl Ties {
         self.roles.push((role, common.unwrap_or_default()));
     }
 
-    /// Writes the kinds into the model and returns the number of wires.
+    /// Writes the wires into the model and returns their number.
     fn number(&self, model: &mut Model) -> usize {
-        let tie = |resources: &[usize]| {
-            let groups = |r: usize| self.pins.range((r, 0)..(r + 1, 0));
-            resources.iter().find(|&&r| groups(r).all(|(_, pins)| pins.len() == 1)).copied()
+        let one_pin = |r: &ResourceId| {
+            let mut groups = self.pins.get(r).into_iter().flatten();
+            groups.all(|(_, pins)| pins.len() == 1)
         };
-        let mut found: Vec<(usize, Option<usize>)> =
+        let tie = |resources: &[ResourceId]| resources.iter().copied().find(one_pin);
+        let mut found: Vec<(RoleId, Option<ResourceId>)> =
             self.roles.iter().map(|(role, r)| (*role, tie(r))).collect();
         loop {
-            // A pin held by one group on two wires would be one pin of two wires: leave both. As
-            // another signal it is held by somebody else: a table may well have the data and the
-            // clock of one bus in one row.
-            let mut owners: BTreeMap<_, BTreeSet<Option<usize>>> = BTreeMap::new();
-            for (role, wire) in &found {
-                for c in model.cands.at(*role) {
-                    owners.entry((c.pin, c.holder, c.signal)).or_default().insert(*wire);
-                }
-            }
-            let mut mixed: BTreeSet<usize> =
-                owners.values().filter(|s| s.len() > 1).flatten().flatten().copied().collect();
-            // Two roles of one alternative on one wire may differ, so it is no wire either.
-            let mut seen = BTreeSet::new();
-            for (role, wire) in &found {
-                mixed.extend(wire.filter(|w| !seen.insert((model.role_alt[*role], *w))));
-            }
+            let mixed = mixed(model, &found);
             if mixed.is_empty() {
                 break;
             }
@@ -199,13 +207,34 @@ impl Ties {
                 *wire = wire.filter(|w| !mixed.contains(w));
             }
         }
-        let mut numbers = BTreeMap::new();
+        let mut numbers: BTreeMap<ResourceId, WireId> = BTreeMap::new();
         for (role, wire) in found {
             if let Some(resource) = wire {
-                let next = numbers.len();
-                model.role_kind[role] = Kind::Wire(*numbers.entry(resource).or_insert(next));
+                let next = WireId::new(numbers.len());
+                model.holding[role] = Holding::Wire(*numbers.entry(resource).or_insert(next));
             }
         }
         numbers.len()
     }
+}
+
+/// The resources that cannot stand for a wire.
+fn mixed(model: &Model, found: &[(RoleId, Option<ResourceId>)]) -> BTreeSet<ResourceId> {
+    // A pin held by one group on two wires would be one pin of two wires: leave both. As another
+    // signal it is held by somebody else: a table may well have the data and the clock of one bus
+    // in one row.
+    let mut owners: BTreeMap<_, BTreeSet<Option<ResourceId>>> = BTreeMap::new();
+    for (role, wire) in found {
+        for c in model.cand.of(model.cands.of(*role)) {
+            owners.entry((c.pin, c.holder, c.signal)).or_default().insert(*wire);
+        }
+    }
+    let mut mixed: BTreeSet<ResourceId> =
+        owners.values().filter(|s| s.len() > 1).flatten().flatten().copied().collect();
+    // Two roles of one alternative on one wire may differ, so it is not a wire either.
+    let mut seen = BTreeSet::new();
+    for (role, wire) in found {
+        mixed.extend(wire.filter(|w| !seen.insert((model.role_alt[*role], *w))));
+    }
+    mixed
 }

@@ -1,19 +1,25 @@
 //! Why there is no answer: an infeasible problem in, a minimal conflict out.
 //!
-//! Devices are left out as long as the rest stays without an answer; what remains is minimal by
-//! proof. First only what is quickly seen counts, which keeps to conflicts that are easy to prove;
-//! then every device is tried once more for good. The same is done to what those devices fight
-//! for: streams, resources and pins stop being exclusive as long as there is still no answer.
+//! This is a deletion filter (J. W. Chinneck and E. W. Dravnieks, *Locating minimal infeasible
+//! constraint sets in linear programs*, 1991): devices are left out as long as the rest stays
+//! without an answer, and what remains is minimal by proof. Whole parts are left out first and
+//! halved where that fails, as in delta debugging (A. Zeller and R. Hildebrandt, *Simplifying and
+//! isolating failure-inducing input*, 2002) and QuickXplain (U. Junker, 2004). First only what is
+//! quickly seen counts, which keeps to conflicts that are easy to prove; then every device is
+//! tried once more for good. The same is done to what those devices fight for: streams, resources
+//! and pins stop being exclusive as long as there is still no answer.
 //!
 //! Of devices that are alike only the number counts, and of alike things any one tells of all, so
-//! most of these questions are never asked ([`crate::questions::known_sets`]).
+//! most of these questions are never asked ([`super::known_sets`]).
 
+use super::known_sets::{CROWD, KnownSets};
+use super::sharing::Things;
+use super::solve::feasible_within;
 use crate::answer::{Conflict, Fault, Outcome};
 use crate::cancel::Cancel;
+use crate::index::Id;
 use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
-use crate::questions::known_sets::{CROWD, KnownSets, alike_devices};
-use crate::questions::sharing::Things;
-use crate::questions::solve::{Effort, feasible_within};
+use crate::search::Effort;
 use std::collections::BTreeSet;
 
 /// Nodes of the search, beside three for each device, after which a proof is no longer quick.
@@ -27,31 +33,32 @@ struct Questions<'a> {
     cancel: Cancel<'a>,
     effort: Effort,
     /// What is known of sets of the devices.
-    lore: KnownSets,
+    known: KnownSets,
 }
 
 /// Finds the conflict of a problem that has no answer. `seed` is a set of devices that is
 /// probably one.
 pub(crate) fn explain(
     problem: &Problem,
-    seed: Option<Vec<usize>>,
+    seed: Option<Vec<DeviceId>>,
     cancel: Cancel<'_>,
 ) -> Result<Outcome, Fault> {
     if let Some(lone) = problem.devices.iter().position(|d| d.alternatives.is_empty()) {
-        return Ok(conflict(&[lone], true, [Vec::new(), Vec::new(), Vec::new()]));
+        return Ok(conflict(vec![DeviceId::new(lone)], true, [Vec::new(), Vec::new(), Vec::new()]));
     }
     let quick = QUICK + 3 * problem.devices.len() as u64;
-    let mut ask = Questions { cancel, effort: Effort::Nodes(quick), lore: alike_devices(problem)? };
+    let mut ask =
+        Questions { cancel, effort: Effort::Nodes(quick), known: KnownSets::new(problem)? };
     let mut kept = match seed {
         Some(seed) if ask.of_devices(problem, &seed)? == Some(false) => seed,
-        _ => (0..problem.devices.len()).collect(),
+        _ => (0..problem.devices.len()).map(DeviceId::new).collect(),
     };
     ask.sound_out(problem, &kept)?;
     let unknown = ask.leave_out(problem, &mut kept)?;
     ask.effort = Effort::Any;
     let mut minimal = true;
     for device in unknown {
-        let fewer: Vec<usize> = kept.iter().copied().filter(|&d| d != device).collect();
+        let fewer: Vec<DeviceId> = kept.iter().copied().filter(|&d| d != device).collect();
         match ask.of_devices(problem, &fewer)? {
             Some(false) => kept = fewer,
             Some(true) => {}
@@ -67,16 +74,16 @@ pub(crate) fn explain(
     if cancel.is_over() {
         things = [Vec::new(), Vec::new(), Vec::new()];
     }
-    Ok(conflict(&kept, minimal, things))
+    Ok(conflict(kept, minimal, things))
 }
 
 fn conflict(
-    devices: &[usize],
+    devices: Vec<DeviceId>,
     minimal: bool,
     [streams, resources, pins]: [Vec<u32>; 3],
 ) -> Outcome {
     Outcome::Infeasible(Conflict {
-        devices: devices.iter().map(|&d| DeviceId(d as u32)).collect(),
+        devices,
         pins: pins.into_iter().map(PinId).collect(),
         resources: resources.into_iter().map(ResourceId).collect(),
         streams: streams.into_iter().map(StreamId).collect(),
@@ -91,8 +98,12 @@ impl Questions<'_> {
     }
 
     /// Whether these devices of the problem have an answer, as [`Self::has_answer`].
-    fn of_devices(&mut self, problem: &Problem, devices: &[usize]) -> Result<Option<bool>, Fault> {
-        if let Some(known) = self.lore.tells(devices) {
+    fn of_devices(
+        &mut self,
+        problem: &Problem,
+        devices: &[DeviceId],
+    ) -> Result<Option<bool>, Fault> {
+        if let Some(known) = self.known.tells(devices) {
             return Ok(Some(known));
         }
         if self.cancel.is_over() {
@@ -100,7 +111,7 @@ impl Questions<'_> {
         }
         let answer = self.has_answer(&only(problem, devices))?;
         if let Some(has) = answer {
-            self.lore.learn(devices, has);
+            self.known.learn(devices, has);
         }
         Ok(answer)
     }
@@ -108,18 +119,18 @@ impl Questions<'_> {
     /// Asks of each larger class of alike devices whether it is a conflict by itself, which is
     /// quickly known, and of such ones whether it is one too many (of all where there are none):
     /// then each of them is needed, and whatever leaves one out need not be asked.
-    fn sound_out(&mut self, problem: &Problem, kept: &[usize]) -> Result<(), Fault> {
-        let crowds = self.lore.crowds(kept);
+    fn sound_out(&mut self, problem: &Problem, kept: &[DeviceId]) -> Result<(), Fault> {
+        let crowds = self.known.crowds(kept);
         let mut alone = Vec::new();
         for crowd in &crowds {
             if self.of_devices(problem, crowd)? == Some(false) {
                 alone.push(crowd);
             }
         }
-        let all: Vec<&Vec<usize>> = crowds.iter().collect();
+        let all: Vec<&Vec<DeviceId>> = crowds.iter().collect();
         for crowd in if alone.is_empty() { all } else { alone } {
             let one = crowd.first();
-            let fewer: Vec<usize> = kept.iter().copied().filter(|d| Some(d) != one).collect();
+            let fewer: Vec<DeviceId> = kept.iter().copied().filter(|d| Some(d) != one).collect();
             self.of_devices(problem, &fewer)?;
         }
         Ok(())
@@ -127,7 +138,11 @@ impl Questions<'_> {
 
     /// Leaves devices out as long as the others have no answer: many at once first, because most
     /// have no part in it. Returns those kept of which it is not known whether they must be.
-    fn leave_out(&mut self, problem: &Problem, kept: &mut Vec<usize>) -> Result<Vec<usize>, Fault> {
+    fn leave_out(
+        &mut self,
+        problem: &Problem,
+        kept: &mut Vec<DeviceId>,
+    ) -> Result<Vec<DeviceId>, Fault> {
         let mut unknown = Vec::new();
         let mut chunk = kept.len().div_ceil(2);
         while chunk > 0 {
@@ -237,11 +252,11 @@ impl Questions<'_> {
     }
 }
 
-fn only(problem: &Problem, devices: &[usize]) -> Problem {
+fn only(problem: &Problem, devices: &[DeviceId]) -> Problem {
     Problem {
         pins: problem.pins.clone(),
         boards: problem.boards.clone(),
-        devices: devices.iter().filter_map(|&d| problem.devices.get(d)).cloned().collect(),
+        devices: devices.iter().filter_map(|d| problem.devices.get(d.index())).cloned().collect(),
         dma: problem.dma.clone(),
         rules: problem.rules,
         resources: problem.resources,

@@ -1,18 +1,19 @@
 //! All answers, best first: a problem in, an iterator out that works only as far as it is asked.
 //!
 //! The answers of one objective are walked in order by a depth-first search over the entries of
-//! the tie-break; a branch is entered only when some answer within the objective lies there. Then
-//! the least objective above it is looked for.
-#![expect(clippy::indexing_slicing, reason = "frames hold positions in `entries`")]
+//! the tie-break; a branch is entered only when some answer within the objective lies there, so no
+//! part of the walk is in vain (R. C. Read and R. E. Tarjan, *Bounds on backtrack algorithms for
+//! listing cycles, paths, and spanning trees*, 1975). Then the least objective above it is looked
+//! for.
 
+use super::solve::finish;
 use crate::answer::{Answer, Fault, Optimality};
 use crate::bounds::flow::Saved;
 use crate::cancel::Cancel;
-use crate::model::Model;
+use crate::model::{Choices, Model};
 use crate::problem::Problem;
-use crate::questions::solve::finish;
-use crate::search::tie_break::{Entry, entries};
-use crate::search::{Choices, Engine, Parked};
+use crate::search::tie_break::{Entry, Value, entries};
+use crate::search::{Engine, Parked};
 
 /// Iterator over all answers of a problem: by objective, then pins, then signals.
 ///
@@ -38,8 +39,10 @@ enum Walk {
 
 /// An entry with its values, of which those before `next` are done.
 struct Frame {
-    entry: usize,
-    values: Vec<Option<usize>>,
+    entry: Entry,
+    /// Position of the next entry.
+    after: usize,
+    values: Vec<Value>,
     next: usize,
     mark: usize,
     saved: Saved,
@@ -85,7 +88,7 @@ impl Answers<'_> {
             Walk::Failed(fault) => return Some(Err(fault)),
             Walk::Over => return None,
             Walk::New(parked) => {
-                let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
+                let mut engine = Engine::resume(self.problem, &self.model, parked, self.cancel);
                 let (weight, known) = engine.search(u64::MAX, false)?;
                 (self.level, self.best) = (weight, weight);
                 let mut frames = Vec::new();
@@ -97,7 +100,7 @@ impl Answers<'_> {
                 (choices, engine.park(), frames)
             }
             Walk::Under(parked, mut frames) => {
-                let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
+                let mut engine = Engine::resume(self.problem, &self.model, parked, self.cancel);
                 let choices = advance(&mut engine, &self.entries, self.level, &mut frames);
                 (choices, engine.park(), frames)
             }
@@ -117,7 +120,7 @@ impl Answers<'_> {
 
     /// Goes up to the next objective that some answer has.
     fn next_level(&mut self, parked: Parked) -> Option<(Choices, Parked, Vec<Frame>)> {
-        let mut engine = Engine::unpark(self.problem, &self.model, parked, self.cancel);
+        let mut engine = Engine::resume(self.problem, &self.model, parked, self.cancel);
         let (weight, known) = engine.search_above(self.level)?;
         self.level = weight;
         let mut frames = Vec::new();
@@ -149,12 +152,14 @@ fn open(
     known: Choices,
     frames: &mut Vec<Frame>,
 ) -> Option<Choices> {
-    let Some(entry) = (from..entries.len()).find(|&e| !engine.settled(entries[e])) else {
+    let mut open = entries.iter().enumerate().skip(from);
+    let Some((position, &entry)) = open.find(|(_, entry)| !engine.settled(**entry)) else {
         return Some(known);
     };
     frames.push(Frame {
         entry,
-        values: engine.values(entries[entry]),
+        after: position + 1,
+        values: engine.values(entry),
         next: 0,
         mark: engine.domains.mark(),
         saved: engine.flow.save(),
@@ -171,7 +176,7 @@ fn advance(
     frames: &mut Vec<Frame>,
 ) -> Option<Choices> {
     while let Some(frame) = frames.last_mut() {
-        if engine.stopped {
+        if engine.progress.stopped {
             return None;
         }
         engine.back(frame.mark, &frame.saved);
@@ -180,15 +185,15 @@ fn advance(
             continue;
         };
         frame.next += 1;
-        let entry = frame.entry;
-        let same = entries[entry].of(engine.model, &frame.known) == value;
+        let (entry, after) = (frame.entry, frame.after);
+        let same = entry.of(engine.model, &frame.known) == value;
         let known = same.then(|| frame.known.clone());
-        if engine.restrict(entries[entry], value).is_err() {
+        if engine.restrict(entry, value).is_err() {
             continue;
         }
         let found = known.or_else(|| engine.search(level + 1, true).map(|(_, choices)| choices));
         let Some(known) = found else { continue };
-        if let Some(choices) = open(engine, entries, entry + 1, known, frames)
+        if let Some(choices) = open(engine, entries, after, known, frames)
             && engine.model.evaluate(&choices) == level
         {
             return Some(choices);

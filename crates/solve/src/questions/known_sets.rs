@@ -3,11 +3,13 @@
 //!
 //! Fewer devices only make it easier, and alike ones can stand for each other. So a set has an answer
 //! when a known one that has one holds at least as many of each class, and it has none when a known
-//! one that has none holds at most as many.
+//! one that has none (a nogood) holds at most as many. Such a map of the sets is from M. H. Liffiton
+//! et al., *Fast, flexible MUS enumeration*, 2016.
 
+use super::solve::alike;
 use crate::answer::Fault;
-use crate::problem::Problem;
-use crate::questions::solve::alike;
+use crate::index::Id;
+use crate::problem::{DeviceId, Problem};
 use std::collections::BTreeMap;
 
 /// From so many alike things on it is worth asking what one of them tells of all.
@@ -23,18 +25,7 @@ pub(crate) struct KnownSets {
     class: Vec<usize>,
     classes: usize,
     with_answer: Vec<Counts>,
-    without: Vec<Counts>,
-}
-
-/// Nothing is known yet but which devices are alike.
-pub(crate) fn alike_devices(problem: &Problem) -> Result<KnownSets, Fault> {
-    let mut numbers = BTreeMap::new();
-    let number = |first: &usize| {
-        let next = numbers.len();
-        *numbers.entry(*first).or_insert(next)
-    };
-    let class: Vec<usize> = alike(problem)?.iter().map(number).collect();
-    Ok(KnownSets { class, classes: numbers.len(), ..KnownSets::default() })
+    nogoods: Vec<Counts>,
 }
 
 /// Whether there are at most as many of each class in the one as in the other.
@@ -43,9 +34,20 @@ fn within(one: &Counts, other: &Counts) -> bool {
 }
 
 impl KnownSets {
-    fn counts(&self, devices: &[usize]) -> Counts {
+    /// Nothing is known yet but which devices are alike.
+    pub(crate) fn new(problem: &Problem) -> Result<Self, Fault> {
+        let mut numbers = BTreeMap::new();
+        let number = |first: &usize| {
+            let next = numbers.len();
+            *numbers.entry(*first).or_insert(next)
+        };
+        let class: Vec<usize> = alike(problem)?.iter().map(number).collect();
+        Ok(Self { class, classes: numbers.len(), ..Self::default() })
+    }
+
+    fn counts(&self, devices: &[DeviceId]) -> Counts {
         let mut counts = vec![0; self.classes];
-        let classes = devices.iter().filter_map(|&device| self.class.get(device));
+        let classes = devices.iter().filter_map(|device| self.class.get(device.index()));
         for class in classes {
             if let Some(count) = counts.get_mut(*class) {
                 *count += 1;
@@ -55,30 +57,30 @@ impl KnownSets {
     }
 
     /// Whether the devices have an answer, where that follows from what is known.
-    pub(crate) fn tells(&self, devices: &[usize]) -> Option<bool> {
+    pub(crate) fn tells(&self, devices: &[DeviceId]) -> Option<bool> {
         let counts = self.counts(devices);
         if self.with_answer.iter().any(|known| within(&counts, known)) {
             return Some(true);
         }
-        self.without.iter().any(|known| within(known, &counts)).then_some(false)
+        self.nogoods.iter().any(|known| within(known, &counts)).then_some(false)
     }
 
-    pub(crate) fn learn(&mut self, devices: &[usize], has_answer: bool) {
+    pub(crate) fn learn(&mut self, devices: &[DeviceId], has_answer: bool) {
         let counts = self.counts(devices);
         if has_answer {
             self.with_answer.retain(|known| !within(known, &counts));
             self.with_answer.push(counts);
         } else {
-            self.without.retain(|known| !within(&counts, known));
-            self.without.push(counts);
+            self.nogoods.retain(|known| !within(&counts, known));
+            self.nogoods.push(counts);
         }
     }
 
     /// The classes of which there are many among these devices.
-    pub(crate) fn crowds(&self, devices: &[usize]) -> Vec<Vec<usize>> {
-        let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    pub(crate) fn crowds(&self, devices: &[DeviceId]) -> Vec<Vec<DeviceId>> {
+        let mut members: BTreeMap<usize, Vec<DeviceId>> = BTreeMap::new();
         for &device in devices {
-            if let Some(class) = self.class.get(device) {
+            if let Some(class) = self.class.get(device.index()) {
                 members.entry(*class).or_default().push(device);
             }
         }

@@ -2,18 +2,24 @@
 //!
 //! The pins are taken one after another. All that the rest depends on is how many wires of each
 //! class are still to be placed and who holds the resources that later pins can claim; ways that
-//! agree in that are added up. Classes that share no pin and no resource are counted apart.
-#![expect(clippy::indexing_slicing, reason = "pins, classes and fields are renumbered here")]
+//! agree in that are added up. This is dynamic programming over a frontier (J. Kawahara et al.,
+//! *Frontier-based search for enumerating all constrained subgraphs with compressed
+//! representation*, 2017). Classes that share no pin and no resource are counted apart, and what
+//! was counted is remembered (R. J. Bayardo and J. D. Pehoushek, *Counting models using connected
+//! components*, 2000).
 
 use crate::cancel::Cancel;
+use crate::index::{ClassId, Id, IdVec};
+use crate::model::agree;
+use crate::problem::{Claim, Holder, PinId, ResourceId};
 use num_bigint::BigUint;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One way to place a wire. Claims are pairs of resource and holder code (0 excludes everybody).
+/// One way to place a wire. A claim for the device alone excludes everybody else.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
-    pub(crate) pin: usize,
-    pub(crate) claims: Vec<(usize, usize)>,
+    pub(crate) pin: PinId,
+    pub(crate) claims: Vec<Claim>,
 }
 
 /// Wires that can be placed in the same ways.
@@ -58,17 +64,24 @@ impl<'a> Counter<'a> {
     }
 }
 
-/// Resources (`true`) and pins.
-type Things = BTreeSet<(bool, usize)>;
+/// What a place takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Thing {
+    Pin(PinId),
+    Resource(ResourceId),
+}
 
 /// Splits the classes where they share neither pin nor resource.
 fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
-    let mut parts: Vec<(Things, Vec<Class>)> = Vec::new();
+    let mut parts: Vec<(BTreeSet<Thing>, Vec<Class>)> = Vec::new();
     for class in classes {
-        let mut keys: Things = class
+        let mut keys: BTreeSet<Thing> = class
             .places
             .iter()
-            .flat_map(|p| p.claims.iter().map(|c| (true, c.0)).chain([(false, p.pin)]))
+            .flat_map(|p| {
+                let resources = p.claims.iter().map(|claim| Thing::Resource(claim.resource));
+                resources.chain([Thing::Pin(p.pin)])
+            })
             .collect();
         let mut members = vec![class];
         let mut apart = Vec::new();
@@ -106,8 +119,11 @@ fn count_part(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
 /// Too much to remember for one key: places one wire in every way and counts the rest.
 fn split(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
     let mut total = BigUint::ZERO;
-    let Some(first) = classes.iter().position(|c| c.wires > 0) else { return BigUint::from(1u32) };
-    for place in &classes[first].places {
+    let mut classed = classes.iter().enumerate();
+    let Some((first, class)) = classed.find(|(_, c)| c.wires > 0) else {
+        return BigUint::from(1u32);
+    };
+    for place in &class.places {
         if cancel.is_over() {
             break;
         }
@@ -125,8 +141,8 @@ fn split(classes: &[Class], cancel: Cancel<'_>) -> BigUint {
 }
 
 fn compatible(one: &Place, other: &Place) -> bool {
-    let clash = |a: &(usize, usize)| {
-        other.claims.iter().any(|b| a.0 == b.0 && !crate::model::agree(a.1, b.1))
+    let clash = |a: &Claim| {
+        other.claims.iter().any(|b| a.resource == b.resource && !agree(a.holder, b.holder))
     };
     one.pin != other.pin && !one.claims.iter().any(clash)
 }
@@ -199,75 +215,100 @@ struct Take {
 #[derive(Clone, Debug)]
 struct Step {
     /// Class and claims of each way to use the pin.
-    uses: Vec<(usize, Vec<Take>)>,
+    uses: Vec<(ClassId, Vec<Take>)>,
     /// Fields that nobody asks for after this pin.
     forget: u128,
     /// Most wires of each class that later pins can take.
-    later: Vec<u32>,
+    later: IdVec<ClassId, u32>,
 }
 
 struct Plan {
-    wires: Vec<Field>,
+    wires: IdVec<ClassId, Field>,
     start: u128,
     steps: Vec<Step>,
+}
+
+/// What the pins, taken in order, do to the resources.
+struct Timeline {
+    order: Vec<PinId>,
+    /// The last step at which each resource is claimed.
+    last: BTreeMap<ResourceId, usize>,
+    /// For whom each resource can be claimed.
+    holders: BTreeMap<ResourceId, Vec<Holder>>,
+}
+
+impl Timeline {
+    fn new(classes: &[Class]) -> Self {
+        let order = order(classes);
+        let mut last = BTreeMap::new();
+        let mut holders: BTreeMap<ResourceId, Vec<Holder>> = BTreeMap::new();
+        for (step, pin) in order.iter().enumerate() {
+            for place in classes.iter().flat_map(|c| &c.places).filter(|p| p.pin == *pin) {
+                for &Claim { resource, holder } in &place.claims {
+                    last.insert(resource, step);
+                    let holders = holders.entry(resource).or_default();
+                    if !holders.contains(&holder) {
+                        holders.push(holder);
+                    }
+                }
+            }
+        }
+        Self { order, last, holders }
+    }
+
+    /// What placing a wire does to the key; new resources get their bits.
+    fn takes(
+        &self,
+        place: &Place,
+        fields: &mut BTreeMap<ResourceId, Field>,
+        used: &mut u128,
+    ) -> Option<Vec<Take>> {
+        let mut takes = Vec::new();
+        for Claim { resource, holder } in &place.claims {
+            let holders = self.holders.get(resource)?;
+            let field = match fields.get(resource) {
+                Some(field) => *field,
+                None => claim_bits(used, holders.len() as u128)?,
+            };
+            fields.insert(*resource, field);
+            let value = holders.iter().position(|h| h == holder)? as u128 + 1;
+            takes.push(Take { field, value, shared: *holder != Holder::Own });
+        }
+        Some(takes)
+    }
 }
 
 impl Plan {
     /// `None` when a key has too few bits.
     fn new(classes: &[Class]) -> Option<Self> {
-        let order = order(classes);
-        let mut last: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut codes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (step, pin) in order.iter().enumerate() {
-            for place in classes.iter().flat_map(|c| &c.places).filter(|p| p.pin == *pin) {
-                for &(resource, code) in &place.claims {
-                    last.insert(resource, step);
-                    let codes = codes.entry(resource).or_default();
-                    if !codes.contains(&code) {
-                        codes.push(code);
-                    }
-                }
-            }
-        }
+        let timeline = Timeline::new(classes);
         let mut used: u128 = 0;
-        let mut wires = Vec::new();
+        let mut wires = IdVec::default();
         let mut start = 0;
         for class in classes {
             let field = claim_bits(&mut used, u128::from(class.wires))?;
             start |= u128::from(class.wires) << field.shift;
             wires.push(field);
         }
-        let mut fields: BTreeMap<usize, Field> = BTreeMap::new();
+        let mut fields: BTreeMap<ResourceId, Field> = BTreeMap::new();
         let mut steps = Vec::new();
-        for (step, pin) in order.iter().enumerate() {
+        let mut rest: BTreeSet<PinId> = timeline.order.iter().copied().collect();
+        for (step, pin) in timeline.order.iter().enumerate() {
+            rest.remove(pin);
             let mut uses = Vec::new();
             for (index, class) in classes.iter().enumerate() {
                 for place in class.places.iter().filter(|p| p.pin == *pin) {
-                    let mut takes = Vec::new();
-                    for (resource, code) in &place.claims {
-                        let codes = &codes[resource];
-                        let field = match fields.get(resource) {
-                            Some(field) => *field,
-                            None => claim_bits(&mut used, codes.len() as u128)?,
-                        };
-                        fields.insert(*resource, field);
-                        let value = codes.iter().position(|c| c == code)? as u128 + 1;
-                        takes.push(Take { field, value, shared: *code != 0 });
-                    }
-                    uses.push((index, takes));
+                    let takes = timeline.takes(place, &mut fields, &mut used)?;
+                    uses.push((ClassId::new(index), takes));
                 }
             }
-            let mut forget = 0;
-            for (resource, field) in &fields {
-                if last[resource] == step {
-                    forget |= field.bits();
-                }
-            }
+            let ends = |resource: &ResourceId| timeline.last.get(resource) == Some(&step);
+            let ending = fields.iter().filter(|(resource, _)| ends(resource));
+            let forget = ending.fold(0, |bits, (_, field)| bits | field.bits());
             used &= !forget;
-            fields.retain(|resource, _| last[resource] != step);
-            let rest: BTreeSet<usize> = order[step + 1..].iter().copied().collect();
+            fields.retain(|resource, _| !ends(resource));
             let later = |class: &Class| {
-                let pins: BTreeSet<usize> = class.places.iter().map(|p| p.pin).collect();
+                let pins: BTreeSet<PinId> = class.places.iter().map(|p| p.pin).collect();
                 pins.intersection(&rest).count() as u32
             };
             steps.push(Step { uses, forget, later: classes.iter().map(later).collect() });
@@ -342,15 +383,22 @@ fn claim_bits(used: &mut u128, most: u128) -> Option<Field> {
     Some(Field { shift, mask })
 }
 
+/// What connects pins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Key {
+    Class(ClassId),
+    Resource(ResourceId),
+}
+
 /// Orders the pins so that few resources are open at a time.
-fn order(classes: &[Class]) -> Vec<usize> {
-    let mut claims: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
-    let mut users: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+fn order(classes: &[Class]) -> Vec<PinId> {
+    let mut claims: BTreeMap<PinId, BTreeSet<Key>> = BTreeMap::new();
+    let mut users: BTreeMap<Key, BTreeSet<PinId>> = BTreeMap::new();
     for (index, class) in classes.iter().enumerate() {
         for place in &class.places {
             let keys = claims.entry(place.pin).or_default();
-            keys.extend(place.claims.iter().map(|c| c.0 + classes.len()));
-            keys.insert(index);
+            keys.extend(place.claims.iter().map(|claim| Key::Resource(claim.resource)));
+            keys.insert(Key::Class(ClassId::new(index)));
         }
     }
     for (pin, keys) in &claims {
@@ -358,14 +406,16 @@ fn order(classes: &[Class]) -> Vec<usize> {
             users.entry(*key).or_default().insert(*pin);
         }
     }
-    let mut open: BTreeSet<usize> = BTreeSet::new();
+    let left =
+        |users: &BTreeMap<Key, BTreeSet<PinId>>, key: &Key| users.get(key).map_or(0, BTreeSet::len);
+    let mut open: BTreeSet<Key> = BTreeSet::new();
     let mut order = Vec::new();
     while !claims.is_empty() {
         // Opening costs, closing pays; ties go to the pin with the fewest relatives left.
-        let price = |(pin, keys): &(&usize, &BTreeSet<usize>)| {
-            let opens = keys.iter().filter(|k| !open.contains(k) && users[k].len() > 1).count();
-            let closes = keys.iter().filter(|k| open.contains(k) && users[k].len() == 1).count();
-            let relatives: usize = keys.iter().map(|k| users[k].len()).sum();
+        let price = |(pin, keys): &(&PinId, &BTreeSet<Key>)| {
+            let opens = keys.iter().filter(|k| !open.contains(k) && left(&users, k) > 1).count();
+            let closes = keys.iter().filter(|k| open.contains(k) && left(&users, k) == 1).count();
+            let relatives: usize = keys.iter().map(|k| left(&users, k)).sum();
             (opens as isize - closes as isize, relatives, **pin)
         };
         let Some((pin, keys)) = claims.iter().min_by_key(price) else { break };

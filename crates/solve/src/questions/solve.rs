@@ -1,14 +1,14 @@
 //! One answer: a problem in, the best wiring or the reason why there is none out.
 
+use super::conflict;
 use crate::answer::{Answer, Fault, Objective, Optimality, Outcome};
 use crate::cancel::Cancel;
 use crate::check::check;
-use crate::domains::Dead;
-use crate::domains::streams;
-use crate::model::Model;
-use crate::problem::Problem;
-use crate::questions::conflict;
-use crate::search::{Choices, Engine};
+use crate::domains::{Pruned, streams};
+use crate::index::Id;
+use crate::model::{Choices, Model};
+use crate::problem::{DmaUserId, Problem};
+use crate::search::{Effort, Engine};
 use std::collections::BTreeSet;
 
 /// What is asked for.
@@ -20,25 +20,10 @@ pub struct Options<'a> {
     pub cancel: Cancel<'a>,
 }
 
-/// How long a question is worth asking.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Effort {
-    /// So many nodes of the search.
-    Nodes(u64),
-    /// Until it is answered.
-    Any,
-}
-
-impl Effort {
-    pub(crate) fn is_spent(self, nodes: u64) -> bool {
-        matches!(self, Self::Nodes(most) if nodes > most)
-    }
-}
-
 /// Finds the best answer, proved and unique, or a minimal conflict.
 ///
 /// # Errors
-/// [`Fault`] when the problem is no proper problem, or when an answer fails [`check`].
+/// [`Fault`] when the problem is not well-formed, or when an answer fails [`check`].
 pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault> {
     let cancel = options.cancel;
     if cancel.is_over() {
@@ -48,27 +33,31 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else {
         return conflict::explain(problem, None, cancel);
     };
-    engine.mirrors = true;
-    if let Err(Dead) = engine.settle() {
+    engine.board_symmetry = true;
+    if let Err(Pruned) = engine.settle() {
         let seed = engine.flow.stuck(&model);
         return conflict::explain(problem, Some(seed), cancel);
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
-    let proved = model.weights.unpack(engine.proved.max(bound));
+    let proved = model.weights.unpack(engine.goal.proved.max(bound));
     let stopped = |answer| Outcome::Stopped { answer, bound: proved };
     let Some((weight, choices)) = found else {
-        if engine.stopped {
+        if engine.progress.stopped {
             return Ok(stopped(None));
         }
         return conflict::explain(problem, None, cancel);
     };
-    if options.any || engine.stopped {
+    if options.any || engine.progress.stopped {
         let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
-        return Ok(if engine.stopped { stopped(Some(answer)) } else { Outcome::Solved(answer) });
+        return Ok(if engine.progress.stopped {
+            stopped(Some(answer))
+        } else {
+            Outcome::Solved(answer)
+        });
     }
     let least = engine.least(weight, choices);
-    if engine.stopped {
+    if engine.progress.stopped {
         let answer = finish(problem, &model, &least, Optimality::Feasible)?;
         let bound = answer.objective;
         return Ok(Outcome::Stopped { answer: Some(answer), bound });
@@ -80,7 +69,7 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
 /// [`solve`] where there is none, which would be explained.
 ///
 /// # Errors
-/// [`Fault`] when the problem is no proper problem.
+/// [`Fault`] when the problem is not well-formed.
 pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, Fault> {
     feasible_within(problem, Effort::Any, cancel)
 }
@@ -88,9 +77,9 @@ pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, F
 /// For each device the first one with the same choices: the two can stand for each other.
 ///
 /// # Errors
-/// [`Fault`] when the problem is no proper problem.
+/// [`Fault`] when the problem is not well-formed.
 pub fn alike(problem: &Problem) -> Result<Vec<usize>, Fault> {
-    Ok(Model::new(problem)?.class)
+    Ok(Model::new(problem)?.class.iter().map(|device| device.index()).collect())
 }
 
 /// As [`feasible`]; `None` also when it is not known within the effort.
@@ -104,10 +93,10 @@ pub(crate) fn feasible_within(
     }
     let model = Model::new(problem)?;
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else { return Ok(Some(false)) };
-    engine.effort = effort;
-    engine.mirrors = true;
+    engine.progress.effort = effort;
+    engine.board_symmetry = true;
     let found = engine.search(u64::MAX, true).is_some();
-    Ok(if engine.stopped { None } else { Some(found) })
+    Ok(if engine.progress.stopped { None } else { Some(found) })
 }
 
 /// Makes choices an answer and has it checked.
@@ -118,12 +107,12 @@ pub(crate) fn finish(
     optimality: Optimality,
 ) -> Result<Answer, Fault> {
     let choice = model.choices(choices);
-    let users: BTreeSet<usize> = problem
+    let users: BTreeSet<DmaUserId> = problem
         .devices
         .iter()
         .zip(&choice)
         .filter_map(|(device, choice)| device.alternatives.get(choice.alternative))
-        .flat_map(|alternative| alternative.dma.iter().map(|user| user.0 as usize))
+        .flat_map(|alternative| alternative.dma.iter().copied())
         .collect();
     let answer = Answer {
         choices: choice,

@@ -1,31 +1,40 @@
 //! What a node splits on: an open choice in, the domains with it or without it out.
 //!
 //! A choice is taken, or taken away from the device and all its interchangeable siblings at once,
-//! which is what breaks their symmetry.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//! on all boards that can stand for each other. This is what breaks the symmetry of devices and
+//! boards; integer programming calls it orbital branching (J. Ostrowski, J. Linderoth, F. Rossi
+//! and S. Smriglio, *Orbital branching*, 2011), constraint programming symmetry breaking during
+//! search (I. P. Gent and B. M. Smith, *Symmetry breaking in constraint programming*, 2000).
 
-use crate::domains::{Charge, Dead};
-use crate::search::{Choices, Engine};
+use super::Engine;
+use crate::domains::{Charge, Pruned};
+use crate::index::{AltId, CandId, FacilityId};
+use crate::model::{Choices, Chosen};
+use crate::problem::{BoardId, DeviceId, RuleId};
 
 /// What a node splits on: taken first, then refused.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Branch {
-    Alt(usize),
-    Cand(usize),
-    Rule(usize),
-    Board(usize),
-    /// Somebody uses the facility, or nobody.
-    Facility(usize),
+    /// The device takes the alternative.
+    Alt(AltId),
+    /// The role takes the candidate.
+    Cand(CandId),
+    /// Nobody violates the rule.
+    Rule(RuleId),
+    /// Nobody uses the spare board.
+    Board(BoardId),
+    /// Somebody uses the facility.
+    Facility(FacilityId),
 }
 
 impl Engine<'_> {
-    pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Dead> {
+    pub(crate) fn take(&mut self, branch: Branch) -> Result<(), Pruned> {
         for board in self.boards_of(branch) {
             self.domains.touch(board);
         }
         match branch {
-            Branch::Alt(alt) => self.domains.decide(self.model, alt),
-            Branch::Cand(id) => self.domains.pin(self.model, id),
+            Branch::Alt(alt) => self.domains.choose_alt(self.model, alt),
+            Branch::Cand(id) => self.domains.choose_cand(self.model, id),
             Branch::Rule(rule) => self.domains.close_rule(self.model, rule),
             Branch::Board(board) => self.domains.close_board(self.model, board),
             Branch::Facility(facility) => {
@@ -35,27 +44,24 @@ impl Engine<'_> {
         }
     }
 
-    pub(crate) fn refuse(&mut self, branch: Branch) -> Result<(), Dead> {
+    pub(crate) fn refuse(&mut self, branch: Branch) -> Result<(), Pruned> {
         let model = self.model;
         match branch {
             Branch::Alt(alt) => {
-                let device = model.alt_device[alt];
-                let twins = self.twins(device);
+                let twins = self.twins(model.alt_device[alt]);
                 for alt in self.equals(branch).filter_map(|b| model.boards.alt_on(model, alt, b)) {
-                    let offset = alt - model.alts.range(device).start;
                     for &twin in &twins {
-                        self.domains.kill_alt(model, model.alts.range(twin).start + offset)?;
+                        self.domains.remove_alt(model, model.twin_alt(alt, twin))?;
                     }
                 }
                 Ok(())
             }
             Branch::Cand(id) => {
-                let device = model.cand_device(id);
-                let twins = self.twins(device);
+                let twins = self.twins(model.cand_device(id));
                 for id in self.equals(branch).filter_map(|b| model.boards.cand_on(model, id, b)) {
-                    let offset = id - self.first_cand(device);
                     for &twin in &twins {
-                        self.domains.kill_cand(model, self.first_cand(twin) + offset)?;
+                        let alt = model.twin_alt(model.cand_alt(id), twin);
+                        self.domains.remove_cand(model, model.twin_cand(id, alt))?;
                     }
                 }
                 Ok(())
@@ -64,27 +70,32 @@ impl Engine<'_> {
             Branch::Board(_) => {
                 self.equals(branch).try_for_each(|board| self.domains.pay_board(model, board))
             }
-            Branch::Facility(facility) => {
-                let Some(prices) = &self.prices else { return Ok(()) };
-                let alts = &prices.terms.facilities[facility].alts;
-                // What several boards share is refused as it is: the boards need not be equal.
-                let boards = self.boards_of(branch);
-                let [_] = boards.as_slice() else {
-                    return alts.iter().try_for_each(|&alt| self.domains.kill_alt(model, alt));
-                };
-                for board in self.equals(branch) {
-                    let here = |alt: &usize| model.boards.alt_on(model, *alt, board);
-                    for alt in alts.iter().filter_map(here) {
-                        self.domains.kill_alt(model, alt)?;
-                    }
-                }
-                Ok(())
-            }
+            Branch::Facility(facility) => self.shut(facility),
         }
     }
 
+    /// Nobody uses the facility.
+    fn shut(&mut self, facility: FacilityId) -> Result<(), Pruned> {
+        let model = self.model;
+        let branch = Branch::Facility(facility);
+        let Some(pricing) = &self.pricing else { return Ok(()) };
+        let alts = &pricing.dualized.facilities[facility].alts;
+        // What several boards share is refused as it is: the boards need not be equal.
+        let boards = self.boards_of(branch);
+        let [_] = boards.as_slice() else {
+            return alts.iter().try_for_each(|&alt| self.domains.remove_alt(model, alt));
+        };
+        for board in self.equals(branch) {
+            let here = |alt: &AltId| model.boards.alt_on(model, *alt, board);
+            for alt in alts.iter().filter_map(here) {
+                self.domains.remove_alt(model, alt)?;
+            }
+        }
+        Ok(())
+    }
+
     /// The boards that a branch is about. Rules are the same on equal boards.
-    fn boards_of(&self, branch: Branch) -> Vec<usize> {
+    fn boards_of(&self, branch: Branch) -> Vec<BoardId> {
         let model = self.model;
         match branch {
             Branch::Alt(alt) => vec![model.alt_board[alt]],
@@ -92,9 +103,9 @@ impl Engine<'_> {
             Branch::Rule(_) => Vec::new(),
             Branch::Board(board) => vec![board],
             Branch::Facility(facility) => {
-                let terms = self.prices.as_ref().map(|prices| &prices.terms);
-                let alts = terms.iter().flat_map(|terms| &terms.facilities[facility].alts);
-                let mut boards: Vec<usize> = alts.map(|&alt| model.alt_board[alt]).collect();
+                let dualized = self.pricing.as_ref().map(|pricing| &pricing.dualized);
+                let alts = dualized.iter().flat_map(|d| &d.facilities[facility].alts);
+                let mut boards: Vec<BoardId> = alts.map(|&alt| model.alt_board[alt]).collect();
                 boards.sort_unstable();
                 boards.dedup();
                 boards
@@ -105,48 +116,40 @@ impl Engine<'_> {
     /// The board of a branch and those that are equal to it here and now: nothing is decided of
     /// any of them. An answer with what is refused on one of them has its like with that on the
     /// board where it was tried.
-    fn equals(&self, branch: Branch) -> impl Iterator<Item = usize> + use<> {
+    fn equals(&self, branch: Branch) -> impl Iterator<Item = BoardId> + use<> {
         let first = &self.model.boards.first_equal;
         let mut boards = self.boards_of(branch);
         if let &[board] = boards.as_slice()
-            && self.mirrors
+            && self.board_symmetry
             && !self.domains.is_touched(board)
         {
-            let equal = |b: &usize| first[*b] == first[board] && !self.domains.is_touched(*b);
-            boards = (0..first.len()).filter(equal).collect();
+            let equal = |b: &BoardId| first[*b] == first[board] && !self.domains.is_touched(*b);
+            boards = first.ids().iter().filter(equal).collect();
         }
         boards.into_iter()
     }
 
-    fn first_cand(&self, device: usize) -> usize {
-        let role = self.model.roles.range(self.model.alts.range(device).start).start;
-        if role < self.model.role_alt.len() { self.model.cands.range(role).start } else { 0 }
-    }
-
     /// The device and those that are interchangeable with it here and now.
-    fn twins(&self, device: usize) -> Vec<usize> {
-        let class = self.model.class[device];
-        let same = |&d: &usize| {
-            self.model.class[d] == class
-                && (d == device || self.domains.same_domain(self.model, d, device))
-        };
-        (class..self.model.devices).filter(same).collect()
+    fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
+        let model = self.model;
+        let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
+        model.class_of(model.class[device]).filter(same).collect()
     }
 
     /// A rule or spare board that the wiring uses although the bound does not pay for it.
-    pub(crate) fn open_toll(&self, choices: &Choices) -> Option<Branch> {
+    pub(super) fn unpaid_charge(&self, choices: &Choices) -> Option<Branch> {
         let model = self.model;
-        for (alt, cands) in choices {
-            let rules = model.alt_rules.at(*alt).iter();
+        for Chosen { alt, cands } in choices {
+            let rules = model.alt_rules[*alt].iter();
             let open =
-                |r: &&usize| self.domains.rule[**r] == Charge::Open && !model.rule_local[**r];
-            let mut rules = rules.chain(cands.iter().flat_map(|&c| model.cand_rules.at(c)));
+                |r: &&RuleId| self.domains.rule[**r] == Charge::Open && !model.rule_local[**r];
+            let mut rules = rules.chain(cands.iter().flat_map(|&c| &model.cand_rules[c]));
             if let Some(&rule) = rules.find(open) {
                 return Some(Branch::Rule(rule));
             }
         }
-        for (alt, _) in choices {
-            let board = model.alt_board[*alt];
+        for chosen in choices {
+            let board = model.alt_board[chosen.alt];
             if model.spare[board] && self.domains.board[board] == Charge::Open {
                 return Some(Branch::Board(board));
             }
@@ -155,35 +158,32 @@ impl Engine<'_> {
     }
 
     /// A spare board to do without, where nothing but their number can be better.
-    pub(crate) fn deciding_board(&self) -> Option<Branch> {
+    pub(super) fn deciding_board(&self) -> Option<Branch> {
         let unit = self.model.weights.cost;
-        let bound = self.prices.as_ref()?.bound;
-        let open = |b: &usize| self.model.spare[*b] && self.domains.board[*b] == Charge::Open;
-        let tight = (self.limit - 1) / unit == bound / unit;
-        (0..self.model.spare.len()).find(open).filter(|_| tight).map(Branch::Board)
+        let bound = self.pricing.as_ref()?.bound;
+        let spare = &self.model.spare;
+        let open = |b: &BoardId| spare[*b] && self.domains.board[*b] == Charge::Open;
+        let tight = (self.goal.limit - 1) / unit == bound / unit;
+        spare.ids().iter().find(open).filter(|_| tight).map(Branch::Board)
     }
 
     /// Any open choice.
-    pub(crate) fn any_branch(&self) -> Option<Branch> {
-        let model = self.model;
-        let open = (0..model.devices).filter(|&d| self.domains.device_left(d) > 1);
-        if let Some(device) = open.min_by_key(|&d| self.domains.device_left(d)) {
-            return self.domains.alts(model, device).next().map(Branch::Alt);
+    pub(super) fn any_branch(&self) -> Option<Branch> {
+        let open = self.model.devices.iter().filter(|&d| self.domains.alts_left(d) > 1);
+        if let Some(device) = open.min_by_key(|&d| self.domains.alts_left(d)) {
+            return self.domains.alts(self.model, device).next().map(Branch::Alt);
         }
-        (0..model.devices).find_map(|d| self.open_role(d))
+        self.model.devices.iter().find_map(|d| self.open_role(d))
     }
 
-    pub(crate) fn open_role(&self, device: usize) -> Option<Branch> {
+    /// A candidate of a role that a decided device has open, that of the flow if possible.
+    pub(super) fn open_role(&self, device: DeviceId) -> Option<Branch> {
         let model = self.model;
-        let alt = self.domains.decided(device)?;
-        let (position, role) = model
-            .roles
-            .range(alt)
-            .enumerate()
-            .filter(|(_, r)| self.domains.role_left(*r) > 1)
-            .min_by_key(|(_, r)| self.domains.role_left(*r))?;
-        let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
-        let here = |c: &usize| Some(model.cand(*c).pin) == flow;
+        let roles = model.roles.of(self.domains.decided(device)?);
+        let open = roles.iter().filter(|&role| self.domains.cands_left(role) > 1);
+        let role = open.min_by_key(|&role| self.domains.cands_left(role))?;
+        let flow = self.flow.at(model, device, roles.position(role)).map(|(pin, _)| pin);
+        let here = |c: &CandId| Some(model.cand[*c].pin) == flow;
         let mut cands = self.domains.cands(model, role);
         cands.clone().find(here).or_else(|| cands.next()).map(Branch::Cand)
     }
@@ -237,14 +237,14 @@ mod tests {
         };
         let model = Model::new(&problem).unwrap();
         let mut engine = Engine::new(&problem, &model, Cancel::NEVER).ok().unwrap();
-        engine.mirrors = true;
-        engine.limit = model.most;
+        engine.board_symmetry = true;
+        engine.goal.limit = model.most;
         engine.settle().ok().unwrap();
         engine.bound_by_prices(1).ok().unwrap();
-        let facilities = &engine.prices.as_ref().unwrap().terms.facilities;
-        let of_both = facilities.iter().position(|facility| facility.alts == [0, 3]).unwrap();
+        let facilities = &engine.pricing.as_ref().unwrap().dualized.facilities;
+        let of_both = facilities.enumerate().find(|f| f.1.alts == [AltId(0), AltId(3)]).unwrap().0;
         engine.refuse(Branch::Facility(of_both)).ok().unwrap();
-        let alive: Vec<usize> = (0..6).filter(|&alt| engine.domains.alt_on(alt)).collect();
+        let alive: Vec<u32> = (0..6).filter(|&alt| engine.domains.has_alt(AltId(alt))).collect();
         assert_eq!(alive, [1, 2, 4, 5]);
     }
 }

@@ -1,70 +1,60 @@
 //! Branch and bound: domains in, the cheapest complete choice below a limit out.
 //!
-//! Each node propagates, bounds by the flow, and tries to read a wiring off the flow. Where that
-//! fails, it bounds by prices, tries the wiring that the linear program comes nearest to
-//! ([`crate::search::strong_branching`]), and branches ([`crate::search::branching`]): on what the program leaves open, or on the
-//! choice at fault. The best answer is looked for little above the bound first, then farther up.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//! The scheme is that of A. H. Land and A. G. Doig, *An automatic method of solving discrete
+//! programming problems*, 1960. Each node ([`node`]) propagates, bounds by the flow, and tries to
+//! read a wiring off the flow ([`read_off`]). Where that fails, it bounds by prices, tries the
+//! wiring that the linear program comes nearest to ([`rounding`]), and branches ([`branching`]) on
+//! what the program leaves fractional ([`strong_branching`]), or on the choice at fault.
+//!
+//! The best answer is looked for little above the bound first, then farther up, with limits that
+//! grow as in iterative deepening (R. E. Korf, *Depth-first iterative-deepening*, 1985).
 
 pub(crate) mod branching;
 pub(crate) mod canonical;
-pub(crate) mod read_off;
-pub(crate) mod strong_branching;
+mod node;
+mod progress;
+mod pseudo_costs;
+mod read_off;
+mod rounding;
+mod strong_branching;
 pub(crate) mod tie_break;
 
+pub(crate) use self::progress::{Effort, Goal, Progress};
+
+use self::pseudo_costs::PseudoCosts;
+use self::read_off::Holders;
 use crate::bounds::dualized::Dualized;
 use crate::bounds::flow::{Flow, Saved};
 use crate::bounds::lagrangian::Lagrangian;
 use crate::bounds::relaxation::Relaxation;
 use crate::cancel::Cancel;
-use crate::domains::{Dead, Domains};
-use crate::model::Model;
+use crate::domains::{Domains, Pruned};
+use crate::model::{Choices, Model};
 use crate::problem::Problem;
-use crate::questions::solve::Effort;
-use crate::search::branching::Branch;
-use crate::search::read_off::Scratch;
-use crate::search::strong_branching::PseudoCosts;
 
-/// Alternative and candidates of each device, by id.
-pub(crate) type Choices = Vec<(usize, Vec<usize>)>;
-
-/// The search and all its domains.
+/// The search and all its state.
 pub(crate) struct Engine<'a> {
     pub(crate) problem: &'a Problem,
     pub(crate) model: &'a Model,
+    pub(crate) cancel: Cancel<'a>,
     pub(crate) domains: Domains,
     pub(crate) flow: Flow,
-    /// Only answers below this are looked for.
-    pub(crate) limit: u64,
-    /// Whether the first one is enough.
-    first: bool,
-    pub(crate) best: Option<(u64, Choices)>,
-    /// Only answers above this are looked for.
-    pub(crate) floor: Option<u64>,
-    pub(crate) nodes: u64,
-    pub(crate) cancel: Cancel<'a>,
-    pub(crate) effort: Effort,
-    pub(crate) stopped: bool,
-    pub(crate) scratch: Scratch,
+    holders: Holders,
     /// The second bound, made when the flow is not enough.
-    pub(crate) prices: Option<Box<Prices>>,
-    /// Nodes until which any answer will do, so that there is a limit to bound against.
-    dive: u64,
-    /// Nodes when the present search began.
-    begun: u64,
-    /// No answer of the present search is below this.
-    pub(crate) proved: u64,
+    pub(crate) pricing: Option<Box<Pricing>>,
+    pub(crate) goal: Goal,
+    pub(crate) progress: Progress,
     /// Whether what is refused on one board may be refused on all equal ones: all that restricts the
     /// domains says of which boards something is decided.
-    pub(crate) mirrors: bool,
+    pub(crate) board_symmetry: bool,
 }
 
-/// What the price bound needs.
-pub(crate) struct Prices {
-    pub(crate) terms: Dualized,
-    dual: Lagrangian,
+/// What the Lagrangian bound needs.
+pub(crate) struct Pricing {
+    pub(crate) dualized: Dualized,
+    lagrangian: Lagrangian,
     pub(crate) relaxation: Relaxation,
-    pub(crate) history: PseudoCosts,
+    pseudo_costs: PseudoCosts,
     /// The bound as last assessed.
     pub(crate) bound: u64,
 }
@@ -73,160 +63,141 @@ pub(crate) struct Prices {
 pub(crate) struct Parked {
     domains: Domains,
     flow: Flow,
+    holders: Holders,
+    pricing: Option<Box<Pricing>>,
     nodes: u64,
-    scratch: Scratch,
-    prices: Option<Box<Prices>>,
 }
 
 /// How long the search looks for a first answer by the flow alone, beside a node for each device
 /// where any answer will do.
 const DIVE: u64 = 10;
 
-/// Nodes of a mere question that are spent on the flow alone.
-const PATIENCE: u64 = 3;
-
 /// Steps of the simplex method at one node.
 const LP_STEPS: usize = 5_000;
 
+/// A weight, and the choices that have it.
+pub(crate) type Found = (u64, Choices);
+
 impl<'a> Engine<'a> {
     /// # Errors
-    /// [`Dead`] when propagation alone shows that there is no answer.
+    /// [`Pruned`] when propagation alone shows that there is no answer.
     pub(crate) fn new(
         problem: &'a Problem,
         model: &'a Model,
         cancel: Cancel<'a>,
-    ) -> Result<Self, Dead> {
-        Ok(Self {
-            problem,
-            model,
+    ) -> Result<Self, Pruned> {
+        let parked = Parked {
             domains: Domains::new(model)?,
             flow: Flow::new(model),
-            limit: u64::MAX,
-            first: false,
-            best: None,
-            floor: None,
+            holders: Holders::new(problem, model),
+            pricing: None,
             nodes: 0,
-            cancel,
-            effort: Effort::Any,
-            stopped: false,
-            scratch: Scratch::new(problem.resources as usize, model.pins),
-            prices: None,
-            dive: 0,
-            begun: 0,
-            proved: 0,
-            mirrors: false,
-        })
+        };
+        Ok(Self::resume(problem, model, parked, cancel))
     }
 
-    pub(crate) fn park(self) -> Parked {
-        let Self { domains, flow, nodes, scratch, prices, .. } = self;
-        Parked { domains, flow, nodes, scratch, prices }
-    }
-
-    pub(crate) fn unpark(
+    pub(crate) fn resume(
         problem: &'a Problem,
         model: &'a Model,
         parked: Parked,
         cancel: Cancel<'a>,
     ) -> Self {
-        let Parked { domains, flow, nodes, scratch, prices } = parked;
+        let Parked { domains, flow, holders, pricing, nodes } = parked;
         Self {
             problem,
             model,
+            cancel,
             domains,
             flow,
-            limit: u64::MAX,
-            first: false,
-            best: None,
-            floor: None,
-            nodes,
-            cancel,
-            effort: Effort::Any,
-            stopped: false,
-            scratch,
-            prices,
-            dive: 0,
-            begun: 0,
-            proved: 0,
-            mirrors: false,
+            holders,
+            pricing,
+            goal: Goal::default(),
+            progress: Progress::after(nodes),
+            board_symmetry: false,
         }
+    }
+
+    pub(crate) fn park(self) -> Parked {
+        let Self { domains, flow, holders, pricing, progress, .. } = self;
+        Parked { domains, flow, holders, pricing, nodes: progress.nodes }
     }
 
     /// The cheapest choice below `limit`, or with `first` any one below it.
-    pub(crate) fn search(&mut self, limit: u64, first: bool) -> Option<(u64, Choices)> {
-        self.limit = limit.min(self.model.most);
-        self.first = first;
-        self.best = None;
+    pub(crate) fn search(&mut self, limit: u64, first: bool) -> Option<Found> {
+        self.goal.limit = limit.min(self.model.most);
+        self.goal.first = first;
+        self.goal.best = None;
         let mark = self.domains.mark();
         let saved = self.flow.save();
-        self.begun = self.nodes;
+        self.progress.begin();
         if limit == u64::MAX {
-            let devices = if first { self.model.devices as u64 } else { 0 };
-            self.dive = self.nodes + devices + DIVE;
+            let devices = if first { self.model.devices.len() as u64 } else { 0 };
+            self.progress.dive_until = Some(self.progress.nodes + devices + DIVE);
             self.node(0);
-            self.dive = 0;
+            self.progress.dive_until = None;
             self.back(mark, &saved);
         }
         if first {
-            if self.best.is_none() {
+            if self.goal.best.is_none() {
                 self.node(0);
             }
-        } else if let Ok(bound) = self.root() {
+        } else if let Ok(bound) = self.root_bound() {
             self.back(mark, &saved);
-            self.climb(bound);
+            self.deepen(bound);
         }
         self.back(mark, &saved);
-        self.best.take()
+        self.goal.best.take()
+    }
+
+    /// The cheapest choice that costs more than `floor`.
+    pub(crate) fn search_above(&mut self, floor: u64) -> Option<Found> {
+        self.goal.floor = Some(floor);
+        let found = self.search(u64::MAX, false);
+        self.goal.floor = None;
+        found
     }
 
     /// The bound of the whole search.
-    fn root(&mut self) -> Result<u64, Dead> {
+    fn root_bound(&mut self) -> Result<u64, Pruned> {
         self.settle()?;
-        if self.bound() >= self.limit {
-            return Err(Dead);
+        if self.bound() >= self.goal.limit {
+            return Err(Pruned);
         }
         self.price()?;
-        let bound = self.prices.as_ref().map_or(0, |prices| prices.bound);
-        Ok(bound.max(self.bound()).max(self.floor.map_or(0, |floor| floor + 1)))
+        let bound = self.pricing.as_ref().map_or(0, |pricing| pricing.bound);
+        Ok(bound.max(self.bound()).max(self.goal.floor.map_or(0, |floor| floor + 1)))
     }
 
     /// Looks for answers little above the bound first, then farther and farther up: what would be
-    /// too dear is struck early, and no search goes on long below a bad answer.
-    fn climb(&mut self, bound: u64) {
+    /// too dear is removed early, and no search goes on long below a bad answer.
+    fn deepen(&mut self, bound: u64) {
         let mark = self.domains.mark();
         let saved = self.flow.save();
-        let most = self.limit;
+        let most = self.goal.limit;
         let mut step = self.model.weights.cost;
-        self.proved = bound;
-        while self.proved < most && !self.stopped {
-            let goal = bound.saturating_add(step).min(most);
-            self.limit = goal;
+        self.goal.proved = bound;
+        while self.goal.proved < most && !self.progress.stopped {
+            let limit = bound.saturating_add(step).min(most);
+            self.goal.limit = limit;
             self.node(0);
             self.back(mark, &saved);
-            if self.limit < goal {
+            if self.goal.limit < limit {
                 break;
             }
-            if !self.stopped {
-                self.proved = goal;
+            if !self.progress.stopped {
+                self.goal.proved = limit;
             }
             step = step.saturating_mul(2);
         }
     }
 
-    /// The cheapest choice that costs more than `floor`.
-    pub(crate) fn search_above(&mut self, floor: u64) -> Option<(u64, Choices)> {
-        self.floor = Some(floor);
-        let found = self.search(u64::MAX, false);
-        self.floor = None;
-        found
-    }
-
+    /// The bound by the flow.
     pub(crate) fn bound(&self) -> u64 {
         self.domains.paid + self.flow.cost()
     }
 
-    /// Propagates and updates the bound.
-    pub(crate) fn settle(&mut self) -> Result<(), Dead> {
+    /// Propagates and updates the bound by the flow.
+    pub(crate) fn settle(&mut self) -> Result<(), Pruned> {
         self.domains.propagate(self.model)?;
         self.flow.refresh(self.model, &self.domains)
     }
@@ -236,137 +207,50 @@ impl<'a> Engine<'a> {
         self.flow.restore(saved);
     }
 
-    /// Searches below the current domains; leaves them smaller.
-    fn node(&mut self, depth: usize) {
-        loop {
-            self.nodes += 1;
-            if self.dive > 0 && (self.best.is_some() || self.nodes > self.dive) {
-                return;
-            }
-            self.stopped |= self.effort.is_spent(self.nodes) || self.cancel.is_over();
-            if self.stopped || self.settle().is_err() {
-                return;
-            }
-            let bound = self.bound();
-            if bound >= self.limit {
-                return;
-            }
-            if self.model.dma_matters && !self.dma_possible() {
-                return;
-            }
-            let Some(mut branch) = self.try_wiring(bound) else { return };
-            if self.prices_now() {
-                match self.price() {
-                    Err(Dead) => return,
-                    Ok(true) => continue,
-                    Ok(false) => {}
-                }
-                let limit = self.limit;
-                self.round();
-                if self.limit < limit {
-                    if self.first || depth > 0 {
-                        return;
-                    }
-                    continue;
-                }
-                branch = match self.guided(branch) {
-                    Err(Dead) => return,
-                    Ok(None) => continue,
-                    Ok(Some(guided)) => guided,
-                };
-            }
-            let limit = self.limit;
-            let refused = self.follow(branch, depth);
-            if refused.is_err() || self.first && self.best.is_some() {
-                return;
-            }
-            // A better limit strikes more at the root than anywhere below it.
-            if self.limit < limit && !self.first && depth > 0 {
-                return;
-            }
-        }
-    }
-
-    /// Whether it is time for the second bound.
-    fn prices_now(&self) -> bool {
-        self.dive == 0
-            && (!self.first || self.prices.is_some() || self.nodes > self.begun + PATIENCE)
-    }
-
-    /// Reads a wiring off the flow and keeps it if it is better; what to branch on, if anything.
-    fn try_wiring(&mut self, bound: u64) -> Option<Branch> {
-        let choices = match self.read() {
-            Ok(choices) => choices,
-            Err(branch) => return branch,
-        };
-        let weight = self.model.evaluate(&choices);
-        let toll = self.open_toll(&choices);
-        let counts = self.floor.is_none_or(|floor| weight > floor);
-        if counts && weight < self.limit {
-            self.limit = weight;
-            self.best = Some((weight, choices));
-        }
-        if self.first && self.best.is_some() || counts && weight == bound {
-            return None;
-        }
-        toll.or_else(|| self.any_branch())
-    }
-
-    /// Searches where the branch is taken, then refuses it here (unless the limit has improved,
-    /// which makes the root start again, or the first answer was enough).
-    fn follow(&mut self, branch: Branch, depth: usize) -> Result<(), Dead> {
-        let mark = self.domains.mark();
-        let saved = self.flow.save();
-        let limit = self.limit;
-        if self.take(branch).is_ok() {
-            self.node(depth + 1);
-        }
-        if self.first && self.best.is_some() {
-            return Ok(());
-        }
-        self.back(mark, &saved);
-        if self.limit < limit && !self.first { Ok(()) } else { self.refuse(branch) }
-    }
-
-    /// Strikes all that cannot be in an answer below the limit, for good.
-    pub(crate) fn narrow(&mut self, limit: u64) -> Result<(), Dead> {
-        self.limit = limit;
+    /// Removes all that cannot be in an answer below the limit, for good.
+    pub(crate) fn narrow(&mut self, limit: u64) -> Result<(), Pruned> {
+        self.goal.limit = limit;
         self.settle()?;
-        while self.prices.is_some() && !self.stopped && self.price()? {
+        while self.pricing.is_some() && !self.progress.stopped && self.price()? {
             self.settle()?;
         }
         Ok(())
     }
 
     /// Bounds by prices; whether they narrowed the domains.
-    fn price(&mut self) -> Result<bool, Dead> {
+    fn price(&mut self) -> Result<bool, Pruned> {
         self.bound_by_prices(LP_STEPS)?;
-        let (model, limit) = (self.model, self.limit);
-        let Some(prices) = &mut self.prices else { return Ok(false) };
-        prices.dual.strike(&prices.terms, model, &mut self.domains, limit)
+        let (model, limit) = (self.model, self.goal.limit);
+        let Some(pricing) = &mut self.pricing else { return Ok(false) };
+        pricing.lagrangian.fix(&pricing.dualized, model, &mut self.domains, limit)
     }
 
     /// The bound by the best prices that so many steps find, as the linear program sees it.
-    pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Dead> {
-        let (problem, model) = (self.problem, self.model);
-        let prices = self.prices.get_or_insert_with(|| {
-            let terms = Dualized::new(problem, model);
-            let dual = Lagrangian::new(&terms);
-            let relaxation = Relaxation::new(&terms, model, &self.domains);
-            let history = PseudoCosts::default();
-            Box::new(Prices { terms, dual, relaxation, history, bound: 0 })
-        });
-        let Prices { terms, dual, relaxation, bound, .. } = &mut **prices;
-        let unused = |f: &usize| terms.facilities[*f].alts.iter().all(|&a| !self.domains.alt_on(a));
-        if self.domains.opened.iter().any(unused) {
-            return Err(Dead);
+    pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Pruned> {
+        let (problem, model, domains) = (self.problem, self.model, &self.domains);
+        let pricing =
+            self.pricing.get_or_insert_with(|| Box::new(Pricing::new(problem, model, domains)));
+        let Pricing { dualized, lagrangian, relaxation, bound, .. } = &mut **pricing;
+        let unused = |f| dualized.facilities[f].alts.iter().all(|&alt| !domains.has_alt(alt));
+        if domains.opened.iter().any(|f| unused(*f)) {
+            return Err(Pruned);
         }
-        let most = Lagrangian::most(terms, model, &self.domains, self.limit).ok_or(Dead)?;
-        relaxation.run(terms, model, &self.domains, dual, (most, steps, self.cancel));
-        *bound = dual.assess(terms, model, &self.domains);
-        if *bound >= self.limit {
-            return Err(Dead);
+        let most = Lagrangian::most(dualized, model, domains, self.goal.limit).ok_or(Pruned)?;
+        relaxation.run(dualized, model, domains, lagrangian, (most, steps, self.cancel));
+        *bound = lagrangian.assess(dualized, model, domains);
+        if *bound >= self.goal.limit {
+            return Err(Pruned);
         }
         Ok(relaxation.worth())
+    }
+}
+
+impl Pricing {
+    fn new(problem: &Problem, model: &Model, domains: &Domains) -> Self {
+        let dualized = Dualized::new(problem, model);
+        let lagrangian = Lagrangian::new(&dualized);
+        let relaxation = Relaxation::new(&dualized, model, domains);
+        let pseudo_costs = PseudoCosts::default();
+        Self { dualized, lagrangian, relaxation, pseudo_costs, bound: 0 }
     }
 }

@@ -1,219 +1,240 @@
 //! Reads a wiring off the flow: the flow and the domains in, complete choices or what to branch on
 //! out.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
+//!
+//! Where the relaxation already gives an answer, nothing has to be searched.
 
-use crate::model::{Kind, NONE, agree};
-use crate::search::branching::Branch;
-use crate::search::{Choices, Engine};
-
-const NOBODY: usize = NONE;
+use super::Engine;
+use super::branching::Branch;
+use crate::domains::streams;
+use crate::index::{AltId, CandId, IdVec, RoleId, WireId};
+use crate::model::{Choices, Chosen, Holding, Model, agree};
+use crate::problem::{Claim, DeviceId, Holder, PinId, Problem, ResourceId, SignalId};
 
 /// Who holds what while a wiring is read off the flow.
 #[derive(Clone, Debug)]
-pub(crate) struct Scratch {
-    resource: Vec<(usize, usize)>,
-    pin: Vec<(usize, usize, usize)>,
-    touched_resources: Vec<usize>,
-    touched_pins: Vec<usize>,
+pub(super) struct Holders {
+    resource: IdVec<ResourceId, Option<(DeviceId, Holder)>>,
+    pin: IdVec<PinId, Option<(DeviceId, Holder, SignalId)>>,
+    held_resources: Vec<ResourceId>,
+    held_pins: Vec<PinId>,
 }
 
-impl Scratch {
-    pub(crate) fn new(resources: usize, pins: usize) -> Self {
+/// How much was held at some time.
+#[derive(Clone, Copy, Default)]
+struct Mark {
+    resources: usize,
+    pins: usize,
+}
+
+impl Holders {
+    pub(super) fn new(problem: &Problem, model: &Model) -> Self {
         Self {
-            resource: vec![(NOBODY, 0); resources],
-            pin: vec![(NOBODY, 0, 0); pins],
-            touched_resources: Vec::new(),
-            touched_pins: Vec::new(),
+            resource: IdVec::same(None, problem.resources as usize),
+            pin: IdVec::same(None, model.pins.len()),
+            held_resources: Vec::new(),
+            held_pins: Vec::new(),
         }
+    }
+
+    fn mark(&self) -> Mark {
+        Mark { resources: self.held_resources.len(), pins: self.held_pins.len() }
+    }
+
+    fn release(&mut self, mark: Mark) {
+        for resource in self.held_resources.drain(mark.resources..) {
+            self.resource[resource] = None;
+        }
+        for pin in self.held_pins.drain(mark.pins..) {
+            self.pin[pin] = None;
+        }
+    }
+
+    /// The device takes the pin and claims of a candidate.
+    ///
+    /// # Errors
+    /// Who holds one of them already.
+    fn hold_cand(&mut self, model: &Model, device: DeviceId, id: CandId) -> Result<(), DeviceId> {
+        let c = &model.cand[id];
+        let held = self.pin[c.pin];
+        if let Some((opponent, holder, signal)) = held
+            && (!agree(holder, c.holder) || signal != c.signal)
+        {
+            return Err(opponent);
+        }
+        let mark = self.mark();
+        if let Err(opponent) = self.hold_all(device, &model.cand_claims[id]) {
+            self.release(mark);
+            return Err(opponent);
+        }
+        if held.is_none() {
+            self.held_pins.push(c.pin);
+            self.pin[c.pin] = Some((device, c.holder, c.signal));
+        }
+        Ok(())
+    }
+
+    fn hold_all(&mut self, device: DeviceId, claims: &[Claim]) -> Result<(), DeviceId> {
+        for &Claim { resource, holder } in claims {
+            match self.resource[resource] {
+                None => {
+                    self.resource[resource] = Some((device, holder));
+                    self.held_resources.push(resource);
+                }
+                // One device with two holders shares with nobody.
+                Some((owner, held)) if owner == device => {
+                    if held != holder {
+                        self.resource[resource] = Some((device, Holder::Own));
+                    }
+                }
+                Some((owner, held)) if !agree(held, holder) => return Err(owner),
+                Some(_) => {}
+            }
+        }
+        Ok(())
     }
 }
 
 impl Engine<'_> {
     /// Reads a wiring off the flow, or tells what to branch on.
-    pub(crate) fn read(&mut self) -> Result<Choices, Option<Branch>> {
+    pub(super) fn read(&mut self) -> Result<Choices, Option<Branch>> {
         let model = self.model;
-        let mut choices = Choices::with_capacity(model.devices);
-        let mut wires = vec![NONE; model.wires];
+        let mut choices: IdVec<DeviceId, Option<Chosen>> = IdVec::same(None, model.devices.len());
+        let mut wires = IdVec::same(None, model.wires.len());
         let mut fault = None;
         // Decided devices first: the others adapt.
-        let order = (0..model.devices).filter(|&d| self.domains.device_left(d) == 1);
-        let order: Vec<usize> =
-            order.chain((0..model.devices).filter(|&d| self.domains.device_left(d) > 1)).collect();
-        choices.resize(model.devices, (NONE, Vec::new()));
-        for device in order {
+        let decided = |d: &DeviceId| self.domains.alts_left(*d) == 1;
+        let (first, others): (Vec<DeviceId>, Vec<DeviceId>) =
+            model.devices.iter().partition(decided);
+        for device in first.into_iter().chain(others) {
             match self.read_device(device, &mut wires) {
-                Ok(choice) => choices[device] = choice,
-                Err(culprit) => {
-                    fault = Some((device, culprit));
+                Ok(chosen) => choices[device] = Some(chosen),
+                Err(opponent) => {
+                    fault = Some((device, opponent));
                     break;
                 }
             }
         }
-        for resource in self.scratch.touched_resources.drain(..) {
-            self.scratch.resource[resource] = (NOBODY, 0);
+        self.holders.release(Mark::default());
+        if let Some((device, opponent)) = fault {
+            return Err(self.blame(device, opponent));
         }
-        for pin in self.scratch.touched_pins.drain(..) {
-            self.scratch.pin[pin] = (NOBODY, 0, 0);
-        }
-        if let Some((device, culprit)) = fault {
-            return Err(self.blame(device, culprit));
-        }
-        if model.dma_matters && !self.dma_fits(&choices) {
-            let uses = |d: &usize| {
-                self.domains.device_left(*d) > 1
-                    && self.domains.alts(model, *d).any(|a| !model.alt_dma.at(a).is_empty())
+        let choices: Choices = choices.into_iter().flatten().collect();
+        if model.dma_matters && !streams::suffice(self.problem, model, &choices) {
+            let uses = |d: &DeviceId| {
+                self.domains.alts_left(*d) > 1
+                    && self.domains.alts(model, *d).any(|alt| !model.alt_dma[alt].is_empty())
             };
-            let device = (0..model.devices).find(uses);
-            return Err(device.map(|d| Branch::Alt(choices[d].0)));
+            let device = model.devices.iter().find(uses);
+            return Err(device.map(|d| Branch::Alt(choices[d].alt)));
         }
         Ok(choices)
     }
 
     /// A device that cannot follow the flow is to choose; if it has chosen, its opponent is.
-    fn blame(&self, device: usize, culprit: usize) -> Option<Branch> {
-        let model = self.model;
-        for d in [device, culprit] {
-            if d != NOBODY && self.domains.device_left(d) > 1 {
+    fn blame(&self, device: DeviceId, opponent: Option<DeviceId>) -> Option<Branch> {
+        for d in [Some(device), opponent].into_iter().flatten() {
+            if self.domains.alts_left(d) > 1 {
                 return self.preferred(d).map(Branch::Alt);
             }
         }
-        let culprit = (culprit != NOBODY).then_some(culprit);
         self.open_role(device)
-            .or_else(|| culprit.and_then(|d| self.open_role(d)))
+            .or_else(|| opponent.and_then(|d| self.open_role(d)))
             .or_else(|| self.any_branch())
-            .filter(|_| model.devices > 0)
     }
 
     /// The alternative that the flow would give the device.
-    fn preferred(&self, device: usize) -> Option<usize> {
+    fn preferred(&self, device: DeviceId) -> Option<AltId> {
         let model = self.model;
-        let positions = 0..model.demand[device + 1] - model.demand[device];
+        let positions = 0..model.demands.of(device).len();
         let mut flow = positions
             .filter_map(|p| self.flow.at(model, device, p))
             .map(|(_, id)| model.cand_alt(id))
-            .filter(|&alt| model.alt_device[alt] == device && self.domains.alt_on(alt));
+            .filter(|&alt| model.alt_device[alt] == device && self.domains.has_alt(alt));
         flow.next().or_else(|| self.domains.alts(model, device).next())
     }
 
+    /// What the device takes, or who is in its way, as far as it is somebody.
     fn read_device(
         &mut self,
-        device: usize,
-        wires: &mut [usize],
-    ) -> Result<(usize, Vec<usize>), usize> {
+        device: DeviceId,
+        wires: &mut IdVec<WireId, Option<PinId>>,
+    ) -> Result<Chosen, Option<DeviceId>> {
         let model = self.model;
         let first = self.preferred(device);
-        let mut culprit = NOBODY;
+        let mut opponent = None;
         let others = self.domains.alts(model, device).filter(|a| Some(*a) != first);
-        let alts: Vec<usize> = first.into_iter().chain(others).collect();
+        let alts: Vec<AltId> = first.into_iter().chain(others).collect();
         for alt in alts {
-            let resources = self.scratch.touched_resources.len();
-            let pins = self.scratch.touched_pins.len();
+            let mark = self.holders.mark();
             match self.read_alt(device, alt, wires) {
                 Ok(cands) => {
-                    for (role, &id) in model.roles.range(alt).zip(&cands) {
-                        if let Kind::Wire(wire) = model.role_kind[role] {
-                            wires[wire] = model.cand(id).pin;
+                    for (role, &id) in model.roles.of(alt).iter().zip(&cands) {
+                        if let Holding::Wire(wire) = model.holding[role] {
+                            wires[wire] = Some(model.cand[id].pin);
                         }
                     }
-                    return Ok((alt, cands));
+                    return Ok(Chosen { alt, cands });
                 }
-                Err(opponent) => {
-                    if culprit == NOBODY {
-                        culprit = opponent;
-                    }
-                    for r in self.scratch.touched_resources.drain(resources..) {
-                        self.scratch.resource[r] = (NOBODY, 0);
-                    }
-                    for p in self.scratch.touched_pins.drain(pins..) {
-                        self.scratch.pin[p] = (NOBODY, 0, 0);
-                    }
+                Err(culprit) => {
+                    opponent = opponent.or(culprit);
+                    self.holders.release(mark);
                 }
             }
         }
-        Err(culprit)
+        Err(opponent)
     }
 
     fn read_alt(
         &mut self,
-        device: usize,
-        alt: usize,
-        wires: &[usize],
-    ) -> Result<Vec<usize>, usize> {
+        device: DeviceId,
+        alt: AltId,
+        wires: &IdVec<WireId, Option<PinId>>,
+    ) -> Result<Vec<CandId>, Option<DeviceId>> {
         let model = self.model;
-        self.hold_all(device, model.alt_claims.at(alt))?;
-        let mut cands = Vec::with_capacity(model.roles.range(alt).len());
-        for (position, role) in model.roles.range(alt).enumerate() {
-            let flow = self.flow.at(model, device, position).map(|(pin, _)| pin);
-            let wanted = match model.role_kind[role] {
-                _ if self.domains.role_left(role) == 1 => None,
-                Kind::Own => flow,
-                Kind::Wire(wire) => self
-                    .flow
-                    .wire(model, wire)
-                    .or(Some(wires[wire]).filter(|p| *p != NONE))
-                    .or(flow),
-                Kind::Odd => None,
-            };
-            let mut culprit = NOBODY;
+        self.holders.hold_all(device, &model.alt_claims[alt])?;
+        let mut cands: Vec<CandId> = Vec::with_capacity(model.roles.of(alt).len());
+        for (position, role) in model.roles.of(alt).iter().enumerate() {
+            let wanted = self.wanted_pin(device, position, role, wires);
+            let mut opponent = None;
             let mut found = None;
-            for id in model.cands.range(role) {
-                if !self.domains.cand_on(model, id) {
+            for id in model.cands.of(role) {
+                if !self.domains.has_cand(model, id) {
                     continue;
                 }
-                let pin = model.cand(id).pin;
-                let twice = cands.iter().any(|&c: &usize| model.cand(c).pin == pin);
+                let pin = model.cand[id].pin;
+                let twice = cands.iter().any(|&c| model.cand[c].pin == pin);
                 if twice || wanted.is_some_and(|wanted| wanted != pin) {
                     continue;
                 }
-                match self.hold_cand(device, id) {
+                match self.holders.hold_cand(model, device, id) {
                     Ok(()) => {
                         found = Some(id);
                         break;
                     }
-                    Err(opponent) => culprit = opponent,
+                    Err(culprit) => opponent = Some(culprit),
                 }
             }
-            cands.push(found.ok_or(culprit)?);
+            cands.push(found.ok_or(opponent)?);
         }
         Ok(cands)
     }
 
-    fn hold_cand(&mut self, device: usize, id: usize) -> Result<(), usize> {
-        let model = self.model;
-        let c = model.cand(id);
-        let (holder, code, signal) = self.scratch.pin[c.pin];
-        if holder != NOBODY && (!agree(code, c.holder) || signal != c.signal) {
-            return Err(holder);
+    /// The pin that the flow has for a role, if the role still has a choice.
+    fn wanted_pin(
+        &self,
+        device: DeviceId,
+        position: usize,
+        role: RoleId,
+        wires: &IdVec<WireId, Option<PinId>>,
+    ) -> Option<PinId> {
+        if self.domains.cands_left(role) == 1 {
+            return None;
         }
-        let mark = self.scratch.touched_resources.len();
-        if let Err(opponent) = self.hold_all(device, model.cand_claims.at(id)) {
-            for r in self.scratch.touched_resources.drain(mark..) {
-                self.scratch.resource[r] = (NOBODY, 0);
-            }
-            return Err(opponent);
+        let flow = || self.flow.at(self.model, device, position).map(|(pin, _)| pin);
+        match self.model.holding[role] {
+            Holding::Own => flow(),
+            Holding::Wire(wire) => self.flow.wire(self.model, wire).or(wires[wire]).or_else(flow),
+            Holding::Irregular => None,
         }
-        if holder == NOBODY {
-            self.scratch.touched_pins.push(c.pin);
-            self.scratch.pin[c.pin] = (device, c.holder, c.signal);
-        }
-        Ok(())
-    }
-
-    fn hold_all(&mut self, device: usize, claims: &[(usize, usize)]) -> Result<(), usize> {
-        for &(resource, code) in claims {
-            let (holder, held) = self.scratch.resource[resource];
-            if holder == NOBODY {
-                self.scratch.resource[resource] = (device, code);
-                self.scratch.touched_resources.push(resource);
-            } else if holder == device {
-                // One device with two holders shares with nobody.
-                if held != code {
-                    self.scratch.resource[resource] = (device, 0);
-                }
-            } else if !agree(held, code) {
-                return Err(holder);
-            }
-        }
-        Ok(())
     }
 }

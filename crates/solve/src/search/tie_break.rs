@@ -3,76 +3,86 @@
 //! An answer is a list of pins (devices in order, roles in order), then of signals, then of
 //! alternatives. The least one is found by fixing one entry after another to the least value that
 //! still leads to an answer within the limit; the answer at hand saves most of the questions.
-#![expect(clippy::indexing_slicing, reason = "all ids come from the model")]
 
-use crate::domains::Dead;
-use crate::model::Model;
-use crate::questions::solve::Effort;
-use crate::search::canonical::earliest;
-use crate::search::{Choices, Engine};
+use super::canonical::earliest;
+use super::{Effort, Engine};
+use crate::domains::Pruned;
+use crate::index::{AltId, CandId, RoleId};
+use crate::model::{Choices, Model};
+use crate::problem::DeviceId;
 
 /// Nodes that a question about several values is worth.
 const PATIENCE: u64 = 40;
+
+/// A pin, a signal or an alternative, by its number; nothing where there is no such role.
+pub(crate) type Value = Option<u32>;
 
 /// One entry of the list by which answers are ordered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Entry {
     /// Pin of the device's role; `None` (no such role) comes first.
-    Pin(usize, usize),
+    Pin(DeviceId, usize),
     /// Signal of the device's role.
-    Signal(usize, usize),
+    Signal(DeviceId, usize),
     /// Alternative of the device.
-    Alternative(usize),
+    Alternative(DeviceId),
 }
 
 /// All entries in order.
 pub(crate) fn entries(model: &Model) -> Vec<Entry> {
-    let positions = |device: usize| 0..model.demand[device + 1] - model.demand[device];
-    let pairs = || (0..model.devices).flat_map(|d| positions(d).map(move |p| (d, p)));
+    let positions = |device: DeviceId| 0..model.demands.of(device).len();
+    let pairs = || model.devices.iter().flat_map(|d| positions(d).map(move |p| (d, p)));
     let pins = pairs().map(|(d, p)| Entry::Pin(d, p));
     let signals = pairs().map(|(d, p)| Entry::Signal(d, p));
-    pins.chain(signals).chain((0..model.devices).map(Entry::Alternative)).collect()
+    pins.chain(signals).chain(model.devices.iter().map(Entry::Alternative)).collect()
 }
 
 impl Entry {
-    fn of_cand(self, model: &Model, id: usize) -> Option<usize> {
+    fn of_cand(self, model: &Model, id: CandId) -> Value {
         match self {
-            Self::Pin(..) => Some(model.cand(id).pin),
-            Self::Signal(..) => Some(model.cand(id).signal),
+            Self::Pin(..) => Some(model.cand[id].pin.0),
+            Self::Signal(..) => Some(model.cand[id].signal.0),
             Self::Alternative(_) => None,
         }
     }
 
     /// The value of the entry in a complete choice.
-    pub(crate) fn of(self, model: &Model, choices: &Choices) -> Option<usize> {
+    pub(crate) fn of(self, model: &Model, choices: &Choices) -> Value {
         match self {
-            Self::Alternative(device) => Some(choices[device].0),
+            Self::Alternative(device) => Some(choices[device].alt.0),
             Self::Pin(device, position) | Self::Signal(device, position) => {
-                choices[device].1.get(position).and_then(|&id| self.of_cand(model, id))
+                choices[device].cands.get(position).and_then(|&id| self.of_cand(model, id))
             }
+        }
+    }
+
+    fn device(self) -> DeviceId {
+        let (Self::Pin(device, _) | Self::Signal(device, _) | Self::Alternative(device)) = self;
+        device
+    }
+
+    /// The role that the entry is about in an alternative of its device, if there is one.
+    fn role(self, model: &Model, alt: AltId) -> Option<RoleId> {
+        match self {
+            Self::Pin(_, position) | Self::Signal(_, position) => model.roles.of(alt).nth(position),
+            Self::Alternative(_) => None,
         }
     }
 }
 
 impl Engine<'_> {
     /// The values that an entry may still have, in order.
-    pub(crate) fn values(&self, entry: Entry) -> Vec<Option<usize>> {
+    pub(crate) fn values(&self, entry: Entry) -> Vec<Value> {
         let model = self.model;
         let mut values = Vec::new();
-        match entry {
-            Entry::Alternative(device) => {
-                return self.domains.alts(model, device).map(Some).collect();
-            }
-            Entry::Pin(device, position) | Entry::Signal(device, position) => {
-                for alt in self.domains.alts(model, device) {
-                    let roles = model.roles.range(alt);
-                    if position >= roles.len() {
-                        values.push(None);
-                        continue;
-                    }
-                    let cands = self.domains.cands(model, roles.start + position);
-                    values.extend(cands.map(|id| entry.of_cand(model, id)));
-                }
+        for alt in self.domains.alts(model, entry.device()) {
+            if matches!(entry, Entry::Alternative(_)) {
+                values.push(Some(alt.0));
+            } else if let Some(role) = entry.role(model, alt) {
+                let cands = self.domains.cands(model, role);
+                values.extend(cands.map(|id| entry.of_cand(model, id)));
+            } else {
+                values.push(None);
             }
         }
         values.sort_unstable();
@@ -82,55 +92,38 @@ impl Engine<'_> {
 
     /// Whether the entry has one value left.
     pub(crate) fn settled(&self, entry: Entry) -> bool {
-        let model = self.model;
-        match entry {
-            Entry::Alternative(device) => self.domains.decided(device).is_some(),
-            Entry::Pin(device, position) | Entry::Signal(device, position) => {
-                self.domains.decided(device).is_some_and(|alt| {
-                    let roles = model.roles.range(alt);
-                    position >= roles.len() || self.domains.pinned(roles.start + position).is_some()
-                })
-            }
-        }
+        self.domains.decided(entry.device()).is_some_and(|alt| {
+            let role = entry.role(self.model, alt);
+            role.is_none_or(|role| self.domains.chosen(role).is_some())
+        })
     }
 
     /// Keeps only what gives the entry this value, and settles.
-    pub(crate) fn restrict(&mut self, entry: Entry, value: Option<usize>) -> Result<(), Dead> {
+    pub(crate) fn restrict(&mut self, entry: Entry, value: Value) -> Result<(), Pruned> {
         self.restrict_to(entry, &[value])
     }
 
     /// Keeps only what gives the entry one of these values, which are in order, and settles.
-    fn restrict_to(&mut self, entry: Entry, values: &[Option<usize>]) -> Result<(), Dead> {
+    fn restrict_to(&mut self, entry: Entry, values: &[Value]) -> Result<(), Pruned> {
         let model = self.model;
-        let keeps = |value: Option<usize>| values.binary_search(&value).is_ok();
-        match entry {
-            Entry::Alternative(device) => {
-                for alt in model.alts.range(device) {
-                    if !keeps(Some(alt)) {
-                        self.domains.kill_alt(model, alt)?;
-                    }
+        let alts = model.alts.of(entry.device());
+        let keeps = |value: Value| values.binary_search(&value).is_ok();
+        for alt in alts {
+            let Some(role) = entry.role(model, alt) else {
+                let whole = matches!(entry, Entry::Alternative(_)).then_some(alt.0);
+                if !keeps(whole) {
+                    self.domains.remove_alt(model, alt)?;
                 }
-            }
-            Entry::Pin(device, position) | Entry::Signal(device, position) => {
-                for alt in model.alts.range(device) {
-                    let roles = model.roles.range(alt);
-                    if position >= roles.len() {
-                        if !keeps(None) {
-                            self.domains.kill_alt(model, alt)?;
-                        }
-                        continue;
-                    }
-                    for id in model.cands.range(roles.start + position) {
-                        if !keeps(entry.of_cand(model, id)) {
-                            self.domains.kill_cand(model, id)?;
-                        }
-                    }
+                continue;
+            };
+            for id in model.cands.of(role) {
+                if !keeps(entry.of_cand(model, id)) {
+                    self.domains.remove_cand(model, id)?;
                 }
             }
         }
-        let (Entry::Pin(device, _) | Entry::Signal(device, _) | Entry::Alternative(device)) = entry;
-        for alt in model.alts.range(device) {
-            if self.domains.alt_on(alt) {
+        for alt in alts {
+            if self.domains.has_alt(alt) {
                 self.domains.touch(model.alt_board[alt]);
             }
         }
@@ -144,48 +137,14 @@ impl Engine<'_> {
             return known;
         }
         let mut known = earliest(model, known);
-        let mut start = 1;
+        let mut number = 1;
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;
             }
-            let floor = self.floor(entry, &known);
-            let mut values = self.values(entry);
-            values.retain(|value| *value >= floor);
-            let saved = self.flow.save();
-            let mark = self.domains.mark();
-            // The least first. Where that is not possible, more at once: mostly nothing is, and to
-            // show that takes hardly more of many than of one. Where it does, fewer are asked about.
-            let mut number = start;
-            loop {
-                values.truncate(values.partition_point(|v| *v < entry.of(model, &known)));
-                if values.is_empty() || self.stopped {
-                    break;
-                }
-                let some = number.min(values.len());
-                let many = Effort::Nodes(self.nodes + PATIENCE);
-                self.effort = if some > 1 { many } else { Effort::Any };
-                let restricted = self.restrict_to(entry, &values[..some]);
-                let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
-                self.back(mark, &saved);
-                let unknown = self.stopped && !self.cancel.is_over();
-                self.effort = Effort::Any;
-                match found {
-                    Some((_, better)) => {
-                        known = earliest(model, better);
-                        number = 1;
-                    }
-                    None if unknown => number = some / 2,
-                    None if self.stopped => break,
-                    None => {
-                        values.drain(..some);
-                        number = some * 4;
-                    }
-                }
-                self.stopped &= !unknown;
-            }
-            // What was not possible for one wire is often not possible for the next.
-            start = number;
+            // What was not possible for one wire is often not possible for the next, so each
+            // entry asks about as many values at once as the one before it did in the end.
+            number = self.least_value(entry, limit, &mut known, number);
             if self.restrict(entry, entry.of(model, &known)).is_err() {
                 return known;
             }
@@ -193,12 +152,60 @@ impl Engine<'_> {
         known
     }
 
+    /// Makes the known answer the one with the least value of the entry. Asks about so many values
+    /// at once at first, and returns about how many in the end.
+    fn least_value(
+        &mut self,
+        entry: Entry,
+        limit: u64,
+        known: &mut Choices,
+        number: usize,
+    ) -> usize {
+        let model = self.model;
+        let floor = self.floor(entry, known);
+        let mut values = self.values(entry);
+        values.retain(|value| *value >= floor);
+        let saved = self.flow.save();
+        let mark = self.domains.mark();
+        let mut number = number;
+        // The least first. Where that is not possible, more at once: mostly nothing is, and to show
+        // that takes hardly more of many than of one. Where it does, fewer are asked about.
+        loop {
+            values.truncate(values.partition_point(|v| *v < entry.of(model, known)));
+            if values.is_empty() || self.progress.stopped {
+                return number;
+            }
+            let some = number.min(values.len());
+            let many = Effort::Nodes(self.progress.nodes + PATIENCE);
+            self.progress.effort = if some > 1 { many } else { Effort::Any };
+            let (asked, _) = values.split_at(some);
+            let restricted = self.restrict_to(entry, asked);
+            let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
+            self.back(mark, &saved);
+            let unknown = self.progress.stopped && !self.cancel.is_over();
+            self.progress.effort = Effort::Any;
+            match found {
+                Some((_, better)) => {
+                    *known = earliest(model, better);
+                    number = 1;
+                }
+                None if unknown => number = some / 2,
+                None if self.progress.stopped => return number,
+                None => {
+                    values.drain(..some);
+                    number = some * 4;
+                }
+            }
+            self.progress.stopped &= !unknown;
+        }
+    }
+
     /// Interchangeable devices stand in order in the least answer, so a later one starts where
     /// the one before it stands.
-    fn floor(&self, entry: Entry, known: &Choices) -> Option<usize> {
+    fn floor(&self, entry: Entry, known: &Choices) -> Value {
         let Entry::Pin(device, 0) = entry else { return None };
-        let class = self.model.class[device];
-        let before = (class..device).rev().find(|&d| self.model.class[d] == class)?;
+        let class = self.model.class_of(self.model.class[device]);
+        let before = class.take_while(|d| *d < device).last()?;
         Entry::Pin(before, 0).of(self.model, known)
     }
 }

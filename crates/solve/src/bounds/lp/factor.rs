@@ -1,84 +1,64 @@
 //! The basis as factors: columns in, triangular solves out.
 //!
-//! A left-looking sparse LU decomposition that takes slack columns and singletons first, which
-//! leaves little to eliminate in these problems, and an eta file for the exchanges since then.
-#![expect(clippy::indexing_slicing, reason = "rows and columns are those of the matrix")]
+//! A left-looking sparse LU decomposition (J. R. Gilbert and T. Peierls, *Sparse partial pivoting
+//! in time proportional to arithmetic operations*, 1988). It takes slack columns and singletons
+//! first, which leaves little to eliminate in these problems. Later exchanges of one variable go
+//! into an eta file (G. B. Dantzig and W. Orchard-Hays, *The product form for the inverse in the
+//! simplex method*, 1954).
 
-use super::matrix::Matrix;
-
-/// No row, no column.
-pub(crate) const NONE: usize = usize::MAX;
+use super::matrix::{Matrix, Variable};
+use crate::index::{ColumnId, IdVec, RowId, Rows, StepId, VarId};
 
 /// Smaller pivots count as none.
 const TINY: f64 = 1e-9;
 
-/// Sparse vectors, one after another.
-#[derive(Clone, Debug, Default)]
-struct Vectors {
-    start: Vec<usize>,
-    items: Vec<(usize, f64)>,
-}
+/// Smaller entries of a factor are dropped.
+const DROPPED: f64 = 1e-13;
 
-impl Vectors {
-    fn clear(&mut self) {
-        self.start.clear();
-        self.start.push(0);
-        self.items.clear();
-    }
+/// A vector with an entry for each row.
+pub(crate) type Dense = IdVec<RowId, f64>;
 
-    fn close(&mut self) {
-        self.start.push(self.items.len());
-    }
-
-    fn at(&self, index: usize) -> &[(usize, f64)] {
-        &self.items[self.start[index]..self.start[index + 1]]
-    }
-
-    fn len(&self) -> usize {
-        self.start.len() - 1
-    }
-}
+/// The variable that has its pivot in each row, as far as the elimination has come.
+type Pivots = IdVec<RowId, Option<VarId>>;
 
 /// The factors of one basis.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Factor {
     /// Pivot rows in the order of elimination.
-    order: Vec<usize>,
-    diagonal: Vec<f64>,
+    order: IdVec<StepId, RowId>,
+    diagonal: IdVec<RowId, f64>,
     /// Columns of L beside their pivot row.
-    lower: Vectors,
-    lower_row: Vec<usize>,
+    lower: Rows<StepId, (RowId, f64)>,
+    lower_row: IdVec<StepId, RowId>,
     /// Columns of U in the order of elimination, and its rows by row.
-    upper: Vectors,
-    upper_rows: Vectors,
+    upper: Rows<StepId, (RowId, f64)>,
+    upper_rows: Rows<RowId, (RowId, f64)>,
     /// Exchanges: pivot row, pivot, column.
-    etas: Vectors,
-    eta_row: Vec<(usize, f64)>,
+    etas: Rows<StepId, (RowId, f64)>,
+    eta_row: IdVec<StepId, (RowId, f64)>,
     // Work space of the decomposition.
-    pivoted: Vec<bool>,
-    row_count: Vec<usize>,
-    column_count: Vec<usize>,
-    waiting: Vec<bool>,
-    work: Vec<f64>,
+    pivoted: IdVec<RowId, bool>,
+    row_count: IdVec<RowId, usize>,
+    column_count: IdVec<ColumnId, usize>,
+    waiting: IdVec<ColumnId, bool>,
+    work: IdVec<RowId, f64>,
 }
 
 impl Factor {
-    /// Decomposes the basis. `basic` holds its variables (slacks are numbered after the columns)
-    /// and comes back ordered by pivot row; what is linearly dependent is replaced by slacks.
-    pub(crate) fn decompose(&mut self, matrix: &Matrix, basic: &mut [usize]) {
-        let rows = matrix.rows();
-        self.begin(rows, matrix.columns());
-        let variables: Vec<usize> = basic.to_vec();
-        basic.fill(NONE);
-        let mut columns = Vec::with_capacity(rows);
-        for &variable in &variables {
-            if variable >= matrix.columns() {
-                let row = variable - matrix.columns();
-                self.pivoted[row] = true;
-                basic[row] = variable;
-                self.push_pivot(row, -1.0);
-            } else {
-                columns.push(variable);
+    /// Decomposes the basis. `basic` holds its variables and comes back ordered by pivot row; what
+    /// is linearly dependent is replaced by slacks.
+    pub(crate) fn decompose(&mut self, matrix: &Matrix, basic: &mut IdVec<RowId, VarId>) {
+        self.begin(matrix);
+        let mut pivots: Pivots = IdVec::same(None, basic.len());
+        let mut columns = Vec::with_capacity(basic.len());
+        for &variable in &*basic {
+            match matrix.variable(variable) {
+                Variable::Slack(row) => {
+                    self.pivoted[row] = true;
+                    pivots[row] = Some(variable);
+                    self.push_pivot(row, -1.0);
+                }
+                Variable::Column(column) => columns.push(column),
             }
         }
         for &column in &columns {
@@ -90,48 +70,46 @@ impl Factor {
                 }
             }
         }
-        self.singletons(matrix, &columns, basic);
-        self.nucleus(matrix, &columns, basic);
-        for (row, variable) in basic.iter_mut().enumerate().filter(|(_, v)| **v == NONE) {
-            *variable = matrix.columns() + row;
-            self.push_pivot(row, -1.0);
+        self.singletons(matrix, &columns, &mut pivots);
+        self.nucleus(matrix, &columns, &mut pivots);
+        for row in pivots.ids() {
+            basic[row] = pivots[row].unwrap_or_else(|| {
+                self.push_pivot(row, -1.0);
+                matrix.slack(row)
+            });
         }
-        self.transpose(rows);
+        self.transpose(matrix.rows().len());
     }
 
-    fn begin(&mut self, rows: usize, columns: usize) {
+    fn begin(&mut self, matrix: &Matrix) {
+        let (rows, columns) = (matrix.rows().len(), matrix.columns().len());
         self.order.clear();
-        self.diagonal.clear();
-        self.diagonal.resize(rows, 0.0);
+        self.diagonal.reset(0.0, rows);
         self.lower.clear();
         self.lower_row.clear();
         self.upper.clear();
         self.etas.clear();
         self.eta_row.clear();
-        self.pivoted.clear();
-        self.pivoted.resize(rows, false);
-        self.row_count.clear();
-        self.row_count.resize(rows, 0);
-        self.column_count.clear();
-        self.column_count.resize(columns, 0);
-        self.waiting.clear();
-        self.waiting.resize(columns, false);
-        self.work.clear();
-        self.work.resize(rows, 0.0);
+        self.pivoted.reset(false, rows);
+        self.row_count.reset(0, rows);
+        self.column_count.reset(0, columns);
+        self.waiting.reset(false, columns);
+        self.work.reset(0.0, rows);
     }
 
-    fn push_pivot(&mut self, row: usize, pivot: f64) {
+    fn push_pivot(&mut self, row: RowId, pivot: f64) {
         self.order.push(row);
         self.diagonal[row] = pivot;
         self.upper.close();
     }
 
     /// Takes columns with one row left, and rows with one column left, as long as there are any.
-    fn singletons(&mut self, matrix: &Matrix, columns: &[usize], basic: &mut [usize]) {
-        let single = |f: &Self, c: &usize| f.column_count[*c] == 1;
-        let mut ready: Vec<usize> = columns.iter().copied().filter(|c| single(self, c)).collect();
-        let rows = |f: &Self, r: &usize| !f.pivoted[*r] && f.row_count[*r] == 1;
-        let mut alone: Vec<usize> = (0..matrix.rows()).filter(|r| rows(self, r)).collect();
+    fn singletons(&mut self, matrix: &Matrix, columns: &[ColumnId], pivots: &mut Pivots) {
+        let single = |f: &Self, c: &ColumnId| f.column_count[*c] == 1;
+        let mut ready: Vec<ColumnId> =
+            columns.iter().copied().filter(|c| single(self, c)).collect();
+        let rows = |f: &Self, r: &RowId| !f.pivoted[*r] && f.row_count[*r] == 1;
+        let mut alone: Vec<RowId> = matrix.rows().iter().filter(|r| rows(self, r)).collect();
         loop {
             if let Some(column) = ready.pop() {
                 if !self.waiting[column] || self.column_count[column] != 1 {
@@ -142,7 +120,7 @@ impl Factor {
                 if pivot.abs() < TINY {
                     continue;
                 }
-                self.settle(matrix, column, row, pivot, basic, &mut ready, &mut alone);
+                self.settle(matrix, column, row, pivot, pivots, &mut ready, &mut alone);
             } else if let Some(row) = alone.pop() {
                 if self.pivoted[row] || self.row_count[row] != 1 {
                     continue;
@@ -153,7 +131,7 @@ impl Factor {
                 if entries.fold(0.0_f64, |a, e| a.max(e.1.abs())) * 0.01 > pivot.abs() {
                     continue;
                 }
-                self.settle(matrix, column, row, pivot, basic, &mut ready, &mut alone);
+                self.settle(matrix, column, row, pivot, pivots, &mut ready, &mut alone);
             } else {
                 return;
             }
@@ -165,25 +143,25 @@ impl Factor {
     fn settle(
         &mut self,
         matrix: &Matrix,
-        column: usize,
-        row: usize,
+        column: ColumnId,
+        row: RowId,
         pivot: f64,
-        basic: &mut [usize],
-        ready: &mut Vec<usize>,
-        alone: &mut Vec<usize>,
+        pivots: &mut Pivots,
+        ready: &mut Vec<ColumnId>,
+        alone: &mut Vec<RowId>,
     ) {
         self.waiting[column] = false;
         let mut below = false;
         for &(r, value) in matrix.column(column) {
             if self.pivoted[r] {
-                self.upper.items.push((r, value));
+                self.upper.add((r, value));
             } else {
                 self.row_count[r] -= 1;
                 if self.row_count[r] == 1 {
                     alone.push(r);
                 }
                 if r != row {
-                    self.lower.items.push((r, value / pivot));
+                    self.lower.add((r, value / pivot));
                     below = true;
                 }
             }
@@ -193,7 +171,7 @@ impl Factor {
             self.lower_row.push(row);
         }
         self.pivoted[row] = true;
-        basic[row] = column;
+        pivots[row] = Some(Matrix::of_column(column));
         self.push_pivot(row, pivot);
         for &(c, _) in matrix.row(row) {
             if self.waiting[c] {
@@ -206,8 +184,9 @@ impl Factor {
     }
 
     /// Eliminates what is left, short columns first.
-    fn nucleus(&mut self, matrix: &Matrix, columns: &[usize], basic: &mut [usize]) {
-        let mut left: Vec<usize> = columns.iter().copied().filter(|c| self.waiting[*c]).collect();
+    fn nucleus(&mut self, matrix: &Matrix, columns: &[ColumnId], pivots: &mut Pivots) {
+        let mut left: Vec<ColumnId> =
+            columns.iter().copied().filter(|c| self.waiting[*c]).collect();
         left.sort_by_key(|&c| (self.column_count[c], c));
         let mut work = std::mem::take(&mut self.work);
         let mut touched = Vec::new();
@@ -216,10 +195,10 @@ impl Factor {
                 work[row] = value;
                 touched.push(row);
             }
-            for (index, &row) in self.lower_row.iter().enumerate() {
+            for (index, &row) in self.lower_row.enumerate() {
                 let factor = work[row];
                 if factor != 0.0 {
-                    for &(r, l) in self.lower.at(index) {
+                    for &(r, l) in &self.lower[index] {
                         if work[r] == 0.0 {
                             touched.push(r);
                         }
@@ -237,13 +216,13 @@ impl Factor {
                 let mut below = false;
                 for &r in touched.iter().filter(|&&r| r != row) {
                     let value = work[r];
-                    if value.abs() < 1e-13 {
+                    if value.abs() < DROPPED {
                         continue;
                     }
                     if self.pivoted[r] {
-                        self.upper.items.push((r, value));
+                        self.upper.add((r, value));
                     } else {
-                        self.lower.items.push((r, value / pivot));
+                        self.lower.add((r, value / pivot));
                         below = true;
                     }
                 }
@@ -252,7 +231,7 @@ impl Factor {
                     self.lower_row.push(row);
                 }
                 self.pivoted[row] = true;
-                basic[row] = column;
+                pivots[row] = Some(Matrix::of_column(column));
                 self.push_pivot(row, pivot);
             }
             touched.drain(..).for_each(|r| work[r] = 0.0);
@@ -261,23 +240,11 @@ impl Factor {
     }
 
     fn transpose(&mut self, rows: usize) {
-        let mut count = vec![0; rows + 1];
-        for &(row, _) in &self.upper.items {
-            count[row + 1] += 1;
+        let mut entries = Vec::with_capacity(self.upper.items().len());
+        for (step, &pivot_row) in self.order.enumerate() {
+            entries.extend(self.upper[step].iter().map(|&(row, a)| (row, (pivot_row, a))));
         }
-        for row in 0..rows {
-            count[row + 1] += count[row];
-        }
-        let mut next = count.clone();
-        self.upper_rows.start = count;
-        self.upper_rows.items.clear();
-        self.upper_rows.items.resize(self.upper.items.len(), (0, 0.0));
-        for (index, &pivot_row) in self.order.iter().enumerate() {
-            for &(row, value) in self.upper.at(index) {
-                self.upper_rows.items[next[row]] = (pivot_row, value);
-                next[row] += 1;
-            }
-        }
+        self.upper_rows = Rows::collect(rows, &entries);
     }
 
     /// Exchanges since the decomposition.
@@ -287,14 +254,14 @@ impl Factor {
 
     /// Whether the eta file has grown out of proportion.
     pub(crate) fn worn(&self) -> bool {
-        self.etas.items.len() > 3 * (self.upper.items.len() + self.lower.items.len()) + 2000
+        self.etas.items().len() > 3 * (self.upper.items().len() + self.lower.items().len()) + 2000
     }
 
     /// The variable in `row` gives way to one whose column in terms of the basis is `column`.
-    pub(crate) fn exchange(&mut self, row: usize, column: &[f64], nonzeros: &[usize]) {
+    pub(crate) fn exchange(&mut self, row: RowId, column: &Dense, nonzeros: &[RowId]) {
         for &r in nonzeros {
-            if r != row && column[r].abs() > 1e-13 {
-                self.etas.items.push((r, column[r]));
+            if r != row && column[r].abs() > DROPPED {
+                self.etas.add((r, column[r]));
             }
         }
         self.etas.close();
@@ -302,29 +269,29 @@ impl Factor {
     }
 
     /// Solves B x = v in place; x is by pivot row.
-    pub(crate) fn forward(&self, v: &mut [f64]) {
-        for (index, &row) in self.lower_row.iter().enumerate() {
+    pub(crate) fn forward(&self, v: &mut Dense) {
+        for (index, &row) in self.lower_row.enumerate() {
             let factor = v[row];
             if factor != 0.0 {
-                for &(r, l) in self.lower.at(index) {
+                for &(r, l) in &self.lower[index] {
                     v[r] -= l * factor;
                 }
             }
         }
-        for (index, &row) in self.order.iter().enumerate().rev() {
+        for (index, &row) in self.order.enumerate().rev() {
             if v[row] != 0.0 {
                 let x = v[row] / self.diagonal[row];
                 v[row] = x;
-                for &(r, u) in self.upper.at(index) {
+                for &(r, u) in &self.upper[index] {
                     v[r] -= u * x;
                 }
             }
         }
-        for (index, &(row, pivot)) in self.eta_row.iter().enumerate() {
+        for (index, &(row, pivot)) in self.eta_row.enumerate() {
             if v[row] != 0.0 {
                 let x = v[row] / pivot;
                 v[row] = x;
-                for &(r, a) in self.etas.at(index) {
+                for &(r, a) in &self.etas[index] {
                     v[r] -= a * x;
                 }
             }
@@ -332,22 +299,22 @@ impl Factor {
     }
 
     /// Solves B' y = v in place; v is by pivot row.
-    pub(crate) fn backward(&self, v: &mut [f64]) {
-        for (index, &(row, pivot)) in self.eta_row.iter().enumerate().rev() {
-            let sum: f64 = self.etas.at(index).iter().map(|&(r, a)| a * v[r]).sum();
+    pub(crate) fn backward(&self, v: &mut Dense) {
+        for (index, &(row, pivot)) in self.eta_row.enumerate().rev() {
+            let sum: f64 = self.etas[index].iter().map(|&(r, a)| a * v[r]).sum();
             v[row] = (v[row] - sum) / pivot;
         }
         for &row in &self.order {
             if v[row] != 0.0 {
                 let y = v[row] / self.diagonal[row];
                 v[row] = y;
-                for &(r, u) in self.upper_rows.at(row) {
+                for &(r, u) in &self.upper_rows[row] {
                     v[r] -= u * y;
                 }
             }
         }
-        for index in (0..self.lower.len()).rev() {
-            let sum: f64 = self.lower.at(index).iter().map(|&(r, l)| l * v[r]).sum();
+        for index in self.lower_row.ids().iter().rev() {
+            let sum: f64 = self.lower[index].iter().map(|&(r, l)| l * v[r]).sum();
             if sum != 0.0 {
                 v[self.lower_row[index]] -= sum;
             }

@@ -1,77 +1,88 @@
-//! A sparse matrix, by columns and by rows.
-#![expect(clippy::indexing_slicing, reason = "positions are those of the matrix")]
+//! A sparse matrix: columns in one by one, columns and rows out.
+//!
+//! Each row has a slack variable that equals the row. Variables are numbered columns first, then
+//! slacks.
+
+use crate::index::{ColumnId, Id, Ids, RowId, Rows, VarId};
 
 /// The matrix. Columns are added one by one; `finish` makes the rows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Matrix {
-    rows: usize,
-    column_start: Vec<usize>,
-    by_column: Vec<(usize, f64)>,
-    row_start: Vec<usize>,
-    by_row: Vec<(usize, f64)>,
+    by_column: Rows<ColumnId, (RowId, f64)>,
+    by_row: Rows<RowId, (ColumnId, f64)>,
 }
 
-impl Default for Matrix {
-    fn default() -> Self {
-        Self {
-            rows: 0,
-            column_start: vec![0],
-            by_column: Vec::new(),
-            row_start: vec![0],
-            by_row: Vec::new(),
-        }
-    }
+/// What a variable is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Variable {
+    Column(ColumnId),
+    Slack(RowId),
 }
 
 impl Matrix {
-    pub(crate) fn rows(&self) -> usize {
-        self.rows
+    pub(crate) fn rows(&self) -> Ids<RowId> {
+        self.by_row.ids()
     }
 
-    pub(crate) fn columns(&self) -> usize {
-        self.column_start.len() - 1
+    pub(crate) fn columns(&self) -> Ids<ColumnId> {
+        self.by_column.ids()
     }
 
-    /// Adds a column; entries of one row are added up. Returns its number.
-    pub(crate) fn add(&mut self, entries: &[(usize, f64)]) -> usize {
-        let start = self.by_column.len();
+    /// Adds a column; entries of one row are added up.
+    pub(crate) fn add(&mut self, entries: &[(RowId, f64)]) -> ColumnId {
         for &(row, value) in entries {
-            match self.by_column[start..].iter_mut().find(|e| e.0 == row) {
+            match self.by_column.open().iter_mut().find(|e| e.0 == row) {
                 Some(entry) => entry.1 += value,
-                None => self.by_column.push((row, value)),
+                None => self.by_column.add((row, value)),
             }
         }
-        self.column_start.push(self.by_column.len());
-        self.columns() - 1
+        self.by_column.push([])
     }
 
     /// Makes the rows, of which there are so many.
     pub(crate) fn finish(&mut self, rows: usize) {
-        self.rows = rows;
-        let mut start = vec![0; rows + 1];
-        for &(row, _) in &self.by_column {
-            start[row + 1] += 1;
+        let mut entries = Vec::with_capacity(self.by_column.items().len());
+        for column in self.columns() {
+            entries.extend(self.by_column[column].iter().map(|&(row, a)| (row, (column, a))));
         }
-        for row in 0..rows {
-            start[row + 1] += start[row];
-        }
-        let mut next = start.clone();
-        self.row_start = start;
-        self.by_row = vec![(0, 0.0); self.by_column.len()];
-        for column in 0..self.columns() {
-            for index in self.column_start[column]..self.column_start[column + 1] {
-                let (row, value) = self.by_column[index];
-                self.by_row[next[row]] = (column, value);
-                next[row] += 1;
-            }
-        }
+        self.by_row = Rows::collect(rows, &entries);
     }
 
-    pub(crate) fn column(&self, column: usize) -> &[(usize, f64)] {
-        &self.by_column[self.column_start[column]..self.column_start[column + 1]]
+    pub(crate) fn column(&self, column: ColumnId) -> &[(RowId, f64)] {
+        &self.by_column[column]
     }
 
-    pub(crate) fn row(&self, row: usize) -> &[(usize, f64)] {
-        &self.by_row[self.row_start[row]..self.row_start[row + 1]]
+    pub(crate) fn row(&self, row: RowId) -> &[(ColumnId, f64)] {
+        &self.by_row[row]
+    }
+
+    /// Number of variables: one for each column and one for each row.
+    pub(crate) fn variables(&self) -> usize {
+        self.by_column.len() + self.by_row.len()
+    }
+
+    /// The variables that are columns.
+    pub(crate) fn column_variables(&self) -> Ids<VarId> {
+        Ids::first(self.by_column.len())
+    }
+
+    /// The variables that are slacks, in the order of their rows.
+    pub(crate) fn slacks(&self) -> Ids<VarId> {
+        Ids::from_to(VarId::new(self.by_column.len()), VarId::new(self.variables()))
+    }
+
+    pub(crate) fn of_column(column: ColumnId) -> VarId {
+        VarId(column.0)
+    }
+
+    pub(crate) fn slack(&self, row: RowId) -> VarId {
+        VarId::new(self.by_column.len() + row.index())
+    }
+
+    pub(crate) fn variable(&self, variable: VarId) -> Variable {
+        match variable.index().checked_sub(self.by_column.len()) {
+            Some(row) => Variable::Slack(RowId::new(row)),
+            None => Variable::Column(ColumnId(variable.0)),
+        }
     }
 }

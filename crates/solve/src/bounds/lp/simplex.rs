@@ -1,17 +1,21 @@
 //! The dual simplex method for variables with bounds: a basis that prices in, a better one out.
 //!
 //! Minimises `cost x` where `matrix x` lies within the bounds of the rows and `x` within its own.
-//! Each row has a slack variable, numbered after the columns, that equals the row. The basis
-//! outlives changes of bounds, so a node of a search starts where its parent ended. Steepest edge
-//! pricing, a ratio test that flips bounds on its way, and slightly perturbed costs keep the
-//! number of steps low.
-#![expect(clippy::indexing_slicing, reason = "variables and rows are those of the matrix")]
+//! Each row has a slack variable that equals the row. The basis outlives changes of bounds, so a
+//! node of a search starts where its parent ended.
+//!
+//! Three things keep the number of steps low: steepest-edge pricing (J. J. Forrest and
+//! D. Goldfarb, *Steepest-edge simplex algorithms for linear programming*, 1992), a ratio test that
+//! flips bounds on its way (I. Maros, *A generalized dual phase-2 simplex algorithm*, 2003), and
+//! slightly perturbed costs (A. Charnes, *Optimality and degeneracy in linear programming*, 1952),
+//! which whoever makes the program sees to.
 
 mod basis;
 
-use super::factor::{Factor, NONE};
-use super::matrix::Matrix;
+use super::factor::{Dense, Factor};
+use super::matrix::{Matrix, Variable};
 use crate::cancel::Cancel;
+use crate::index::{ColumnId, IdVec, Ids, RowId, VarId};
 
 /// How far outside its bounds a value may lie.
 const FEASIBLE: f64 = 1e-7;
@@ -35,73 +39,82 @@ pub(crate) enum Status {
 #[derive(Clone, Debug)]
 pub(crate) struct Simplex {
     matrix: Matrix,
-    cost: Vec<f64>,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
+    cost: IdVec<ColumnId, f64>,
+    lower: IdVec<VarId, f64>,
+    upper: IdVec<VarId, f64>,
     /// Variable that is basic in a row.
-    basic: Vec<usize>,
-    /// Row in which a variable is basic, or none.
-    place: Vec<usize>,
-    value: Vec<f64>,
+    basic: IdVec<RowId, VarId>,
+    /// Row in which a variable is basic.
+    place: IdVec<VarId, Option<RowId>>,
+    value: IdVec<VarId, f64>,
     /// Reduced costs.
-    reduced: Vec<f64>,
-    /// Steepest edge weights, by variable.
-    edge: Vec<f64>,
+    reduced: IdVec<VarId, f64>,
+    /// Steepest edge weights.
+    edge: IdVec<VarId, f64>,
     factor: Factor,
     ready: bool,
     // Work space.
-    rho: Vec<f64>,
-    column: Vec<f64>,
-    tau: Vec<f64>,
-    alpha: Vec<f64>,
-    touched: Vec<usize>,
-    listed: Vec<bool>,
-    candidates: Vec<(f64, f64, usize)>,
-    nonzeros: Vec<usize>,
+    rho: Dense,
+    column: Dense,
+    tau: Dense,
+    alpha: IdVec<VarId, f64>,
+    touched: Vec<VarId>,
+    listed: IdVec<VarId, bool>,
+    /// Ratio, size of the pivot, variable.
+    candidates: Vec<(f64, f64, VarId)>,
+    nonzeros: Vec<RowId>,
 }
 
 impl Simplex {
     /// A program with the slacks as basis. All bounds of columns are finite; each row has at least
     /// one finite bound.
-    pub(crate) fn new(matrix: Matrix, cost: Vec<f64>, lower: Vec<f64>, upper: Vec<f64>) -> Self {
-        let (rows, columns) = (matrix.rows(), matrix.columns());
-        let mut place = vec![NONE; columns + rows];
-        (0..rows).for_each(|row| place[columns + row] = row);
+    pub(crate) fn new(
+        matrix: Matrix,
+        cost: IdVec<ColumnId, f64>,
+        lower: IdVec<VarId, f64>,
+        upper: IdVec<VarId, f64>,
+    ) -> Self {
+        let (rows, variables) = (matrix.rows().len(), matrix.variables());
+        let of_columns = matrix.column_variables().iter().map(|_| None);
         Self {
             cost,
             lower,
             upper,
-            basic: (columns..columns + rows).collect(),
-            place,
-            value: vec![0.0; columns + rows],
-            reduced: vec![0.0; columns + rows],
-            edge: vec![1.0; columns + rows],
+            basic: matrix.slacks().iter().collect(),
+            place: of_columns.chain(matrix.rows().iter().map(Some)).collect(),
+            value: IdVec::same(0.0, variables),
+            reduced: IdVec::same(0.0, variables),
+            edge: IdVec::same(1.0, variables),
             factor: Factor::default(),
             ready: false,
-            rho: vec![0.0; rows],
-            column: vec![0.0; rows],
-            tau: vec![0.0; rows],
-            alpha: vec![0.0; columns + rows],
+            rho: IdVec::same(0.0, rows),
+            column: IdVec::same(0.0, rows),
+            tau: IdVec::same(0.0, rows),
+            alpha: IdVec::same(0.0, variables),
             touched: Vec::new(),
-            listed: vec![false; columns + rows],
+            listed: IdVec::same(false, variables),
             candidates: Vec::new(),
             nonzeros: Vec::new(),
             matrix,
         }
     }
 
-    pub(crate) fn bound(&mut self, column: usize, lower: f64, upper: f64) {
-        self.lower[column] = lower;
-        self.upper[column] = upper;
+    pub(crate) fn columns(&self) -> Ids<ColumnId> {
+        self.matrix.columns()
     }
 
-    pub(crate) fn value(&self, column: usize) -> f64 {
-        self.value[column]
+    pub(crate) fn bound(&mut self, column: ColumnId, lower: f64, upper: f64) {
+        self.lower[Matrix::of_column(column)] = lower;
+        self.upper[Matrix::of_column(column)] = upper;
+    }
+
+    pub(crate) fn value(&self, column: ColumnId) -> f64 {
+        self.value[Matrix::of_column(column)]
     }
 
     /// What one more unit of a row's bound would cost (at most 0) or save.
-    pub(crate) fn price(&self, row: usize) -> f64 {
-        self.reduced[self.matrix.columns() + row]
+    pub(crate) fn price(&self, row: RowId) -> f64 {
+        self.reduced[self.matrix.slack(row)]
     }
 
     /// Runs until the prices are the best, the value reaches `cutoff`, so many steps are done or the
@@ -169,9 +182,9 @@ impl Simplex {
     }
 
     /// The row whose variable lies farthest outside its bounds, and by how much above.
-    fn leaving(&self) -> Option<(usize, f64)> {
-        let mut best = (0.0, NONE, 0.0);
-        for (row, &variable) in self.basic.iter().enumerate() {
+    fn leaving(&self) -> Option<(RowId, f64)> {
+        let mut best = (0.0, None);
+        for (row, &variable) in self.basic.enumerate() {
             let value = self.value[variable];
             let over = if value > self.upper[variable] + FEASIBLE {
                 value - self.upper[variable]
@@ -182,14 +195,14 @@ impl Simplex {
             };
             let score = over * over / self.edge[variable];
             if score > best.0 {
-                best = (score, row, over);
+                best = (score, Some((row, over)));
             }
         }
-        (best.1 != NONE).then_some((best.1, best.2))
+        best.1
     }
 
     /// Computes a row of the inverse and of the table.
-    fn price_row(&mut self, row: usize) {
+    fn price_row(&mut self, row: RowId) {
         for variable in self.touched.drain(..) {
             self.alpha[variable] = 0.0;
             self.listed[variable] = false;
@@ -197,23 +210,24 @@ impl Simplex {
         self.rho.fill(0.0);
         self.rho[row] = 1.0;
         self.factor.backward(&mut self.rho);
-        let columns = self.matrix.columns();
-        for (row, &rho) in self.rho.iter().enumerate() {
+        for (row, &rho) in self.rho.enumerate() {
             if rho.abs() < 1e-13 {
                 continue;
             }
             for &(column, a) in self.matrix.row(row) {
-                if self.place[column] == NONE {
-                    if !self.listed[column] {
-                        self.listed[column] = true;
-                        self.touched.push(column);
+                let variable = Matrix::of_column(column);
+                if self.place[variable].is_none() {
+                    if !self.listed[variable] {
+                        self.listed[variable] = true;
+                        self.touched.push(variable);
                     }
-                    self.alpha[column] += a * rho;
+                    self.alpha[variable] += a * rho;
                 }
             }
-            if self.place[columns + row] == NONE {
-                self.touched.push(columns + row);
-                self.alpha[columns + row] = -rho;
+            let slack = self.matrix.slack(row);
+            if self.place[slack].is_none() {
+                self.touched.push(slack);
+                self.alpha[slack] = -rho;
             }
         }
     }
@@ -236,27 +250,26 @@ impl Simplex {
         self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
         let mut slope = over.abs();
         let mut end = None;
-        for (index, &(_, alpha, variable)) in self.candidates.iter().enumerate() {
+        for (index, &candidate) in self.candidates.iter().enumerate() {
+            let (_, alpha, variable) = candidate;
             slope -= alpha * (self.upper[variable] - self.lower[variable]);
             if slope <= FEASIBLE {
-                end = Some(index);
+                end = Some((index, candidate));
                 break;
             }
         }
-        let Some(end) = end else { return Entering::None(slope.max(FEASIBLE)) };
+        let Some((flips, first)) = end else { return Entering::None(slope.max(FEASIBLE)) };
         // Of those that stop it at nearly the same place, the largest pivot.
-        let limit = self.candidates[end].0 + 1e-9;
-        let mut best = end;
-        for (index, candidate) in self.candidates.iter().enumerate().skip(end + 1) {
-            if candidate.0 > limit {
+        let mut best = first;
+        for &candidate in self.candidates.iter().skip(flips + 1) {
+            if candidate.0 > first.0 + 1e-9 {
                 break;
             }
-            if candidate.1 > self.candidates[best].1 {
-                best = index;
+            if candidate.1 > best.1 {
+                best = candidate;
             }
         }
-        let variable = self.candidates[best].2;
-        Entering::Variable(variable, end)
+        Entering::Variable(best.2, flips)
     }
 
     /// Moves the first candidates to their other bounds.
@@ -264,22 +277,22 @@ impl Simplex {
         if number == 0 {
             return;
         }
-        let columns = self.matrix.columns();
         let mut v = std::mem::take(&mut self.tau);
         v.fill(0.0);
-        for &(_, _, variable) in &self.candidates[..number] {
+        for &(_, _, variable) in self.candidates.iter().take(number) {
             let (lower, upper) = (self.lower[variable], self.upper[variable]);
             let to = if self.value[variable] <= lower { upper } else { lower };
             let by = to - self.value[variable];
             self.value[variable] = to;
-            if variable < columns {
-                self.matrix.column(variable).iter().for_each(|&(r, a)| v[r] -= a * by);
-            } else {
-                v[variable - columns] += by;
+            match self.matrix.variable(variable) {
+                Variable::Column(column) => {
+                    self.matrix.column(column).iter().for_each(|&(r, a)| v[r] -= a * by);
+                }
+                Variable::Slack(row) => v[row] += by,
             }
         }
         self.factor.forward(&mut v);
-        for (row, &by) in v.iter().enumerate() {
+        for (row, &by) in v.enumerate() {
             if by != 0.0 {
                 self.value[self.basic[row]] += by;
             }
@@ -287,7 +300,7 @@ impl Simplex {
         self.tau = v;
     }
 
-    fn move_prices(&mut self, row: usize, over: f64, by: f64) {
+    fn move_prices(&mut self, row: RowId, over: f64, by: f64) {
         let leaving = self.basic[row];
         let step = by * over.signum();
         for &variable in &self.touched {
@@ -297,14 +310,14 @@ impl Simplex {
     }
 
     /// Exchanges the variable of a row; false when the pivot is not to be trusted.
-    fn exchange(&mut self, row: usize, entering: usize) -> bool {
-        let columns = self.matrix.columns();
+    fn exchange(&mut self, row: RowId, entering: VarId) -> bool {
         let leaving = self.basic[row];
         self.column.fill(0.0);
-        if entering < columns {
-            self.matrix.column(entering).iter().for_each(|&(r, a)| self.column[r] = a);
-        } else {
-            self.column[entering - columns] = -1.0;
+        match self.matrix.variable(entering) {
+            Variable::Column(column) => {
+                self.matrix.column(column).iter().for_each(|&(r, a)| self.column[r] = a);
+            }
+            Variable::Slack(slack) => self.column[slack] = -1.0,
         }
         self.factor.forward(&mut self.column);
         let pivot = self.column[row];
@@ -320,11 +333,11 @@ impl Simplex {
         let target = if low { self.lower[leaving] } else { self.upper[leaving] };
         let step = self.reduced[entering] / pivot;
         let by = (value - target) / pivot;
-        self.tau.copy_from_slice(&self.rho);
+        self.tau.copy_from(&self.rho);
         let weight: f64 = self.rho.iter().map(|r| r * r).sum();
         self.factor.forward(&mut self.tau);
         self.nonzeros.clear();
-        for r in 0..self.column.len() {
+        for r in self.column.ids() {
             let a = self.column[r];
             if a.abs() < 1e-13 {
                 continue;
@@ -348,8 +361,8 @@ impl Simplex {
         self.edge[entering] = (weight / (pivot * pivot)).max(1e-4);
         self.factor.exchange(row, &self.column, &self.nonzeros);
         self.basic[row] = entering;
-        self.place[entering] = row;
-        self.place[leaving] = NONE;
+        self.place[entering] = Some(row);
+        self.place[leaving] = None;
         true
     }
 }
@@ -358,12 +371,13 @@ enum Entering {
     /// Nothing stops the move; the value grows by so much for each unit.
     None(f64),
     /// The variable, and how many of the candidates before it change their bound.
-    Variable(usize, usize),
+    Variable(VarId, usize),
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::index::Id;
 
     /// A small generator of its own (splitmix64), for numbers below `limit`.
     fn below(state: &mut u64, limit: u64) -> u64 {
@@ -381,9 +395,9 @@ mod tests {
         let mut cost = Vec::new();
         for group in 0..groups {
             for _ in 0..1 + below(&mut state, 6) {
-                let mut entries = vec![(things + group, 1.0)];
+                let mut entries = vec![(RowId::new(things + group), 1.0)];
                 for _ in 0..1 + below(&mut state, 3) {
-                    entries.push((below(&mut state, things as u64) as usize, 1.0));
+                    entries.push((RowId::new(below(&mut state, things as u64) as usize), 1.0));
                 }
                 matrix.add(&entries);
                 cost.push(below(&mut state, 9) as f64);
@@ -395,20 +409,19 @@ mod tests {
         let mut upper = vec![1.0; columns];
         lower.extend((0..things).map(|_| f64::NEG_INFINITY).chain((0..groups).map(|_| 1.0)));
         upper.extend((0..things + groups).map(|_| 1.0));
-        Simplex::new(matrix, cost, lower, upper)
+        Simplex::new(matrix, cost.into(), lower.into(), upper.into())
     }
 
     /// Values within bounds whose cost is what the prices prove: neither can be improved.
     fn assert_optimal(simplex: &Simplex) {
-        let columns = simplex.matrix.columns();
-        for variable in 0..simplex.value.len() {
-            let value = simplex.value[variable];
+        for (variable, &value) in simplex.value.enumerate() {
             assert!(value > simplex.lower[variable] - 1e-5, "{value}");
             assert!(value < simplex.upper[variable] + 1e-5, "{value}");
         }
-        for row in 0..simplex.matrix.rows() {
-            let sum: f64 = simplex.matrix.row(row).iter().map(|&(c, a)| a * simplex.value[c]).sum();
-            assert!((sum - simplex.value[columns + row]).abs() < 1e-5);
+        for row in simplex.matrix.rows() {
+            let entries = simplex.matrix.row(row).iter();
+            let sum: f64 = entries.map(|&(c, a)| a * simplex.value(c)).sum();
+            assert!((sum - simplex.value[simplex.matrix.slack(row)]).abs() < 1e-5);
         }
         let cost: f64 = simplex.cost.iter().zip(&simplex.value).map(|(c, x)| c * x).sum();
         assert!((cost - simplex.objective()).abs() < 1e-4, "{cost} {}", simplex.objective());
@@ -435,7 +448,7 @@ mod tests {
                 continue;
             }
             let before = simplex.objective();
-            let column = (seed as usize * 7) % simplex.cost.len();
+            let column = ColumnId::new((seed as usize * 7) % simplex.cost.len());
             simplex.bound(column, 0.0, 0.0);
             if simplex.solve(1e6, 10_000, Cancel::NEVER) == Status::Optimal {
                 assert_optimal(&simplex);

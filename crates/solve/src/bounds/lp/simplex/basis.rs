@@ -1,13 +1,12 @@
 //! A basis made anew: which variables are in it in, their values and all reduced costs out.
-#![expect(clippy::indexing_slicing, reason = "variables and rows are those of the matrix")]
 
-use super::{NONE, Simplex};
+use super::{Matrix, Simplex, Variable};
 
 impl Simplex {
     /// Puts nonbasic variables on the bound that their reduced cost asks for.
     pub(super) fn place_nonbasic(&mut self) {
-        for variable in 0..self.value.len() {
-            if self.place[variable] == NONE {
+        for variable in self.value.ids() {
+            if self.place[variable].is_none() {
                 let reduced = self.reduced[variable];
                 let (lower, upper) = (self.lower[variable], self.upper[variable]);
                 let up = if lower == f64::NEG_INFINITY {
@@ -27,16 +26,15 @@ impl Simplex {
     /// Decomposes the basis and computes everything from it.
     pub(super) fn rebuild(&mut self) {
         self.factor.decompose(&self.matrix, &mut self.basic);
-        for (row, &variable) in self.basic.iter().enumerate() {
-            if self.place[variable] == NONE {
+        for (row, &variable) in self.basic.enumerate() {
+            if self.place[variable].is_none() {
                 self.edge[variable] = 1.0;
             }
-            self.place[variable] = row;
+            self.place[variable] = Some(row);
         }
-        for variable in 0..self.place.len() {
-            let row = self.place[variable];
-            if row != NONE && self.basic[row] != variable {
-                self.place[variable] = NONE;
+        for variable in self.place.ids() {
+            if self.place[variable].is_some_and(|row| self.basic[row] != variable) {
+                self.place[variable] = None;
             }
         }
         self.compute_reduced();
@@ -46,25 +44,28 @@ impl Simplex {
     }
 
     pub(super) fn compute_reduced(&mut self) {
-        let columns = self.matrix.columns();
         let mut y = std::mem::take(&mut self.rho);
-        for (row, &variable) in self.basic.iter().enumerate() {
-            y[row] = if variable < columns { self.cost[variable] } else { 0.0 };
+        for (row, &variable) in self.basic.enumerate() {
+            y[row] = match self.matrix.variable(variable) {
+                Variable::Column(column) => self.cost[column],
+                Variable::Slack(_) => 0.0,
+            };
         }
         self.factor.backward(&mut y);
-        for column in 0..columns {
-            self.reduced[column] = if self.place[column] == NONE {
+        for column in self.matrix.columns() {
+            let variable = Matrix::of_column(column);
+            self.reduced[variable] = if self.place[variable].is_none() {
                 let sum: f64 = self.matrix.column(column).iter().map(|&(r, a)| a * y[r]).sum();
                 self.cost[column] - sum
             } else {
                 0.0
             };
         }
-        for (slack, &price) in (columns..).zip(&y) {
-            self.reduced[slack] = if self.place[slack] == NONE { price } else { 0.0 };
+        for (slack, &price) in self.matrix.slacks().iter().zip(&y) {
+            self.reduced[slack] = if self.place[slack].is_none() { price } else { 0.0 };
         }
         // A slack with one bound cannot follow a wrong sign.
-        for slack in columns..self.reduced.len() {
+        for slack in self.matrix.slacks() {
             let wrong = (self.lower[slack] == f64::NEG_INFINITY && self.reduced[slack] > 0.0)
                 || (self.upper[slack] == f64::INFINITY && self.reduced[slack] < 0.0);
             if wrong {
@@ -75,22 +76,22 @@ impl Simplex {
     }
 
     pub(super) fn compute_values(&mut self) {
-        let columns = self.matrix.columns();
         let mut v = std::mem::take(&mut self.column);
         v.fill(0.0);
-        for column in 0..columns {
-            let value = self.value[column];
-            if self.place[column] == NONE && value != 0.0 {
+        for column in self.matrix.columns() {
+            let variable = Matrix::of_column(column);
+            let value = self.value[variable];
+            if self.place[variable].is_none() && value != 0.0 {
                 self.matrix.column(column).iter().for_each(|&(r, a)| v[r] -= a * value);
             }
         }
-        for (row, sum) in v.iter_mut().enumerate() {
-            if self.place[columns + row] == NONE {
-                *sum += self.value[columns + row];
+        for (slack, sum) in self.matrix.slacks().iter().zip(v.iter_mut()) {
+            if self.place[slack].is_none() {
+                *sum += self.value[slack];
             }
         }
         self.factor.forward(&mut v);
-        for (row, &variable) in self.basic.iter().enumerate() {
+        for (row, &variable) in self.basic.enumerate() {
             self.value[variable] = v[row];
         }
         self.column = v;

@@ -1,0 +1,114 @@
+//! Covers: facilities and their capacities in, how many of which must be open out.
+//!
+//! These are the cover inequalities of capacitated facility location (K. Aardal, Y. Pochet and
+//! L. A. Wolsey, *Capacitated facility location: valid inequalities and facets*, 1995). Without
+//! them the bound opens a fraction of a bus for each device.
+
+use super::{Dualized, Link};
+use crate::index::{FacilityId, IdVec, PriceId};
+use crate::model::{Holding, Model};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Facilities of which so many must be open.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cover {
+    pub(crate) members: Vec<FacilityId>,
+    pub(crate) need: usize,
+}
+
+impl Dualized {
+    /// Finds facilities that the same devices choose from, and how many they need at least.
+    pub(super) fn find_covers(&mut self, model: &Model) {
+        let family = self.families(model);
+        let mut devices: BTreeMap<FacilityId, usize> = BTreeMap::new();
+        for device in model.devices {
+            let alts = model.alts.of(device);
+            if alts.iter().all(|alt| self.alt_facilities[alt].len() == 1)
+                && let Some(facility) = self.alt_facilities[alts.at(0)].first()
+            {
+                *devices.entry(family[*facility]).or_default() += 1;
+            }
+        }
+        for (number, devices) in devices {
+            let of_family = family.enumerate().filter(|f| *f.1 == number);
+            let room = of_family.map(|(f, _)| (self.capacity(model, f).max(1), f)).collect();
+            self.add_covers(devices, room);
+        }
+    }
+
+    /// The first facility of those among which the same devices choose, for each facility.
+    fn families(&self, model: &Model) -> IdVec<FacilityId, FacilityId> {
+        let mut family: IdVec<FacilityId, FacilityId> = self.facilities.ids().iter().collect();
+        for device in model.devices {
+            let alts = model.alts.of(device).iter();
+            let mut all = alts.flat_map(|alt| &self.alt_facilities[alt]);
+            let Some(&first) = all.next() else { continue };
+            let target = family[first];
+            for &other in all {
+                let old = family[other];
+                family.iter_mut().filter(|f| **f == old).for_each(|f| *f = target);
+            }
+        }
+        family
+    }
+
+    /// Where the small facilities have no room for all, so many of the greater ones must be open:
+    /// a cover for each size from which on there are more of them, each within the next.
+    fn add_covers(&mut self, devices: usize, mut room: Vec<(usize, FacilityId)>) {
+        room.sort_by_key(|&(room, facility)| (Reverse(room), facility));
+        let mut last = 0;
+        for number in 1..=room.len() {
+            let (great, small) = room.split_at(number);
+            if great.last().map(|g| g.0) == small.first().map(|s| s.0) {
+                continue;
+            }
+            let small = small.iter().fold(0_usize, |sum, s| sum.saturating_add(s.0));
+            let mut left = devices.saturating_sub(small);
+            let mut need = 0;
+            for (room, _) in great {
+                if left == 0 {
+                    break;
+                }
+                left = left.saturating_sub(*room);
+                need += 1;
+            }
+            if need > last {
+                last = need;
+                let members = great.iter().map(|g| g.1).collect();
+                self.covers.push(Cover { members, need });
+            }
+        }
+    }
+
+    /// Most devices that a facility can serve: as many as its links, and as many as there are pins
+    /// for the first wire that each of them needs of its own.
+    fn capacity(&self, model: &Model, facility: FacilityId) -> usize {
+        let facility = &self.facilities[facility];
+        let link = |prices: &[PriceId]| facility.links.iter().find(|l| prices.contains(&l.0));
+        let mut links: Option<BTreeSet<&Link>> = Some(BTreeSet::new());
+        let mut pins = Some(BTreeSet::new());
+        for &alt in &facility.alts {
+            let mut roles = model.roles.of(alt).iter();
+            let role = roles.find(|role| model.holding[*role] == Holding::Own);
+            let cands = role.map(|role| model.cands.of(role)).unwrap_or_default();
+            match (&mut pins, role) {
+                (Some(pins), Some(_)) => pins.extend(cands.iter().map(|id| model.cand[id].pin)),
+                _ => pins = None,
+            }
+            let of_cands: Option<Vec<_>> =
+                cands.iter().map(|id| link(&self.cand_prices[id])).collect();
+            let found = match of_cands.filter(|links| !links.is_empty()) {
+                Some(links) => Some(links),
+                None => link(&self.alt_prices[alt]).map(|own| vec![own]),
+            };
+            match (&mut links, found) {
+                (Some(links), Some(found)) => links.extend(found),
+                _ => links = None,
+            }
+        }
+        let links = links.map(|set| set.iter().map(|l| l.1 as usize).sum());
+        let pins = pins.map(|set| set.len());
+        [links, pins].into_iter().flatten().min().unwrap_or(usize::MAX)
+    }
+}
