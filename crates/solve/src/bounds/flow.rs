@@ -11,8 +11,11 @@
 //! rerouting only the wires that lost their pin; such a bound within constraint programming is
 //! from F. Focacci, A. Lodi and M. Milano, *Cost-based domain filtering*, 1999.
 
+mod network;
+
+use self::network::{Layout, Node};
 use crate::domains::{Domains, Pruned};
-use crate::index::{AltId, CandId, DemandId, GateId, Id, IdIter, IdVec, NodeId, RoleId, WireId};
+use crate::index::{AltId, CandId, DemandId, GateId, IdIter, IdVec, NodeId, RoleId, WireId};
 use crate::model::{Cand, Holding, Model};
 use crate::problem::{DeviceId, PinId};
 use std::collections::VecDeque;
@@ -60,59 +63,6 @@ impl Clone for Saved {
         self.gate_out.clone_from(&other.gate_out);
         self.active.clone_from(&other.active);
         self.cost = other.cost;
-    }
-}
-
-/// How nodes are numbered: demands, then two for each gate, then pins.
-#[derive(Clone, Copy, Debug)]
-struct Layout {
-    /// Demands of devices; those of shared wires follow.
-    device_demands: usize,
-    demands: usize,
-    gates: usize,
-}
-
-#[derive(Clone, Copy)]
-enum Node {
-    Demand(DemandId),
-    GateIn(GateId),
-    GateOut(GateId),
-    Pin(PinId),
-}
-
-impl Layout {
-    fn wire(self, wire: WireId) -> DemandId {
-        DemandId::new(self.device_demands + wire.index())
-    }
-
-    /// The shared wire of a demand, if it is one.
-    fn wire_of(self, demand: DemandId) -> Option<WireId> {
-        demand.index().checked_sub(self.device_demands).map(WireId::new)
-    }
-
-    #[inline]
-    fn id(self, node: Node) -> NodeId {
-        NodeId::new(match node {
-            Node::Demand(demand) => demand.index(),
-            Node::GateIn(gate) => self.demands + 2 * gate.index(),
-            Node::GateOut(gate) => self.demands + 2 * gate.index() + 1,
-            Node::Pin(pin) => self.demands + 2 * self.gates + pin.index(),
-        })
-    }
-
-    #[inline]
-    fn node(self, id: NodeId) -> Node {
-        let index = id.index();
-        let pins = self.demands + 2 * self.gates;
-        if index < self.demands {
-            Node::Demand(DemandId::new(index))
-        } else if index >= pins {
-            Node::Pin(PinId::new(index - pins))
-        } else {
-            let gate = GateId::new((index - self.demands) / 2);
-            let enters = (index - self.demands).is_multiple_of(2);
-            if enters { Node::GateIn(gate) } else { Node::GateOut(gate) }
-        }
     }
 }
 

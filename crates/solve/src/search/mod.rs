@@ -18,6 +18,8 @@ mod read_off;
 mod rounding;
 mod strong_branching;
 pub(crate) mod tie_break;
+#[cfg(test)]
+mod worked_example;
 
 pub(crate) use self::progress::{Effort, Goal, Progress};
 
