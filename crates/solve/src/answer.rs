@@ -1,4 +1,4 @@
-//! What the solver answers.
+//! What the solver answers: plain data, found by the search and judged by [`crate::check()`].
 
 use crate::check::Violation;
 use crate::problem::{DeviceId, DmaUserId, PinId, ResourceId, StreamId};

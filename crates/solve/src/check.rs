@@ -38,7 +38,7 @@ pub enum Violation {
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Shape(d) => write!(f, "device {} has no proper choice", d.0),
+            Self::Shape(d) => write!(f, "device {} has no valid choice", d.0),
             Self::OwnPinTwice(d, p) => write!(f, "device {} uses pin {} twice", d.0, p.0),
             Self::Pin(p) => write!(f, "pin {} is held twice", p.0),
             Self::Resource(r) => write!(f, "resource {} is held twice", r.0),

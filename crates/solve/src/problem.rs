@@ -1,9 +1,8 @@
 //! The pin problem: what the solver is asked, in integers only.
 //!
-//! Names, spans and hardware words stay outside (crate `wiring` makes a [`Problem`] and reads the
-//! answer back). Every rule that is not a domain (a pin that may not be used is simply no
-//! candidate) is one of five kinds: a pin held once, a claim on a resource, a DMA request,
-//! a soft rule, a board.
+//! Names, spans and hardware words stay outside: crate `wiring` makes a [`Problem`] and reads the
+//! answer back. A pin that may not be used is simply not a candidate. Every other rule is of one of
+//! five kinds: a pin held once, a claim on a resource, a DMA request, a soft rule, a board.
 
 /// Index of a pin in [`Problem::pins`]; the order is the natural order of the tie-break
 /// (board by board, then PA2 < PA10 < PB0).
@@ -93,7 +92,7 @@ pub struct Candidate {
     pub moved: bool,
 }
 
-/// One role of an option: exactly one candidate is chosen.
+/// One role of an alternative: exactly one candidate is chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Role {
     /// Sorted by (pin, signal), no pair twice.

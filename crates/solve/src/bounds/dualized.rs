@@ -115,12 +115,12 @@ impl Dualized {
         let first_link = first_stream + problem.streams as usize;
         let held = Ids::first(first_link);
         let mut dualized = Self { first_resource, first_stream, held, ..Self::default() };
-        let odd = odd_resources(problem, model);
-        let of_alt = dualized.find_facilities(model, &odd);
+        let irregular = irregular_resources(problem, model);
+        let of_alt = dualized.find_facilities(model, &irregular);
         let mut links =
             Links { next: first_link, of_facility: BTreeMap::new(), of_rule: BTreeMap::new() };
         for alt in model.alt_device.ids() {
-            let mut prices = dualized.alt_prices(model, alt, &of_alt, &odd, &mut links);
+            let mut prices = dualized.alt_prices(model, alt, &of_alt, &irregular, &mut links);
             add_penalties(model, alt, &mut links, &mut prices);
             // Links of channels do not bind alike devices together.
             let class = Tied::Class(Reverse(model.class[model.alt_device[alt]]));
@@ -162,11 +162,11 @@ impl Dualized {
         model: &Model,
         alt: AltId,
         of_alt: &IdVec<AltId, Vec<FacilityId>>,
-        odd: &IdVec<ResourceId, bool>,
+        irregular: &IdVec<ResourceId, bool>,
         links: &mut Links,
     ) -> AltPrices {
         let mut price_all = |claims: &[Claim]| -> BTreeSet<PriceId> {
-            let own = claims.iter().filter(|c| c.holder == Holder::Own && !odd[c.resource]);
+            let own = claims.iter().filter(|c| c.holder == Holder::Own && !irregular[c.resource]);
             own.map(|c| self.price_of(model, c.resource, of_alt, alt, links)).collect()
         };
         let own = price_all(&model.alt_claims[alt]);
@@ -278,8 +278,8 @@ fn add_penalties(model: &Model, alt: AltId, links: &mut Links, prices: &mut AltP
 
 /// Resources that one device can claim in several places or for several holders at once: it does
 /// not quarrel with itself, so no price counts them right.
-fn odd_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
-    let mut odd = IdVec::same(false, problem.resources as usize);
+fn irregular_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
+    let mut irregular = IdVec::same(false, problem.resources as usize);
     for alt in model.alt_device.ids() {
         let mut seen: BTreeMap<ResourceId, (Place, Holder)> = BTreeMap::new();
         let mut book = |place: Place, claims: &[Claim]| {
@@ -288,7 +288,7 @@ fn odd_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
                 // The tie of a shared wire has a holder for each pin and carries no price.
                 let groups = first.1 != Holder::Own && holder != Holder::Own;
                 let tie = groups && place != Place::Alternative && first.0 == place;
-                odd[resource] |= first != (place, holder) && !tie;
+                irregular[resource] |= first != (place, holder) && !tie;
             }
         };
         book(Place::Alternative, &model.alt_claims[alt]);
@@ -297,5 +297,5 @@ fn odd_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
             cands.for_each(|id| book(Place::Role(position), &model.cand_claims[id]));
         }
     }
-    odd
+    irregular
 }

@@ -183,7 +183,7 @@ impl Lagrangian {
             let slots = self.subproblems.cheapest.of(opening.slots);
             opening.cost = resource - links.sum::<i64>() + slots.iter().sum::<i64>();
             opening.open = opening.forced || opening.cost < 0;
-            opening.spares = 0;
+            opening.saves = 0;
         }
         for cover in &dualized.covers {
             let members = cover.members.iter().filter_map(|&f| self.subproblems.opening_of[f]);
@@ -198,7 +198,7 @@ impl Lagrangian {
                 dearest = openings[next].cost.max(dearest);
             }
             for &member in members.iter().filter(|_| dearest > 0) {
-                openings[member].spares = openings[member].spares.max(dearest);
+                openings[member].saves = openings[member].saves.max(dearest);
             }
         }
         self.subproblems.openings.iter().filter(|o| o.open).map(|o| o.cost).sum()

@@ -146,7 +146,7 @@ impl Relaxation {
     }
 
     /// The value of the program in units of cost, as far as its prices prove it.
-    pub(crate) fn worth(&self) -> f64 {
+    pub(crate) fn bound(&self) -> f64 {
         self.program.simplex.objective()
     }
 

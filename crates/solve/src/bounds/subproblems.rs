@@ -54,7 +54,7 @@ pub(crate) struct Opening {
     pub(crate) cost: i64,
     pub(crate) open: bool,
     /// What its opening would save elsewhere: another one opened only for the number's sake.
-    pub(crate) spares: i64,
+    pub(crate) saves: i64,
 }
 
 /// All subproblems of one node.
@@ -184,7 +184,7 @@ impl Subproblems {
             forced: decided.is_some() || domains.opened.contains(&index),
             cost: 0,
             open: false,
-            spares: 0,
+            saves: 0,
         })
     }
 

@@ -9,11 +9,11 @@
 //! tried once more for good. The same is done to what those devices fight for: streams, resources
 //! and pins stop being exclusive as long as there is still no answer.
 //!
-//! Of devices that are alike only the number counts, and of alike things any one tells of all, so
-//! most of these questions are never asked ([`super::known_sets`]).
+//! Of devices that are alike only the number counts, so most of these questions are never asked
+//! ([`super::known_sets`]).
 
-use super::known_sets::{CROWD, KnownSets};
-use super::sharing::Things;
+use super::known_sets::{KnownSets, LARGE};
+use super::sharing::Contested;
 use super::solve::feasible_within;
 use crate::answer::{Conflict, Fault, Outcome};
 use crate::cancel::Cancel;
@@ -22,10 +22,10 @@ use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
 use crate::search::Effort;
 use std::collections::BTreeSet;
 
-/// Nodes of the search, beside three for each device, after which a proof is no longer quick.
+/// A proof is quick when it takes at most so many nodes, and three more for each device.
 const QUICK: u64 = 50;
 
-/// Nodes that are spent on whether a thing has a part in the conflict of the devices found.
+/// Nodes that the question is worth whether a pin, resource or stream has a part in the conflict.
 const PATIENT: u64 = 1_000;
 
 /// The questions of a search for a conflict.
@@ -53,7 +53,7 @@ pub(crate) fn explain(
         Some(seed) if ask.of_devices(problem, &seed)? == Some(false) => seed,
         _ => (0..problem.devices.len()).map(DeviceId::new).collect(),
     };
-    ask.sound_out(problem, &kept)?;
+    ask.ask_of_large_classes(problem, &kept)?;
     let unknown = ask.leave_out(problem, &mut kept)?;
     ask.effort = Effort::Any;
     let mut minimal = true;
@@ -70,7 +70,7 @@ pub(crate) fn explain(
     if !cancel.is_over() {
         things = ask.contested_things(only(problem, &kept))?;
     }
-    // What was not asked any more is not known to have a part in it.
+    // What could not be asked any more is not known to have a part in it.
     if cancel.is_over() {
         things = [Vec::new(), Vec::new(), Vec::new()];
     }
@@ -116,28 +116,29 @@ impl Questions<'_> {
         Ok(answer)
     }
 
-    /// Asks of each larger class of alike devices whether it is a conflict by itself, which is
-    /// quickly known, and of such ones whether it is one too many (of all where there are none):
-    /// then each of them is needed, and whatever leaves one out need not be asked.
-    fn sound_out(&mut self, problem: &Problem, kept: &[DeviceId]) -> Result<(), Fault> {
-        let crowds = self.known.crowds(kept);
+    /// Asks of each large class of alike devices whether it is a conflict by itself, which is
+    /// quickly known. Of those that are (of all classes where none is) it asks whether there is one
+    /// device too many: then each device of the class is needed, and no question that leaves one
+    /// out has to be asked.
+    fn ask_of_large_classes(&mut self, problem: &Problem, kept: &[DeviceId]) -> Result<(), Fault> {
+        let large_classes = self.known.large_classes(kept);
         let mut alone = Vec::new();
-        for crowd in &crowds {
-            if self.of_devices(problem, crowd)? == Some(false) {
-                alone.push(crowd);
+        for class in &large_classes {
+            if self.of_devices(problem, class)? == Some(false) {
+                alone.push(class);
             }
         }
-        let all: Vec<&Vec<DeviceId>> = crowds.iter().collect();
-        for crowd in if alone.is_empty() { all } else { alone } {
-            let one = crowd.first();
+        let all: Vec<&Vec<DeviceId>> = large_classes.iter().collect();
+        for class in if alone.is_empty() { all } else { alone } {
+            let one = class.first();
             let fewer: Vec<DeviceId> = kept.iter().copied().filter(|d| Some(d) != one).collect();
             self.of_devices(problem, &fewer)?;
         }
         Ok(())
     }
 
-    /// Leaves devices out as long as the others have no answer: many at once first, because most
-    /// have no part in it. Returns those kept of which it is not known whether they must be.
+    /// Leaves devices out as long as the others have no answer, many at once first, because most
+    /// have no part in the conflict. Returns those that are kept without a proof that they must be.
     fn leave_out(
         &mut self,
         problem: &Problem,
@@ -163,13 +164,13 @@ impl Questions<'_> {
         Ok(unknown)
     }
 
-    /// What must be exclusive for the conflict: streams, resources, pins. A reason of one kind is
-    /// the best to read, so one kind after another is shared as a whole first (signals are as good
-    /// as pins, but pins are what people see).
+    /// The streams, resources and pins that must be exclusive for the conflict. Reasons of one kind
+    /// read best, so each kind is first shared as a whole. Pins come last: signals would explain as
+    /// much, but people see pins.
     fn contested_things(&self, mut core: Problem) -> Result<[Vec<u32>; 3], Fault> {
         let streams = core.streams;
         let mut needed = [Vec::new(), Vec::new(), Vec::new()];
-        let kinds = [Things::Streams, Things::Resources, Things::Pins];
+        let kinds = [Contested::Streams, Contested::Resources, Contested::Pins];
         for (things, needed) in kinds.into_iter().zip(&mut needed) {
             let all = things.of(&core);
             if all.is_empty() {
@@ -183,21 +184,21 @@ impl Questions<'_> {
             }
         }
         let [of_streams, of_resources, of_pins] = &mut needed;
-        *of_streams = self.contested(&mut core, Things::Streams, std::mem::take(of_streams))?;
-        *of_pins = self.contested(&mut core, Things::Pins, std::mem::take(of_pins))?;
+        *of_streams = self.contested(&mut core, Contested::Streams, std::mem::take(of_streams))?;
+        *of_pins = self.contested(&mut core, Contested::Pins, std::mem::take(of_pins))?;
         *of_resources =
-            self.contested(&mut core, Things::Resources, std::mem::take(of_resources))?;
+            self.contested(&mut core, Contested::Resources, std::mem::take(of_resources))?;
         // Copies made for sharing stand for nothing of the problem.
         of_streams.retain(|stream| *stream < streams);
         Ok(needed)
     }
 
-    /// Of things that cannot all be shared, shares ever smaller parts as long as the conflict
-    /// stays; returns those that must be exclusive for it.
+    /// Not all of these can be shared. Shares ever smaller parts as long as the conflict stays, and
+    /// returns those that must be exclusive.
     fn contested(
         &self,
         core: &mut Problem,
-        things: Things,
+        things: Contested,
         all: Vec<u32>,
     ) -> Result<Vec<u32>, Fault> {
         let certain = self.needed_alone(core, things, &all)?;
@@ -231,17 +232,16 @@ impl Questions<'_> {
 }
 
 impl Questions<'_> {
-    /// Things of which a single shared one is enough for an answer, as far as one of a class of
-    /// alike things tells it.
+    /// The members of each large class of which a single shared one is enough for an answer.
     fn needed_alone(
         &self,
         core: &Problem,
-        things: Things,
+        things: Contested,
         all: &[u32],
     ) -> Result<BTreeSet<u32>, Fault> {
         let mut needed = BTreeSet::new();
-        for class in things.alike(core, all) {
-            if let Some(&one) = class.first().filter(|_| class.len() >= CROWD)
+        for class in things.interchangeable(core, all) {
+            if let Some(&one) = class.first().filter(|_| class.len() >= LARGE)
                 && !self.cancel.is_over()
                 && self.has_answer(&things.share(core, &BTreeSet::from([one])))? == Some(true)
             {

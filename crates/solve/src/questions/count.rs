@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Counts the answers, which differ in some pin or signal of some device.
 ///
 /// # Errors
-/// [`Fault`] when the problem is no proper problem, or when the search was cancelled.
+/// [`Fault`] when the problem is not well-formed, or when the search was cancelled.
 pub fn count(problem: &Problem, cancel: Cancel<'_>) -> Result<Count, Fault> {
     let model = Model::new(problem)?;
     let Ok(domains) = Domains::new(&model) else { return Ok(BigUint::ZERO) };

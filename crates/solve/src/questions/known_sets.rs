@@ -1,10 +1,10 @@
 //! What is known of sets of devices: sets with and without an answer in, what follows for others
 //! out.
 //!
-//! Fewer devices only make it easier, and alike ones can stand for each other. So a set has an answer
-//! when a known one that has one holds at least as many of each class, and it has none when a known
-//! one that has none (a nogood) holds at most as many. Such a map of the sets is from M. H. Liffiton
-//! et al., *Fast, flexible MUS enumeration*, 2016.
+//! Fewer devices only make it easier, and alike devices can stand for each other. So a set has an
+//! answer when some known set with an answer holds at least as many devices of each class. It has
+//! none when some known set without one, a nogood, holds at most as many. Such a map of all sets is
+//! from M. H. Liffiton et al., *Fast, flexible MUS enumeration*, 2016.
 
 use super::solve::alike;
 use crate::answer::Fault;
@@ -12,8 +12,8 @@ use crate::index::Id;
 use crate::problem::{DeviceId, Problem};
 use std::collections::BTreeMap;
 
-/// From so many alike things on it is worth asking what one of them tells of all.
-pub(crate) const CROWD: usize = 3;
+/// A class of so many is worth a question whose answer holds for all its members.
+pub(crate) const LARGE: usize = 3;
 
 /// Number of devices of each class.
 type Counts = Vec<u32>;
@@ -76,14 +76,14 @@ impl KnownSets {
         }
     }
 
-    /// The classes of which there are many among these devices.
-    pub(crate) fn crowds(&self, devices: &[DeviceId]) -> Vec<Vec<DeviceId>> {
+    /// The classes with many members among these devices.
+    pub(crate) fn large_classes(&self, devices: &[DeviceId]) -> Vec<Vec<DeviceId>> {
         let mut members: BTreeMap<usize, Vec<DeviceId>> = BTreeMap::new();
         for &device in devices {
             if let Some(class) = self.class.get(device.index()) {
                 members.entry(*class).or_default().push(device);
             }
         }
-        members.into_values().filter(|class| class.len() >= CROWD).collect()
+        members.into_values().filter(|class| class.len() >= LARGE).collect()
     }
 }

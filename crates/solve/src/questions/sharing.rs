@@ -1,8 +1,8 @@
-//! Things made free for all: a problem and some of its pins, resources or streams in, the problem
-//! in which everybody may have them at once out.
+//! Relaxed problems: a problem and some of its pins, resources or streams in, the problem in which
+//! any number of devices may hold them at once out.
 //!
-//! Only whether there is an answer is asked of such a problem, so choices that no longer differ
-//! become one, and devices that were alike stay so.
+//! The only question asked of such a problem is whether it has an answer. So choices that no longer
+//! differ become one, and devices that were alike stay alike.
 
 use crate::problem::{Alternative, Candidate, Claim, DmaRequest, Holder, Problem, StreamId};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,13 +13,13 @@ type Mark = (usize, Holder, u32, Vec<Claim>);
 
 /// What devices may fight for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Things {
+pub(crate) enum Contested {
     Streams,
     Resources,
     Pins,
 }
 
-impl Things {
+impl Contested {
     /// All of them that the problem names.
     pub(crate) fn of(self, problem: &Problem) -> BTreeSet<u32> {
         let alternatives = || problem.devices.iter().flat_map(|d| &d.alternatives);
@@ -38,9 +38,9 @@ impl Things {
         }
     }
 
-    /// The classes of those among `all` that could change places without a difference: the same
-    /// devices hold them in the same places and with the same claims.
-    pub(crate) fn alike(self, problem: &Problem, all: &[u32]) -> Vec<Vec<u32>> {
+    /// The classes of those among `all` that could change places: the same devices hold them in
+    /// the same places and with the same claims.
+    pub(crate) fn interchangeable(self, problem: &Problem, all: &[u32]) -> Vec<Vec<u32>> {
         let mut marks: BTreeMap<u32, Vec<Mark>> = BTreeMap::new();
         let mut mark = |thing: u32, place: usize, (holder, signal), claims: &[Claim]| {
             marks.entry(thing).or_default().push((place, holder, signal, claims.to_vec()));
@@ -126,7 +126,7 @@ fn share_resources(problem: &mut Problem, shared: &BTreeSet<u32>) {
     }
 }
 
-/// A wire on a shared pin is no wire any more: what it claims goes to the device as a whole.
+/// A wire on a shared pin need not be placed any more. What it claims goes to the device as a whole.
 fn share_pins(problem: &mut Problem, shared: &BTreeSet<u32>) {
     for device in &mut problem.devices {
         let whole = std::mem::take(&mut device.alternatives);
@@ -135,7 +135,7 @@ fn share_pins(problem: &mut Problem, shared: &BTreeSet<u32>) {
     }
 }
 
-/// An alternative for each way to have wires on shared pins or not.
+/// Splits an alternative: each role is on a shared pin, or on one that is still exclusive.
 fn without_wires(alternative: Alternative, shared: &BTreeSet<u32>) -> Vec<Alternative> {
     let Alternative { roles, .. } = alternative;
     let mut ways = vec![Alternative { roles: Vec::new(), ..alternative }];

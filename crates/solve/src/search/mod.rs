@@ -243,7 +243,7 @@ impl<'a> Engine<'a> {
         if *bound >= self.goal.limit {
             return Err(Pruned);
         }
-        Ok(relaxation.worth())
+        Ok(relaxation.bound())
     }
 }
 

@@ -46,7 +46,7 @@ impl Engine<'_> {
     /// The question whose answers, both of them, raise the bound most. Little is known of new
     /// questions, so both sides of those are bounded here.
     fn strongest(&mut self, open: &[Fractional]) -> Result<Option<Branch>, Pruned> {
-        let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.worth());
+        let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.bound());
         let mut best = (f64::NEG_INFINITY, None);
         let mut trials = 0;
         for question in open {

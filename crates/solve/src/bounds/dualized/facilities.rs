@@ -33,7 +33,7 @@ impl Dualized {
     pub(super) fn find_facilities(
         &mut self,
         model: &Model,
-        odd: &IdVec<ResourceId, bool>,
+        irregular: &IdVec<ResourceId, bool>,
     ) -> IdVec<AltId, Vec<FacilityId>> {
         let of_wire = wire_keys(model);
         let mut numbers: BTreeMap<Key, FacilityId> = BTreeMap::new();
@@ -49,7 +49,7 @@ impl Dualized {
                         Key::Wire(_) => None,
                     };
                     let contested =
-                        |r: &ResourceId| !odd[*r] && !model.resource_users[*r].is_empty();
+                        |r: &ResourceId| !irregular[*r] && !model.resource_users[*r].is_empty();
                     let resource = resource.filter(contested).map(|r| self.resource(r));
                     self.facilities.push(Facility { resource, ..Facility::default() })
                 });

@@ -78,7 +78,7 @@ impl Lagrangian {
         room: i64,
     ) -> Result<(), Pruned> {
         for opening in &self.subproblems.openings {
-            let over = if opening.open { 0 } else { (opening.cost - opening.spares).max(0) };
+            let over = if opening.open { 0 } else { (opening.cost - opening.saves).max(0) };
             if over > room {
                 for &alt in &dualized.facilities[opening.facility].alts {
                     domains.remove_alt(model, alt)?;

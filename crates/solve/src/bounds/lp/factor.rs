@@ -1,8 +1,8 @@
 //! The basis as factors: columns in, triangular solves out.
 //!
 //! A left-looking sparse LU decomposition (J. R. Gilbert and T. Peierls, *Sparse partial pivoting
-//! in time proportional to arithmetic operations*, 1988). It takes slack columns and singletons
-//! first, which leaves little to eliminate in these problems. Later exchanges of one variable go
+//! in time proportional to arithmetic operations*, 1988, but without their symbolic step). It takes
+//! slack columns and singletons first, which leaves little to eliminate in these problems. Later exchanges of one variable go
 //! into an eta file (G. B. Dantzig and W. Orchard-Hays, *The product form for the inverse in the
 //! simplex method*, 1954).
 

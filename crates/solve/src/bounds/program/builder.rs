@@ -39,8 +39,8 @@ pub(super) struct Builder<'a> {
     opening: IdVec<FacilityId, Option<ColumnId>>,
     loose: Vec<ColumnId>,
     ceiling: IdVec<ColumnId, f64>,
-    /// Ceiling of the columns now made.
-    present: f64,
+    /// Ceiling of the columns that are being made.
+    ceiling_now: f64,
     /// Rows of the covers that a facility is in.
     cover_rows: IdVec<FacilityId, Vec<RowId>>,
 }
@@ -62,7 +62,7 @@ impl<'a> Builder<'a> {
             opening: IdVec::same(None, facilities),
             loose: Vec::new(),
             ceiling: IdVec::default(),
-            present: 2.0,
+            ceiling_now: 2.0,
             cover_rows: IdVec::same(Vec::new(), facilities),
         }
     }
@@ -76,7 +76,7 @@ impl<'a> Builder<'a> {
         // A fixed sequence that looks like chance.
         let chance = (u64::from(column.0) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
         let chance = chance as f64 / (1_u64 << 32) as f64;
-        self.ceiling.push(self.present);
+        self.ceiling.push(self.ceiling_now);
         let cost = cost as f64 / self.model.weights.cost as f64;
         self.cost.push(cost + PERTURBATION * (0.5 + chance / 2.0));
         column
@@ -152,7 +152,7 @@ impl<'a> Builder<'a> {
         let number = devices.len() as f64;
         let convexity = self.row(number, number);
         let lone = devices.len() == 1 || alts.len() == 1;
-        self.present = 2.0 * number;
+        self.ceiling_now = 2.0 * number;
         for alt in alts {
             let twins: Vec<AltId> = devices.iter().map(|&d| model.twin_alt(alt, d)).collect();
             if twins.iter().any(|&twin| self.domains.has_alt(twin)) {
@@ -230,7 +230,7 @@ impl<'a> Builder<'a> {
             roles.push(places.filter_map(|ids| self.way(ids, &[])).collect());
         }
         roles.extend(self.streams(&facility.requests));
-        self.present = 2.0;
+        self.ceiling_now = 2.0;
         let column = self.owner(entries, roles);
         self.ceiling[column] = 1.0;
         self.opening[index] = Some(column);
@@ -241,7 +241,7 @@ impl<'a> Builder<'a> {
         let links = penalty.links.iter();
         let entries: Entries =
             links.map(|&(link, times)| self.priced(link, -(times as f64))).collect();
-        self.present = 1.0;
+        self.ceiling_now = 1.0;
         self.column(self.model.weights.rule, &entries)
     }
 
