@@ -19,8 +19,8 @@ use crate::problem::{Claim, DeviceId, Holder, PinId, Problem, ResourceId, RuleId
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A price may be so many powers of two above the greatest weight: where there is no answer, the
-/// price of one thing can pay for many.
+/// Prices may exceed the greatest weight by this many powers of two. Where there is no answer, one
+/// pin may have to pay for many devices.
 const DEARER: u32 = 4;
 
 /// A link's price, and how many devices have a link with that price.
@@ -174,8 +174,8 @@ impl Dualized {
         AltPrices { own, of_cands: cands.map(|id| price_all(&model.cand_claims[id])).collect() }
     }
 
-    /// Tells facilities and penalties their links. Alike devices have one price together, but each
-    /// its own link.
+    /// Gives facilities and penalties their links. Alike devices share a price, but each has a link
+    /// of its own.
     fn add_links(&mut self, model: &Model, links: &Links) {
         let alike = |class: DeviceId| model.class.iter().filter(|c| **c == class).count() as i64;
         for (&(tied, facility), &link) in &links.of_facility {
@@ -193,7 +193,7 @@ impl Dualized {
         self.penalties = penalties.into_iter().map(penalty).collect();
     }
 
-    /// As fine as it can be while all prices, none above [`Self::dearest`], still add up.
+    /// The finest shift at which the sum of all prices, none above [`Self::dearest`], still fits.
     fn find_shift(&self, model: &Model) -> u32 {
         let of_facilities = self.facilities.iter().flat_map(|f| &f.links);
         let links = of_facilities.chain(self.penalties.iter().flat_map(|p| &p.links));
@@ -203,7 +203,7 @@ impl Dualized {
         61_u32.saturating_sub(bits + DEARER).min(16)
     }
 
-    /// The greatest price that counts.
+    /// The greatest price that is used. Greater ones are cut to it.
     pub(crate) fn dearest(&self, model: &Model) -> u64 {
         model.most << (self.shift + DEARER)
     }
@@ -230,7 +230,7 @@ impl Dualized {
         }
     }
 
-    /// Whether whoever takes the alternative is within the facility or shuts it.
+    /// Whether taking the alternative means using the facility, or keeping it shut.
     fn excludes(
         &self,
         model: &Model,
@@ -276,8 +276,8 @@ fn add_penalties(model: &Model, alt: AltId, links: &mut Links, prices: &mut AltP
     }
 }
 
-/// Resources that one device can claim in several places or for several holders at once: it does
-/// not quarrel with itself, so no price counts them right.
+/// Resources that one device can claim in several places, or for several holders. A device is never
+/// in conflict with itself, so a price would charge it more than once.
 fn irregular_resources(problem: &Problem, model: &Model) -> IdVec<ResourceId, bool> {
     let mut irregular = IdVec::same(false, problem.resources as usize);
     for alt in model.alt_device.ids() {

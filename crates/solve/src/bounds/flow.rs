@@ -249,7 +249,7 @@ impl Flow {
         }
     }
 
-    /// Whether the demand may stay where it is.
+    /// Whether the domains still allow what the demand has.
     fn holds(&self, model: &Model, domains: &Domains, demand: DemandId) -> bool {
         let Some(held) = self.now.arc[demand] else { return false };
         let c = &model.cand[held];
@@ -320,7 +320,7 @@ impl Flow {
         }
     }
 
-    /// Reaches whatever the demand could have instead of what it has.
+    /// Reaches everything that the demand could have instead of what it has.
     fn leave(&mut self, model: &Model, domains: &Domains, demand: DemandId, dist: i64) {
         let node = self.layout.id(Node::Demand(demand));
         let held = self.now.arc[demand].map(|held| self.entry(&model.cand[held]));

@@ -44,7 +44,7 @@ impl Lagrangian {
         }
     }
 
-    /// The greatest weight, beside what is paid and no penalty, of an answer below the limit.
+    /// The greatest weight of an answer below the limit, without what is paid except penalties.
     pub(crate) fn most(
         dualized: &Dualized,
         model: &Model,
@@ -55,7 +55,7 @@ impl Lagrangian {
         Some((limit - 1).checked_sub(Self::beside(dualized, model, domains))? / unit * unit)
     }
 
-    /// What is paid, but for the penalties.
+    /// What is paid, except penalties.
     fn beside(dualized: &Dualized, model: &Model, domains: &Domains) -> u64 {
         let paid = dualized.penalties.iter().filter(|p| domains.rule[p.rule] == Charge::Paid);
         domains.paid - paid.count() as u64 * model.weights.rule
@@ -113,7 +113,7 @@ impl Lagrangian {
         sum
     }
 
-    /// A group of alike devices takes the cheapest that it can take together.
+    /// A group of alike devices takes the cheapest options that all of them can have together.
     fn choose(&mut self, index: GroupId) -> i64 {
         let mut order = std::mem::take(&mut self.subproblems.order);
         self.price_options(index, &mut order);

@@ -30,16 +30,16 @@ pub(crate) struct Program {
     pub(crate) simplex: Simplex,
     /// Row of each price that somebody is tied to.
     pub(crate) price_row: IdVec<PriceId, Option<RowId>>,
-    /// Column of an alternative, by that of the first device that is alike.
+    /// Column of an alternative of the first device of each class.
     pub(crate) alt_column: IdVec<AltId, Column>,
-    /// Columns whose sum is the number of devices at an alternative, by the same.
+    /// Columns whose sum is the number of devices of the class at that alternative.
     pub(crate) counted: Rows<AltId, ColumnId>,
     pub(crate) cand_column: IdVec<CandId, Column>,
     /// Column of each facility that could be opened.
     pub(crate) opening: IdVec<FacilityId, Option<ColumnId>>,
     pub(crate) penalty: IdVec<PenaltyId, ColumnId>,
-    /// The most that each column may be while it lives. The exact bound knows of few of these
-    /// limits; the others are never reached, so that no price hides in them.
+    /// The upper bound of each column while it lives. The exact bound knows few of these limits. The
+    /// others are too high to be reached, so no part of the value hides in them.
     pub(crate) ceiling: IdVec<ColumnId, f64>,
     /// Columns that no domain bounds.
     pub(crate) loose: Vec<ColumnId>,

@@ -65,7 +65,7 @@ impl Relaxation {
             self.least[column] = f64::from(u8::from(charge == Charge::Paid));
         }
         loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
-        // All of them may: no limit.
+        // All devices of the class may take it: no limit.
         for column in alt_column {
             if let Column::Of(column) = *column
                 && self.most[column] * 2.0 == ceiling[column]

@@ -53,7 +53,7 @@ pub(crate) struct Opening {
     pub(crate) forced: bool,
     pub(crate) cost: i64,
     pub(crate) open: bool,
-    /// What its opening would save elsewhere: another one opened only for the number's sake.
+    /// What its opening would save: another facility that is open only because a cover needs it.
     pub(crate) saves: i64,
 }
 

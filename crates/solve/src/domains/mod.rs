@@ -78,11 +78,11 @@ pub(crate) struct Domains {
     pub(crate) paid: u64,
     /// Facilities (see [`crate::bounds::dualized`]) that somebody must use.
     pub(crate) opened: Vec<FacilityId>,
-    /// Boards of which something is decided that is not decided of all equal ones. What only
-    /// follows does not count.
+    /// Boards of which something is decided that is not decided of all equal ones. Consequences do
+    /// not count.
     touched: IdVec<BoardId, bool>,
     trail: Vec<Event>,
-    /// Devices and roles with one choice left whose consequences are not drawn yet.
+    /// Devices and roles with one choice left that propagation has not followed yet.
     decided: Vec<DeviceId>,
     chosen: Vec<RoleId>,
 }
@@ -335,13 +335,13 @@ impl Domains {
         model.board_alts[board].iter().try_for_each(|alt| self.remove_alt(model, *alt))
     }
 
-    /// Only answers in which somebody uses the facility are looked for.
+    /// Looks only for answers in which somebody uses the facility.
     pub(crate) fn open(&mut self, facility: FacilityId) {
         self.trail.push(Event::Opened);
         self.opened.push(facility);
     }
 
-    /// Says that something is decided of the board.
+    /// Notes that something is decided of the board.
     pub(crate) fn touch(&mut self, board: BoardId) {
         if !std::mem::replace(&mut self.touched[board], true) {
             self.trail.push(Event::Touched(board));

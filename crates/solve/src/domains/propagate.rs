@@ -11,7 +11,7 @@ use crate::model::{Holding, Model, Part, agree};
 use crate::problem::{Claim, DeviceId};
 
 impl Domains {
-    /// Follows every decision to its end.
+    /// Follows every decision until nothing new is decided.
     pub(crate) fn propagate(&mut self, model: &Model) -> Result<(), Pruned> {
         loop {
             if let Some(device) = self.decided.pop() {
@@ -69,7 +69,7 @@ impl Domains {
         Ok(())
     }
 
-    /// A device has come to a wire: nobody there can leave its candidates.
+    /// A device joins a wire: everybody on the wire is limited to its candidates.
     fn join_wire(&mut self, model: &Model, role: RoleId, wire: WireId) -> Result<(), Pruned> {
         let device = model.alt_device[model.role_alt[role]];
         for &other in &model.wire_cands[wire] {

@@ -166,7 +166,7 @@ impl<'a> Signature<'a> {
                 self.holder(holder);
                 continue;
             }
-            // Of what several boards have, all must mean the same by a group.
+            // On a resource of several boards, equal boards must have the same groups.
             self.text.push(match holder {
                 Holder::Own => 0,
                 Holder::Group(number) => u64::from(number) + 1,

@@ -79,7 +79,7 @@ impl Model {
     }
 }
 
-/// Resources that two devices may quarrel about.
+/// Resources over which two devices can be in conflict.
 fn contested(problem: &Problem) -> IdVec<ResourceId, bool> {
     let resources = problem.resources as usize;
     let mut first: IdVec<ResourceId, Option<(usize, Holder)>> = IdVec::same(None, resources);

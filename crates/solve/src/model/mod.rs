@@ -278,7 +278,7 @@ impl Model {
     }
 
     fn find_private_users(&mut self, problem: &Problem) {
-        // Of each user: the device if there is one only, and what all who use it claim alone.
+        // For each user: the device, if there is only one, and what everybody who uses it claims alone.
         type Users = (Option<DeviceId>, BTreeSet<ResourceId>);
         let mut users: IdVec<DmaUserId, Option<Users>> = IdVec::same(None, problem.dma.len());
         for (alt, &device) in self.alt_device.enumerate() {

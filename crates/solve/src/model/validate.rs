@@ -25,14 +25,14 @@ pub(crate) fn weights(problem: &Problem) -> Result<Weights, Fault> {
     let rule = weight(of_shared, shared)?;
     let moved = weight(rule, u64::from(problem.rules))?;
     let most = weight(moved, wires as u64)?;
-    // The bounds add such numbers up, some of them in fractions.
+    // The bounds add up such numbers, some of them scaled by powers of two.
     if most > 1 << 44 {
         return Err(Fault::TooLarge);
     }
     Ok(Weights { moved, rule, shared: of_shared, cost })
 }
 
-/// More pins than this are never in use.
+/// The most pins that can be in use at once.
 fn wires(problem: &Problem) -> usize {
     let roles = |device: &Device| device.alternatives.iter().map(|a| a.roles.len()).max();
     problem.devices.iter().filter_map(roles).sum()

@@ -147,7 +147,7 @@ impl Model {
         self.claimed_by_one_role(resource, alt).then_some((resource, None))
     }
 
-    /// Of what is claimed for the device alone, what most others claim too.
+    /// Of the resources claimed for the device alone, the one with the most claimants.
     fn most_contested(&self, claims: &[Claim]) -> Option<ResourceId> {
         let owned = claims.iter().filter(|c| c.holder == Holder::Own).map(|c| c.resource);
         owned.max_by_key(|&r| (self.resource_users[r].len(), Reverse(r)))

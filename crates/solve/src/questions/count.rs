@@ -140,7 +140,7 @@ impl Census<'_> {
         decided.find_map(|alt| model.roles.of(alt).iter().find(|&role| open(alt, role)))
     }
 
-    /// Whether a role can claim what another role of its device claims too: no quarrel there.
+    /// Whether a role can claim what another role of its device claims too. That is no conflict.
     fn entangled(&self, alt: AltId, role: RoleId) -> bool {
         let model = self.model;
         let claims = |role: RoleId| {

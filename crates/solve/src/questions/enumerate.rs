@@ -17,8 +17,8 @@ use crate::search::{Engine, Parked};
 
 /// Iterator over all answers of a problem: by objective, then pins, then signals.
 ///
-/// An item is an error only as [`crate::questions::solve`] gives one, or [`Fault::Cancelled`]; nothing follows
-/// it.
+/// An item is an error only where [`crate::solve`] gives one, or [`Fault::Cancelled`]. Nothing
+/// follows an error.
 pub struct Answers<'a> {
     problem: &'a Problem,
     cancel: Cancel<'a>,
@@ -73,7 +73,7 @@ impl Iterator for Answers<'_> {
             return None;
         }
         let next = self.following();
-        // What was found while time ran out may not be the next one.
+        // An answer that was found while time ran out may not be the next one.
         if self.cancel.is_over() {
             self.walk = Walk::Over;
             return Some(Err(Fault::Cancelled));
@@ -132,7 +132,7 @@ impl Answers<'_> {
     }
 }
 
-/// Opens the first entry that is not settled; the answer itself when there is none.
+/// Opens the first entry that is not settled. Where all are, the answer is complete.
 fn begin(
     engine: &mut Engine<'_>,
     entries: &[Entry],

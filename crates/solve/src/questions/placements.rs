@@ -30,9 +30,9 @@ pub(crate) struct Class {
     pub(crate) wires: u32,
 }
 
-/// Counts with a memory for the parts that come again.
+/// Counts, and remembers the parts that it has counted.
 ///
-/// Once the caller has given up a count means nothing; whoever asked looks at that first.
+/// A count means nothing once the caller has given up, so callers check that first.
 pub(crate) struct Counter<'a> {
     known: BTreeMap<Vec<Class>, BigUint>,
     cancel: Cancel<'a>,
@@ -355,7 +355,7 @@ impl Plan {
         }
         match states.pop() {
             Some((_, ways)) => Some(ways),
-            // Nothing survived, which is no way rather than too many.
+            // Nothing survived: there are zero ways. It is not an overflow.
             None => T::one().times(0),
         }
     }

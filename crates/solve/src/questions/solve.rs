@@ -65,8 +65,8 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     finish(problem, &model, &least, Optimality::Proved).map(Outcome::Solved)
 }
 
-/// Whether there is an answer at all; `None` when stopped before that is known. Quicker than
-/// [`solve`] where there is none, which would be explained.
+/// Whether there is an answer at all; `None` when stopped before that is known. Where there is none
+/// this is quicker than [`solve`], which also finds out why.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed.
@@ -74,7 +74,7 @@ pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, F
     feasible_within(problem, Effort::Any, cancel)
 }
 
-/// For each device the first one with the same choices: the two can stand for each other.
+/// For each device the first one with the same choices. The two are interchangeable.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed.
@@ -99,7 +99,7 @@ pub(crate) fn feasible_within(
     Ok(if engine.progress.stopped { None } else { Some(found) })
 }
 
-/// Makes choices an answer and has it checked.
+/// Turns choices into an answer and checks it.
 pub(crate) fn finish(
     problem: &Problem,
     model: &Model,

@@ -80,7 +80,7 @@ impl Engine<'_> {
         let branch = Branch::Facility(facility);
         let Some(pricing) = &self.pricing else { return Ok(()) };
         let alts = &pricing.dualized.facilities[facility].alts;
-        // What several boards share is refused as it is: the boards need not be equal.
+        // A facility of several boards is refused as it is: they need not be equal.
         let boards = self.boards_of(branch);
         let [_] = boards.as_slice() else {
             return alts.iter().try_for_each(|&alt| self.domains.remove_alt(model, alt));
@@ -113,9 +113,9 @@ impl Engine<'_> {
         }
     }
 
-    /// The board of a branch and those that are equal to it here and now: nothing is decided of
-    /// any of them. An answer with what is refused on one of them has its like with that on the
-    /// board where it was tried.
+    /// The board of a branch and those that are equal to it at this node, because nothing is decided
+    /// of any of them. If some answer had the refused choice on another one of them, swapping the two
+    /// boards would give an answer with the choice where it was tried.
     fn equals(&self, branch: Branch) -> impl Iterator<Item = BoardId> + use<> {
         let first = &self.model.boards.first_equal;
         let mut boards = self.boards_of(branch);
@@ -129,14 +129,14 @@ impl Engine<'_> {
         boards.into_iter()
     }
 
-    /// The device and those that are interchangeable with it here and now.
+    /// The device and those that are interchangeable with it at this node.
     fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
         let model = self.model;
         let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
         model.class_of(model.class[device]).filter(same).collect()
     }
 
-    /// A rule or spare board that the wiring uses although the bound does not pay for it.
+    /// A rule that the wiring violates, or a spare board that it uses, and that the bound leaves out.
     pub(super) fn unpaid_charge(&self, choices: &Choices) -> Option<Branch> {
         let model = self.model;
         for Chosen { alt, cands } in choices {
@@ -157,7 +157,7 @@ impl Engine<'_> {
         None
     }
 
-    /// A spare board to do without, where nothing but their number can be better.
+    /// A spare board to close, where an answer below the limit can only save spare boards.
     pub(super) fn deciding_board(&self) -> Option<Branch> {
         let unit = self.model.weights.cost;
         let bound = self.pricing.as_ref()?.bound;
@@ -176,7 +176,7 @@ impl Engine<'_> {
         self.model.devices.iter().find_map(|d| self.open_role(d))
     }
 
-    /// A candidate of a role that a decided device has open, that of the flow if possible.
+    /// A candidate of an open role of a decided device: that of the flow, if it has one.
     pub(super) fn open_role(&self, device: DeviceId) -> Option<Branch> {
         let model = self.model;
         let roles = model.roles.of(self.domains.decided(device)?);

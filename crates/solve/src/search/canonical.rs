@@ -27,13 +27,13 @@ pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {
     earlier(model, &entries, devices_in_order(model, &best), best)
 }
 
-/// The one that comes first.
+/// The one of two answers that comes first.
 fn earlier(model: &Model, entries: &[Entry], one: Choices, other: Choices) -> Choices {
     let values = |choices| entries.iter().map(move |entry| entry.of(model, choices));
     if values(&one).lt(values(&other)) { one } else { other }
 }
 
-/// What is on the one board goes to the other.
+/// Swaps what is on two boards.
 fn swapped(model: &Model, known: &Choices, one: BoardId, other: BoardId) -> Option<Choices> {
     let swapped = known.iter().map(|chosen| {
         let board = match model.alt_board[chosen.alt] {
@@ -46,7 +46,7 @@ fn swapped(model: &Model, known: &Choices, one: BoardId, other: BoardId) -> Opti
     swapped.collect()
 }
 
-/// Alike devices in the order of what they have.
+/// Gives alike devices their choices in order.
 fn devices_in_order(model: &Model, known: &Choices) -> Choices {
     let mut sorted = known.clone();
     for leader in model.class_leaders() {

@@ -46,8 +46,8 @@ pub(crate) struct Engine<'a> {
     pub(crate) pricing: Option<Box<Pricing>>,
     pub(crate) goal: Goal,
     pub(crate) progress: Progress,
-    /// Whether what is refused on one board may be refused on all equal ones: all that restricts the
-    /// domains says of which boards something is decided.
+    /// Whether a choice may be refused on all equal boards at once. It may be while every restriction
+    /// of the domains marks the boards that it is about.
     pub(crate) board_symmetry: bool,
 }
 

@@ -1,5 +1,4 @@
-//! Pseudo-costs: how far answers to a question have raised the bound in, how far the next answer
-//! will probably raise it out.
+//! Pseudo-costs: gains of earlier branches in, the probable gain of the next one out.
 //!
 //! The idea is from M. Bénichou et al., *Experiments in mixed-integer linear programming*, 1971.
 
@@ -7,11 +6,11 @@ use super::branching::Branch;
 use crate::index::{AltId, FacilityId, PenaltyId};
 use std::collections::BTreeMap;
 
-/// A question that was tried so often is known (T. Achterberg, T. Koch and A. Martin, *Branching
+/// The pseudo-costs of a variable that was tried so often are reliable (T. Achterberg, T. Koch and A. Martin, *Branching
 /// rules revisited*, 2005, call this reliability branching).
 const RELIABLE: u32 = 4;
 
-/// Which question it is, whatever device of a class it is asked of.
+/// Names a variable. Devices of one class have their variables together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key {
     Facility(FacilityId),
@@ -19,30 +18,31 @@ pub(super) enum Key {
     Penalty(PenaltyId),
 }
 
-/// Something that the linear program leaves fractional.
+/// A variable that is fractional in the linear program, and the branch that decides it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fractional {
     pub(super) branch: Branch,
     pub(super) key: Key,
-    /// How much of it there is beyond a whole number.
+    /// Its fractional part.
     pub(super) part: f64,
 }
 
 impl Fractional {
-    /// What is missing to a whole one, and to none.
+    /// Its distance to the next whole number, up and down.
     fn missing(&self) -> [f64; 2] {
         [1.0 - self.part, self.part]
     }
 }
 
-/// How much earlier answers to a question have raised the bound, for each whole that was missing.
+/// Gains of earlier branches for each unit of distance: their sum and their number.
 #[derive(Clone, Copy, Debug, Default)]
 struct Side {
     sum: f64,
     number: u32,
 }
 
-/// What is known of all questions: the side where it is taken, and where it is refused.
+/// The pseudo-costs of all variables, each with a side where the branch is taken and one where it
+/// is refused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PseudoCosts {
     known: BTreeMap<Key, [Side; 2]>,

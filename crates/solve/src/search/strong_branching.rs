@@ -1,7 +1,7 @@
 //! Strong branching: the values of the linear program in, a branch out.
 //!
-//! A node branches on a fractional question both of whose answers raise the bound most. To know
-//! that, it tries both answers (D. Applegate, R. Bixby, V. Chvátal and W. Cook, *Finding cuts in
+//! Of the fractional variables, a node branches on the one whose two children have the best bounds.
+//! To know these bounds it tries both children (D. Applegate, R. Bixby, V. Chvátal and W. Cook, *Finding cuts in
 //! the TSP*, 1995), unless earlier tries have shown it ([`super::pseudo_costs`]).
 
 use super::Engine;
@@ -11,7 +11,7 @@ use super::rounding::WHOLE;
 use crate::domains::{Charge, Pruned};
 use crate::index::{AltId, IdVec};
 
-/// Questions that are tried at one node before one is asked.
+/// Variables that are tried at one node at most.
 const TRIALS: usize = 8;
 
 /// Steps of the simplex method for each try.
@@ -43,8 +43,8 @@ impl Engine<'_> {
         self.strongest(&open)
     }
 
-    /// The question whose answers, both of them, raise the bound most. Little is known of new
-    /// questions, so both sides of those are bounded here.
+    /// The fractional variable with the greatest product of gains. The pseudo-costs of a new one
+    /// are not reliable yet, so both of its children are bounded here.
     fn strongest(&mut self, open: &[Fractional]) -> Result<Option<Branch>, Pruned> {
         let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.bound());
         let mut best = (f64::NEG_INFINITY, None);

@@ -53,8 +53,8 @@ impl Dualized {
         family
     }
 
-    /// Where the small facilities have no room for all, so many of the greater ones must be open:
-    /// a cover for each size from which on there are more of them, each within the next.
+    /// Where the small facilities have no room for all devices, some of the larger ones must be open.
+    /// Adds a cover for each size at which more of them are needed; each cover contains the last.
     fn add_covers(&mut self, devices: usize, mut room: Vec<(usize, FacilityId)>) {
         room.sort_by_key(|&(room, facility)| (Reverse(room), facility));
         let mut last = 0;

@@ -93,8 +93,8 @@ impl Dualized {
         }
     }
 
-    /// A bus pays for its streams when all on it use them, and nobody else at that time: either
-    /// there is nobody else, or all claim one resource.
+    /// A bus pays for its streams if everybody on it uses them, and nobody else does at the same
+    /// time. That is so if there is nobody else, or if all users claim one resource.
     fn add_shared_requests(&mut self, model: &Model, alts: &[AltId], requests: &[Request]) {
         let whole = |f: &Facility| f.alts.iter().all(|alt| alts.contains(alt));
         let only = |f: &&mut Facility| f.alts.len() == alts.len() && whole(f);

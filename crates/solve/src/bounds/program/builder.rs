@@ -12,7 +12,7 @@ use crate::model::{Holding, Model};
 use crate::problem::DeviceId;
 use std::collections::BTreeMap;
 
-/// Costs are moved by at most this part of a unit, so that hardly two columns are alike.
+/// Costs are perturbed by at most this part of a unit, so that hardly two columns cost the same.
 const PERTURBATION: f64 = 2e-5;
 
 type Entries = Vec<(RowId, f64)>;
@@ -236,7 +236,7 @@ impl<'a> Builder<'a> {
         self.opening[index] = Some(column);
     }
 
-    /// The column of a rule, which whoever violates it is linked to.
+    /// The column of a rule. Everything that violates the rule is linked to it.
     pub(super) fn penalty(&mut self, penalty: &Penalty) -> ColumnId {
         let links = penalty.links.iter();
         let entries: Entries =
