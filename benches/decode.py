@@ -133,7 +133,7 @@ def build(folder):
         ("g++ -std=c++98 -O2", "tests/decoders/cpp.cpp"),
     ]:
         objects.append(f"{folder}/{pathlib.Path(source).stem}.o")
-        includes = [f"-I{ROOT}/runtime/core", f"-I{ROOT}/runtime/host/cpp"]
+        includes = [f"-I{ROOT}/runtime/core", f"-I{ROOT}/crates/codegen/src/host/cpp/runtime"]
         subprocess.run([*compiler.split(), *includes, "-c", ROOT / source, "-o", objects[-1]], check=True)
     subprocess.run(["g++", *objects, "-o", f"{folder}/decoders"], check=True)
     cargo = "cargo build -q --release -p sensedsl-wire --example decode_time --message-format json"

@@ -79,7 +79,7 @@ fn count(bencher: Bencher<'_, '_>, example: &str) {
 fn generate(bencher: Bencher<'_, '_>, example: &str) {
     let design = design(&text(example));
     let assignment = solved(&design);
-    bencher.bench(|| sensedsl_codegen::project("pipeline", &design, &assignment, &HOSTS));
+    bencher.bench(|| sensedsl_codegen::project("pipeline", &design, &assignment, HOSTS));
 }
 
 #[divan::bench(args = EXAMPLES)]
@@ -88,6 +88,6 @@ fn all(bencher: Bencher<'_, '_>, example: &str) {
     bencher.bench(|| {
         let design = design(&text);
         let assignment = solved(&design);
-        sensedsl_codegen::project("pipeline", &design, &assignment, &HOSTS)
+        sensedsl_codegen::project("pipeline", &design, &assignment, HOSTS)
     });
 }

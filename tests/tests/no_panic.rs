@@ -55,7 +55,7 @@ fn pipeline(input: &Input) {
                     let _ = markdown::markdown(design, &assignment);
                     let _ = svg::svg(design, &assignment);
                     let _ = json::wired(design, &assignment);
-                    let _ = sensedsl_codegen::project("mutant", design, &assignment, &HOSTS);
+                    let _ = sensedsl_codegen::project("mutant", design, &assignment, HOSTS);
                 }
                 Solved::Infeasible(conflict) => {
                     diagnostics.push(conflict.diagnostic(design));

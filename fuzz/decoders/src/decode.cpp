@@ -1,4 +1,4 @@
-// The decoder of the C++ hosts (`runtime/host/cpp`), as the fuzzer calls it.
+// The decoder of the C++ hosts (`crates/codegen/src/host/cpp/runtime`), as the fuzzer calls it.
 #include "decode.h"
 
 #include <stdlib.h>

@@ -201,7 +201,7 @@ fn generate(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<FileSet> {
     count(Stage::Generate);
-    match sensedsl_codegen::project("robot", design, assignment, &HOSTS) {
+    match sensedsl_codegen::project("robot", design, assignment, HOSTS) {
         Ok(files) => {
             count(Stage::Files);
             checked(&files);
@@ -284,7 +284,7 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let Solved::Wired(again) = wiring.solve(&Search { any: false }) else {
         panic!("a file that is laid out has no wiring");
     };
-    let again = sensedsl_codegen::project("robot", &design, &again, &HOSTS);
+    let again = sensedsl_codegen::project("robot", &design, &again, HOSTS);
     for ((path, one), (_, two)) in files.iter().zip(again.as_ref().expect("files").iter()) {
         assert!(one == two, "{path} differs once the file is laid out");
     }

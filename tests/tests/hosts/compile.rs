@@ -3,20 +3,16 @@
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_codegen::host::{HOSTS, HostPlan};
+use sensedsl_codegen::host::{self, Compile, HOSTS, HostPlan};
 use sensedsl_tests::few;
 
 use super::{designs, files, tools};
 
-const WARNINGS: [&str; 6] =
-    ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"];
-
-/// Compiles all sources of a generated host without linking.
-pub(crate) fn compile(compiler: &str, standard: &str, folder: &Path, system_includes: &[&Path]) {
-    for source in files::sources(folder) {
-        let mut command = Command::new(compiler);
-        command.arg(format!("-std={standard}")).args(WARNINGS).arg("-fsyntax-only");
-        command.arg("-I").arg(folder.join("include"));
+/// Holds all sources of a generated host to their language, as the host says.
+pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Path]) {
+    for source in files::sources(folder, compiler.extension) {
+        let mut command = Command::new(compiler.program);
+        command.current_dir(folder).args(compiler.arguments).arg(compiler.standard);
         for include in system_includes {
             command.arg("-isystem").arg(include);
         }
@@ -24,17 +20,32 @@ pub(crate) fn compile(compiler: &str, standard: &str, folder: &Path, system_incl
     }
 }
 
+/// Those that include a middleware are compiled where its tree is: `middleware.rs`.
 #[test]
-fn cpp() {
-    for compiler in few(&["g++", "clang++"], 1) {
-        if !tools::have(compiler) {
+fn every_host_is_of_its_language() {
+    for host in HOSTS {
+        let compiler = host.compile();
+        if compiler.tree.is_some() || !tools::have(compiler.program) {
             continue;
         }
         for (name, boards) in designs::all() {
-            let folder = files::generate("cpp", &format!("{name}-{compiler}"), &boards);
-            for standard in few(&["c++17", "c++20"], 1) {
-                compile(compiler, standard, &folder, &[]);
-            }
+            let folder = files::generate(host.name(), &format!("{name}-language"), &boards);
+            compile(&compiler, &folder, &[]);
+        }
+    }
+}
+
+#[test]
+fn cpp_is_of_other_compilers_and_standards() {
+    let host = host::find("cpp").unwrap().compile();
+    let others = [("clang++", "-std=c++17"), ("clang++", "-std=c++20"), ("g++", "-std=c++20")];
+    for (program, standard) in few(&others, 0) {
+        if !tools::have(program) {
+            continue;
+        }
+        for (name, boards) in designs::all() {
+            let folder = files::generate("cpp", &format!("{name}-{program}"), &boards);
+            compile(&Compile { program, standard, ..host }, &folder, &[]);
         }
     }
 }

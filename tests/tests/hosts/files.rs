@@ -30,12 +30,11 @@ pub(crate) fn generate_as(name: &str, host: &str, test: &str, boards: &[HostBoar
     path
 }
 
-/// All `.cpp` files of a generated host.
-pub(crate) fn sources(path: &Path) -> Vec<PathBuf> {
-    let mut sources: Vec<PathBuf> =
-        std::fs::read_dir(path.join("src")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    sources.retain(|source| source.extension().is_some_and(|extension| extension == "cpp"));
-    sources.sort();
-    assert!(!sources.is_empty());
+/// All sources of a generated host with that extension, relative to its folder.
+pub(crate) fn sources(path: &Path, extension: &str) -> Vec<String> {
+    let end = format!(".{extension}");
+    let sources: Vec<String> =
+        sensedsl_tests::tree(path).into_keys().filter(|name| name.ends_with(&end)).collect();
+    assert!(!sources.is_empty(), "{}: no {end}", path.display());
     sources
 }

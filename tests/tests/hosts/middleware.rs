@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_codegen::host::{self, Compile, HostBoard};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, ScalarType, encode_hello, encode_hello_request,
     encode_report,
@@ -19,6 +19,11 @@ use super::{designs, files, link};
 /// A session of its own for each test and run.
 fn session(test: u32) -> String {
     (10 + 6 * (std::process::id() % 40) + test).to_string()
+}
+
+/// How the host says that its sources are compiled.
+fn compiler(name: &str) -> Compile {
+    host::find(name).unwrap().compile()
 }
 
 fn have_pycluon() -> bool {
@@ -115,7 +120,7 @@ fn libcluon_compiles() {
                 .arg(format!("--out={}", folder.join("sense.hpp").display()))
                 .arg(folder.join("sense.odvd")),
         );
-        compile("g++", "c++14", &folder, &[&tree, &folder]);
+        compile(&compiler("libcluon"), &folder, &[&tree, &folder]);
     }
 }
 
@@ -198,7 +203,6 @@ fn libcluon_speaks_with_an_independent_peer() {
 /// One of the two OpenDaVINCI hosts and where its tree has what.
 struct OpenDavinci {
     host: &'static str,
-    standard: &'static str,
     include: PathBuf,
     library: PathBuf,
     supercomponent: PathBuf,
@@ -210,7 +214,6 @@ fn opendavinci2014() -> Option<OpenDavinci> {
     let tree = tools::tree("OPENDAVINCI2014")?;
     Some(OpenDavinci {
         host: "opendavinci2014",
-        standard: "c++98",
         include: tree.join("libopendavinci/include"),
         library: tree.join("lib/libopendavinci.a"),
         supercomponent: tree.join("bin/supercomponent"),
@@ -223,7 +226,6 @@ fn opendavinci() -> Option<OpenDavinci> {
     let tree = tools::tree("OPENDAVINCI")?;
     Some(OpenDavinci {
         host: "opendavinci",
-        standard: "c++11",
         include: tree.join("include"),
         library: tree.join("lib/libopendavinci.a"),
         supercomponent: tree.join("bin/odsupercomponent"),
@@ -236,7 +238,7 @@ impl OpenDavinci {
     fn compile_all(&self) {
         for (name, boards) in designs::all() {
             let folder = files::generate(self.host, &format!("{name}-compile"), &boards);
-            compile("g++", self.standard, &folder, &[&self.include]);
+            compile(&compiler(self.host), &folder, &[&self.include]);
         }
     }
 
@@ -244,7 +246,7 @@ impl OpenDavinci {
         let program = folder.join(name);
         tools::run(
             Command::new("g++")
-                .arg(format!("-std={}", self.standard))
+                .arg(compiler(self.host).standard)
                 .args(self.defines)
                 .arg("-I")
                 .arg(folder.join("include"))

@@ -1,15 +1,10 @@
 //! Host applications: the programs at the other end of the link.
 //!
-//! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. A new host is one file
-//! here, its templates, and one line in [`HOSTS`]; what it needs that is the same in each run
-//! (decoders, serial devices) is hand-written in `runtime/host` and copied beside what is generated.
+//! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. A language is one folder
+//! here with its names, its view of the plan, its templates and its hand-written runtime; a host is
+//! a folder and one line in [`HOSTS`].
 
 mod cpp;
-mod cpp_names;
-mod cpp_view;
-mod libcluon;
-mod opendavinci;
-mod opendavinci2014;
 mod plan;
 
 pub use plan::{BoardPlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Scaling};
@@ -22,59 +17,51 @@ pub trait Host: Sync {
     fn name(&self) -> &'static str;
     /// One line for people.
     fn summary(&self) -> &'static str;
+    /// How a source that it prints is held to its language.
+    fn compile(&self) -> Compile;
     /// All its files, relative to its folder.
     fn render(&self, plan: &HostPlan) -> FileSet;
 }
 
+/// The call that says whether a printed source is one of its language. It runs in the host's folder, and the
+/// path of the source is its last argument. Nothing is linked or run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Compile {
+    /// The compiler.
+    pub program: &'static str,
+    /// What it is called with.
+    pub arguments: &'static [&'static str],
+    /// How the names of sources end.
+    pub extension: &'static str,
+    /// The standard, in the compiler's words; empty where there is none to choose.
+    pub standard: &'static str,
+    /// The variable that names the tree of the middleware, where the sources include one.
+    pub tree: Option<&'static str>,
+}
+
+impl Compile {
+    /// A source of C++ without a warning.
+    const fn cpp(standard: &'static str, tree: Option<&'static str>) -> Self {
+        const ARGUMENTS: &[&str] = &[
+            "-Wall",
+            "-Wextra",
+            "-Wpedantic",
+            "-Wconversion",
+            "-Wshadow",
+            "-Werror",
+            "-fsyntax-only",
+            "-Iinclude",
+        ];
+        Self { program: "g++", arguments: ARGUMENTS, extension: "cpp", standard, tree }
+    }
+}
+
 /// Every host there is, in the order in which people read of them.
-pub const HOSTS: [&dyn Host; 4] =
-    [&opendavinci::OpenDavinci, &opendavinci2014::OpenDavinci2014, &libcluon::Libcluon, &cpp::Cpp];
+pub const HOSTS: &[&dyn Host] =
+    &[&cpp::OpenDavinci, &cpp::OpenDavinci2014, &cpp::Libcluon, &cpp::Plain];
 
 /// The host of that name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static dyn Host> {
-    HOSTS.into_iter().find(|host| host.name() == name)
-}
-
-/// The hand-written files that C++ hosts share.
-mod runtime {
-    use crate::fileset::FileSet;
-
-    /// A file of `runtime/host/cpp` and where a host has it.
-    macro_rules! shared {
-        ($name:literal) => {
-            (
-                concat!("include/sensedsl/", $name),
-                include_str!(concat!("../../../../runtime/host/cpp/sensedsl/", $name)),
-            )
-        };
-    }
-
-    /// From C++98 on: what every host is made of.
-    const EVERY_HOST: [(&str, &str); 13] = [
-        shared!("cause.hpp"),
-        shared!("connection.hpp"),
-        shared!("decode.hpp"),
-        shared!("difference.hpp"),
-        shared!("link.hpp"),
-        shared!("memo.hpp"),
-        shared!("options.hpp"),
-        shared!("serial.hpp"),
-        shared!("session.hpp"),
-        shared!("text.hpp"),
-        shared!("thread.hpp"),
-        shared!("usb.hpp"),
-        shared!("wire.hpp"),
-    ];
-    /// For C++17.
-    pub(super) const BOARD: [(&str, &str); 2] = [shared!("board.hpp"), shared!("handlers.hpp")];
-
-    /// All that a host of any C++ includes.
-    pub(super) fn files() -> FileSet {
-        let mut files = FileSet::default();
-        for (path, text) in EVERY_HOST {
-            files.add(path, text);
-        }
-        files
-    }
+    HOSTS.iter().copied().find(|host| host.name() == name)
 }

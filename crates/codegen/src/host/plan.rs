@@ -1,17 +1,13 @@
 //! What every host application needs to know, whatever its language.
 //!
 //! In: one [`HostBoard`] a board, that is its wire schema and how its values are to be shown.
-//! Out: a [`HostPlan`]: messages sorted by direction with their numbers, sizes and texts decided.
+//! Out: a [`HostPlan`]: messages sorted by direction with their sizes, limits and texts decided.
 //! Hosts turn it into views of their language; templates only print those.
 
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Schema, ValueType};
-
-/// Distance between a wire identifier and the number of its message on an OpenDaVINCI or libcluon
-/// bus. Those busses are shared with other programs, whose messages have small numbers and four-digit ones.
-pub(super) const MESSAGE_NUMBER_BASE: u32 = 21_000;
 
 /// One board as the hosts see it.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,8 +69,6 @@ pub struct MessagePlan {
     pub name: String,
     /// Wire identifier.
     pub id: u8,
-    /// Number on a bus of messages, unique beside other programs' messages.
-    pub number: u32,
     /// Which way it travels.
     pub direction: Direction,
     /// What it carries.
@@ -145,7 +139,6 @@ impl DirectionPlan {
             MessagePlan {
                 name: item.name.clone(),
                 id: item.id,
-                number: MESSAGE_NUMBER_BASE + u32::from(item.id),
                 direction,
                 value: item.value,
                 scaling: Scaling::of(&shown),

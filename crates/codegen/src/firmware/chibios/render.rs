@@ -8,7 +8,7 @@ use crate::fileset::FileSet;
 use crate::print::print;
 
 /// The user's file as it is made once.
-const USER: &str = include_str!("../../../templates/firmware/chibios/user.c.txt");
+const USER: &str = include_str!("templates/user.c.txt");
 
 /// Declares a template that prints a [`BoardPlan`] under the name `b`.
 macro_rules! templates {
@@ -24,15 +24,15 @@ macro_rules! templates {
 }
 
 templates! {
-    Makefile = "firmware/chibios/Makefile.txt";
-    Readme = "firmware/chibios/README.md.txt";
-    Chconf = "firmware/chibios/chconf.h.txt";
-    Halconf = "firmware/chibios/halconf.h.txt";
-    Mcuconf = "firmware/chibios/mcuconf.h.txt";
-    UpConf = "firmware/chibios/up_conf.h.txt";
-    ModelHeader = "firmware/chibios/sense_model.h.txt";
-    Model = "firmware/chibios/sense_model.c.txt";
-    Hardware = "firmware/chibios/sense_hw.c.txt";
+    Makefile = "firmware/chibios/templates/Makefile.txt";
+    Readme = "firmware/chibios/templates/README.md.txt";
+    Chconf = "firmware/chibios/templates/chconf.h.txt";
+    Halconf = "firmware/chibios/templates/halconf.h.txt";
+    Mcuconf = "firmware/chibios/templates/mcuconf.h.txt";
+    UpConf = "firmware/chibios/templates/up_conf.h.txt";
+    ModelHeader = "firmware/chibios/templates/sense_model.h.txt";
+    Model = "firmware/chibios/templates/sense_model.c.txt";
+    Hardware = "firmware/chibios/templates/sense_hw.c.txt";
 }
 
 /// Prints everything: paths start with the board's name.

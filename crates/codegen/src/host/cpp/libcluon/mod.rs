@@ -1,0 +1,42 @@
+//! Host `libcluon`: one OD4 microservice a board, and the messages of all boards in one file.
+
+use super::view::{BoardView, DesignView};
+use super::{odvd, shared};
+use crate::fileset::FileSet;
+use crate::host::{Compile, Host, HostPlan};
+use crate::print::print;
+
+/// See the module.
+pub(in crate::host) struct Libcluon;
+
+templates! {
+    Service(board: BoardView) = "host/cpp/libcluon/service.cpp.txt";
+    CMakeLists(design: DesignView) = "host/cpp/libcluon/CMakeLists.txt.txt";
+    Readme(design: DesignView) = "host/cpp/libcluon/README.md.txt";
+}
+
+impl Host for Libcluon {
+    fn name(&self) -> &'static str {
+        "libcluon"
+    }
+
+    fn summary(&self) -> &'static str {
+        "OD4 microservice for libcluon (C++14) and its .odvd messages"
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++14", Some("LIBCLUON"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Service { board }));
+        }
+        files.add("sense.odvd", odvd(design));
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}

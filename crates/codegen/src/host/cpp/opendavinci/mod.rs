@@ -1,0 +1,84 @@
+//! The OpenDaVINCI hosts: one application a board, and one that prints its Containers.
+//!
+//! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for that of the paper's time, in C++98. What
+//! they have in common word for word is printed once and included by both.
+
+use super::view::{BoardView, DesignView};
+use super::{odvd, shared};
+use crate::fileset::FileSet;
+use crate::host::{Compile, Host, HostPlan};
+use crate::print::print;
+
+/// For OpenDaVINCI 4.
+pub(in crate::host) struct OpenDavinci;
+
+/// For the OpenDaVINCI of 2014.
+pub(in crate::host) struct OpenDavinci2014;
+
+templates! {
+    Messages(design: DesignView) = "host/cpp/opendavinci/v4/messages.h.txt";
+    Application(board: BoardView) = "host/cpp/opendavinci/v4/board.cpp.txt";
+    Printer(design: DesignView) = "host/cpp/opendavinci/v4/print.cpp.txt";
+    CMakeLists(design: DesignView) = "host/cpp/opendavinci/v4/CMakeLists.txt.txt";
+    Readme(design: DesignView) = "host/cpp/opendavinci/v4/README.md.txt";
+    Messages2014(design: DesignView) = "host/cpp/opendavinci/v2014/messages.h.txt";
+    Application2014(board: BoardView) = "host/cpp/opendavinci/v2014/board.cpp.txt";
+    Printer2014(design: DesignView) = "host/cpp/opendavinci/v2014/print.cpp.txt";
+    CMakeLists2014(design: DesignView) = "host/cpp/opendavinci/v2014/CMakeLists.txt.txt";
+    Readme2014(design: DesignView) = "host/cpp/opendavinci/v2014/README.md.txt";
+}
+
+impl Host for OpenDavinci {
+    fn name(&self) -> &'static str {
+        "opendavinci"
+    }
+
+    fn summary(&self) -> &'static str {
+        "OpenDaVINCI 4 application (C++11)"
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++11", Some("OPENDAVINCI"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Application { board }));
+        }
+        files.add("include/messages.h", print(&Messages { design }));
+        files.add("src/print.cpp", print(&Printer { design }));
+        files.add("sense.odvd", odvd(design));
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}
+
+impl Host for OpenDavinci2014 {
+    fn name(&self) -> &'static str {
+        "opendavinci2014"
+    }
+
+    fn summary(&self) -> &'static str {
+        "OpenDaVINCI application in the API of 2014 (C++98)"
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++98", Some("OPENDAVINCI2014"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Application2014 { board }));
+        }
+        files.add("include/messages.h", print(&Messages2014 { design }));
+        files.add("src/print.cpp", print(&Printer2014 { design }));
+        files.add("CMakeLists.txt", print(&CMakeLists2014 { design }));
+        files.add("README.md", print(&Readme2014 { design }));
+        files
+    }
+}

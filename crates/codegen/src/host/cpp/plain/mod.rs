@@ -1,0 +1,49 @@
+//! Host `cpp`: a header-only C++17 library and an example, no middleware.
+
+use super::runtime;
+use super::shared;
+use super::view::{BoardView, DesignView};
+use crate::fileset::FileSet;
+use crate::host::{Compile, Host, HostPlan};
+use crate::print::print;
+
+/// See the module.
+pub(in crate::host) struct Plain;
+
+templates! {
+    BoardHeader(board: BoardView) = "host/cpp/plain/board.hpp.txt";
+    Monitor(board: BoardView) = "host/cpp/plain/monitor.cpp.txt";
+    CMakeLists(design: DesignView) = "host/cpp/plain/CMakeLists.txt.txt";
+    Readme(design: DesignView) = "host/cpp/plain/README.md.txt";
+}
+
+impl Host for Plain {
+    fn name(&self) -> &'static str {
+        "cpp"
+    }
+
+    fn summary(&self) -> &'static str {
+        "C++17 headers and an example, no middleware"
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++17", None)
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for (path, text) in runtime::BOARD {
+            files.add(path, text);
+        }
+        for board in &design.boards {
+            let ident = &board.ident;
+            let header = format!("include/sense/{}/{ident}.hpp", design.ident);
+            files.add(header, print(&BoardHeader { board }));
+            files.add(format!("src/monitor_{ident}.cpp"), print(&Monitor { board }));
+        }
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}

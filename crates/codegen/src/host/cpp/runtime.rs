@@ -1,0 +1,39 @@
+//! The hand-written files that C++ hosts share, copied beside what is generated.
+
+use crate::fileset::FileSet;
+
+/// A file of `runtime/` and where a host has it.
+macro_rules! shared {
+    ($name:literal) => {
+        (concat!("include/sensedsl/", $name), include_str!(concat!("runtime/sensedsl/", $name)))
+    };
+}
+
+/// From C++98 on: what every host is made of.
+const EVERY_HOST: [(&str, &str); 13] = [
+    shared!("cause.hpp"),
+    shared!("connection.hpp"),
+    shared!("decode.hpp"),
+    shared!("difference.hpp"),
+    shared!("link.hpp"),
+    shared!("memo.hpp"),
+    shared!("options.hpp"),
+    shared!("serial.hpp"),
+    shared!("session.hpp"),
+    shared!("text.hpp"),
+    shared!("thread.hpp"),
+    shared!("usb.hpp"),
+    shared!("wire.hpp"),
+];
+
+/// For C++17.
+pub(super) const BOARD: [(&str, &str); 2] = [shared!("board.hpp"), shared!("handlers.hpp")];
+
+/// All that a host of any C++ includes.
+pub(super) fn files() -> FileSet {
+    let mut files = FileSet::default();
+    for (path, text) in EVERY_HOST {
+        files.add(path, text);
+    }
+    files
+}
