@@ -2,9 +2,9 @@
 #![expect(clippy::disallowed_methods, reason = "a benchmark reads its data")]
 
 use divan::Bencher;
-use sensedsl_codegen::host::HOSTS;
+use sensedsl_codegen::Selection;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{Files, Request, Selection, Unread, resolve};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -17,7 +17,7 @@ fn main() {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+    fn read(&self, _: &Selection<'_>) -> Result<String, Unread> {
         Err(Unread::Missing)
     }
 }
@@ -79,7 +79,7 @@ fn count(bencher: Bencher<'_, '_>, example: &str) {
 fn generate(bencher: Bencher<'_, '_>, example: &str) {
     let design = design(&text(example));
     let assignment = solved(&design);
-    bencher.bench(|| sensedsl_codegen::project("pipeline", &design, &assignment, HOSTS));
+    bencher.bench(|| sensedsl_codegen::project("pipeline", &design, &assignment, &Selection::ALL));
 }
 
 #[divan::bench(args = EXAMPLES)]
@@ -88,6 +88,6 @@ fn all(bencher: Bencher<'_, '_>, example: &str) {
     bencher.bench(|| {
         let design = design(&text);
         let assignment = solved(&design);
-        sensedsl_codegen::project("pipeline", &design, &assignment, HOSTS)
+        sensedsl_codegen::project("pipeline", &design, &assignment, &Selection::ALL)
     });
 }

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
-use sensedsl_codegen::host::HOSTS;
+use sensedsl_codegen::Selection;
 use sensedsl_diagnostics::render;
 use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
 use sensedsl_report::{csv, human, json, markdown, svg};
@@ -55,7 +55,8 @@ fn pipeline(input: &Input) {
                     let _ = markdown::markdown(design, &assignment);
                     let _ = svg::svg(design, &assignment);
                     let _ = json::wired(design, &assignment);
-                    let _ = sensedsl_codegen::project("mutant", design, &assignment, HOSTS);
+                    let _ =
+                        sensedsl_codegen::project("mutant", design, &assignment, &Selection::ALL);
                 }
                 Solved::Infeasible(conflict) => {
                     diagnostics.push(conflict.diagnostic(design));

@@ -19,7 +19,7 @@ fn the_firmware_page_names_its_mcus() {
         .collect();
     let mut served = BTreeSet::new();
     for line in profile::lines(profile::DEFAULT).unwrap() {
-        for part in line.profile.parts.iter().filter(|_| chibios::has_templates(&line.profile)) {
+        for part in line.profile.parts.iter().filter(|_| chibios::is_served(&line.profile)) {
             served.insert(part.trim_start_matches("STM32").to_owned());
         }
     }
@@ -61,7 +61,7 @@ fn boards_with_firmware_are_of_those_mcus() {
         let Ok(Target::Profile(profile)) = profile::find(profile::DEFAULT, entry.mcu) else {
             continue;
         };
-        if in_tree && chibios::has_templates(&profile) {
+        if in_tree && chibios::is_served(&profile) {
             let series = entry.mcu.get(5..9).unwrap();
             assert!(page.contains(series), "{}: docs/firmware.md lacks {series}", entry.name);
             count += 1;

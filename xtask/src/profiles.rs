@@ -12,6 +12,7 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::profile::{self, DmaRequest, LineFacts};
+use sensedsl_codegen::firmware::chibios::Names;
 
 /// The target whose profiles are compared.
 const TARGET: &str = "chibios";
@@ -31,11 +32,12 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let lines = profile::lines(TARGET).map_err(anyhow::Error::msg)?;
     let (mut differences, mut devices) = (Vec::new(), 0);
     for line in &lines {
-        for difference in in_tree(tree, line) {
+        let names = Names::of(&line.profile).map_err(anyhow::Error::msg)?;
+        for difference in in_tree(tree, line, &names) {
             differences.push(format!("{}: {difference}", line.profile.line));
         }
-        for device in &line.devices {
-            let macros = preprocess(tree, line, device)?;
+        for device in &names.line.devices {
+            let macros = preprocess(tree, &names, device)?;
             let found = compare(line, &macros);
             differences
                 .extend(found.into_iter().map(|difference| format!("{device}: {difference}")));
@@ -50,10 +52,10 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
 }
 
 /// The macros of the registry for an MCU.
-fn preprocess(tree: &Path, line: &LineFacts, device: &str) -> Result<Macros> {
+fn preprocess(tree: &Path, names: &Names, device: &str) -> Result<Macros> {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
-    let file = tree.join(&line.registry);
-    let defines = line.macros.iter().map(String::as_str).chain([device]);
+    let file = tree.join(&names.registry);
+    let defines = names.macros.iter().map(String::as_str).chain([device]);
     let output = Command::new(&compiler)
         .args(["-E", "-dM"])
         .args(defines.map(|name| format!("-D{name}")))
@@ -212,15 +214,15 @@ fn others(line: &LineFacts, macros: &Macros, differences: &mut Vec<String>) {
 }
 
 /// Files and driver versions that the tree does not have.
-fn in_tree(root: &Path, line: &LineFacts) -> Vec<String> {
-    let tree = &line.profile.tree;
+fn in_tree(root: &Path, line: &LineFacts, names: &Names) -> Vec<String> {
+    let tree = &names.tree;
     let files =
         [&tree.startup_mk, &tree.platform_mk, &tree.port_mk, &tree.osal_mk, &tree.rules_dir];
     let missing = files.into_iter().filter(|file| !root.join(file).exists());
     let mut differences: Vec<String> =
         missing.map(|file| format!("the tree has no {file}")).collect();
     let platform = std::fs::read_to_string(root.join(&tree.platform_mk)).unwrap_or_default();
-    let drivers = &line.profile.drivers;
+    let drivers = &names.drivers;
     let mut versions = vec![
         &drivers.adc,
         &drivers.dma,
@@ -237,7 +239,8 @@ fn in_tree(root: &Path, line: &LineFacts) -> Vec<String> {
     if !line.profile.dacs.is_empty() {
         versions.push(&drivers.dac);
     }
-    versions.extend(line.profile.usbs.iter().map(|usb| &usb.version));
+    let usbs = line.profile.usbs.iter().filter_map(|usb| names.usb(&usb.name));
+    versions.extend(usbs.map(|usb| &usb.version));
     let absent = versions.into_iter().filter(|version| !platform.contains(version.as_str()));
     differences.extend(absent.map(|version| format!("{} has no {version}", tree.platform_mk)));
     differences
@@ -275,6 +278,7 @@ mod tests {
         assert!(found.contains(&"TIM2 is in the profile alone".to_owned()), "{found:?}");
         let what = "channels of TIM2: 4 in the profile, 0 in the tree".to_owned();
         assert!(found.contains(&what), "{found:?}");
-        assert_eq!(in_tree(Path::new("/nowhere"), line).len(), 5 + 9);
+        let names = Names::of(&line.profile).unwrap();
+        assert_eq!(in_tree(Path::new("/nowhere"), line, &names).len(), 5 + 9);
     }
 }

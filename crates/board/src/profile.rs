@@ -16,9 +16,8 @@ use crate::registry::TARGETS;
 use file::{File, starts};
 pub use rates::{Costs, Cycles, Dividers, I2cTiming};
 pub use types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Drivers, Exception, Exti, ExtiRule,
-    Fallback, I2cMode, I2cs, Kernel, Off, Stream, StreamId, TargetProfile, Timer, TimerDriver,
-    Transport, Tree, Unit, Usb,
+    Adc, Adcs, Dac, DacOutput, Dacs, Debug, DmaRequest, Exception, Exti, ExtiRule, Fallback,
+    I2cMode, I2cs, Kernel, Own, Stream, TargetProfile, Timer, TimerUse, Transport, Unit, Usb,
 };
 pub(crate) use types::{pin, pins};
 
@@ -137,7 +136,7 @@ pub fn text(target: &str, mcu: &str) -> Option<&'static str> {
     entries.find(|entry| covers(entry.parts)).map(|entry| entry.text)
 }
 
-/// A line of a profile file: its facts, and how a tree is asked for them.
+/// A line of a profile file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineFacts {
     /// The facts.
@@ -146,12 +145,6 @@ pub struct LineFacts {
     pub units: Vec<String>,
     /// Units that the registry names and the profile leaves out on purpose.
     pub left_out: Vec<String>,
-    /// The file of the system's source that says what each MCU has.
-    pub registry: String,
-    /// The macros that the file needs, beside one of the next.
-    pub macros: Vec<String>,
-    /// The macros of the line's MCUs.
-    pub devices: Vec<String>,
 }
 
 /// All lines of the files there are for a target.
@@ -165,15 +158,10 @@ pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
         let names = File::parse(entry.text)?.lines().to_vec();
         for line in names {
             let file = File::parse(entry.text)?;
-            let (registry, macros) = file.registry();
-            let (registry, macros) = (registry.to_owned(), macros.to_vec());
             all.push(LineFacts {
                 units: line.units.split_whitespace().map(str::to_owned).collect(),
                 left_out: file.left_out(&line).map(str::to_owned).collect(),
-                devices: line.devices.clone(),
                 profile: file.into_profile(&line),
-                registry,
-                macros,
             });
         }
     }

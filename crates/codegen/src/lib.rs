@@ -3,7 +3,9 @@
 pub mod fileset;
 pub mod firmware;
 pub mod host;
+pub mod job;
 mod print;
 mod project;
+pub mod target;
 
-pub use project::project;
+pub use project::{Project, Selection, project};

@@ -10,3 +10,9 @@ pub(crate) fn print(template: &impl askama::Template) -> String {
     }
     text
 }
+
+/// Prints a template that is a part of a file: no line end stands behind it.
+pub(crate) fn block(template: &impl askama::Template) -> String {
+    let text = print(template);
+    text.trim_end_matches('\n').to_owned()
+}

@@ -371,7 +371,7 @@ fn link(
 fn vbus_is_wired(table: &Table, target: &Target) -> bool {
     let Target::Profile(profile) = target else { return true };
     let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
-    vbus.and_then(|vbus| table.pin(&vbus.pin)).is_none_or(|pin| pin.onboard.is_some())
+    vbus.and_then(|vbus| table.pin(vbus)).is_none_or(|pin| pin.onboard.is_some())
 }
 
 fn default_transport(profile: &TargetProfile, wired: &[catalog::Link]) -> Transport {

@@ -192,12 +192,24 @@ pub(crate) struct GenerateArgs {
     /// Only these host applications
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) host: Vec<String>,
+    /// Everything but this
+    #[arg(long, value_name = "PART", value_enum, num_args = 1.., value_delimiter = ',')]
+    pub(crate) without: Vec<Without>,
     /// Write nothing; exit 1 if the folder is not what would be written
     #[arg(long)]
     pub(crate) check: bool,
     /// Move as few wires as possible from this earlier answer (JSON)
     #[arg(long, value_name = "WIRING")]
     pub(crate) keep: Option<PathBuf>,
+}
+
+/// What `generate` can leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Without {
+    /// The firmware
+    Firmware,
+    /// The host applications
+    Host,
 }
 
 #[derive(Debug, Args)]

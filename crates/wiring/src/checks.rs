@@ -117,7 +117,7 @@ fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> 
         Withheld::Link => {
             let vbus = offers.iter().any(|offer| {
                 let usb = offer.board.profile().and_then(|profile| profile.usb(None));
-                usb.and_then(|usb| usb.vbus.as_ref()).is_some_and(|vbus| vbus.pin.as_str() == name)
+                usb.and_then(|usb| usb.vbus.as_ref()).is_some_and(|vbus| vbus.as_str() == name)
             });
             let help = if vbus {
                 "take another pin, or write `link { vbus = false; }` where the MCU need not notice the host"

@@ -308,6 +308,6 @@ fn is_of_usb_link(board: &Board, profile: &TargetProfile, pin: &Pin) -> bool {
     let mut links = links.filter(|link| link.transport == profile::Transport::Usb);
     let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
     profile.link_pins(profile::Transport::Usb, None).contains(&pin.name)
-        || board.link.vbus && vbus.is_some_and(|vbus| vbus.pin == pin.name)
+        || board.link.vbus && vbus.is_some_and(|vbus| *vbus == pin.name)
         || links.any(|link| link.pins.contains(&pin.name))
 }

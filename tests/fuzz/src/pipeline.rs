@@ -4,8 +4,8 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use sensedsl_certify::Subject;
+use sensedsl_codegen::Selection;
 use sensedsl_codegen::fileset::FileSet;
-use sensedsl_codegen::host::HOSTS;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
@@ -201,18 +201,19 @@ fn generate(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<FileSet> {
     count(Stage::Generate);
-    match sensedsl_codegen::project("robot", design, assignment, HOSTS) {
-        Ok(files) => {
-            count(Stage::Files);
-            checked(&files);
-            Some(files)
-        }
-        Err(why) => {
-            assert!(has_errors(&why), "no files, and no reason");
-            diagnostics.extend(why);
-            None
-        }
+    let made = sensedsl_codegen::project("robot", design, assignment, &Selection::ALL);
+    if !made.files.is_empty() {
+        checked(&made.files);
     }
+    if made.gaps.is_empty() {
+        count(Stage::Files);
+        return Some(made.files);
+    }
+    assert!(has_errors(&made.gaps), "no firmware, and no reason");
+    let is_firmware = |path: &str| path.starts_with("firmware/");
+    assert!(!made.files.iter().any(|(path, _)| is_firmware(path)), "a part of the firmware");
+    diagnostics.extend(made.gaps);
+    None
 }
 
 /// Paths stay inside the folder and can be written on any system; JSON and SVG parse; text is text.
@@ -284,9 +285,9 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let Solved::Wired(again) = wiring.solve(&Search { any: false }) else {
         panic!("a file that is laid out has no wiring");
     };
-    let again = sensedsl_codegen::project("robot", &design, &again, HOSTS);
-    for ((path, one), (_, two)) in files.iter().zip(again.as_ref().expect("files").iter()) {
+    let again = sensedsl_codegen::project("robot", &design, &again, &Selection::ALL);
+    for ((path, one), (_, two)) in files.iter().zip(again.files.iter()) {
         assert!(one == two, "{path} differs once the file is laid out");
     }
-    assert_eq!(again.as_ref(), Ok(files));
+    assert_eq!((&again.files, again.gaps.as_slice()), (files, [].as_slice()));
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_codegen::fileset::FileSet;
-use sensedsl_codegen::firmware::chibios;
+use sensedsl_codegen::target;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::{Search, Solved, Wiring};
@@ -88,9 +88,7 @@ fn generate_for(target: Option<&str>, text: &str) -> Result<FileSet, Vec<Diagnos
     let resolved = resolve(&request, &Tables);
     let Some(design) = resolved.design else { panic!("{:#?}", resolved.diagnostics) };
     match Wiring::new(&design, None).solve(&Search::default()) {
-        Solved::Wired(assignment) => {
-            chibios::plan(&design, &assignment).map(|plan| chibios::render(&plan))
-        }
+        Solved::Wired(assignment) => target::firmware(&design, &assignment),
         other @ (Solved::Infeasible(_) | Solved::Failed(_)) => panic!("{other:#?}"),
     }
 }

@@ -1,14 +1,13 @@
 //! The groups of a profile file and the units in them.
 //!
-//! A rule is a text in which `{name}` stands for the unit's name, `{n}` for the number in it and
-//! `{channel}` for the number of an output. What a unit states itself comes before the rule.
+//! What a unit states itself comes before the rule of its group.
 
 use serde::Deserialize;
 
 use super::rates::{Cycles, Dividers};
 use super::types::{
-    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, StreamId, Timer,
-    TimerDriver, Unit, Usb, Vbus, pin, pins,
+    Adc, Adcs, Dac, DacOutput, Dacs, DmaRequest, Exception, I2cs, Stream, Timer, TimerUse, Unit,
+    Usb, optional_pin, pins,
 };
 use crate::pin::PinName;
 
@@ -40,48 +39,12 @@ pub(crate) enum Streams {
     Each(Vec<Stream>),
 }
 
-/// Streams, and how the system's source names one.
-pub(crate) type Served = (Vec<Stream>, StreamId);
-
-fn apply(rule: &str, name: &str) -> String {
-    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    let number = name.strip_prefix(stem).unwrap_or_default();
-    rule.replace("{name}", name).replace("{n}", number)
-}
-
-/// How drivers and their switches are named.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DriverRule {
-    driver: String,
-    switch: String,
-}
-
-impl DriverRule {
-    fn timer(&self, name: &str, channels: Vec<u8>, complementary: Vec<u8>) -> Option<TimerDriver> {
-        (!channels.is_empty()).then(|| TimerDriver {
-            driver: apply(&self.driver, name),
-            switch: apply(&self.switch, name),
-            channels,
-            complementary,
-        })
-    }
-}
-
 /// `[timers]`
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimerGroup {
-    pub(crate) rules: TimerRules,
     pub(crate) units: Vec<TimerEntry>,
     pub(crate) source: String,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct TimerRules {
-    icu: DriverRule,
-    pwm: DriverRule,
 }
 
 #[derive(Debug, Deserialize)]
@@ -104,10 +67,13 @@ pub(crate) struct TimerEntry {
 }
 
 impl TimerEntry {
-    pub(crate) fn timer(self, rules: &TimerRules) -> Timer {
+    pub(crate) fn timer(self) -> Timer {
+        let usable = |channels: Vec<u8>, complementary| {
+            (!channels.is_empty()).then_some(TimerUse { channels, complementary })
+        };
         Timer {
-            icu: rules.icu.timer(&self.name, self.icu, Vec::new()),
-            pwm: rules.pwm.timer(&self.name, self.pwm, self.complementary),
+            icu: usable(self.icu, Vec::new()),
+            pwm: usable(self.pwm, self.complementary),
             name: self.name,
             bits: self.bits,
             clock: self.clock,
@@ -129,10 +95,6 @@ pub(crate) struct AdcGroup {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdcRules {
-    driver: String,
-    switch: String,
-    /// The option that names the stream; none where the driver decides.
-    dma: Option<String>,
     /// First and last input that can be a pin.
     inputs: [u8; 2],
 }
@@ -143,46 +105,35 @@ pub(crate) struct AdcEntry {
     name: String,
     #[serde(default)]
     lines: Vec<String>,
-    driver: Option<String>,
-    switch: Option<String>,
-    option: Option<String>,
     inputs: Option<[u8; 2]>,
     dma: Option<Streams>,
 }
 
 impl AdcEntry {
-    pub(crate) fn adc(self, rules: &AdcRules, served: &impl Fn(Streams) -> Served) -> Adc {
+    pub(crate) fn adc(self, rules: &AdcRules, served: &impl Fn(Streams) -> Vec<Stream>) -> Adc {
         let [first, last] = self.inputs.unwrap_or(rules.inputs);
-        let option = self.option.or_else(|| rules.dma.clone());
         Adc {
-            driver: apply(&self.driver.unwrap_or_else(|| rules.driver.clone()), &self.name),
-            switch: apply(&self.switch.unwrap_or_else(|| rules.switch.clone()), &self.name),
             inputs: (first..=last).collect(),
-            dma: request(self.name.clone(), &self.name, option.as_deref(), self.dma, served)
-                .into_iter()
-                .collect(),
+            dma: request(self.name.clone(), self.dma, served).into_iter().collect(),
             name: self.name,
         }
     }
 }
 
-/// A request, where a unit has streams. Without an option the driver always takes the first.
+/// A request, where a unit has streams.
 fn request(
-    request: String,
-    unit: &str,
-    option: Option<&str>,
+    name: String,
     streams: Option<Streams>,
-    served: &impl Fn(Streams) -> Served,
+    served: &impl Fn(Streams) -> Vec<Stream>,
 ) -> Option<DmaRequest> {
-    let (streams, id) = served(streams?);
-    let option = option.map(|option| apply(option, unit));
-    Some(DmaRequest { name: request, option, streams, id })
+    Some(DmaRequest { name, streams: served(streams?) })
 }
 
 /// `[i2cs]`
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct I2cGroup {
+    #[serde(default)]
     pub(crate) rules: UnitRules,
     pub(crate) facts: I2cs,
     pub(crate) units: Vec<UnitEntry>,
@@ -192,6 +143,7 @@ pub(crate) struct I2cGroup {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BusGroup {
+    #[serde(default)]
     pub(crate) rules: UnitRules,
     pub(crate) dividers: Option<Dividers>,
     pub(crate) units: Vec<UnitEntry>,
@@ -201,18 +153,11 @@ pub(crate) struct BusGroup {
 /// `[serials]`
 pub(crate) type SerialGroup = BusGroup;
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnitRules {
-    driver: String,
-    switch: String,
-    /// The macro of the clock.
+    /// The clock.
     clock: Option<String>,
-    /// Options that name streams; none where the driver always takes the first.
-    rx: Option<String>,
-    tx: Option<String>,
-    /// The option of a unit that has one stream for both.
-    dma: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -221,8 +166,6 @@ pub(crate) struct UnitEntry {
     name: String,
     #[serde(default)]
     lines: Vec<String>,
-    driver: Option<String>,
-    switch: Option<String>,
     clock: Option<String>,
     alternate: Option<u8>,
     #[serde(default)]
@@ -230,31 +173,21 @@ pub(crate) struct UnitEntry {
     rx: Option<Streams>,
     tx: Option<Streams>,
     dma: Option<Streams>,
-    rx_option: Option<String>,
-    tx_option: Option<String>,
-    #[serde(default)]
-    needs: Vec<String>,
 }
 
 impl UnitEntry {
-    pub(crate) fn unit(self, rules: &UnitRules, served: &impl Fn(Streams) -> Served) -> Unit {
+    pub(crate) fn unit(self, rules: &UnitRules, served: &impl Fn(Streams) -> Vec<Stream>) -> Unit {
         let name = &self.name;
-        let rule = |own: Option<String>, rule: &str| apply(&own.unwrap_or(rule.to_owned()), name);
-        let rx_option = self.rx_option.as_deref().or(rules.rx.as_deref());
-        let tx_option = self.tx_option.as_deref().or(rules.tx.as_deref());
         let requests = [
-            request(format!("{name}_RX"), name, rx_option, self.rx, served),
-            request(format!("{name}_TX"), name, tx_option, self.tx, served),
-            request(name.clone(), name, rules.dma.as_deref(), self.dma, served),
+            request(format!("{name}_RX"), self.rx, served),
+            request(format!("{name}_TX"), self.tx, served),
+            request(name.clone(), self.dma, served),
         ];
         Unit {
-            driver: rule(self.driver, &rules.driver),
-            switch: rule(self.switch, &rules.switch),
-            clock: self.clock.or_else(|| rules.clock.clone()).map(|clock| apply(&clock, name)),
+            clock: self.clock.or_else(|| rules.clock.clone()),
             alternate: self.alternate,
             exceptions: self.exceptions,
             dma: requests.into_iter().flatten().collect(),
-            needs: self.needs,
             name: self.name,
         }
     }
@@ -264,34 +197,23 @@ impl UnitEntry {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DacGroup {
-    pub(crate) rules: DacRules,
     pub(crate) facts: Dacs,
     pub(crate) units: Vec<DacEntry>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DacRules {
-    switch: String,
-}
-
-/// A converter with the driver objects of its outputs, from the first on.
+/// A converter with the number of its outputs.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DacEntry {
     name: String,
     #[serde(default)]
     lines: Vec<String>,
-    drivers: Vec<String>,
+    outputs: u8,
 }
 
 impl DacEntry {
-    pub(crate) fn dac(self, rules: &DacRules) -> Dac {
-        let outputs = self.drivers.into_iter().zip(1_u8..).map(|(driver, channel)| DacOutput {
-            channel,
-            driver,
-            switch: apply(&rules.switch, &self.name).replace("{channel}", &channel.to_string()),
-        });
+    pub(crate) fn dac(self) -> Dac {
+        let outputs = (1..=self.outputs).map(|channel| DacOutput { channel });
         Dac { outputs: outputs.collect(), name: self.name }
     }
 }
@@ -310,39 +232,23 @@ pub(crate) struct UsbEntry {
     name: String,
     #[serde(default)]
     lines: Vec<String>,
-    version: String,
-    driver: String,
-    switch: String,
     alternate: Option<u8>,
     #[serde(deserialize_with = "pins")]
     pins: Vec<PinName>,
-    #[serde(default)]
-    needs: Vec<String>,
-    vbus: Option<VbusEntry>,
+    #[serde(default, deserialize_with = "optional_pin")]
+    vbus: Option<PinName>,
     #[serde(default)]
     excludes: Vec<String>,
     endpoints: u8,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct VbusEntry {
-    #[serde(deserialize_with = "pin")]
-    pin: PinName,
-    without: String,
 }
 
 impl UsbEntry {
     pub(crate) fn usb(self, source: &str) -> Usb {
         Usb {
             name: self.name,
-            version: self.version,
-            driver: self.driver,
-            switch: self.switch,
             alternate: self.alternate,
             pins: self.pins,
-            needs: self.needs,
-            vbus: self.vbus.map(|vbus| Vbus { pin: vbus.pin, without: vbus.without }),
+            vbus: self.vbus,
             excludes: self.excludes,
             endpoints: self.endpoints,
             source: source.to_owned(),

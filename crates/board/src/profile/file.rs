@@ -9,12 +9,11 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::entries::{
-    AdcGroup, BusGroup, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerGroup, UsbGroup,
+    AdcGroup, BusGroup, DacEntry, DacGroup, Entry, I2cGroup, SerialGroup, Streams, TimerEntry,
+    TimerGroup, UsbGroup,
 };
 use super::rates::Costs;
-use super::types::{
-    Debug, Drivers, Exti, Kernel, Off, Stream, StreamId, TargetProfile, Timer, Tree,
-};
+use super::types::{Debug, Exti, Kernel, Own, Stream, TargetProfile, Timer};
 
 /// A file of `targets/`.
 #[derive(Debug, Deserialize)]
@@ -22,20 +21,14 @@ use super::types::{
 pub(crate) struct File {
     target: String,
     family: String,
-    registry: String,
-    #[serde(default)]
-    macros: Vec<String>,
     /// Units that the registry names and no line takes.
     #[serde(default)]
     left_out: String,
     line: Vec<Line>,
-    tree: Tree,
-    drivers: Drivers,
     kernel: Kernel,
     costs: Option<Costs>,
     exti: Exti,
     debug: Debug,
-    off: Off,
     #[serde(default)]
     multiplexer: Vec<Multiplexer>,
     timers: TimerGroup,
@@ -46,6 +39,9 @@ pub(crate) struct File {
     cans: Option<BusGroup>,
     dacs: Option<DacGroup>,
     usbs: Option<UsbGroup>,
+    /// What only the system's own generator reads.
+    #[serde(default)]
+    system: toml::Table,
 }
 
 /// Parts with the same peripherals.
@@ -55,8 +51,6 @@ pub(crate) struct Line {
     pub(crate) name: String,
     /// The starts of part numbers; `?` stands for any character.
     pub(crate) parts: Vec<String>,
-    /// The macros by which the system's source is told the MCU.
-    pub(crate) devices: Vec<String>,
     /// Letters of the GPIO ports.
     pub(crate) gpio_ports: String,
     /// Names of the units, with white space between.
@@ -64,8 +58,9 @@ pub(crate) struct Line {
     /// Units that the registry names and the line does not take.
     #[serde(default)]
     pub(crate) left_out: String,
-    /// Where the line has its own list of drivers.
-    pub(crate) platform_mk: Option<String>,
+    /// What only the system's own generator reads.
+    #[serde(default)]
+    pub(crate) system: toml::Table,
     pub(crate) source: String,
 }
 
@@ -93,8 +88,6 @@ struct Multiplexer {
     #[serde(default)]
     lines: Vec<String>,
     streams: Vec<Stream>,
-    #[serde(default)]
-    id: StreamId,
     source: String,
 }
 
@@ -130,29 +123,17 @@ impl File {
         &self.line
     }
 
-    /// Where the system's source says what each MCU has, and the macros that it needs beside that
-    /// of the MCU.
-    pub(crate) fn registry(&self) -> (&str, &[String]) {
-        (&self.registry, &self.macros)
-    }
-
     /// What of the file is for one line.
     pub(crate) fn into_profile(self, line: &Line) -> TargetProfile {
         let streams = |streams: Streams| match streams {
-            Streams::Each(list) => (list, StreamId::default()),
+            Streams::Each(list) => list,
             Streams::Behind(name) => {
                 let mut all = self.multiplexer.iter();
                 let found = all.find(|mux| mux.name == name && line.fits(&mux.lines));
-                found.map(|mux| (mux.streams.clone(), mux.id.clone())).unwrap_or_default()
+                found.map(|mux| mux.streams.clone()).unwrap_or_default()
             }
         };
-        let mut tree = self.tree;
-        if let Some(platform_mk) = &line.platform_mk {
-            tree.platform_mk.clone_from(platform_mk);
-        }
-        let timers = self.timers;
-        let timers: Vec<Timer> =
-            of_line(timers.units, line).map(|unit| unit.timer(&timers.rules)).collect();
+        let timers: Vec<Timer> = of_line(self.timers.units, line).map(TimerEntry::timer).collect();
         let mut kernel = self.kernel;
         kernel.timers.retain(|name| timers.iter().any(|timer| timer.name == *name));
         let (adc_rules, adc) = (self.adcs.rules, self.adcs.facts);
@@ -170,13 +151,10 @@ impl File {
             line: line.name.clone(),
             parts: line.parts.clone(),
             gpio_ports: line.gpio_ports.chars().collect(),
-            tree,
-            drivers: self.drivers,
             kernel,
             costs: self.costs,
             exti: self.exti,
             debug: self.debug,
-            off: self.off,
             timers,
             adc,
             adcs: adcs.collect(),
@@ -194,10 +172,7 @@ impl File {
             dacs: self
                 .dacs
                 .into_iter()
-                .flat_map(|group| {
-                    let rules = group.rules;
-                    of_line(group.units, line).map(move |unit| unit.dac(&rules))
-                })
+                .flat_map(|group| of_line(group.units, line).map(DacEntry::dac))
                 .collect(),
             usbs: self
                 .usbs
@@ -207,6 +182,7 @@ impl File {
                     of_line(group.units, line).map(move |unit| unit.usb(&source))
                 })
                 .collect(),
+            own: Own { file: self.system, line: line.system.clone() },
         }
     }
 
@@ -231,10 +207,8 @@ impl File {
                     problems.push(format!("{}: {unit} stands {count} times", line.name));
                 }
             }
-            let named =
-                [line.devices.is_empty(), line.parts.is_empty(), line.gpio_ports.is_empty()];
-            if named.contains(&true) {
-                problems.push(format!("{}: no devices, parts or ports", line.name));
+            if line.parts.is_empty() || line.gpio_ports.is_empty() {
+                problems.push(format!("{}: no parts or ports", line.name));
             }
         }
         for (name, lines) in &entries {
@@ -269,12 +243,9 @@ impl File {
 
     fn sources(&self) -> impl Iterator<Item = &str> {
         let groups = [
-            self.tree.source.as_str(),
-            self.drivers.source.as_str(),
             self.kernel.source.as_str(),
             self.exti.source.as_str(),
             self.debug.source.as_str(),
-            self.off.source.as_str(),
             self.timers.source.as_str(),
             self.adcs.facts.source.as_str(),
             self.i2cs.facts.source.as_str(),

@@ -7,6 +7,18 @@ use crate::pin::PinName;
 use crate::signal::{Function, Signal};
 
 impl TargetProfile {
+    /// The system's name: `chibios`.
+    #[must_use]
+    pub fn system(&self) -> &str {
+        self.name.rsplit_once('-').map_or(self.name.as_str(), |(system, _)| system)
+    }
+
+    /// The system's version: `21.11`.
+    #[must_use]
+    pub fn version(&self) -> &str {
+        self.name.rsplit_once('-').map_or("", |(_, version)| version)
+    }
+
     /// A timer by its name.
     #[must_use]
     pub fn timer(&self, name: &str) -> Option<&Timer> {

@@ -1,4 +1,4 @@
-//! The facts of a target profile, as its data file states them.
+//! The facts of a target profile: what silicon and system can do.
 
 use std::fmt;
 
@@ -21,10 +21,6 @@ pub struct TargetProfile {
     pub parts: Vec<String>,
     /// Letters of the GPIO ports.
     pub gpio_ports: Vec<char>,
-    /// Files of the system's tree.
-    pub tree: Tree,
-    /// Versions of the drivers.
-    pub drivers: Drivers,
     /// What the kernel takes.
     pub kernel: Kernel,
     /// What the runtime costs the processor, where it was counted.
@@ -33,8 +29,6 @@ pub struct TargetProfile {
     pub exti: Exti,
     /// Pins of the debug port.
     pub debug: Debug,
-    /// What the base configuration turns on unasked.
-    pub off: Off,
     /// Timers.
     pub timers: Vec<Timer>,
     /// What all converters have in common.
@@ -63,6 +57,18 @@ pub struct TargetProfile {
     pub dacs: Vec<Dac>,
     /// USB devices.
     pub usbs: Vec<Usb>,
+    /// What only the system's own generator reads.
+    pub own: Own,
+}
+
+/// What only a system's own generator reads, as the file states it: how the system spells things. Its form
+/// is the generator's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Own {
+    /// `[system]` of the file.
+    pub file: toml::Table,
+    /// `system` of the line.
+    pub line: toml::Table,
 }
 
 /// What carries frames between board and host.
@@ -75,57 +81,6 @@ pub enum Transport {
     Uart,
 }
 
-/// Files of the system's tree, relative to its root.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tree {
-    /// The core, as the compiler is told.
-    pub mcu: String,
-    /// Start-up code.
-    pub startup_mk: String,
-    /// The platform's drivers.
-    pub platform_mk: String,
-    /// The kernel's port.
-    pub port_mk: String,
-    /// The layer between drivers and kernel.
-    pub osal_mk: String,
-    /// Folder of the make rules.
-    pub rules_dir: String,
-    /// Where in the system's source the facts were read.
-    pub source: String,
-}
-
-/// Versions of the drivers; each chooses a variant of the generated code.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Drivers {
-    /// Analog-digital conversion.
-    pub adc: String,
-    /// CAN; empty where there is no driver.
-    #[serde(default)]
-    pub can: String,
-    /// Digital-analog conversion; empty where there is no driver.
-    #[serde(default)]
-    pub dac: String,
-    /// DMA.
-    pub dma: String,
-    /// Pin interrupts; empty where they belong to the pins.
-    #[serde(default)]
-    pub exti: String,
-    /// Pins.
-    pub gpio: String,
-    /// I²C.
-    pub i2c: String,
-    /// Serial ports.
-    pub serial: String,
-    /// SPI.
-    pub spi: String,
-    /// Timers.
-    pub timer: String,
-    /// Where in the system's source the facts were read.
-    pub source: String,
-}
-
 /// The kernel's clock.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -134,8 +89,6 @@ pub struct Kernel {
     pub timers: Vec<String>,
     /// What it takes when they are all gone; without one the last timer is not offered.
     pub fallback: Option<Fallback>,
-    /// The option that names the timer.
-    pub option: String,
     /// Where in the system's source the facts were read.
     pub source: String,
 }
@@ -185,16 +138,6 @@ pub struct Debug {
     pub source: String,
 }
 
-/// What the base configuration turns on unasked.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Off {
-    /// Switches to turn off unless they are used.
-    pub switches: Vec<String>,
-    /// Where in the system's source the facts were read.
-    pub source: String,
-}
-
 /// A timer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timer {
@@ -202,25 +145,21 @@ pub struct Timer {
     pub name: String,
     /// Width of the counter.
     pub bits: u8,
-    /// The macro of the clock that drives it.
+    /// The name of the clock that drives it, among those of the board's facts.
     pub clock: String,
     /// The usual alternate function of its pins.
     pub alternate: Option<u8>,
-    /// The input-capture driver; `None` where it cannot measure.
-    pub icu: Option<TimerDriver>,
-    /// The pulse-width driver.
-    pub pwm: Option<TimerDriver>,
+    /// What input capture can use; `None` where it cannot measure.
+    pub icu: Option<TimerUse>,
+    /// What pulses can use.
+    pub pwm: Option<TimerUse>,
     /// The hardware can count quadrature on channels 1 and 2.
     pub encoder: bool,
 }
 
-/// A driver of a timer.
+/// What a driver can use of a timer.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TimerDriver {
-    /// The driver object: `ICUD3`.
-    pub driver: String,
-    /// The option that turns it on.
-    pub switch: String,
+pub struct TimerUse {
     /// The channels it can use.
     pub channels: Vec<u8>,
     /// The channels whose inverted output it can use.
@@ -239,13 +178,11 @@ pub struct Adcs {
     pub resolution_bits: u8,
     /// Inputs in one conversion group.
     pub channels_max: u8,
-    /// The macro of the clock that drives the converters, where it is known.
+    /// The name of the clock that drives the converters, where it is known.
     pub clock: Option<String>,
     /// What that clock is divided by.
     #[serde(default = "one")]
     pub clock_divider: u32,
-    /// The option that chooses the divider, and its value.
-    pub clock_option: Option<[String; 2]>,
     /// Cycles of a conversion behind those of sampling, where they are known.
     pub conversion_cycles: Option<Cycles>,
     /// Where in the system's source the facts were read.
@@ -257,10 +194,6 @@ pub struct Adcs {
 pub struct Adc {
     /// `ADC1`.
     pub name: String,
-    /// The driver object.
-    pub driver: String,
-    /// The option that turns it on.
-    pub switch: String,
     /// Inputs that can be pins.
     pub inputs: Vec<u8>,
     /// DMA requests of the driver.
@@ -283,9 +216,6 @@ pub struct I2cs {
     pub speed_max_hz: u32,
     /// The shortest read the driver accepts.
     pub read_bytes_min: u8,
-    /// The option for how many milliseconds the driver holds the processor while a bus is busy,
-    /// where it does that.
-    pub busy_option: Option<String>,
     /// How the driver makes the bus clock; empty where it is told register values.
     #[serde(default)]
     pub modes: Vec<I2cMode>,
@@ -315,11 +245,7 @@ pub struct I2cMode {
 pub struct Unit {
     /// `I2C1`.
     pub name: String,
-    /// The driver object: `I2CD1`.
-    pub driver: String,
-    /// The option that turns it on.
-    pub switch: String,
-    /// The macro of the clock that drives it, where the generated code must know.
+    /// The name of the clock that drives it, where the generated code must know.
     pub clock: Option<String>,
     /// The usual alternate function of its pins.
     pub alternate: Option<u8>,
@@ -327,8 +253,6 @@ pub struct Unit {
     pub exceptions: Vec<Exception>,
     /// DMA requests of the driver.
     pub dma: Vec<DmaRequest>,
-    /// Options that must be on as well.
-    pub needs: Vec<String>,
 }
 
 /// A pin whose alternate function is not the usual one of the unit.
@@ -366,19 +290,6 @@ pub struct Dac {
 pub struct DacOutput {
     /// The output's number.
     pub channel: u8,
-    /// The driver object.
-    pub driver: String,
-    /// The option that turns it on.
-    pub switch: String,
-}
-
-/// How a USB device is told that a host is there.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Vbus {
-    /// The pin.
-    pub pin: PinName,
-    /// The option under which it takes a host for granted and leaves the pin alone.
-    pub without: String,
 }
 
 /// A USB device.
@@ -386,20 +297,12 @@ pub struct Vbus {
 pub struct Usb {
     /// `OTG1`.
     pub name: String,
-    /// The driver's version; it chooses the variant of the generated code.
-    pub version: String,
-    /// The driver object.
-    pub driver: String,
-    /// The option that turns it on.
-    pub switch: String,
     /// The alternate function of its pins.
     pub alternate: Option<u8>,
     /// The data lines: minus, plus.
     pub pins: Vec<PinName>,
-    /// Options that must be on as well.
-    pub needs: Vec<String>,
-    /// The pin by which it is told that a host is there, and the option that does without.
-    pub vbus: Option<Vbus>,
+    /// The pin by which it is told that a host is there.
+    pub vbus: Option<PinName>,
     /// Units that cannot work beside it.
     pub excludes: Vec<String>,
     /// Endpoints beside the control endpoint.
@@ -413,32 +316,8 @@ pub struct Usb {
 pub struct DmaRequest {
     /// `I2C1_RX`.
     pub name: String,
-    /// The option that names the stream; none where the system's source fixes it.
-    pub option: Option<String>,
     /// Streams that can serve it, best first.
     pub streams: Vec<Stream>,
-    /// How the option names a stream.
-    pub id: StreamId,
-}
-
-/// How the system's source names a stream: a text with `{controller}` and `{stream}`.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(transparent)]
-pub struct StreamId(String);
-
-impl Default for StreamId {
-    fn default() -> Self {
-        Self("STM32_DMA_STREAM_ID({controller}, {stream})".to_owned())
-    }
-}
-
-impl StreamId {
-    /// The name of a stream, given as `1,0`.
-    #[must_use]
-    pub fn of(&self, stream: &str) -> String {
-        let (controller, stream) = stream.split_once(',').unwrap_or_default();
-        self.0.replace("{controller}", controller).replace("{stream}", stream)
-    }
 }
 
 /// A DMA stream (or channel): `1,0` is stream 0 of controller 1.
@@ -479,4 +358,11 @@ pub(crate) fn pins<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Pin
         PinName::parse(text).ok_or_else(|| D::Error::custom(format!("`{text}` is no pin")))
     };
     texts.iter().map(read).collect()
+}
+
+/// Reads a pin name that may be absent.
+pub(crate) fn optional_pin<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<PinName>, D::Error> {
+    pin(deserializer).map(Some)
 }

@@ -1,3 +1,4 @@
-//! Firmware: the program on the board, for each operating system one module.
+//! Firmware: the program on the board, for each operating system a folder and a line in
+//! [`TARGETS`](crate::target::TARGETS).
 
 pub mod chibios;

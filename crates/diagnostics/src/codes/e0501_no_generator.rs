@@ -9,10 +9,11 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0501",
     severity: Severity::Error,
     title: "this kind cannot be generated yet",
-    explanation: r#"The wiring of every kind is solved, but the firmware generator emits code for some kinds only. Nothing
-was written.
+    explanation: r#"The wiring of every kind is solved, but firmware is generated for some kinds only. Nothing was written, so
+that a firmware which reads only some of the devices never looks complete.
 
-Way out: `sensedsl solve` gives the wiring; leave the device out of the file for `generate`.
+Way out: `sensedsl generate --without firmware` writes everything else, the host applications among
+it; for firmware, leave the device out of the file.
 "#,
 };
 
@@ -24,5 +25,5 @@ pub const CODE: Code = Code(&INFO);
 pub fn no_generator(span: Span, kind: &str, can: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no firmware can be generated for {kind} yet"))
         .here(format!("solved, but only {can} can be generated"))
-        .help("`sensedsl solve` gives the wiring; leave this device out for `generate`")
+        .help("`generate --without firmware` writes the rest; or leave this device out")
 }

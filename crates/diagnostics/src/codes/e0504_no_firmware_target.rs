@@ -12,7 +12,8 @@ pub const INFO: CodeInfo = CodeInfo {
     explanation: r#"Firmware needs a target and a board that ChibiOS has a folder for. A table of your own says which MCU
 it describes by a first line such as `# mcu = STM32F407VGT6`.
 
-Way out: say which MCU the table describes, or use `sensedsl solve` for the wiring alone.
+Way out: say which MCU the table describes. `sensedsl generate --without firmware` writes everything
+else, the host applications among it.
 "#,
 };
 
@@ -23,5 +24,5 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn no_firmware_target(span: Span, board: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no firmware can be generated for {board}: {why}"))
-        .help("`sensedsl solve` gives the wiring alone")
+        .help("`generate --without firmware` writes the rest")
 }

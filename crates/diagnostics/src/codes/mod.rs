@@ -90,6 +90,7 @@ codes! {
     e0508_file_exists,
     e0509_not_written,
     e0510_unfinished,
+    e0511_unknown_port,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

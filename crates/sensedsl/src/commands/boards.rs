@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::table::Occupation;
 use sensedsl_board::{catalog, mcu};
-use sensedsl_codegen::firmware::chibios;
+use sensedsl_codegen::target;
 use sensedsl_session::printed_board;
 
 use super::table::{INDENT, table};
@@ -86,14 +86,11 @@ fn row(board: &catalog::Entry) -> [String; 8] {
     ]
 }
 
-/// The system that there is firmware for. It takes a profile of the MCU's family, templates for its
-/// drivers, and the tree's folders for the board.
+/// The system that there is firmware for.
 pub(crate) fn firmware(board: &catalog::Entry) -> Option<String> {
-    let in_tree = board.board().is_ok_and(|facts| facts.chibios.is_some());
-    match profile::find(profile::DEFAULT, board.mcu) {
-        Ok(Target::Profile(profile)) if in_tree && chibios::has_templates(&profile) => {
-            Some(profile.name)
-        }
-        _ => None,
-    }
+    let Ok(Target::Profile(profile)) = profile::find(profile::DEFAULT, board.mcu) else {
+        return None;
+    };
+    let facts = board.board().ok();
+    target::serving(Some(&profile), facts.as_ref()).is_ok().then_some(profile.name)
 }

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::host::{HOSTS, Host, find};
+use sensedsl_codegen::{Selection, target};
 use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
     e0509_not_written, e0510_unfinished,
@@ -19,7 +20,7 @@ use sensedsl_wiring::assignment::Assignment;
 use super::input;
 use super::output::{self, Changes};
 use crate::Status;
-use crate::cli::GenerateArgs;
+use crate::cli::{GenerateArgs, Without};
 use crate::files::tree::{Failure, Output, Trouble};
 use crate::files::{lock, shown};
 use crate::terminal::Terminal;
@@ -28,16 +29,16 @@ use crate::terminal::Terminal;
 const NAMED_MAX: usize = 5;
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status> {
+    if !args.host.is_empty() && args.without.contains(&Without::Host) {
+        bail!("--host asks for what --without host leaves out");
+    }
     let keep = input::keep(args.keep.as_deref())?;
     let snapshot = input::load(&args.file, &args.on);
     let sources = snapshot.sources();
     let answer = snapshot.solve(&Ask { keep: keep.as_ref(), ..Ask::default() });
     let (design, assignment) = input::wired(&answer, &snapshot, &args.on, terminal)?;
     let mut diagnostics = answer.diagnostics.clone();
-    let name = design_name(&args.file);
-    let files = hosts(args, design)
-        .and_then(|hosts| sensedsl_codegen::project(&name, design, assignment, &hosts));
-    let files = match files {
+    let files = match files(args, design, assignment) {
         Ok(files) => files,
         Err(mut reports) => {
             diagnostics.append(&mut reports);
@@ -60,6 +61,20 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     };
     report(args, terminal, design, assignment, &changes)?;
     Ok(Status::Done)
+}
+
+/// All that is to be written. A gap of the firmware is an error: whoever can do without says so.
+fn files(
+    args: &GenerateArgs,
+    design: &Design,
+    assignment: &Assignment,
+) -> Result<FileSet, Vec<Diagnostic>> {
+    let hosts = hosts(args, design)?;
+    let firmware = !args.without.contains(&Without::Firmware);
+    let wanted = Selection { firmware, hosts: &hosts };
+    let name = design_name(&args.file);
+    let made = sensedsl_codegen::project(&name, design, assignment, &wanted);
+    if made.gaps.is_empty() { Ok(made.files) } else { Err(made.gaps) }
 }
 
 /// What people call the design: what its file is called.
@@ -139,6 +154,9 @@ fn trouble_taking(trouble: Trouble, at: Span, folder: &str) -> Result<Refusal> {
 }
 
 fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>, Vec<Diagnostic>> {
+    if args.without.contains(&Without::Host) {
+        return Ok(Vec::new());
+    }
     if args.host.is_empty() {
         return Ok(HOSTS.to_vec());
     }
@@ -220,10 +238,15 @@ fn report(
     }
     terminal.note(&format!("  wiring   {}\n", output::typed(&args.output, "wiring.md")))?;
     terminal.note(&format!("  picture  {}\n", output::typed(&args.output, "pinout.svg")))?;
+    if args.without.contains(&Without::Firmware) {
+        return Ok(());
+    }
     terminal.note("next:\n")?;
     for (_, board) in assignment.used(design) {
         let folder = output::typed(&args.output, &format!("firmware/{}", board.name.value));
-        terminal.note(&format!("  make -C {folder} CHIBIOS=/path/to/ChibiOS\n"))?;
+        if let Some(target) = board.profile().and_then(target::of) {
+            terminal.note(&format!("  {}\n", target.build(&folder)))?;
+        }
     }
     Ok(())
 }

@@ -22,10 +22,9 @@ pub(super) struct TreePlan {
 
 pub(super) fn plan(context: &Context<'_>) -> TreePlan {
     let (profile, chibios) = (context.profile, context.chibios);
-    let tree = &profile.tree;
-    let version = profile.name.rsplit_once('-').map_or("", |(_, version)| version);
+    let tree = &context.names.tree;
     TreePlan {
-        version: version.to_owned(),
+        version: profile.version().to_owned(),
         mcu: tree.mcu.clone(),
         startup_mk: tree.startup_mk.clone(),
         platform_mk: tree.platform_mk.clone(),

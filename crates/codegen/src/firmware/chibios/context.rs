@@ -1,36 +1,26 @@
-//! One board with everything its parts are planned from, and the words for pins and modes.
+//! One board with everything its sections are planned from, and the words for pads and modes.
+
+use std::collections::BTreeSet;
 
 use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
-use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::profile::{Fallback, TargetProfile};
+use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::design::{Board, Design, Device};
-use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::Role;
-use sensedsl_timing::{Starts, starts};
-use sensedsl_wire::Schema;
-use sensedsl_wiring::assignment::{BoardAssignment, DeviceWiring, Wire};
+use sensedsl_diagnostics::codes::{e0506_hardware_limit, e0511_unknown_port};
+use sensedsl_model::kind::KindName;
 
-use super::tasks::Cycle;
+use super::names::Names;
+use crate::job::{BoardJob, JobDevice, Pad};
 
 /// One board on its way to a plan.
 pub(super) struct Context<'a> {
-    pub(super) board: &'a Board,
+    pub(super) job: &'a BoardJob<'a>,
     pub(super) profile: &'a TargetProfile,
     pub(super) chibios: &'a catalog::Chibios,
-    pub(super) wiring: &'a BoardAssignment,
-    /// In file order; the order of the schema.
-    pub(super) devices: Vec<Wired<'a>>,
-    pub(super) schema: Schema,
-    starts: Starts,
-}
-
-/// A device with its wires.
-#[derive(Clone, Copy)]
-pub(super) struct Wired<'a> {
-    pub(super) device: &'a Device,
-    pub(super) wiring: &'a DeviceWiring,
+    pub(super) names: Names,
+    /// The timer that the kernel takes; none for the core's own tick.
+    pub(super) kernel_timer: Option<String>,
 }
 
 /// How one pad is set up. The order is the natural one of the pins.
@@ -53,87 +43,80 @@ pub(super) enum Drive {
 }
 
 impl<'a> Context<'a> {
-    /// What is missing for firmware, in words, where something is.
-    pub(super) fn new(
-        design: &'a Design,
-        board: &'a Board,
-        wiring: &'a BoardAssignment,
-    ) -> Result<Self, &'static str> {
-        let profile = board.profile().ok_or("its target is `none`")?;
-        let facts = board.facts.as_ref();
-        let chibios = facts
-            .and_then(|facts| facts.chibios.as_ref())
-            .ok_or("no ChibiOS board is known for its MCU")?;
-        let indices: Vec<_> = wiring.devices.iter().map(|wiring| wiring.device).collect();
-        let devices = wiring
-            .devices
-            .iter()
-            .filter_map(|wiring| Some(Wired { device: design.device(wiring.device)?, wiring }));
-        Ok(Self {
-            board,
-            profile,
-            chibios,
-            wiring,
-            devices: devices.collect(),
-            schema: design.schema(wiring.board, &indices),
-            starts: starts(design, wiring),
-        })
+    /// None where [`super::Chibios`] refuses the board.
+    pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
+        let profile = job.profile?;
+        let chibios = job.board.facts.as_ref()?.chibios.as_ref()?;
+        let names = Names::of(profile).ok()?;
+        let kernel_timer = kernel_timer(job, profile);
+        Some(Self { job, profile, chibios, names, kernel_timer })
     }
 
-    /// What the device has in common with others of one thread.
-    pub(super) fn cycle(&self, unit: &str, wired: &Wired<'_>) -> Cycle {
-        let Wired { device, wiring } = wired;
-        let start_ms = self.starts.get(&wiring.device).copied().unwrap_or_default();
-        let (delay_ms, prio) = (device.delay_ms, device.prio);
-        Cycle { unit: unit.to_owned(), delay_ms, prio, start_ms }
+    /// The devices of a kind, in the file's order.
+    pub(super) fn devices(&self, kind: KindName) -> impl Iterator<Item = &'a JobDevice<'a>> {
+        let of_kind = move |one: &&JobDevice<'_>| one.device.kind.name() == kind;
+        self.job.devices.iter().filter(of_kind)
     }
 
-    /// The macros of clocks that the computed times are true for.
-    pub(super) fn clocks(&self) -> impl Iterator<Item = &str> {
-        let has_analog =
-            self.devices.iter().any(|wired| matches!(wired.device.kind, Kind::Analog(_)));
-        let adc = self.profile.adc.clock.as_deref().filter(|_| has_analog);
-        let core = self.profile.costs.as_ref().map(|costs| costs.clock.as_str());
-        let link = self.wiring.link.as_ref().and_then(|link| self.profile.unit(&link.unit));
-        adc.into_iter().chain(core).chain(link.and_then(|unit| unit.clock.as_deref()))
+    /// A pad in a mode. A pin of which nobody can tell the port is reported.
+    pub(super) fn pad(
+        &self,
+        pad: &Pad<'_>,
+        mode: &str,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<PadPlan> {
+        let name = &pad.pin.name;
+        let Some(line) = self.line(name) else {
+            let ports: String = self.profile.gpio_ports.iter().collect();
+            let span = self.job.board.table_span(pad.pin.range.clone());
+            let report = e0511_unknown_port::unknown_port(span, name.as_str(), &ports);
+            diagnostics.push(report);
+            return None;
+        };
+        Some(PadPlan { pin: name.clone(), line, mode: mode.to_owned() })
     }
 
-    /// The pin of a role.
-    pub(super) fn pin(&self, wired: &Wired<'_>, role: Role) -> Option<&'a PinName> {
-        let wire = wired.wiring.wires.iter().find(|wire| wire.role == role)?;
-        Some(&wire.pin(self.board)?.name)
-    }
-
-    /// The wire of a role.
-    pub(super) fn wire(&self, wired: &Wired<'a>, role: Role) -> Option<&'a Wire> {
-        wired.wiring.wires.iter().find(|wire| wire.role == role)
-    }
-
-    /// A pad with the alternate function of its wire. The table's number comes first, then the
-    /// profile's; none is a mistake that is reported.
+    /// A pad with the alternate function of its wire. None that is known is a mistake that is reported.
     pub(super) fn alternate_pad(
         &self,
-        wire: &Wire,
+        pad: &Pad<'_>,
         drive: Drive,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<PadPlan> {
-        let pin = &wire.pin(self.board)?.name;
-        let usage = wire.usage(self.board)?;
-        let number = usage.alternate.or_else(|| self.profile.alternate(&usage.signal, pin));
-        let Some(number) = number else {
-            let span = self.board.table_span(usage.range.clone());
-            let message = format!("the alternate function of {} at {pin} is unknown", usage.signal);
+        let (name, usage) = (&pad.pin.name, pad.usage?);
+        let Some(number) = pad.alternate else {
+            let span = self.job.board.table_span(usage.range.clone());
+            let message =
+                format!("the alternate function of {} at {name} is unknown", usage.signal);
             let help = format!("write it into the table: `{}@5` for number 5", usage.spelled);
             diagnostics.push(e0506_hardware_limit::hardware_limit(span, &message, &help));
             return None;
         };
-        Some(pad(pin, &alternate_mode(number, drive)))
+        self.pad(pad, &alternate_mode(number, drive), diagnostics)
     }
 
-    /// The stream that the wiring gives to a DMA request.
-    pub(super) fn stream(&self, unit: &str, request: &str) -> Option<&'a str> {
-        let mut dma = self.wiring.dma.iter();
-        dma.find(|dma| dma.unit == unit && dma.request == request).map(|dma| dma.stream.as_str())
+    /// The line of a pin, where the MCU has its port.
+    pub(super) fn line(&self, pin: &PinName) -> Option<String> {
+        let (port, number) = (pin.port()?, pin.number()?);
+        let is_known = self.profile.gpio_ports.contains(&port) && number < PADS_OF_PORT;
+        is_known.then(|| format!("PAL_LINE(GPIO{port}, {number}U)"))
+    }
+}
+
+/// Pads of one port.
+const PADS_OF_PORT: u8 = 16;
+
+/// The first timer that no device has; none for the core's tick.
+fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
+    let units: BTreeSet<UnitName> =
+        job.devices.iter().filter_map(|device| device.unit).map(UnitName::new).collect();
+    let kernel = &profile.kernel;
+    let is_free = |timer: &&String| units.iter().all(|unit| unit.as_str() != timer.as_str());
+    let free = kernel.timers.iter().find(is_free);
+    match kernel.fallback {
+        Some(Fallback::Systick) => free.cloned(),
+        // Without a fallback the wiring has kept one free.
+        None => free.or(kernel.timers.first()).cloned(),
     }
 }
 
@@ -145,15 +128,4 @@ pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
         Drive::Fast => " | PAL_STM32_OSPEED_HIGHEST",
     };
     format!("PAL_MODE_ALTERNATE({number}){extra}")
-}
-
-/// A pad in a mode.
-pub(super) fn pad(pin: &PinName, mode: &str) -> PadPlan {
-    PadPlan { pin: pin.clone(), line: line(pin), mode: mode.to_owned() }
-}
-
-/// The line of a pin. Pins of these MCUs are all of a port and a number.
-pub(super) fn line(pin: &PinName) -> String {
-    let (port, number) = (pin.port().unwrap_or('A'), pin.number().unwrap_or(0));
-    format!("PAL_LINE(GPIO{port}, {number}U)")
 }

@@ -1,12 +1,13 @@
 //! The link to the host, its button, and how often a report goes out.
 
+use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_model::design::Transport;
 use sensedsl_wire::Direction;
 
-use super::context::{Context, Drive, PadPlan, alternate_mode, line, pad};
-use super::tasks::TaskPlan;
+use super::context::{Context, Drive, PadPlan, alternate_mode};
+use super::plan::TaskPlan;
 
 /// The reporter's cycle where nothing asks for another.
 const REPORT_MS: u32 = 10;
@@ -17,7 +18,7 @@ pub(super) enum LinkPlan {
     /// A USB device: its driver and the options that it needs.
     Usb { driver: String, switches: Vec<String> },
     /// A serial port.
-    Uart { unit: String, driver: String, switch: String, baud: u32 },
+    Uart { unit: String, driver: String, switches: Vec<String>, baud: u32 },
 }
 
 /// A button that asks for frames at the start.
@@ -37,6 +38,13 @@ impl LinkPlan {
     pub(super) fn driver(&self) -> &str {
         match self {
             Self::Usb { driver, .. } | Self::Uart { driver, .. } => driver,
+        }
+    }
+
+    /// The options that it needs.
+    pub(super) fn switches(&self) -> &[String] {
+        match self {
+            Self::Usb { switches, .. } | Self::Uart { switches, .. } => switches,
         }
     }
 
@@ -62,14 +70,14 @@ pub(super) fn plan(
     pads: &mut Vec<PadPlan>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<LinkPlan> {
-    let plan = match context.board.link.transport {
+    let plan = match context.job.board.link.transport {
         Transport::Usb => usb(context, pads),
         Transport::Uart => uart(context, pads, diagnostics),
         Transport::None => None,
     };
     if plan.is_none() {
-        let name = &context.board.name;
-        let why = match context.board.link.transport {
+        let name = &context.job.board.name;
+        let why = match context.job.board.link.transport {
             Transport::None => "it has no link to send reports over (`transport = none`)",
             Transport::Usb | Transport::Uart => "its target has no driver for the link",
         };
@@ -80,14 +88,18 @@ pub(super) fn plan(
 
 fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
     let usb = context.profile.usb(None)?;
+    let names = context.names.usb(&usb.name)?;
     if let Some(number) = usb.alternate {
         let mode = alternate_mode(number, Drive::Fast);
-        pads.extend(usb.pins.iter().map(|pin| pad(pin, &mode)));
+        let pad = |pin: &PinName| {
+            Some(PadPlan { pin: pin.clone(), line: context.line(pin)?, mode: mode.clone() })
+        };
+        pads.extend(usb.pins.iter().filter_map(pad));
     }
-    let vbus = usb.vbus.as_ref().filter(|_| !context.board.link.vbus);
-    let without = vbus.map(|vbus| &vbus.without);
-    let switches = std::iter::once(&usb.switch).chain(&usb.needs).chain(without).cloned();
-    Some(LinkPlan::Usb { driver: usb.driver.clone(), switches: switches.collect() })
+    let vbus = usb.vbus.as_ref().filter(|_| !context.job.board.link.vbus);
+    let without = vbus.and(names.without_vbus.as_ref());
+    let switches = std::iter::once(&names.switch).chain(&names.needs).chain(without).cloned();
+    Some(LinkPlan::Usb { driver: names.driver.clone(), switches: switches.collect() })
 }
 
 fn uart(
@@ -95,44 +107,42 @@ fn uart(
     pads: &mut Vec<PadPlan>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<LinkPlan> {
-    let link = context.wiring.link.as_ref()?;
+    let link = context.job.link.as_ref()?;
     let unit = context.profile.serials.iter().find(|serial| serial.name == link.unit)?;
-    for wire in &link.wires {
-        pads.extend(context.alternate_pad(wire, Drive::Plain, diagnostics));
+    for pad in &link.pads {
+        pads.extend(context.alternate_pad(pad, Drive::Plain, diagnostics));
     }
     Some(LinkPlan::Uart {
         unit: unit.name.clone(),
-        driver: unit.driver.clone(),
-        switch: unit.switch.clone(),
-        baud: context.board.link.baud,
+        driver: context.names.driver(&unit.name)?,
+        switches: context.names.switches(&unit.name),
+        baud: context.job.board.link.baud,
     })
 }
 
 /// The board's own button, unless a device has its pin. Another board with the same MCU may have
 /// anything there.
 pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
-    let button = context.board.facts.as_ref()?.button.as_ref();
-    let button = button.filter(|_| context.board.built_in)?;
-    let wires = context.devices.iter().flat_map(|wired| &wired.wiring.wires);
-    let mut wires = wires.chain(context.wiring.link.iter().flat_map(|link| &link.wires));
-    let is_taken =
-        wires.any(|wire| wire.pin(context.board).is_some_and(|pin| pin.name == button.pin));
-    (!is_taken).then(|| ButtonPlan {
+    let button = context.job.board.facts.as_ref()?.button.as_ref();
+    let button = button.filter(|_| context.job.board.built_in)?;
+    let is_taken = context.job.all_pads().any(|pad| pad.pin.name == button.pin);
+    let line = context.line(&button.pin).filter(|_| !is_taken)?;
+    Some(ButtonPlan {
         pin: button.pin.to_string(),
-        line: line(&button.pin),
+        line,
         level: if button.active_high { "PAL_HIGH" } else { "PAL_LOW" },
     })
 }
 
 /// How long the reporter waits for the rest of a frame.
 pub(super) fn finish_ms(context: &Context<'_>, link: &LinkPlan) -> u32 {
-    let frame_bytes = context.schema.frame_bytes_max(Direction::Sensor);
+    let frame_bytes = context.job.schema.frame_bytes_max(Direction::Sensor);
     sensedsl_timing::finish_ms(frame_bytes, (!link.is_usb()).then(|| link.baud()))
 }
 
 /// As often as something can become due, at most as often as the link allows.
 pub(super) fn report_ms(context: &Context<'_>, tasks: &[TaskPlan]) -> u32 {
-    if let Some(rate_hz) = context.board.link.rate_hz {
+    if let Some(rate_hz) = context.job.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
     }
     tasks.iter().map(|task| task.delay_ms).fold(REPORT_MS, u32::min).max(1)

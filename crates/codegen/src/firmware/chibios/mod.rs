@@ -1,23 +1,82 @@
 //! ChibiOS firmware: tables for the hand-written runtime, configuration as changes to the user's tree.
 //!
-//! In: a design and its wiring. Out: for each board that carries a device a folder with a Makefile,
-//! `cfg/`, `generated/`, `user/` and a copy of the runtime. Everything is decided in [`plan`] (one
-//! file per concern), from the target profile's data; the templates only print. What the hardware
-//! or this generator cannot do comes back as diagnostics, and then there is no plan.
+//! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime.
+//! Each driver of the system is a folder here and adds a section ([`section`]); `plan.rs` puts the sections together
+//! and looks into none; the templates only print. Names of the system are in the `[system]` part of a
+//! profile ([`names`]). What the hardware or the system cannot do comes back as diagnostics, and then there are no files.
 
-mod analog;
+mod adc;
 mod board;
 mod context;
-mod guards;
 mod i2c;
 mod icu;
 mod link;
+mod names;
 mod plan;
+mod pulse;
 mod render;
 mod runtime;
 mod schema;
+mod section;
 mod settings;
-mod tasks;
 
-pub use plan::{FirmwarePlan, has_templates, plan};
-pub use render::render;
+use sensedsl_board::catalog;
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+
+use crate::fileset::FileSet;
+use crate::job::BoardJob;
+use crate::target::Target;
+use context::Context;
+pub use names::Names;
+
+/// The target `chibios`.
+pub struct Chibios;
+
+impl Target for Chibios {
+    fn name(&self) -> &'static str {
+        "chibios"
+    }
+
+    /// An MCU is served where code is made for the versions of all drivers, also of those that a design does not
+    /// use: of no other MCU has a firmware been built.
+    fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String> {
+        if facts.is_none_or(|facts| facts.chibios.is_none()) {
+            return Some("no ChibiOS board is known for its MCU".to_owned());
+        }
+        unserved(profile)
+    }
+
+    fn kinds(&self) -> Vec<KindName> {
+        section::kinds().collect()
+    }
+
+    fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        let context = Context::new(job);
+        let plan = context.and_then(|context| plan::plan(&context, &mut diagnostics));
+        match plan {
+            Some(plan) if diagnostics.is_empty() => Ok(render::render(&plan)),
+            _ => Err(diagnostics),
+        }
+    }
+
+    fn build(&self, folder: &str) -> String {
+        format!("make -C {folder} CHIBIOS=/path/to/ChibiOS")
+    }
+}
+
+/// A driver of the profile's MCUs that there is no code for, in words.
+fn unserved(profile: &TargetProfile) -> Option<String> {
+    match Names::of(profile) {
+        Ok(names) => section::unserved(&names.drivers),
+        Err(message) => Some(format!("its profile is damaged: {message}")),
+    }
+}
+
+/// Whether code is made for the drivers of the profile's MCUs.
+#[must_use]
+pub fn is_served(profile: &TargetProfile) -> bool {
+    unserved(profile).is_none()
+}

@@ -2,8 +2,9 @@
 
 use askama::Template;
 
-use super::plan::{BoardPlan, FirmwarePlan};
+use super::plan::BoardPlan;
 use super::runtime;
+use super::section::PERIPHERALS;
 use crate::fileset::FileSet;
 use crate::print::print;
 
@@ -35,17 +36,8 @@ templates! {
     Hardware = "firmware/chibios/templates/sense_hw.c.txt";
 }
 
-/// Prints everything: paths start with the board's name.
-#[must_use]
-pub fn render(plan: &FirmwarePlan) -> FileSet {
-    let mut all = FileSet::default();
-    for board in &plan.boards {
-        all.merge_under(&board.name, render_board(board));
-    }
-    all
-}
-
-fn render_board(b: &BoardPlan) -> FileSet {
+/// Prints everything.
+pub(super) fn render(b: &BoardPlan) -> FileSet {
     let mut files = FileSet::default();
     files.add("Makefile", print(&Makefile { b }));
     files.add("README.md", print(&Readme { b }));
@@ -57,7 +49,8 @@ fn render_board(b: &BoardPlan) -> FileSet {
     files.add("generated/sense_model.c", print(&Model { b }));
     files.add("generated/sense_hw.c", print(&Hardware { b }));
     files.add_once("user/user.c", USER);
-    for (path, text) in runtime::FILES {
+    let drivers = PERIPHERALS.iter().flat_map(|peripheral| peripheral.runtime);
+    for (path, text) in runtime::FILES.iter().chain(drivers) {
         files.add(format!("uproxy/{path}"), *text);
     }
     files

@@ -31,7 +31,7 @@ pub(super) struct FieldPlan {
 
 impl SchemaPlan {
     pub(super) fn new(context: &Context<'_>) -> Self {
-        let schema = &context.schema;
+        let schema = &context.job.schema;
         let sizes = schema.items.iter().map(|item| item.value.size_bytes());
         Self {
             fields: schema.items.iter().enumerate().map(FieldPlan::new).collect(),

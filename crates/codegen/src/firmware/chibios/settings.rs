@@ -2,13 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_board::profile::{DmaRequest, Fallback};
 use sensedsl_board::signal::UnitName;
-use sensedsl_model::kind::Kind;
 
 use super::context::Context;
-use super::i2c::I2cPlan;
 use super::link::LinkPlan;
+use super::names::Setting;
+use super::section::{GuardPlan, Section};
 
 /// All settings.
 #[derive(Clone, Debug)]
@@ -17,136 +16,107 @@ pub(super) struct SettingsPlan {
     pub(super) is_systick: bool,
     /// What has the kernel's time, for people.
     pub(super) kernel_clock: String,
-    /// For `halconf.h`: name and value.
+    /// For `halconf.h`.
     pub(super) hal: Vec<Setting>,
     /// For `mcuconf.h`.
     pub(super) mcu: Vec<Setting>,
     /// The macros of DMA streams in use.
-    pub(super) dma: Vec<String>,
+    dma: Vec<String>,
 }
 
-/// `#define NAME VALUE`
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Setting {
-    pub(super) name: String,
-    pub(super) value: String,
-}
-
-pub(super) fn plan(context: &Context<'_>, i2c: &I2cPlan, link: &LinkPlan) -> SettingsPlan {
-    let units = units(context);
-    let kernel_timer = kernel_timer(context, &units);
-    let mut mcu = Vec::new();
-    let used = switches(context, &units, link);
-    let off = context.profile.off.switches.iter().filter(|switch| !used.contains(switch));
-    mcu.extend(off.map(|switch| setting(switch, "FALSE")));
-    if let Some(timer) = &kernel_timer {
+pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan) -> SettingsPlan {
+    let units: BTreeSet<&UnitName> = sections.iter().flat_map(|section| &section.units).collect();
+    let used = units.iter().flat_map(|unit| context.names.switches(unit.as_str()));
+    let used: Vec<String> = link.switches().iter().cloned().chain(used).collect();
+    let off = context.names.off.switches.iter().filter(|switch| !used.contains(switch));
+    let mut mcu: Vec<Setting> = off.map(|switch| Setting::new(switch, "FALSE")).collect();
+    if let Some(timer) = &context.kernel_timer {
         let number = timer.trim_start_matches("TIM");
-        mcu.push(setting(&context.profile.kernel.option, number));
+        mcu.push(Setting::new(&context.names.kernel_option, number));
     }
-    mcu.extend(used.iter().map(|switch| setting(switch, "TRUE")));
-    mcu.extend(converter_clock(context));
-    mcu.extend(busy(context, i2c, kernel_timer.is_none()));
+    mcu.extend(used.iter().map(|switch| Setting::new(switch, "TRUE")));
+    mcu.extend(sections.iter().flat_map(|section| section.mcu.iter().cloned()));
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
     SettingsPlan {
-        is_systick: kernel_timer.is_none(),
-        kernel_clock: kernel_timer.unwrap_or_else(|| "SysTick".to_owned()),
-        hal: hal(context, link),
+        is_systick: context.kernel_timer.is_none(),
+        kernel_clock: context.kernel_timer.clone().unwrap_or_else(|| "SysTick".to_owned()),
+        hal: hal(sections, link),
         mcu,
         dma: streams.into_iter().map(|setting| setting.name).collect(),
     }
 }
 
-fn setting(name: &str, value: &str) -> Setting {
-    Setting { name: name.to_owned(), value: value.to_owned() }
-}
-
-/// The peripheral instances of all devices, in natural order.
-fn units(context: &Context<'_>) -> Vec<UnitName> {
-    let units = context.devices.iter().filter_map(|wired| wired.wiring.unit.as_deref());
-    let units: BTreeSet<UnitName> = units.map(UnitName::new).collect();
-    units.into_iter().collect()
-}
-
-/// The first timer that no device has; none for the core's tick.
-fn kernel_timer(context: &Context<'_>, units: &[UnitName]) -> Option<String> {
-    let kernel = &context.profile.kernel;
-    let is_free = |timer: &&String| units.iter().all(|unit| unit.as_str() != timer.as_str());
-    let free = kernel.timers.iter().find(is_free);
-    match kernel.fallback {
-        Some(Fallback::Systick) => free.cloned(),
-        // Without a fallback the wiring has kept one free.
-        None => free.or(kernel.timers.first()).cloned(),
-    }
-}
-
-fn switches(context: &Context<'_>, units: &[UnitName], link: &LinkPlan) -> Vec<String> {
-    let mut switches = match link {
-        LinkPlan::Usb { switches, .. } => switches.clone(),
-        LinkPlan::Uart { switch, .. } => vec![switch.clone()],
-    };
-    let profile = context.profile;
-    for unit in units {
-        let name = unit.as_str();
-        let adc = profile.adcs.iter().find(|adc| adc.name == name).map(|adc| &adc.switch);
-        let timer = profile.timers.iter().find(|timer| timer.name == name);
-        let icu = timer.and_then(|timer| timer.icu.as_ref()).map(|icu| &icu.switch);
-        let bus = profile.unit(name).map(|unit| &unit.switch);
-        switches.extend(adc.or(bus).or(icu).cloned());
-    }
-    switches
-}
-
 /// The streams of all requests, by the macro that names each.
-fn streams(context: &Context<'_>, units: &[UnitName]) -> Vec<Setting> {
+fn streams(context: &Context<'_>, units: &BTreeSet<&UnitName>) -> Vec<Setting> {
     let mut settings = Vec::new();
     for unit in units {
-        for DmaRequest { name, option, id, .. } in context.profile.dma(unit.as_str()) {
-            let Some(option) = option else { continue };
-            let stream = context.stream(unit.as_str(), name);
-            settings.extend(stream.map(|stream| setting(option, &id.of(stream))));
+        let devices = &context.job.devices;
+        let Some(device) = devices.iter().find(|one| one.unit == Some(unit.as_str())) else {
+            continue;
+        };
+        for request in context.profile.dma(unit.as_str()) {
+            let served = device.streams.iter().find(|one| one.request == request.name);
+            settings.extend(served.and_then(|served| {
+                context.names.stream(unit.as_str(), served.request, served.stream)
+            }));
         }
     }
     settings
 }
 
-/// While a bus is busy the driver holds the processor, and nobody of its priority or a lower one runs.
-/// Between two transfers that is the time of a stop condition; all else is a bus that hangs, and will be
-/// clocked free. A tick of a millisecond is one more, for the first of them is cut short.
-fn busy(context: &Context<'_>, i2c: &I2cPlan, is_systick: bool) -> Option<Setting> {
-    let option = context.profile.i2c.busy_option.as_deref()?;
-    let stop_ms = i2c.ports.iter().map(|port| port.stop_ms).max()?;
-    Some(setting(option, &(stop_ms + u32::from(is_systick)).to_string()))
-}
-
-/// The converters' clock is told, so that it is what their times were computed with.
-fn converter_clock(context: &Context<'_>) -> Option<Setting> {
-    let has_analog =
-        context.devices.iter().any(|wired| matches!(wired.device.kind, Kind::Analog(_)));
-    let [option, value] = context.profile.adc.clock_option.as_ref().filter(|_| has_analog)?;
-    Some(setting(option, value))
-}
-
-fn hal(context: &Context<'_>, link: &LinkPlan) -> Vec<Setting> {
-    let has = |is_kind: fn(&Kind) -> bool| {
-        context.devices.iter().any(|wired| is_kind(&wired.device.kind))
-    };
+fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
     let truth = |value: bool| if value { "TRUE" } else { "FALSE" };
-    let mut settings = vec![
-        setting("HAL_USE_PAL", "TRUE"),
-        setting("HAL_USE_ADC", truth(has(|kind| matches!(kind, Kind::Analog(_))))),
-        setting("HAL_USE_I2C", truth(has(|kind| matches!(kind, Kind::I2c(_))))),
-        setting("HAL_USE_ICU", truth(has(|kind| matches!(kind, Kind::Icu(_))))),
-        setting("HAL_USE_SERIAL", truth(!link.is_usb())),
-        setting("HAL_USE_SERIAL_USB", truth(link.is_usb())),
-        setting("HAL_USE_USB", truth(link.is_usb())),
-        setting("ADC_USE_WAIT", "TRUE"),
-        setting("ADC_USE_MUTUAL_EXCLUSION", "TRUE"),
-        setting("I2C_USE_MUTUAL_EXCLUSION", "TRUE"),
-        setting("ICU_USE_OVERFLOW_SCALING", "FALSE"),
-    ];
+    let mut settings = vec![Setting::new("HAL_USE_PAL", "TRUE")];
+    settings.extend(sections.iter().filter_map(|section| section.switch.clone()));
+    settings.extend([
+        Setting::new("HAL_USE_SERIAL", truth(!link.is_usb())),
+        Setting::new("HAL_USE_SERIAL_USB", truth(link.is_usb())),
+        Setting::new("HAL_USE_USB", truth(link.is_usb())),
+    ]);
+    settings.extend(sections.iter().flat_map(|section| section.hal.iter().cloned()));
     if !link.is_usb() {
-        settings.push(setting("SERIAL_BUFFERS_SIZE", "256"));
+        settings.push(Setting::new("SERIAL_BUFFERS_SIZE", "256"));
     }
     settings
+}
+
+/// What the C compiler is asked to check against the user's tree, because nothing else would.
+pub(super) fn guards(
+    context: &Context<'_>,
+    sections: &[Section],
+    settings: &SettingsPlan,
+) -> Vec<GuardPlan> {
+    let mut guards = Vec::new();
+    streams_differ(settings, &mut guards);
+    guards.extend(sections.iter().flat_map(|section| section.guards.iter().cloned()));
+    let clocks = clocks(context, sections);
+    let needed =
+        context.chibios.clocks_hz.iter().filter(|(name, _)| clocks.contains(name.as_str()));
+    guards.extend(needed.map(|(name, hz)| GuardPlan {
+        condition: format!("{name} == {hz}U"),
+        message: format!("{name} is not what this wiring was made for"),
+    }));
+    guards
+}
+
+/// The macros of clocks that the computed times are true for.
+fn clocks<'a>(context: &'a Context<'_>, sections: &'a [Section]) -> BTreeSet<&'a str> {
+    let core = context.profile.costs.as_ref().map(|costs| costs.clock.as_str());
+    let link = context.job.link.as_ref().and_then(|link| context.profile.unit(link.unit));
+    let own = core.into_iter().chain(link.and_then(|unit| unit.clock.as_deref()));
+    let sections = sections.iter().flat_map(|section| &section.clocks);
+    own.chain(sections.map(String::as_str)).collect()
+}
+
+/// Two drivers on one stream compile, and fail at run time.
+fn streams_differ(settings: &SettingsPlan, guards: &mut Vec<GuardPlan>) {
+    for (at, first) in settings.dma.iter().enumerate() {
+        for second in settings.dma.iter().skip(at + 1) {
+            guards.push(GuardPlan {
+                condition: format!("{first} !=\n               {second}"),
+                message: "two drivers have one DMA stream".to_owned(),
+            });
+        }
+    }
 }

@@ -1,0 +1,20 @@
+//! Input capture: the driver of the timers.
+
+mod v1;
+
+use sensedsl_model::kind::KindName;
+
+use super::section::{Peripheral, Version};
+
+/// See the module.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "timer",
+    kind: Some(KindName::Icu),
+    version: |drivers| &drivers.timer,
+    versions: &[Version { name: "TIMv1", plan: v1::plan }],
+    runtime: &[
+        ("core/up_capture.c", include_str!("../../../../../../runtime/core/up_capture.c")),
+        ("core/up_capture.h", include_str!("../../../../../../runtime/core/up_capture.h")),
+        ("chibios/up_icu.c", include_str!("../../../../../../runtime/chibios/up_icu.c")),
+    ],
+};

@@ -1,0 +1,18 @@
+//! Pulses that some captured devices want each cycle: plain pins, set by a thread.
+
+mod v2;
+
+use super::section::{Peripheral, Version};
+
+/// See the module. All other pads are set up by the same driver, so that its version is asked for even where
+/// nothing wants a pulse.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "GPIO",
+    kind: None,
+    version: |drivers| &drivers.gpio,
+    versions: &[Version { name: "GPIOv2", plan: v2::plan }],
+    runtime: &[(
+        "chibios/up_pulse.c",
+        include_str!("../../../../../../runtime/chibios/up_pulse.c"),
+    )],
+};
