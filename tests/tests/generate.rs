@@ -236,6 +236,39 @@ fn kinds_without_a_generator_are_said_and_nothing_is_written() {
 }
 
 #[test]
+fn what_is_left_out_on_purpose_is_no_gap() {
+    let scratch = Scratch::new("without");
+    let text = design("STM32F407G_DISC1", &["digital", "analog"]);
+    let file = scratch.write("robot.sense", text).display().to_string();
+    let ran = generate(&file, &scratch, &[]).exits(1);
+    assert!(ran.stderr.contains("generate --without firmware"), "{}", ran.stderr);
+    let ran = sensedsl(["generate", &file, "--without", "firmware", "-o"])
+        .arg(scratch.join("out"))
+        .run()
+        .exits(0);
+    assert!(!ran.stderr.contains("make -C") && !ran.stderr.contains("next:"), "{}", ran.stderr);
+    let files = out(&scratch);
+    assert!(files.keys().all(|file| !file.starts_with("firmware/")), "{files:?}");
+    assert!(files.contains_key("host/cpp/CMakeLists.txt") && files.contains_key("wiring.md"));
+
+    let _ = generate(FIG2, &scratch, &["--without", "host"]).exits(0);
+    let files = out(&scratch);
+    assert!(files.keys().all(|file| !file.starts_with("host/")), "{files:?}");
+    assert!(files.contains_key(&format!("{FIRMWARE}/Makefile")));
+    let _ = generate(FIG2, &scratch, &["--without", "host,firmware"]).exits(0);
+    let left: Vec<String> =
+        out(&scratch).into_keys().filter(|name| !name.contains("/user/")).collect();
+    let kept = [".sensedsl-files", "assignment.json", "pinout.svg", "schema.json", "wiring.md"];
+    assert_eq!(left, kept);
+    let ran = generate(FIG2, &scratch, &["--without", "host", "--host", "cpp"]).exits(2);
+    assert!(
+        ran.stderr.contains("--host asks for what --without host leaves out"),
+        "{}",
+        ran.stderr
+    );
+}
+
+#[test]
 fn the_wiring_can_be_kept() {
     let scratch = Scratch::new("keep");
     let one = design("STM32F4DiscoveryBoard", &["analog: pin = PC5;", "icu"]);

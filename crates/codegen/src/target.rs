@@ -22,6 +22,8 @@ pub trait Target: Sync {
     fn name(&self) -> &'static str;
     /// Why there is no firmware for any design on such a board, in words that follow a colon.
     fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String>;
+    /// What is wrong with the `[system]` part of a profile, which only this target reads; empty when all is well.
+    fn problems(&self, profile: &TargetProfile) -> Vec<String>;
     /// The kinds of devices that it serves.
     fn kinds(&self) -> Vec<KindName>;
     /// The firmware of one board, relative to the board's folder.
@@ -62,13 +64,15 @@ pub fn serving(
 /// What a board's system lacks for it.
 #[must_use]
 pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
-    match serving(job.profile, job.board.facts.as_ref()) {
-        Err(why) => {
-            let name = &job.board.name;
-            vec![e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why)]
-        }
-        Ok(target) => missing_kinds(target, job),
+    let mut gaps = Vec::new();
+    if let Err(why) = serving(job.profile, job.board.facts.as_ref()) {
+        let name = &job.board.name;
+        gaps.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why));
     }
+    if let Some(target) = job.profile.and_then(of) {
+        gaps.extend(missing_kinds(target, job));
+    }
+    gaps
 }
 
 fn missing_kinds(target: &dyn Target, job: &BoardJob<'_>) -> Vec<Diagnostic> {

@@ -72,6 +72,10 @@ impl Files for Tables {
     fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
         match wanted.path {
             "odd.csv" => Ok(ODD_TABLE.to_owned()),
+            path if path.starts_with("pin ") => {
+                let pin = path.trim_start_matches("pin ");
+                Ok(format!("# mcu = STM32F407VGT6\nPin,ADC\n{pin},ADC12_IN8\n"))
+            }
             "emulated.csv" => Ok(super::emulated::TABLE.to_owned()),
             _ => Err(Unread::Missing),
         }
@@ -195,6 +199,23 @@ fn a_bus_gets_a_clock_that_the_driver_accepts() {
     assert!(hardware.contains("STM32_PCLK1 % (3U * 280000U) == 0U"), "{hardware}");
     let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
     assert!(settings.contains("#define STM32_I2C_BUSY_TIMEOUT 1\n"), "{settings}");
+}
+
+/// Silently pad 0 of port A, once.
+#[test]
+fn a_pin_of_an_unknown_port_is_refused() {
+    for (pin, known) in [("PB0", true), ("AIN8", false), ("PZ0", false), ("PB16", false)] {
+        let text = format!(
+            "board Odd on \"pin {pin}\" {{ sensor A returns uint16 {{ id = 1; type = analog; }} }}"
+        );
+        match generate(&text) {
+            Ok(_) => assert!(known, "{pin}"),
+            Err(why) => {
+                let found: Vec<&str> = why.iter().map(|one| one.code.info().code).collect();
+                assert_eq!((found, known), (vec!["E0511"], false), "{pin}: {why:#?}");
+            }
+        }
+    }
 }
 
 #[test]

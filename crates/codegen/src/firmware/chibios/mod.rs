@@ -48,6 +48,13 @@ impl Target for Chibios {
         unserved(profile)
     }
 
+    fn problems(&self, profile: &TargetProfile) -> Vec<String> {
+        match Names::of(profile) {
+            Ok(names) => names.problems(profile),
+            Err(message) => vec![message],
+        }
+    }
+
     fn kinds(&self) -> Vec<KindName> {
         section::kinds().collect()
     }
