@@ -4,7 +4,7 @@
 use divan::Bencher;
 use sensedsl_codegen::Selection;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Selection, Unread, resolve};
+use sensedsl_model::{Files, Request, Wanted, Unread, resolve};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -17,7 +17,7 @@ fn main() {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&self, _: &Selection<'_>) -> Result<String, Unread> {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
         Err(Unread::Missing)
     }
 }
