@@ -4,7 +4,7 @@
 use divan::Bencher;
 use sensedsl_codegen::Selection;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Wanted, Unread, resolve};
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 

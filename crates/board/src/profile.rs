@@ -66,8 +66,11 @@ pub enum NoProfile {
 pub fn names() -> Vec<String> {
     let mut names = vec![NONE.to_owned(), DEFAULT.to_owned()];
     for entry in TARGETS {
-        if names.iter().all(|name| name != entry.target) {
-            names.push(entry.target.to_owned());
+        let system = entry.target.rsplit_once('-').map(|(system, _)| system);
+        for name in system.into_iter().chain([entry.target]) {
+            if names.iter().all(|known| known != name) {
+                names.push(name.to_owned());
+            }
         }
     }
     names

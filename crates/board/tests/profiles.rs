@@ -26,7 +26,9 @@ fn targets_are_found_by_name_and_mcu() {
     assert_eq!(profile::find("none", "anything"), Ok(Target::None));
     assert_eq!(profile::full_name("ChibiOS"), Some("chibios-21.11"));
     assert_eq!(profile::full_name("chibios-21.11"), Some("chibios-21.11"));
-    assert_eq!(profile::names(), ["none", "chibios", "chibios-21.11"]);
+    let names = profile::names();
+    assert_eq!(names[..2], ["none", "chibios"]);
+    assert!(names.contains(&"chibios-21.11".to_owned()), "{names:?}");
     assert_eq!(f407().name, "chibios-21.11");
     assert_eq!(f407().parts, ["STM32F405", "STM32F407", "STM32F415", "STM32F417"]);
     let Err(NoProfile::UnknownTarget { nearest, .. }) = profile::find("chibois", "STM32F407VG")

@@ -1,7 +1,7 @@
 //! The systems that firmware is generated for.
 //!
 //! In: a [`BoardJob`], which names no system. Out: the files of one board, or what cannot be. A system is a folder
-//! in `firmware/` and a line in [`TARGETS`]; its profiles are data. What a system lacks is a gap: it is told,
+//! in `firmware/`, listed in [`TARGETS`]; its profiles are data. What a system lacks is a gap: it is told,
 //! and there is no firmware at all, but everything beside the firmware can still be made.
 
 use sensedsl_board::catalog;
@@ -13,7 +13,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
-use crate::firmware::chibios;
+pub use crate::firmware::TARGETS;
 use crate::job::{BoardJob, jobs};
 
 /// A system that firmware is generated for.
@@ -36,9 +36,6 @@ pub trait Target: Sync {
     /// The command that builds the firmware in `folder`, which is spelled as a shell takes it.
     fn build(&self, folder: &str) -> String;
 }
-
-/// Every system, in the order in which people read of them.
-pub const TARGETS: &[&dyn Target] = &[&chibios::Chibios];
 
 /// The system of a profile.
 #[must_use]

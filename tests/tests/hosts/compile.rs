@@ -12,7 +12,10 @@ use super::{designs, files, tools};
 pub(crate) fn compile(compiler: &Compile, folder: &Path, system_includes: &[&Path]) {
     for source in files::sources(folder, compiler.extension) {
         let mut command = Command::new(compiler.program);
-        command.current_dir(folder).args(compiler.arguments).arg(compiler.standard);
+        command.current_dir(folder).args(compiler.arguments);
+        if !compiler.standard.is_empty() {
+            command.arg(compiler.standard);
+        }
         for include in system_includes {
             command.arg("-isystem").arg(include);
         }

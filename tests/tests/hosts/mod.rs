@@ -12,6 +12,7 @@ mod designs;
 mod files;
 mod link;
 mod middleware;
+mod page;
 mod terminal;
 mod tools;
 mod units;

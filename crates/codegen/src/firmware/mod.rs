@@ -1,4 +1,10 @@
-//! Firmware: the program on the board, for each operating system a folder and a line in
-//! [`TARGETS`](crate::target::TARGETS).
+//! Firmware: the program on the board. A system is a folder here and its two lines: the module, and one of [`TARGETS`].
 
 pub mod chibios;
+
+use crate::target::Target;
+
+/// Every system, in the order in which people read of them.
+pub const TARGETS: &[&dyn Target] = &[
+    &chibios::Chibios, //
+];

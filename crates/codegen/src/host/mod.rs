@@ -2,7 +2,7 @@
 //!
 //! In: a [`HostPlan`]. Out: for each host a [`FileSet`] below `host/<name>/`. A language is one folder
 //! here with its names, its view of the plan, its templates and its hand-written runtime; a host is
-//! a folder and one line in [`HOSTS`].
+//! a folder and its two lines: the module, and one of [`HOSTS`].
 
 mod cpp;
 mod plan;
@@ -15,12 +15,23 @@ use crate::fileset::FileSet;
 pub trait Host: Sync {
     /// Its folder below `host/` and its name on the command line.
     fn name(&self) -> &'static str;
-    /// One line for people.
-    fn summary(&self) -> &'static str;
+    /// What people read of it.
+    fn about(&self) -> About;
     /// How a source that it prints is held to its language.
     fn compile(&self) -> Compile;
     /// All its files, relative to its folder.
     fn render(&self, plan: &HostPlan) -> FileSet;
+}
+
+/// A row of the page on hosts, `docs/hosts.md`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct About {
+    /// Its language.
+    pub language: &'static str,
+    /// What it needs beside a compiler.
+    pub needs: &'static str,
+    /// What it gives.
+    pub gives: &'static str,
 }
 
 /// The call that says whether a printed source is one of its language. It runs in the host's folder, and the
@@ -57,8 +68,12 @@ impl Compile {
 }
 
 /// Every host there is, in the order in which people read of them.
-pub const HOSTS: &[&dyn Host] =
-    &[&cpp::OpenDavinci, &cpp::OpenDavinci2014, &cpp::Libcluon, &cpp::Plain];
+pub const HOSTS: &[&dyn Host] = &[
+    &cpp::OpenDavinci, //
+    &cpp::OpenDavinci2014,
+    &cpp::Libcluon,
+    &cpp::Plain,
+];
 
 /// The host of that name.
 #[must_use]

@@ -30,6 +30,15 @@ use crate::job::BoardJob;
 use crate::target::Target;
 use context::Context;
 pub use names::Names;
+use section::Peripheral;
+
+/// All drivers, in the order in which their sections are printed and their threads are numbered.
+const PERIPHERALS: &[&Peripheral] = &[
+    &adc::PERIPHERAL, //
+    &i2c::PERIPHERAL,
+    &icu::PERIPHERAL,
+    &pulse::PERIPHERAL,
+];
 
 /// The target `chibios`.
 pub struct Chibios;

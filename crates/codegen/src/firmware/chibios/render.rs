@@ -2,9 +2,9 @@
 
 use askama::Template;
 
+use super::PERIPHERALS;
 use super::plan::BoardPlan;
 use super::runtime;
-use super::section::PERIPHERALS;
 use crate::fileset::FileSet;
 use crate::print::print;
 

@@ -9,14 +9,10 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
+use super::PERIPHERALS;
 use super::context::{Context, PadPlan};
 use super::names::{Drivers, Setting};
-use super::{adc, i2c, icu, pulse};
 use crate::job::Cycle;
-
-/// All drivers, in the order in which their sections are printed and their threads are numbered.
-pub(super) const PERIPHERALS: &[&Peripheral] =
-    &[&adc::PERIPHERAL, &i2c::PERIPHERAL, &icu::PERIPHERAL, &pulse::PERIPHERAL];
 
 /// A driver of the system that code is made for.
 pub(super) struct Peripheral {

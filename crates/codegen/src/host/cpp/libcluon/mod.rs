@@ -3,7 +3,7 @@
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
 use crate::fileset::FileSet;
-use crate::host::{Compile, Host, HostPlan};
+use crate::host::{About, Compile, Host, HostPlan};
 use crate::print::print;
 
 /// See the module.
@@ -20,8 +20,12 @@ impl Host for Libcluon {
         "libcluon"
     }
 
-    fn summary(&self) -> &'static str {
-        "OD4 microservice for libcluon (C++14) and its .odvd messages"
+    fn about(&self) -> About {
+        About {
+            language: "C++14",
+            needs: "`cluon-complete.hpp`",
+            gives: "a microservice of an OD4 session, and the messages as `sense.odvd`",
+        }
     }
 
     fn compile(&self) -> Compile {

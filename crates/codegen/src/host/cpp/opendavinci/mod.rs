@@ -6,7 +6,7 @@
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
 use crate::fileset::FileSet;
-use crate::host::{Compile, Host, HostPlan};
+use crate::host::{About, Compile, Host, HostPlan};
 use crate::print::print;
 
 /// For OpenDaVINCI 4.
@@ -33,8 +33,12 @@ impl Host for OpenDavinci {
         "opendavinci"
     }
 
-    fn summary(&self) -> &'static str {
-        "OpenDaVINCI 4 application (C++11)"
+    fn about(&self) -> About {
+        About {
+            language: "C++11",
+            needs: "OpenDaVINCI 4 (namespace `odcore`)",
+            gives: "a time-triggered module that sends each value as a Container, and a printer",
+        }
     }
 
     fn compile(&self) -> Compile {
@@ -61,8 +65,12 @@ impl Host for OpenDavinci2014 {
         "opendavinci2014"
     }
 
-    fn summary(&self) -> &'static str {
-        "OpenDaVINCI application in the API of 2014 (C++98)"
+    fn about(&self) -> About {
+        About {
+            language: "C++98",
+            needs: "OpenDaVINCI of 2014 (namespace `core`), the paper's",
+            gives: "the same",
+        }
     }
 
     fn compile(&self) -> Compile {

@@ -4,7 +4,7 @@ use super::runtime;
 use super::shared;
 use super::view::{BoardView, DesignView};
 use crate::fileset::FileSet;
-use crate::host::{Compile, Host, HostPlan};
+use crate::host::{About, Compile, Host, HostPlan};
 use crate::print::print;
 
 /// See the module.
@@ -22,8 +22,12 @@ impl Host for Plain {
         "cpp"
     }
 
-    fn summary(&self) -> &'static str {
-        "C++17 headers and an example, no middleware"
+    fn about(&self) -> About {
+        About {
+            language: "C++17",
+            needs: "nothing",
+            gives: "headers, and a monitor that prints values",
+        }
     }
 
     fn compile(&self) -> Compile {
