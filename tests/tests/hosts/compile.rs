@@ -90,3 +90,13 @@ fn nothing_leaves_its_comment_or_its_line() {
         }
     }
 }
+
+#[test]
+fn every_host_has_a_readme_and_a_name_of_its_own() {
+    let names: std::collections::BTreeSet<&str> = HOSTS.iter().map(|host| host.name()).collect();
+    assert_eq!(names.len(), HOSTS.len(), "{names:?}");
+    for host in HOSTS {
+        let files = host.render(&HostPlan::new("robot", &designs::several_boards()));
+        assert!(files.get("README.md").is_some(), "{} has no README.md", host.name());
+    }
+}
