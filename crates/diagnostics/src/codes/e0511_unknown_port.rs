@@ -18,7 +18,8 @@ the board into the column `Label`.
 "#,
 };
 
-const CODE: Code = Code(&INFO);
+/// The code.
+pub const CODE: Code = Code(&INFO);
 
 /// The pin, and the letters of the ports that the MCU has.
 #[must_use]
