@@ -27,7 +27,7 @@ pub fn unknown_port(span: Span, pin: &str, ports: &str) -> Diagnostic {
     let ports: Vec<String> = ports.chars().map(String::from).collect();
     let message = format!("the firmware cannot tell which pad of the MCU `{pin}` is");
     Diagnostic::new(CODE, span, message)
-        .here("neither a port and a number, such as PB7, nor another pad of this MCU")
+        .here("not a port and a number of this MCU, such as PB7")
         .help(format!(
             "give the MCU's own name; its ports are {}, each with pads 0 to 15",
             ports.join(", ")
