@@ -13,16 +13,17 @@ use sensedsl_tests::{root, text};
 
 const HEAD: &str = "# Built-in boards
 
-A `.sense` file names a board by its name or by another of its names, in letters of any case, with `-` or `_` or neither:
-`board Robot on NUCLEO_F411RE { … }`. `sensedsl boards` lists the boards, `sensedsl boards --search WORDS` those with all of
-the words in what is known of them, and `sensedsl boards NAME` prints the [table](board-tables.md) of one.
+A `.sense` file names a board by its name or by another of its names, in letters of any case, with `-` or `_` or
+neither: `board Robot on NUCLEO_F411RE { … }`. `sensedsl boards` lists the boards, `sensedsl boards --search WORDS`
+those with all of the words in what is known of them, and `sensedsl boards NAME` prints the [table](board-tables.md) of
+one.
 
-Each is a folder of `boards/`: `pins.csv` says which pins there are, where they are brought out, and what on the board is connected to them;
-`board.toml` has the other facts, each with its source. What a pin can be used for comes from the MCU's part.
-The names of the Discovery, Nucleo and other boards are those of their makers.
+Each is a folder of `boards/`: `pins.csv` says which pins there are, where they are brought out, and what on the board
+is connected to them; `board.toml` has the other facts, each with its source. What a pin can be used for comes from the
+MCU's part. The names of the Discovery, Nucleo and other boards are those of their makers.
 
-- **Pins**: how many the table lists, and how many of them nothing on the board has taken. A pin that is *usable with care* (a
-  light, a button) is among them and gives a warning; `release` frees a taken one.
+- **Pins**: how many the table lists, and how many of them nothing on the board has taken. A pin that is *usable with
+  care* (a light, a button) is among them and gives a warning; `release` frees a taken one.
 - **Places**: what `header = …;` may name.
 - **Link**: what carries the frames to the host; the first is the default.
 - **ChibiOS**: the folder of the tree below `os/hal/boards` that firmware is built with. Without one, and on MCUs for

@@ -10,18 +10,21 @@ use sensedsl_tests::root;
 
 const HEAD: &str = "# Limits
 
-What is read has budgets, so that no file, however large or hostile, takes more than a second to be refused, or more than 200 MB. They are far above what a real project
-needs. What is beyond gets the diagnostic of the last column: `sensedsl explain CODE` says what to do.
+What is read has budgets, so that no file, however large or hostile, takes more than a second to be refused, or more
+than 200 MB. They are far above what a real project needs. What is beyond gets the diagnostic of the last column:
+`sensedsl explain CODE` says what to do.
 
 The figures stand in `crates/limits/src/lib.rs`. `sensedsl-verify` reads certificates of up to 8 MiB with 120,000 lists
-and objects, and refuses proofs that take more than 1,250,000 steps; `solve --proof` writes none that are larger (E0403).
+and objects, and refuses proofs that take more than 1,250,000 steps; `solve --proof` writes none that are larger
+(E0403).
 
-Measured with a release build on the inputs of `tests/tests/limits`, one by one: at most 0.8 s and 127 MB (a table whose cells are 1.5 million bytes of another encoding); all
-others took at most 0.5 s and 85 MB.
+Measured with a release build on the inputs of `tests/tests/limits`, one by one: at most 0.8 s and 127 MB (a table whose
+cells are 1.5 million bytes of another encoding); all others took at most 0.5 s and 85 MB.
 
-Only regular files are read; a pipe only where the command line names it, and `-` is the standard input. What a file names by `use`, as a table or as an
-include is in the folder of the file on the command line or below it, also when symbolic links are followed; for an `hwdef.dat` it may be in a folder beside that. `--allow-outside FOLDER` allows another
-folder.
+Only regular files are read; a pipe only where the command line names it, and `-` is the standard input. What a file
+names by `use`, as a table or as an include is in the folder of the file on the command line or below it, also when
+symbolic links are followed; for an `hwdef.dat` it may be in a folder beside that. `--allow-outside FOLDER` allows
+another folder.
 
 | limit | of | code |
 | ---: | --- | --- |

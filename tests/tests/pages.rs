@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target};
 use sensedsl_codegen::firmware::chibios;
-use sensedsl_tests::text;
+use sensedsl_tests::{read, root, text};
 
 /// The firmware page names the MCUs that there is firmware for, without `STM32` after the first.
 #[test]
@@ -27,13 +27,18 @@ fn the_firmware_page_names_its_mcus() {
     assert_eq!(named, served);
 }
 
+/// A page with one space between words, wherever its lines end.
+fn words_of(page: &str) -> String {
+    text(page).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// The page of the parts says how many numbers the shipped table has; the RP parts are rules.
 #[test]
 fn counts_are_those_of_the_data() {
     let parts = sensedsl_parts::all().filter(|part| !part.base().starts_with("RP"));
     let numbers: usize = parts.map(|part| part.numbers().count()).sum();
     let grouped = format!("{},{:03} part numbers", numbers / 1000, numbers % 1000);
-    assert!(text("docs/parts.md").contains(&grouped), "docs/parts.md: there are {grouped}");
+    assert!(words_of("docs/parts.md").contains(&grouped), "docs/parts.md: there are {grouped}");
 }
 
 /// The README says of how many STM32 families wiring knows the drivers.
@@ -48,7 +53,7 @@ fn the_readme_counts_the_families() {
         .collect();
     let word = words.get(families.len() - 7).unwrap();
     let wanted = format!("drivers of {word} STM32 families");
-    assert!(text("README.md").contains(&wanted), "README.md: {wanted}: {families:?}");
+    assert!(words_of("README.md").contains(&wanted), "README.md: {wanted}: {families:?}");
 }
 
 /// Every board with a firmware profile and a folder in the tree is of a family that is named.
@@ -68,4 +73,29 @@ fn boards_with_firmware_are_of_those_mcus() {
         }
     }
     assert!(count >= 10, "{count}");
+}
+
+/// Prose has at most 120 characters a line, so that it can be read and compared side by side.
+#[test]
+fn prose_is_wrapped() {
+    const LETTERS_MAX: usize = 120;
+    let mut pages: Vec<_> = ["README", "ARCHITECTURE", "CONTRIBUTING", "CHANGELOG", "SECURITY"]
+        .iter()
+        .map(|page| root().join(format!("{page}.md")))
+        .collect();
+    let docs = std::fs::read_dir(root().join("docs")).unwrap();
+    pages.extend(docs.map(|entry| entry.unwrap().path()));
+    // This one is made of texts in the code, which are indented there.
+    pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
+    pages.retain(|path| !path.ends_with("diagnostics.md"));
+    assert!(pages.len() > 15);
+    for page in pages {
+        let mut is_code = false;
+        for (number, line) in (1..).zip(read(&page).lines()) {
+            is_code ^= line.trim_start().starts_with("```");
+            let is_prose = !is_code && !line.starts_with('|') && !line.contains("](");
+            let letters = line.chars().count();
+            assert!(!is_prose || letters <= LETTERS_MAX, "{}:{number}: {letters}", page.display());
+        }
+    }
 }
