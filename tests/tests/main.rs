@@ -29,6 +29,7 @@ mod silicon;
 mod single_files;
 mod soft_units;
 mod spreadsheets;
+mod tidy;
 mod timing;
 mod traceability;
 mod web;
