@@ -1,6 +1,7 @@
 //! What people and scripts read of a wiring: tables, JSON, CSV, Markdown, a picture.
 
 pub mod csv;
+pub mod diff;
 pub mod human;
 pub mod json;
 pub mod markdown;

@@ -4,19 +4,6 @@
 //! in C++ words, `runtime/` is hand-written and copied beside what is generated, `shared/` is
 //! printed for several hosts.
 
-/// Declares templates, each of which prints a design or one of its boards.
-macro_rules! templates {
-    ($($name:ident($field:ident: $view:ident) = $path:literal;)*) => {
-        $(
-            #[derive(askama::Template)]
-            #[template(path = $path, escape = "none")]
-            struct $name<'a> {
-                $field: &'a $view,
-            }
-        )*
-    };
-}
-
 mod libcluon;
 mod names;
 mod opendavinci;
@@ -28,13 +15,22 @@ pub(super) use libcluon::Libcluon;
 pub(super) use opendavinci::{OpenDavinci, OpenDavinci2014};
 pub(super) use plain::Plain;
 
+use askama::Template;
+
 use crate::fileset::FileSet;
 use crate::print::print;
 use view::{BoardView, DesignView};
 
-templates! {
-    SchemaHeader(board: BoardView) = "host/cpp/shared/schema.hpp.txt";
-    Odvd(design: DesignView) = "host/cpp/shared/sense.odvd.txt";
+#[derive(Template)]
+#[template(path = "host/cpp/shared/schema.hpp.txt", escape = "none")]
+struct SchemaHeader<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/shared/sense.odvd.txt", escape = "none")]
+struct Odvd<'a> {
+    design: &'a DesignView,
 }
 
 /// What each of them has: the hand-written headers, and for each board its tables.

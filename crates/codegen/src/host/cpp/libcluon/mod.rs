@@ -1,5 +1,7 @@
 //! Host `libcluon`: one OD4 microservice a board, and the messages of all boards in one file.
 
+use askama::Template;
+
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
 use crate::fileset::FileSet;
@@ -9,10 +11,22 @@ use crate::print::print;
 /// See the module.
 pub(in crate::host) struct Libcluon;
 
-templates! {
-    Service(board: BoardView) = "host/cpp/libcluon/service.cpp.txt";
-    CMakeLists(design: DesignView) = "host/cpp/libcluon/CMakeLists.txt.txt";
-    Readme(design: DesignView) = "host/cpp/libcluon/README.md.txt";
+#[derive(Template)]
+#[template(path = "host/cpp/libcluon/service.cpp.txt", escape = "none")]
+struct Service<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/libcluon/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/libcluon/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
 }
 
 impl Host for Libcluon {

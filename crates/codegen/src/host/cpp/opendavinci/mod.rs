@@ -3,6 +3,8 @@
 //! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for that of the paper's time, in C++98. What
 //! they have in common word for word is printed once and included by both.
 
+use askama::Template;
+
 use super::view::{BoardView, DesignView};
 use super::{odvd, shared};
 use crate::fileset::FileSet;
@@ -15,17 +17,64 @@ pub(in crate::host) struct OpenDavinci;
 /// For the OpenDaVINCI of 2014.
 pub(in crate::host) struct OpenDavinci2014;
 
-templates! {
-    Messages(design: DesignView) = "host/cpp/opendavinci/v4/messages.h.txt";
-    Application(board: BoardView) = "host/cpp/opendavinci/v4/board.cpp.txt";
-    Printer(design: DesignView) = "host/cpp/opendavinci/v4/print.cpp.txt";
-    CMakeLists(design: DesignView) = "host/cpp/opendavinci/v4/CMakeLists.txt.txt";
-    Readme(design: DesignView) = "host/cpp/opendavinci/v4/README.md.txt";
-    Messages2014(design: DesignView) = "host/cpp/opendavinci/v2014/messages.h.txt";
-    Application2014(board: BoardView) = "host/cpp/opendavinci/v2014/board.cpp.txt";
-    Printer2014(design: DesignView) = "host/cpp/opendavinci/v2014/print.cpp.txt";
-    CMakeLists2014(design: DesignView) = "host/cpp/opendavinci/v2014/CMakeLists.txt.txt";
-    Readme2014(design: DesignView) = "host/cpp/opendavinci/v2014/README.md.txt";
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v4/messages.h.txt", escape = "none")]
+struct Messages<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v4/board.cpp.txt", escape = "none")]
+struct Application<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v4/print.cpp.txt", escape = "none")]
+struct Printer<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v4/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v4/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v2014/messages.h.txt", escape = "none")]
+struct Messages2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v2014/board.cpp.txt", escape = "none")]
+struct Application2014<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v2014/print.cpp.txt", escape = "none")]
+struct Printer2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v2014/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/opendavinci/v2014/README.md.txt", escape = "none")]
+struct Readme2014<'a> {
+    design: &'a DesignView,
 }
 
 impl Host for OpenDavinci {

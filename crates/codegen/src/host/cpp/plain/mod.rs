@@ -1,5 +1,7 @@
 //! Host `cpp`: a header-only C++17 library and an example, no middleware.
 
+use askama::Template;
+
 use super::runtime;
 use super::shared;
 use super::view::{BoardView, DesignView};
@@ -10,11 +12,28 @@ use crate::print::print;
 /// See the module.
 pub(in crate::host) struct Plain;
 
-templates! {
-    BoardHeader(board: BoardView) = "host/cpp/plain/board.hpp.txt";
-    Monitor(board: BoardView) = "host/cpp/plain/monitor.cpp.txt";
-    CMakeLists(design: DesignView) = "host/cpp/plain/CMakeLists.txt.txt";
-    Readme(design: DesignView) = "host/cpp/plain/README.md.txt";
+#[derive(Template)]
+#[template(path = "host/cpp/plain/board.hpp.txt", escape = "none")]
+struct BoardHeader<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/plain/monitor.cpp.txt", escape = "none")]
+struct Monitor<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/plain/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "host/cpp/plain/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
 }
 
 impl Host for Plain {

@@ -1,0 +1,99 @@
+//! What changes on the bench from one wiring to another: two answers in JSON in, the changes out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::{Value, json};
+
+/// A wire of a device.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Wire {
+    /// The device's name.
+    pub device: String,
+    /// The word of its role.
+    pub role: String,
+}
+
+/// Where a wire is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The board's name.
+    pub board: String,
+    /// The pin.
+    pub pin: String,
+    /// What it carries.
+    pub signal: String,
+}
+
+/// A wire that is not as it was.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// Which wire.
+    pub wire: Wire,
+    /// Where it was; none where it is new.
+    pub from: Option<Place>,
+    /// Where it is now; none where it is gone.
+    pub to: Option<Place>,
+}
+
+impl Change {
+    /// What has to be done: `added`, `removed`, `reconfigured` or `moved`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match (&self.from, &self.to) {
+            (None, _) => "added",
+            (Some(_), None) => "removed",
+            (Some(from), Some(to)) if (&from.board, &from.pin) == (&to.board, &to.pin) => {
+                "reconfigured"
+            }
+            (Some(_), Some(_)) => "moved",
+        }
+    }
+
+    /// For scripts.
+    #[must_use]
+    pub fn value(&self) -> Value {
+        let place = |place: &Option<Place>| {
+            place.as_ref().map(|Place { board, pin, signal }| {
+                json!({ "board": board, "pin": pin, "signal": signal })
+            })
+        };
+        json!({
+            "change": self.name(),
+            "device": self.wire.device,
+            "role": self.wire.role,
+            "from": place(&self.from),
+            "to": place(&self.to),
+        })
+    }
+}
+
+/// The wires of an answer of `solve`; none where it lacks boards, devices or wires.
+#[must_use]
+pub fn wires(answer: &Value) -> Option<BTreeMap<Wire, Place>> {
+    let mut wires = BTreeMap::new();
+    let text = |value: &Value, key: &str| Some(value.get(key)?.as_str()?.to_owned());
+    for board in answer.get("boards")?.as_array()? {
+        let board_name = text(board, "name")?;
+        for device in board.get("devices")?.as_array()? {
+            let name = text(device, "name")?;
+            for wire in device.get("wires")?.as_array()? {
+                let (pin, signal) = (text(wire, "pin")?, text(wire, "signal")?);
+                let place = Place { board: board_name.clone(), pin, signal };
+                wires.insert(Wire { device: name.clone(), role: text(wire, "role")? }, place);
+            }
+        }
+    }
+    Some(wires)
+}
+
+/// The wires that differ, in the order of their devices' names.
+#[must_use]
+pub fn changes(old: &BTreeMap<Wire, Place>, new: &BTreeMap<Wire, Place>) -> Vec<Change> {
+    let all: BTreeSet<&Wire> = old.keys().chain(new.keys()).collect();
+    let change = |wire: &Wire| Change {
+        wire: wire.clone(),
+        from: old.get(wire).cloned(),
+        to: new.get(wire).cloned(),
+    };
+    all.into_iter().map(change).filter(|change| change.from != change.to).collect()
+}
