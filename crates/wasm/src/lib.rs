@@ -15,14 +15,14 @@ thread_local! {
 
 /// Makes room for a request of so many bytes, and says where.
 #[unsafe(no_mangle)]
-extern "C" fn reserve(length: usize) -> *const u8 {
+pub extern "C" fn reserve(length: usize) -> *const u8 {
     BUFFER.replace(vec![0; length]);
     buffer()
 }
 
 /// Answers the request in the buffer; the number of bytes of the answer, which is there now.
 #[unsafe(no_mangle)]
-extern "C" fn answer() -> usize {
+pub extern "C" fn answer() -> usize {
     let request = BUFFER.take();
     let answer = sensedsl_web::ask(&String::from_utf8_lossy(&request)).into_bytes();
     let length = answer.len();
@@ -32,6 +32,6 @@ extern "C" fn answer() -> usize {
 
 /// Where the buffer is.
 #[unsafe(no_mangle)]
-extern "C" fn buffer() -> *const u8 {
+pub extern "C" fn buffer() -> *const u8 {
     BUFFER.with_borrow(Vec::as_ptr)
 }

@@ -1,9 +1,9 @@
 //! ChibiOS firmware: tables for the hand-written runtime, configuration as changes to the user's tree.
 //!
 //! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime.
-//! Each driver of the system is a folder here and adds a section ([`section`]); `plan.rs` puts the sections together
+//! Each driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` puts the sections together
 //! and looks into none; the templates only print. Names of the system are in the `[system]` part of a
-//! profile ([`names`]). What the hardware or the system cannot do comes back as diagnostics, and then there are no files.
+//! profile (`names.rs`). What the hardware or the system cannot do comes back as diagnostics, and then there are no files.
 
 mod adc;
 mod board;
