@@ -21,7 +21,7 @@ pub use types::{
 };
 pub(crate) use types::{pin, pins};
 
-/// The target without an operating system: pins and signals alone.
+/// The target without an operating system: only pins and signals count.
 pub const NONE: &str = "none";
 
 /// The target that is meant when none is named.

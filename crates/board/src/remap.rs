@@ -40,7 +40,7 @@ impl Blocks {
         (bits != 0).then_some(Self(bits))
     }
 
-    /// The lowest of them alone.
+    /// Only the lowest of them.
     #[must_use]
     pub fn lowest(self) -> Self {
         Self(1 << self.first())

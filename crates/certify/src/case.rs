@@ -103,7 +103,7 @@ pub(crate) struct Case {
     pub(crate) tolls: Vec<usize>,
     /// For each class of the model the shares of its members that are left.
     pub(crate) members: Vec<Vec<usize>>,
-    /// Whether somebody uses the thing alone.
+    /// Whether the thing has a single user.
     pub(crate) owned: Vec<bool>,
 }
 

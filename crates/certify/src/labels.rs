@@ -37,7 +37,7 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// Those of some devices alone.
+    /// Only those of some devices.
     pub(crate) fn with_devices(&self, devices: &[usize]) -> Self {
         let mut labels = self.clone();
         labels.devices = pick(&self.devices, devices);

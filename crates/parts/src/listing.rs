@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::format::{Layout, PartData};
 use crate::{data, rp};
 
-/// A part: one die in one package. Its part numbers differ in grade alone.
+/// A part: one die in one package. Its part numbers differ only in grade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part(pub(crate) Origin);
 

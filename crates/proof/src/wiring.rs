@@ -4,7 +4,7 @@ use crate::format::{Alternative, Answer, Candidate, OWN, Objective, Problem};
 use crate::{Refuted, ensure};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Who holds a thing: the devices, and on whose behalf. Everybody's own behalf is another one.
+/// Who holds a thing: the devices, and on whose behalf. Each device's own behalf is another one.
 #[derive(Default)]
 struct Held<'a> {
     devices: BTreeSet<&'a str>,

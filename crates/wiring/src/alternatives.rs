@@ -132,7 +132,7 @@ pub(crate) trait Served {
     }
 }
 
-/// Who knows which pins can serve a kind.
+/// The file that knows which pins can serve a kind.
 pub(crate) fn served(kind: &Kind) -> &dyn Served {
     match kind {
         Kind::Analog(analog) => analog,

@@ -24,7 +24,7 @@ pub struct Capacity {
     pub board: BoardIndex,
     /// The kind.
     pub kind: KindName,
-    /// Further devices of that kind alone.
+    /// Further devices of that kind, with none of other kinds.
     pub more: usize,
     /// Pins and resources that the next one lacks.
     pub blocked_by: Vec<String>,

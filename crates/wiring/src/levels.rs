@@ -1,5 +1,5 @@
-//! Voltages: whether a pin stands what a device puts on it, and which resistors help where it does
-//! not.
+//! Voltages: whether a pin tolerates what a device puts on it, and which resistors help where it
+//! does not.
 
 use sensedsl_board::silicon::{self, Volts};
 use sensedsl_board::table::Pin;
@@ -15,16 +15,16 @@ const LOWER_OHM: u32 = 10_000;
 /// Steps of the E12 series, in tenths.
 const E12: [u32; 12] = [10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82];
 
-/// Whether a pin stands a voltage.
+/// Whether a pin tolerates a voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stands {
     Yes,
-    /// It stands so many millivolts alone.
+    /// It tolerates only so many millivolts.
     No(u32),
     Unknown,
 }
 
-/// Whether a pin stands `mv` as an input. An analog input measures up to the supply alone.
+/// Whether a pin tolerates `mv` as an input. An analog input measures only up to the supply.
 pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Stands {
     let volts = volts(board);
     let supply = volts.map(|volts| volts.supply_mv);

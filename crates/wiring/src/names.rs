@@ -141,7 +141,7 @@ impl Names {
         Holder::Group(*self.group_ids.entry(group).or_insert(next))
     }
 
-    /// A claim of the device alone.
+    /// A claim that the device shares with no other.
     pub(crate) fn own(&mut self, resource: Resource) -> Claim {
         Claim { resource: self.resource(resource), holder: Holder::Own }
     }

@@ -199,7 +199,7 @@ struct Remaps {
     /// Each set once, ascending.
     sets: Vec<Blocks>,
     /// Whether devices need only agree two by two. They do on all MCUs there are; where a table
-    /// says otherwise, each signal is offered in its lowest block alone.
+    /// says otherwise, each signal is offered only in its lowest block.
     by_pairs: bool,
 }
 

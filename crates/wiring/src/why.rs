@@ -85,7 +85,7 @@ fn places(formulation: &Formulation<'_>, device: usize, role: usize) -> Vec<Plac
     places
 }
 
-/// The problem in which one role of one device has one place alone.
+/// The problem in which one role of one device has a single place.
 fn restricted(formulation: &Formulation<'_>, device: usize, role: usize, place: Place) -> Problem {
     let mut problem = formulation.problem.clone();
     let meanings = formulation.meanings.get(device).into_iter().flatten();

@@ -89,7 +89,7 @@ const CHANGES: u64 = 8;
 /// Where two differ.
 pub fn run(bytes: &[u8], others: &[(&str, Decode)]) {
     let mut bytes = bytes.to_vec();
-    // FNV-1a: which bytes are changed depends on the input alone.
+    // FNV-1a: which bytes are changed depends only on the input.
     let mut state = bytes.iter().fold(0xCBF2_9CE4_8422_2325_u64, |state, byte| {
         (state ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01B3)
     });
@@ -187,7 +187,7 @@ fn piece(draw: &mut Draw<'_>, schema: &Schema, direction: Direction, out: &mut V
     }
 }
 
-/// A frame of our own, which is one event when it comes alone.
+/// A frame of our own, which is one event when nothing else comes.
 fn frame(draw: &mut Draw<'_>, schema: &Schema, direction: Direction) -> Vec<u8> {
     let mut values: Vec<(u8, Vec<Scalar>)> = Vec::new();
     let items: Vec<&Item> =

@@ -187,7 +187,7 @@ fn link(draw: &mut Draw<'_>, manner: Manner) -> String {
     text
 }
 
-/// A rule that boards and devices may have, or one of boards alone.
+/// A rule that boards and devices may have, or one that only boards may have.
 fn rule(draw: &mut Draw<'_>) -> String {
     if draw.chance(100) {
         let word = draw.word(&["reserve", "release"]);

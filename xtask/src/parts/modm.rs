@@ -70,7 +70,7 @@ fn children<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Ite
 }
 
 /// The devices of a file: all combinations of the values that it lists for the fields of its
-/// schema, without those it calls invalid and, where it calls any valid, those alone.
+/// schema, without those it calls invalid and, where it calls any valid, only those.
 fn identities(root: Node<'_, '_>, schema: &str) -> Vec<Identity> {
     let fields = schema.split('{').filter_map(|part| Some(part.split_once('}')?.0));
     let mut all = vec![Identity::new()];

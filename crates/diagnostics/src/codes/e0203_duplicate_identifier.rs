@@ -19,7 +19,7 @@ Way out: give one of the devices another number from 1 to 254.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `free` is the least identifier that nobody has.
+/// `free` is the least identifier that is not in use.
 #[must_use]
 pub fn duplicate_identifier(span: Span, id: u8, first: Span, free: Option<u8>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("identifier {id} is taken"))

@@ -36,7 +36,7 @@ macro_rules! roles {
     };
 }
 
-/// Who drives a wire.
+/// Which end drives a wire.
 enum Driver {
     Device,
     Mcu,

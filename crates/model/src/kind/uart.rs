@@ -1,5 +1,5 @@
 //! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
-//! `tx = none` takes the receiving wire alone.
+//! `tx = none` takes only the receiving wire.
 
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
@@ -55,7 +55,7 @@ pub struct Uart {
     pub end: Vec<u8>,
     /// Bytes of a message between the delimiters.
     pub length_bytes: u16,
-    /// Nothing is sent: the device needs RX alone.
+    /// Nothing is sent: the device needs only RX.
     pub receive_only: bool,
 }
 

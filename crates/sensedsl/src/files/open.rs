@@ -2,7 +2,7 @@
 //!
 //! What stands at the path is looked at before it is opened, because opening a device can do
 //! things, and again when it is open, because it may have been changed in between. Nothing here waits: a
-//! pipe to which nobody writes is refused after a moment.
+//! pipe that has no writer is refused after a moment.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, Read};
@@ -81,7 +81,7 @@ fn pipe(mut file: File) -> Result<Opened, Unread> {
         .map_err(|error| why(&error.into()))?;
     let mut head = vec![0];
     match file.read(&mut head) {
-        // It is open on our side alone.
+        // Only our side of it is open.
         Ok(0) => return Err(Unread::NotAFile("a pipe to which no program writes")),
         Ok(_) => {}
         // Somebody has it open and did not write yet.

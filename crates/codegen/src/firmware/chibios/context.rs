@@ -58,7 +58,7 @@ impl<'a> Context<'a> {
         self.job.devices.iter().filter(of_kind)
     }
 
-    /// A pad in a mode. A pin of which nobody can tell the port is reported.
+    /// A pad in a mode. A pin whose port is not known is reported.
     pub(super) fn pad(
         &self,
         pad: &Pad<'_>,

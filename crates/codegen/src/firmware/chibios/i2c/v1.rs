@@ -121,7 +121,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// While a bus is busy the driver holds the processor, and nobody of its priority or a lower one runs.
+/// While a bus is busy the driver holds the processor, and no thread of its priority or a lower one runs.
 /// Between two transfers that is the time of a stop condition; all else is a bus that hangs, and will be
 /// clocked free. A tick of a millisecond is one more, for the first of them is cut short.
 fn busy(context: &Context<'_>, plan: &Buses) -> Option<Setting> {
