@@ -79,7 +79,7 @@ class Profile:
         unit = self.unit(group, name) or {}
         listed = {m["name"]: m["streams"] for m in self.data.get("multiplexer", []) if self.line in m.get("lines", [self.line])}
         both = [("dma",), ("rx",), ("tx",)]
-        # A rule of the same key names the option; the unit's own names the streams.
+        # The unit's own key names its streams.
         name = "CAN1" if name == "CAN" else name
         own = next((u for u in self.data.get(group, {}).get("units", []) if u["name"] == name and self.line in u.get("lines", [self.line])), {})
         found = [own[key] for (key,) in both if key in own] if unit else []
@@ -255,7 +255,7 @@ class Model:
             options = []
             for pin, signal, blocks, match in self.fitting(r"(DAC\d+)_OUT(\d+)"):
                 unit = profile.unit("dacs", match[1]) if profile else None
-                if not profile or unit and int(match[2]) <= len(unit["drivers"]):
+                if not profile or unit and int(match[2]) <= unit["outputs"]:
                     options.append((pin, signal, blocks))
             for (_, signal, var) in self.wire(number, "OUT", self.free(options), one):
                 self.violate(number, rules, signal.split("_")[0], var)
