@@ -18,8 +18,8 @@ The figures stand in `crates/limits/src/lib.rs`. `sensedsl-verify` reads certifi
 and objects, and refuses proofs that take more than 1,250,000 steps; `solve --proof` writes none that are larger
 (E0403).
 
-Measured with a release build on the inputs of `tests/tests/limits`, one by one: at most 0.8 s and 127 MB (a table whose
-cells are 1.5 million bytes of another encoding); all others took at most 0.5 s and 85 MB.
+Measured with a release build on the inputs of `tests/tests/limits`, one by one, on a quiet machine: at most 0.5 s and
+156 MB.
 
 Only regular files are read; a pipe only where the command line names it, and `-` is the standard input. What a file
 names by `use`, as a table or as an include is in the folder of the file on the command line or below it, also when

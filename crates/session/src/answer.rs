@@ -119,6 +119,11 @@ fn in_part<'s>(
     mut diagnostics: Vec<Diagnostic>,
     ask: &Ask<'_>,
 ) -> Answer<'s> {
+    if partial.design.devices.is_empty() {
+        let Partial { design, left_out } = partial;
+        let design = Some(Cow::Owned(design));
+        return Answer { design, left_out, solved: None, certificate: None, diagnostics };
+    }
     let mut hopeless = Wiring::within(&partial.design, ask.keep, ask.cancel).check();
     hopeless.retain(|one| !diagnostics.contains(one));
     partial = partial.without(&hopeless);
