@@ -97,6 +97,12 @@ pub fn firmware(design: &Design, wiring: &Assignment) -> Result<FileSet, Vec<Dia
         diagnostics.extend(sensedsl_timing::refusals_of(design, job.board, job.wiring));
         match target.generate(&job) {
             Ok(one) => files.merge_under(&job.board.name.value, one),
+            Err(reports) if reports.is_empty() => {
+                let (name, why) = (&job.board.name, "a name that it needs is not in its profile");
+                let report =
+                    e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why);
+                diagnostics.push(report);
+            }
             Err(reports) => diagnostics.extend(reports),
         }
     }
