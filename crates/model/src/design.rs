@@ -21,6 +21,14 @@ pub struct BoardIndex(pub usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DeviceIndex(pub usize);
 
+/// Index into [`Design::parts`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PartIndex(pub usize);
+
+/// Index into [`Design::connections`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ConnectionIndex(pub usize);
+
 /// A value and where it was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spanned<T> {
@@ -37,8 +45,13 @@ pub struct Design {
     pub file: FileId,
     /// In file order; at least one.
     pub boards: Vec<Board>,
-    /// In file order, those of boards and those outside any board alike.
+    /// What is bought and put on a board as one thing, in file order: a device, or a chip with all
+    /// its devices.
+    pub parts: Vec<Part>,
+    /// What has an identifier and a value, in file order; those of one part one after the other.
     pub devices: Vec<Device>,
+    /// The wires that are to be found, a set each, in the order of their parts.
+    pub connections: Vec<Connection>,
 }
 
 /// A board of the file.
@@ -148,9 +161,26 @@ impl Transport {
     }
 }
 
+/// One thing on a board: a device by itself, or a chip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The name of the device, or of the chip.
+    pub name: Spanned<String>,
+    /// The whole block.
+    pub block: Span,
+    /// The board it is bound to; none where it may go to any.
+    pub board: Option<BoardIndex>,
+    /// The driver its protocol was taken from.
+    pub driver: Option<String>,
+    /// Warnings that are not given for it.
+    pub allows: Vec<Allow>,
+}
+
 /// A sensor or an actuator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Device {
+    /// The part that it is, or is a value of.
+    pub part: PartIndex,
     /// Its name.
     pub name: Spanned<String>,
     /// The whole block.
@@ -175,20 +205,36 @@ pub struct Device {
     pub prio_span: Option<Span>,
     /// The devices that it never measures together with.
     pub group: Option<Group>,
-    /// The board it is bound to; none where it may go to any.
+    /// How a host shows the value.
+    pub shown: Presentation,
+    /// The wires that its value goes over, the first of them those of `kind`.
+    pub connections: Vec<ConnectionIndex>,
+}
+
+/// Wires that belong together: those of a device, of one element of an array, of one connection of a
+/// chip. One peripheral instance serves them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Connection {
+    /// The part that they are of.
+    pub part: PartIndex,
+    /// What tells them from other wires of the part: the name of a chip's connection.
+    pub name: Option<String>,
+    /// Which element of the array they carry, from 0.
+    pub element: Option<u16>,
+    /// The first device whose value goes over them; of wires that no value needs the part's first.
+    pub device: DeviceIndex,
+    /// What they are, with the properties of that kind.
+    pub kind: Kind,
+    /// Which way the value goes.
+    pub direction: Direction,
+    /// The board the part is bound to; none where it may go to any.
     pub board: Option<BoardIndex>,
-    /// What the user fixed of its wiring.
+    /// What the user fixed of them.
     pub placement: Placement,
     /// Soft rules.
     pub wishes: Vec<Wish>,
-    /// How a host shows the value.
-    pub shown: Presentation,
-    /// The voltage on its wires, where it is stated.
+    /// The voltage on them, where it is stated.
     pub level: Option<Level>,
-    /// The driver its protocol was taken from.
-    pub driver: Option<String>,
-    /// Warnings that are not given for this device.
-    pub allows: Vec<Allow>,
 }
 
 /// The voltage that a device puts on its wires.
@@ -300,6 +346,23 @@ pub struct Presentation {
     pub max: Option<f64>,
 }
 
+impl Connection {
+    /// What one of the wires is called beside the others of its device: `in`, `in[3]`, `pwm`,
+    /// `encoder.a`.
+    #[must_use]
+    pub fn wire_name(&self, role: Role) -> String {
+        let mut name = match &self.name {
+            None => role.name().to_owned(),
+            Some(own) if self.kind.roles(self.direction).len() == 1 => own.clone(),
+            Some(own) => format!("{own}.{role}"),
+        };
+        if let Some(element) = self.element {
+            name.push_str(&format!("[{element}]"));
+        }
+        name
+    }
+}
+
 impl Design {
     /// The board at `index`.
     #[must_use]
@@ -317,6 +380,101 @@ impl Design {
     #[must_use]
     pub fn device(&self, index: DeviceIndex) -> Option<&Device> {
         self.devices.get(index.0)
+    }
+
+    /// The part at `index`.
+    #[must_use]
+    pub fn part(&self, index: PartIndex) -> Option<&Part> {
+        self.parts.get(index.0)
+    }
+
+    /// The name of a part; empty where there is none at `index`.
+    #[must_use]
+    pub fn part_name(&self, index: PartIndex) -> &str {
+        self.part(index).map_or("", |part| part.name.value.as_str())
+    }
+
+    /// The connection at `index`.
+    #[must_use]
+    pub fn connection(&self, index: ConnectionIndex) -> Option<&Connection> {
+        self.connections.get(index.0)
+    }
+
+    /// The wires that a device's own properties are of.
+    #[must_use]
+    pub fn main_connection(&self, device: &Device) -> Option<&Connection> {
+        self.connection(*device.connections.first()?)
+    }
+
+    /// What a connection is called: `Line[3]`, `Left.pwm`, or as its part.
+    #[must_use]
+    pub fn connection_name(&self, connection: &Connection) -> String {
+        let mut name = self.part_name(connection.part).to_owned();
+        if let Some(own) = &connection.name {
+            name.push('.');
+            name.push_str(own);
+        }
+        if let Some(element) = connection.element {
+            name.push_str(&format!("[{element}]"));
+        }
+        name
+    }
+
+    /// Where the connections of a part are, which stand one after the other.
+    fn range_of(&self, part: PartIndex) -> std::ops::Range<usize> {
+        let first = self.connections.partition_point(|one| one.part < part);
+        first..self.connections.partition_point(|one| one.part <= part)
+    }
+
+    /// The connections of a part.
+    pub fn connections_of(&self, part: PartIndex) -> impl Iterator<Item = &Connection> {
+        self.connections.get(self.range_of(part)).into_iter().flatten()
+    }
+
+    /// The connections of a part, to be changed.
+    pub fn connections_of_mut(&mut self, part: PartIndex) -> impl Iterator<Item = &mut Connection> {
+        let range = self.range_of(part);
+        self.connections.get_mut(range).into_iter().flatten()
+    }
+
+    /// Leaves out all parts but those for which the function holds, with their devices and
+    /// connections. What is left is numbered anew; the parts' old numbers come back in order.
+    pub fn retain_parts(&mut self, holds: impl Fn(PartIndex, &Part) -> bool) -> Vec<PartIndex> {
+        let kept: Vec<PartIndex> = (0..)
+            .map(PartIndex)
+            .zip(&self.parts)
+            .filter(|(index, part)| holds(*index, part))
+            .map(|(index, _)| index)
+            .collect();
+        let new_part = |old: PartIndex| kept.binary_search(&old).ok().map(PartIndex);
+        let mut new_connections = Vec::with_capacity(self.connections.len());
+        let mut next = 0;
+        self.connections.retain_mut(|one| {
+            let part = new_part(one.part);
+            new_connections.push(part.map(|_| ConnectionIndex(next)));
+            next += usize::from(part.is_some());
+            part.map(|part| one.part = part).is_some()
+        });
+        let mut new_devices = Vec::with_capacity(self.devices.len());
+        let mut next = 0;
+        self.devices.retain_mut(|one| {
+            let part = new_part(one.part);
+            new_devices.push(DeviceIndex(next));
+            next += usize::from(part.is_some());
+            let renumbered = |old: &ConnectionIndex| new_connections.get(old.0).copied().flatten();
+            one.connections = one.connections.iter().filter_map(renumbered).collect();
+            part.map(|part| one.part = part).is_some()
+        });
+        for connection in &mut self.connections {
+            let new = new_devices.get(connection.device.0);
+            connection.device = new.copied().unwrap_or(connection.device);
+        }
+        let mut number = 0;
+        self.parts.retain(|_| {
+            number += 1;
+            kept.binary_search(&PartIndex(number - 1)).is_ok()
+        });
+        kept
     }
 
     /// The wire of one board that carries `devices` (in file order).

@@ -10,10 +10,14 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::design::{BoardIndex, Device, Group, Level, Placement, Presentation, Spanned};
+use crate::design::{
+    BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Group, Level, Part, PartIndex,
+    Placement, Presentation, Spanned,
+};
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
 use crate::kind::{Kind, KindName, i2c};
+use crate::parts::ReadPart;
 use crate::rules;
 
 /// The properties of every device, but for those that show its value.
@@ -39,7 +43,7 @@ pub(crate) fn read(
     board: Option<BoardIndex>,
     drivers: &Drivers,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Device> {
+) -> Option<ReadPart> {
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
     let direction = match node.direction()? {
@@ -72,11 +76,26 @@ pub(crate) fn read(
         shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
     }
     leftovers(&mut fields, kind_name.value);
-    Some(Device {
-        name,
-        block: span(file, node.range()),
-        id: id
-            .and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span }))?,
+    let id = id?;
+    let id = Spanned { value: u8::try_from(id.value).ok()?, span: id.span };
+    let block = span(file, node.range());
+    let connection = Connection {
+        part: PartIndex(0),
+        name: None,
+        element: None,
+        device: DeviceIndex(0),
+        kind: kind.clone(),
+        direction,
+        board,
+        placement,
+        wishes,
+        level,
+    };
+    let device = Device {
+        part: PartIndex(0),
+        name: name.clone(),
+        block,
+        id,
         direction,
         value,
         kind,
@@ -86,14 +105,11 @@ pub(crate) fn read(
         prio: prio.unwrap_or(0),
         prio_span,
         group,
-        board,
-        placement,
-        wishes,
         shown,
-        level,
-        driver,
-        allows,
-    })
+        connections: vec![ConnectionIndex(0)],
+    };
+    let part = Part { name, block, board, driver, allows };
+    Some(ReadPart { part, devices: vec![device], connections: vec![connection] })
 }
 
 fn value_type(

@@ -13,6 +13,7 @@ mod fields;
 mod files;
 pub mod kind;
 mod names;
+mod parts;
 pub mod pins;
 mod resolve;
 mod rules;

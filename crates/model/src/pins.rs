@@ -58,14 +58,14 @@ impl PinRef {
 /// Binds the names of pins to the pins of the boards, and reports those that stand for none or for
 /// several.
 pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
-    let Design { boards, devices, .. } = design;
-    for device in devices {
-        let range = device.board.map_or(0..boards.len(), |board| board.0..board.0 + 1);
+    let Design { boards, connections, .. } = design;
+    for wires in connections {
+        let range = wires.board.map_or(0..boards.len(), |board| board.0..board.0 + 1);
         let mut binder = Binder { boards, range, diagnostics };
-        for (_, Spanned { value, span }) in &mut device.placement.pins {
+        for (_, Spanned { value, span }) in &mut wires.placement.pins {
             binder.pin(value, *span, true);
         }
-        binder.wishes(&mut device.wishes);
+        binder.wishes(&mut wires.wishes);
     }
     for index in 0..boards.len() {
         let Some(board) = boards.get_mut(index) else { continue };

@@ -12,13 +12,14 @@ use sensedsl_syntax::{Parse, ast};
 
 use crate::boards::{self, Context, Left};
 use crate::checks;
-use crate::design::{Board, BoardIndex, Design, Device, Spanned};
+use crate::design::{Board, BoardIndex, Design, Spanned};
 use crate::devices;
 use crate::drivers::Drivers;
 use crate::files::Files;
 use crate::names;
+use crate::parts::{ReadPart, assemble, on_known_boards};
 use crate::pins;
-use crate::sound::{Partial, broken_drivers, on_known_boards};
+use crate::sound::{Partial, broken_drivers};
 use crate::sources::{Items, Reader};
 
 /// What is asked for.
@@ -64,16 +65,16 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
     let (boards, tables) = read_boards(request, files, &items, &mut sources, &mut diagnostics);
     read.extend(tables);
-    let (devices, unread) = read_devices(&items, &drivers, &mut diagnostics);
+    let (parts, unread) = read_parts(&items, &drivers, &mut diagnostics);
     let board_names = board_names(&items);
-    check_names(&board_names, &devices, &drivers, &mut diagnostics);
+    check_names(&board_names, &parts, &drivers, &mut diagnostics);
     if items.boards.is_empty() && !items.broken {
-        let first = devices.first().map(|device| device.name.span);
+        let first = parts.first().map(|read| read.part.name.span);
         let at = first.unwrap_or_else(|| Span::new(file, 0..0));
         diagnostics.push(e0315_no_board::no_board(at));
     }
-    let (boards, devices, homeless) = on_known_boards(boards, &board_names, devices);
-    let mut design = Design { file, boards, devices };
+    let (boards, parts, homeless) = on_known_boards(boards, &board_names, parts);
+    let mut design = assemble(file, boards, parts);
     pins::bind(&mut design, &mut diagnostics);
     check_places(&design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
@@ -141,23 +142,23 @@ fn read_boards(
     (boards, context.tables.into_keys().collect())
 }
 
-/// The devices, and the names of those of which too little is understood.
-fn read_devices(
+/// The parts, and the names of those of which too little is understood.
+fn read_parts(
     items: &Items,
     drivers: &Drivers,
     diagnostics: &mut Vec<Diagnostic>,
-) -> (Vec<Device>, Vec<Spanned<String>>) {
-    let (mut devices, mut unread) = (Vec::new(), Vec::new());
+) -> (Vec<ReadPart>, Vec<Spanned<String>>) {
+    let (mut parts, mut unread) = (Vec::new(), Vec::new());
     for (file, node, board) in &items.devices {
         match devices::read(*file, node, board.map(BoardIndex), drivers, diagnostics) {
-            Some(device) => devices.push(device),
+            Some(part) => parts.push(part),
             None => unread.extend(node.name().map(|name| Spanned {
                 value: name.text().to_owned(),
                 span: crate::fields::span(*file, name.range()),
             })),
         }
     }
-    (devices, unread)
+    (parts, unread)
 }
 
 /// The names of the boards, where they have one.
@@ -172,18 +173,19 @@ fn board_names(items: &Items) -> Vec<Option<Spanned<String>>> {
 
 fn check_names(
     boards: &[Option<Spanned<String>>],
-    devices: &[Device],
+    parts: &[ReadPart],
     drivers: &Drivers,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     names::check("board", &boards.iter().flatten().collect::<Vec<_>>(), diagnostics);
     names::check("driver", &drivers.own_names(), diagnostics);
-    let device_names: Vec<_> = devices.iter().map(|device| &device.name).collect();
+    let devices = || parts.iter().flat_map(|read| &read.devices);
+    let device_names: Vec<_> = devices().map(|device| &device.name).collect();
     names::check("device", &device_names, diagnostics);
     let mut seen: BTreeMap<u8, Span> = BTreeMap::new();
-    let used: BTreeSet<u8> = devices.iter().map(|device| device.id.value).collect();
+    let used: BTreeSet<u8> = devices().map(|device| device.id.value).collect();
     let free = (1..=254_u8).find(|id| !used.contains(id));
-    for Spanned { value, span } in devices.iter().map(|device| device.id) {
+    for Spanned { value, span } in devices().map(|device| device.id) {
         match seen.get(&value) {
             Some(first) => diagnostics
                 .push(e0203_duplicate_identifier::duplicate_identifier(span, value, *first, free)),
@@ -196,13 +198,13 @@ fn check_names(
 
 /// Fixed pins, sides and headers must be in the tables of the boards a device may go to.
 fn check_places(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
-    for device in &design.devices {
-        let boards: Vec<&Board> = match device.board {
+    for wires in &design.connections {
+        let boards: Vec<&Board> = match wires.board {
             Some(index) => design.board(index).into_iter().collect(),
             None => design.boards.iter().collect(),
         };
-        let side = (&device.placement.side, "side");
-        let header = (&device.placement.header, "header");
+        let side = (&wires.placement.side, "side");
+        let header = (&wires.placement.header, "header");
         for (wanted, what) in [side, header] {
             let Some(wanted) = wanted else { continue };
             let known = places(&boards, what);

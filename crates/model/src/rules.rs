@@ -146,8 +146,8 @@ fn allow(
 /// Wants all diagnostics of a run, those of later stages included.
 pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let of_boards = design.boards.iter().flat_map(|board| &board.allows);
-    let of_devices = design.devices.iter().flat_map(|device| &device.allows);
-    let allows: Vec<&Allow> = of_boards.chain(of_devices).collect();
+    let of_parts = design.parts.iter().flat_map(|part| &part.allows);
+    let allows: Vec<&Allow> = of_boards.chain(of_parts).collect();
     let covered = covered(&allows, diagnostics);
     let mut at = 0..;
     diagnostics.retain(|_| at.next().is_none_or(|at| !covered.contains_key(&at)));

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, Span};
 
-use crate::design::{Board, BoardIndex, Design, Device, Spanned};
+use crate::design::{Board, Design, Part, Spanned};
 use crate::drivers::Drivers;
 
 /// A design without what is in error.
@@ -21,16 +21,16 @@ pub struct Partial {
 }
 
 impl Partial {
-    /// Leaves out the devices that an error is about, in addition to those left out already.
+    /// Leaves out the parts that an error is about, in addition to those left out already.
     #[must_use]
     pub fn without(self, diagnostics: &[Diagnostic]) -> Self {
         let errors = errors(diagnostics);
-        self.keep(|device| !has_any(&errors, device.block))
+        self.keep(|part| !has_any(&errors, part.block))
     }
 
-    /// Leaves out the devices of these drivers.
+    /// Leaves out the parts of these drivers.
     pub(crate) fn without_drivers(self, drivers: &BTreeSet<String>) -> Self {
-        self.keep(|device| device.driver.as_ref().is_none_or(|driver| !drivers.contains(driver)))
+        self.keep(|part| part.driver.as_ref().is_none_or(|driver| !drivers.contains(driver)))
     }
 
     /// Leaves out what may be on a board whose table has an error: what its pins can is not known.
@@ -45,14 +45,14 @@ impl Partial {
         self.left_out.extend(names);
         let boards: Vec<bool> =
             self.design.boards.iter().map(|board| !is_doubtful(&board)).collect();
-        self.keep(|device| device.board.is_some_and(|at| boards.get(at.0) == Some(&true)))
+        self.keep(|part| part.board.is_some_and(|at| boards.get(at.0) == Some(&true)))
     }
 
-    fn keep(self, is_sound: impl Fn(&Device) -> bool) -> Self {
+    fn keep(self, is_sound: impl Fn(&Part) -> bool) -> Self {
         let Self { mut design, mut left_out } = self;
-        let (sound, wrong): (_, Vec<Device>) = design.devices.into_iter().partition(is_sound);
-        design.devices = sound;
-        left_out.extend(wrong.into_iter().map(|device| device.name));
+        let wrong = design.parts.iter().filter(|part| !is_sound(part));
+        left_out.extend(wrong.map(|part| part.name.clone()));
+        design.retain_parts(|_, part| is_sound(part));
         left_out.sort_by_key(|name| name.span);
         Self { design, left_out }
     }
@@ -76,38 +76,4 @@ pub(crate) fn broken_drivers(drivers: &Drivers, diagnostics: &[Diagnostic]) -> B
     let errors = errors(diagnostics);
     let broken = drivers.own_blocks().filter(|(_, block)| has_any(&errors, *block));
     broken.map(|(name, _)| name.to_owned()).collect()
-}
-
-/// The boards that could be read, and the devices that are certain to be on them; those left out.
-///
-/// Where a board is missing, a device that may go to any board may belong on that one.
-pub(crate) fn on_known_boards(
-    boards: Vec<Option<Board>>,
-    names: &[Option<Spanned<String>>],
-    devices: Vec<Device>,
-) -> (Vec<Board>, Vec<Device>, Vec<Spanned<String>>) {
-    let mut next = 0;
-    let places: Vec<Option<BoardIndex>> = boards
-        .iter()
-        .map(|board| {
-            let place = BoardIndex(next);
-            next += usize::from(board.is_some());
-            board.is_some().then_some(place)
-        })
-        .collect();
-    let is_whole = next == places.len();
-    let unread = boards.iter().zip(names).filter(|(board, _)| board.is_none());
-    let mut left_out: Vec<Spanned<String>> = unread.filter_map(|(_, name)| name.clone()).collect();
-    let mut sound = Vec::new();
-    for mut device in devices {
-        match device.board {
-            None if is_whole => sound.push(device),
-            Some(BoardIndex(index)) if let Some(Some(place)) = places.get(index) => {
-                device.board = Some(*place);
-                sound.push(device);
-            }
-            None | Some(_) => left_out.push(device.name),
-        }
-    }
-    (boards.into_iter().flatten().collect(), sound, left_out)
 }

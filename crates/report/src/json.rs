@@ -45,7 +45,7 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
                 "id": device.id.value,
                 "kind": device.kind.name().name(),
                 "unit": wiring.unit,
-                "wires": wires(on, board, &wiring.wires),
+                "wires": wires(design, on, board, &wiring.wires),
             }))
         })
         .collect();
@@ -57,18 +57,18 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     });
     if let (Some(link), Some(object)) = (&on.link, value.as_object_mut()) {
         let link = json!({
-            "transport": "uart", "unit": link.unit, "wires": wires(on, board, &link.wires),
+            "transport": "uart", "unit": link.unit, "wires": wires(design, on, board, &link.wires),
         });
         object.insert("link".into(), link);
     }
     value
 }
 
-fn wires(on: &BoardAssignment, board: &Board, wires: &[Wire]) -> Vec<Value> {
+fn wires(design: &Design, on: &BoardAssignment, board: &Board, wires: &[Wire]) -> Vec<Value> {
     let value = |wire: &Wire| {
         let pin = wire.pin(board)?;
         let mut value = json!({
-            "role": wire.role.name(),
+            "role": wire.name(design),
             "pin": pin.name.as_str(),
             "signal": wire.signal(board),
             "usages": pin.cost(),
@@ -102,8 +102,8 @@ pub fn with_left_out(mut value: Value, names: &[&str]) -> Value {
 /// That there is none.
 #[must_use]
 pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
-    let name = |index: &_| design.device(*index).map(|device| device.name.value.clone());
-    let devices: Vec<String> = conflict.devices.iter().filter_map(name).collect();
+    let name = |index: &_| design.part(*index).map(|part| part.name.value.clone());
+    let devices: Vec<String> = conflict.parts.iter().filter_map(name).collect();
     let repairs: Vec<Value> = conflict
         .repairs
         .iter()

@@ -40,7 +40,7 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
             for wire in &wiring.wires {
                 let shared = on.shared_with(wire).unwrap_or_default();
                 rows.extend(row(
-                    (board, wire, shared),
+                    (design, board, wire, shared),
                     (&device.name.value, Some(device.id.value), device.kind.name().name()),
                     wiring.unit.as_deref().unwrap_or_default(),
                 ));
@@ -49,7 +49,7 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
         if let Some(link) = &on.link {
             for wire in &link.wires {
                 let shared = on.shared_with(wire).unwrap_or_default();
-                rows.extend(row((board, wire, shared), ("link", None, "uart"), &link.unit));
+                rows.extend(row((design, board, wire, shared), ("link", None, "uart"), &link.unit));
             }
         }
     }
@@ -61,14 +61,15 @@ pub(super) fn dividers<'a>(
     design: &'a Design,
     on: &'a BoardAssignment,
 ) -> impl Iterator<Item = (&'a str, String)> {
-    on.devices.iter().filter_map(|wiring| {
-        let device = design.device(wiring.device)?;
-        Some((device.name.value.as_str(), device.level.as_ref()?.divided()?))
+    on.connections.iter().filter_map(|wiring| {
+        let wires = design.connection(wiring.connection)?;
+        let once = wires.element.is_none_or(|element| element == 0);
+        once.then_some((design.part_name(wires.part), wires.level.as_ref()?.divided()?))
     })
 }
 
 fn row(
-    (board, wire, shared): (&Board, &Wire, &str),
+    (design, board, wire, shared): (&Design, &Board, &Wire, &str),
     (device, id, kind): (&str, Option<u8>, &str),
     unit: &str,
 ) -> Option<Row> {
@@ -91,7 +92,7 @@ fn row(
         device: device.to_owned(),
         id,
         kind: kind.to_owned(),
-        role: wire.role.name().to_owned(),
+        role: wire.name(design),
         pin: pin.name.to_string(),
         signal: wire.signal(board).to_owned(),
         unit: unit.to_owned(),

@@ -130,7 +130,7 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     let mut units: BTreeMap<UnitName, (Vec<Row>, Vec<u64>)> = BTreeMap::new();
     for ((unit, cycle), devices) in context.classes(|wired| script(context, wired)) {
         let on_unit = context
-            .devices
+            .elements
             .iter()
             .filter(|wired| wired.wiring.unit.as_deref() == Some(unit.as_str()));
         let hz = asked_hz(on_unit).and_then(|asked| exact_hz(context, &unit, asked));

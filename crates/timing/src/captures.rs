@@ -61,7 +61,7 @@ fn whole(value: f64) -> Option<u64> {
 
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
-    for wired in &context.devices {
+    for wired in &context.elements {
         let kind = &wired.device.kind;
         let is_awaited = kind.digital().is_some_and(|digital| digital.edge.is_some());
         if kind.icu().is_none() && !is_awaited {

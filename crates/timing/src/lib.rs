@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, DeviceWiring};
+use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
 
 pub use clocks::{Tick, sampling};
 pub use converters::depth;
@@ -76,29 +76,42 @@ pub struct Turn {
     pub overlaps: bool,
 }
 
-/// A device with its wires.
+/// A device with the wires that its kind is about; an array with those of one element.
 #[derive(Clone, Copy)]
 pub(crate) struct Wired<'a> {
     pub(crate) index: DeviceIndex,
     pub(crate) device: &'a Device,
-    pub(crate) wiring: &'a DeviceWiring,
+    pub(crate) wiring: &'a ConnectionWiring,
 }
 
 /// A board with all that its parts are computed from.
 pub(crate) struct Context<'a> {
     pub(crate) board: &'a Board,
     pub(crate) wiring: &'a BoardAssignment,
+    /// Each device once, with its first element.
     pub(crate) devices: Vec<Wired<'a>>,
+    /// Each element of each device.
+    pub(crate) elements: Vec<Wired<'a>>,
     pub(crate) starts: Starts,
 }
 
 impl<'a> Context<'a> {
     fn new(design: &'a Design, board: &'a Board, wiring: &'a BoardAssignment) -> Self {
-        let devices = wiring.devices.iter().filter_map(|wiring| {
-            Some(Wired { index: wiring.device, device: design.device(wiring.device)?, wiring })
-        });
+        let (mut devices, mut elements) = (Vec::new(), Vec::new());
+        for index in wiring.devices.iter().map(|one| one.device) {
+            let Some(device) = design.device(index) else { continue };
+            let of_kind = |one: &&ConnectionWiring| {
+                let connection = design.connection(one.connection);
+                connection.is_some_and(|one| one.kind.name() == device.kind.name())
+            };
+            let all = device.connections.iter().filter_map(|one| wiring.connection(*one));
+            let all = all.filter(of_kind).map(|wiring| Wired { index, device, wiring });
+            let all: Vec<Wired<'_>> = all.collect();
+            devices.extend(all.first());
+            elements.extend(all);
+        }
         let starts = starts(design, wiring);
-        Self { board, wiring, devices: devices.collect(), starts }
+        Self { board, wiring, devices, elements, starts }
     }
 
     /// What the board's clock tree gives, by macro.
@@ -123,7 +136,7 @@ impl<'a> Context<'a> {
         of: impl Fn(&'c Wired<'a>) -> Option<T>,
     ) -> BTreeMap<(sensedsl_board::signal::UnitName, Cycle), Vec<(&'c Wired<'a>, T)>> {
         let mut classes: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        for wired in &self.devices {
+        for wired in &self.elements {
             let Some(what) = of(wired) else { continue };
             let Some(unit) = wired.wiring.unit.as_deref() else { continue };
             let key = (sensedsl_board::signal::UnitName::new(unit), self.cycle(wired));

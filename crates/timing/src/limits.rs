@@ -26,7 +26,7 @@ const PWM_STEPS_MIN: u32 = 2;
 pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let mut shared: BTreeMap<UnitName, Vec<&Wired<'_>>> = BTreeMap::new();
-    for wired in &context.devices {
+    for wired in &context.elements {
         let unit = wired.wiring.unit.as_deref();
         let kind = &wired.device.kind;
         diagnostics.extend(kind.analog().and_then(|one| of_sampling(context, wired, one)));

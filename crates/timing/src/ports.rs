@@ -12,7 +12,7 @@ use crate::rows::{Count, Part, Row, clocks_ns, per_second};
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut outputs: BTreeMap<(UnitName, u32), Row> = BTreeMap::new();
-    for wired in &context.devices {
+    for wired in &context.elements {
         let Some(unit) = wired.wiring.unit.as_deref() else { continue };
         if let Some(uart) = wired.device.kind.uart() {
             let mut row = Row::new(Part::Port, unit, vec![wired.index]);
@@ -35,7 +35,9 @@ pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
                 row.clock_hz = Some(pwm.frequency_hz);
                 row
             };
-            outputs.entry(key).or_insert_with(fresh).devices.push(wired.index);
+            let row = outputs.entry(key).or_insert_with(fresh);
+            row.devices.push(wired.index);
+            row.devices.dedup();
         }
     }
     rows.extend(outputs.into_values());

@@ -118,7 +118,7 @@ struct Load {
 
 fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
     let mut loads: BTreeMap<(UnitName, Cycle), Load> = BTreeMap::new();
-    for wired in &context.devices {
+    for wired in &context.elements {
         let kind = &wired.device.kind;
         let is_pulsed = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
         if kind.name().spec().triggers_itself && !is_pulsed {
@@ -128,6 +128,7 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
         let unit = if is_pulsed { "pulse" } else { of_kind() };
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
+        load.devices.dedup();
         if let Some(analog) = kind.analog() {
             load.samples.push(analog.samples);
         } else if let Some(icu) = kind.icu() {
@@ -208,7 +209,7 @@ fn reporter(context: &Context<'_>, costs: &Costs) -> u64 {
     let reports = reports(context);
     let cycles = 1_000_u64.div_ceil(u64::from(reports.cycle_ms.max(1)));
     let is_capture = |kind: &Kind| kind.name().spec().triggers_itself;
-    let captures = context.devices.iter().filter(|wired| is_capture(&wired.device.kind)).count();
+    let captures = context.elements.iter().filter(|wired| is_capture(&wired.device.kind)).count();
     let mut instructions = cycles
         * (u64::from(costs.report) + captures as u64 * u64::from(costs.capture_look))
         + reports.count * u64::from(costs.report_frame)
@@ -258,14 +259,15 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
 /// All captures of which it is known how often they come.
 fn of_captures(context: &Context<'_>, costs: Option<&(Costs, u32)>) -> Option<Row> {
     let known: Vec<(DeviceIndex, u64)> = context
-        .devices
+        .elements
         .iter()
         .filter_map(|wired| Some((wired.index, interrupts(wired.device)?)))
         .collect();
     if known.is_empty() {
         return None;
     }
-    let devices = known.iter().map(|(index, _)| *index).collect();
+    let mut devices: Vec<DeviceIndex> = known.iter().map(|(index, _)| *index).collect();
+    devices.dedup();
     let all: u64 = known.iter().map(|(_, count)| count).sum();
     let mut row = Row::new(Part::Thread, "captures", devices);
     row.a_second = costs.map(|(costs, _)| Count::Instructions(all * u64::from(costs.capture)));

@@ -154,7 +154,9 @@ impl Row {
     }
 
     /// A line of which nothing is known yet.
-    pub(crate) fn new(part: Part, name: impl Into<String>, devices: Vec<DeviceIndex>) -> Self {
+    pub(crate) fn new(part: Part, name: impl Into<String>, mut devices: Vec<DeviceIndex>) -> Self {
+        // An array has several elements.
+        devices.dedup();
         Self {
             part,
             name: name.into(),

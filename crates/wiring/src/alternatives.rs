@@ -20,7 +20,7 @@ mod uart;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::silicon::Ability;
-use sensedsl_model::design::{Board, BoardIndex, Device, Placement, Wish};
+use sensedsl_model::design::{Board, BoardIndex, Connection, Placement, Wish};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
@@ -30,7 +30,7 @@ use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 use crate::wishes;
 
-/// A device, or a link, as far as its wires go.
+/// A connection, or a link, as far as its wires go.
 pub(crate) struct Wanted<'a> {
     pub(crate) kind: &'a Kind,
     pub(crate) direction: Direction,
@@ -46,18 +46,18 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    pub(crate) fn device(device: &'a Device, boards: Vec<BoardIndex>) -> Self {
-        let Placement { pins, unit, side, header } = &device.placement;
+    pub(crate) fn connection(connection: &'a Connection, boards: Vec<BoardIndex>) -> Self {
+        let Placement { pins, unit, side, header } = &connection.placement;
         Self {
-            kind: &device.kind,
-            direction: device.direction,
+            kind: &connection.kind,
+            direction: connection.direction,
             boards,
             pins: pins.iter().map(|(role, pin)| (*role, pin.value.clone())).collect(),
             unit: unit.as_ref().map(|unit| unit.value.as_str()),
             side: side.as_ref().map(|side| side.value.as_str()),
             header: header.as_ref().map(|header| header.value.as_str()),
-            wishes: &device.wishes,
-            level_mv: device.level.map(|level| level.at_pin_mv()),
+            wishes: &connection.wishes,
+            level_mv: connection.level.map(|level| level.at_pin_mv()),
         }
     }
 

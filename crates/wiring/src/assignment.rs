@@ -1,7 +1,7 @@
 //! The answer in names: which device is on which pins of which board.
 
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
+use sensedsl_model::design::{Board, BoardIndex, ConnectionIndex, Design, DeviceIndex};
 use sensedsl_model::kind::Role;
 
 /// How good a wiring is known to be.
@@ -66,7 +66,9 @@ pub struct BoardAssignment {
     pub cost: u32,
     /// The pins in use that something else is on, ascending.
     pub shared: Vec<SharedPin>,
-    /// Its devices, in file order.
+    /// Its connections, in the order of the design.
+    pub connections: Vec<ConnectionWiring>,
+    /// Its devices, in file order, each with all wires that its value goes over.
     pub devices: Vec<DeviceWiring>,
     /// The wires of a serial link.
     pub link: Option<LinkWiring>,
@@ -75,6 +77,13 @@ pub struct BoardAssignment {
 }
 
 impl BoardAssignment {
+    /// The wiring of one connection, where it is on this board.
+    #[must_use]
+    pub fn connection(&self, index: ConnectionIndex) -> Option<&ConnectionWiring> {
+        let at = self.connections.binary_search_by_key(&index, |one| one.connection).ok()?;
+        self.connections.get(at)
+    }
+
     /// What else is on the pin of a wire.
     #[must_use]
     pub fn shared_with(&self, wire: &Wire) -> Option<&str> {
@@ -92,14 +101,26 @@ pub struct SharedPin {
     pub with: String,
 }
 
+/// The wires of one connection.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConnectionWiring {
+    /// Which connection.
+    pub connection: ConnectionIndex,
+    /// The peripheral instance (`ADC1`, `I2C3`, `TIM3`); none for a bare GPIO.
+    pub unit: Option<String>,
+    /// Its wires, in the order of the roles.
+    pub wires: Vec<Wire>,
+}
+
 /// The wires of one device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceWiring {
     /// Which device.
     pub device: DeviceIndex,
-    /// The peripheral instance (`ADC1`, `I2C3`, `TIM3`); none for a bare GPIO.
+    /// The peripheral instance of its first connection.
     pub unit: Option<String>,
-    /// Its wires, in the order of the roles.
+    /// Its wires, connection by connection, in the order of the roles. A chip's first device has
+    /// those that no value needs as well.
     pub wires: Vec<Wire>,
 }
 
@@ -115,7 +136,9 @@ pub struct LinkWiring {
 /// One wire: a role on a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wire {
-    /// What the wire is to the device.
+    /// The connection that it is of; none for a wire of a link.
+    pub connection: Option<ConnectionIndex>,
+    /// What the wire is to the connection.
     pub role: Role,
     /// Index into the pins of the board's table.
     pub pin: usize,
@@ -124,6 +147,13 @@ pub struct Wire {
 }
 
 impl Wire {
+    /// What it is called beside the other wires of its device: `in`, `in[3]`, `pwm`.
+    #[must_use]
+    pub fn name(&self, design: &Design) -> String {
+        let connection = self.connection.and_then(|index| design.connection(index));
+        connection.map_or_else(|| self.role.name().to_owned(), |one| one.wire_name(self.role))
+    }
+
     /// The pin in the board's table.
     #[must_use]
     pub fn pin<'a>(&self, board: &'a Board) -> Option<&'a Pin> {
@@ -162,6 +192,12 @@ impl Assignment {
             let wiring = board.devices.iter().find(|wiring| wiring.device == index)?;
             Some((board.board, wiring))
         })
+    }
+
+    /// The wiring of one connection and its board.
+    #[must_use]
+    pub fn connection(&self, index: ConnectionIndex) -> Option<(BoardIndex, &ConnectionWiring)> {
+        self.boards.iter().find_map(|board| Some((board.board, board.connection(index)?)))
     }
 
     /// The boards that carry a device, with their boards of the design.

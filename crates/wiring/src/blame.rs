@@ -5,10 +5,12 @@
 //! one; each whose absence leaves the devices unwirable stays away. What is left is minimal too:
 //! without any one of the devices, or of the rules, there is a wiring.
 
+use std::collections::BTreeSet;
+
 use sensedsl_board::profile::Target;
 use sensedsl_board::table::Occupation;
 use sensedsl_diagnostics::Span;
-use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex, Spanned};
+use sensedsl_model::design::{Board, BoardIndex, Design, PartIndex, Spanned};
 use sensedsl_model::kind::{Kind, Role};
 
 use crate::{Cancel, Solved, Wiring};
@@ -23,17 +25,17 @@ pub enum Rule {
     /// A `reserve`.
     Reserve(BoardIndex, String, Span),
     /// `exclusive` of an i2c device.
-    Exclusive(DeviceIndex),
+    Exclusive(PartIndex),
     /// The `side` of a device.
-    Side(DeviceIndex, Span),
+    Side(PartIndex, Span),
     /// The `header` of a device.
-    Header(DeviceIndex, Span),
+    Header(PartIndex, Span),
     /// The `unit` of a device.
-    Unit(DeviceIndex, Span),
+    Unit(PartIndex, Span),
     /// A fixed pin of a device.
-    Pin(DeviceIndex, Role, Span),
+    Pin(PartIndex, Role, Span),
     /// The board that a device stands in, where there are others.
-    Board(DeviceIndex),
+    Board(PartIndex),
 }
 
 impl Rule {
@@ -53,9 +55,7 @@ impl Rule {
     /// The rule in words.
     #[must_use]
     pub fn describe(&self, design: &Design) -> String {
-        let device = |index: &DeviceIndex| {
-            design.device(*index).map_or("", |device| device.name.value.as_str())
-        };
+        let device = |index: &PartIndex| design.part_name(*index);
         match self {
             Self::Target(on) => {
                 let profile = design.board(*on).and_then(Board::profile);
@@ -102,20 +102,23 @@ impl Rule {
         }
     }
 
-    fn lift_of_device(&self, design: &mut Design, index: DeviceIndex) {
-        let Some(device) = design.devices.get_mut(index.0) else { return };
-        match self {
-            Self::Exclusive(_) => {
-                if let Kind::I2c(i2c) = &mut device.kind {
-                    i2c.exclusive = false;
+    fn lift_of_device(&self, design: &mut Design, index: PartIndex) {
+        for wires in design.connections_of_mut(index) {
+            match self {
+                Self::Exclusive(_) => {
+                    if let Kind::I2c(i2c) = &mut wires.kind {
+                        i2c.exclusive = false;
+                    }
                 }
+                Self::Side(..) => wires.placement.side = None,
+                Self::Header(..) => wires.placement.header = None,
+                Self::Unit(_, span) => {
+                    wires.placement.unit.take_if(|unit| unit.span == *span);
+                }
+                Self::Pin(.., span) => wires.placement.pins.retain(|(_, pin)| pin.span != *span),
+                Self::Board(_) => wires.board = None,
+                Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
             }
-            Self::Side(..) => device.placement.side = None,
-            Self::Header(..) => device.placement.header = None,
-            Self::Unit(..) => device.placement.unit = None,
-            Self::Pin(_, role, _) => device.placement.pins.retain(|(fixed, _)| fixed != role),
-            Self::Board(_) => device.board = None,
-            Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
         }
     }
 }
@@ -126,10 +129,9 @@ const TRIED_MAX: usize = 256;
 /// The rules without which the devices could be wired; empty where nothing but the hardware stands
 /// in the way, or time ran out. Minimal where there are at most [`TRIED_MAX`]; of more, the rest is
 /// named untried.
-pub(crate) fn rules(design: &Design, devices: &[DeviceIndex], cancel: Cancel<'_>) -> Vec<Rule> {
+pub(crate) fn rules(design: &Design, parts: &[PartIndex], cancel: Cancel<'_>) -> Vec<Rule> {
     let mut left = design.clone();
-    let mut numbers = (0..design.devices.len()).map(DeviceIndex);
-    left.devices.retain(|_| numbers.next().is_some_and(|index| devices.contains(&index)));
+    left.retain_parts(|index, _| parts.contains(&index));
     let all = in_force(&left);
     let mut free = left.clone();
     all.iter().for_each(|rule| rule.lift(&mut free));
@@ -154,19 +156,19 @@ pub(crate) fn rules(design: &Design, devices: &[DeviceIndex], cancel: Cancel<'_>
     if cancel.is_over() {
         return Vec::new();
     }
-    needed.into_iter().filter_map(|rule| rule.renumbered(devices)).collect()
+    needed.into_iter().filter_map(|rule| rule.renumbered(parts)).collect()
 }
 
 impl Rule {
-    /// The rule with the numbers that the devices have in the whole design.
-    fn renumbered(mut self, devices: &[DeviceIndex]) -> Option<Self> {
+    /// The rule with the numbers that the parts have in the whole design.
+    fn renumbered(mut self, parts: &[PartIndex]) -> Option<Self> {
         match &mut self {
             Self::Exclusive(index)
             | Self::Side(index, _)
             | Self::Header(index, _)
             | Self::Unit(index, _)
             | Self::Pin(index, ..)
-            | Self::Board(index) => *index = *devices.get(index.0)?,
+            | Self::Board(index) => *index = *parts.get(index.0)?,
             Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
         }
         Some(self)
@@ -194,12 +196,13 @@ fn in_force(design: &Design) -> Vec<Rule> {
         parts.dedup();
         rules.extend(parts.into_iter().map(|part| Rule::Part(index, part.to_owned())));
     }
-    for (index, device) in design.devices.iter().enumerate() {
-        let index = DeviceIndex(index);
-        if device.board.is_some() && design.boards.len() > 1 {
+    let parts = || (0..).map(PartIndex).zip(&design.parts);
+    for (index, part) in parts() {
+        if part.board.is_some() && design.boards.len() > 1 {
             rules.push(Rule::Board(index));
         }
-        if matches!(&device.kind, Kind::I2c(i2c) if i2c.exclusive) {
+        let mut connections = design.connections_of(index);
+        if connections.any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.exclusive)) {
             rules.push(Rule::Exclusive(index));
         }
     }
@@ -210,13 +213,19 @@ fn in_force(design: &Design) -> Vec<Rule> {
         };
         rules.extend(reserved.map(rule));
     }
-    for (index, device) in design.devices.iter().enumerate() {
-        let index = DeviceIndex(index);
-        let placement = &device.placement;
-        rules.extend(placement.side.iter().map(|side| Rule::Side(index, side.span)));
-        rules.extend(placement.header.iter().map(|header| Rule::Header(index, header.span)));
-        rules.extend(placement.unit.iter().map(|unit| Rule::Unit(index, unit.span)));
-        rules.extend(placement.pins.iter().map(|(role, pin)| Rule::Pin(index, *role, pin.span)));
+    let mut told = BTreeSet::new();
+    for connection in &design.connections {
+        let (index, placement) = (connection.part, &connection.placement);
+        let side = placement.side.iter().map(|side| Rule::Side(index, side.span));
+        let header = placement.header.iter().map(|header| Rule::Header(index, header.span));
+        let unit = placement.unit.iter().map(|unit| Rule::Unit(index, unit.span));
+        let pins = placement.pins.iter().map(|(role, pin)| Rule::Pin(index, *role, pin.span));
+        for rule in side.chain(header).chain(unit).chain(pins) {
+            // The wires of one part have some of them in common.
+            if rule.span().is_none_or(|span| told.insert(span)) {
+                rules.push(rule);
+            }
+        }
     }
     rules
 }

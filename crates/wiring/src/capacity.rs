@@ -4,7 +4,10 @@
 //! of one kind alone are added until there is no wiring.
 
 use sensedsl_diagnostics::Span;
-use sensedsl_model::design::{BoardIndex, Design, Device, Placement, Presentation, Spanned};
+use sensedsl_model::design::{
+    BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
+    Placement, Presentation, Spanned,
+};
 use sensedsl_model::kind::{Kind, KindName, Sharing};
 use sensedsl_model::pins::PinRef;
 use sensedsl_wire::{Direction, ScalarType, ValueType};
@@ -61,11 +64,14 @@ fn fix(design: &mut Design, wiring: &Assignment) {
     let boards = design.boards.clone();
     for on in &wiring.boards {
         let Some(board) = boards.get(on.board.0) else { continue };
-        for one in &on.devices {
-            let Some(device) = design.devices.get_mut(one.device.0) else { continue };
-            let span = device.name.span;
-            device.board = Some(on.board);
-            device.placement.pins = one
+        for one in &on.connections {
+            let Some(wires) = design.connections.get_mut(one.connection.0) else { continue };
+            let part = design.parts.get_mut(wires.part.0);
+            let Some(part) = part else { continue };
+            let span = part.name.span;
+            part.board = Some(on.board);
+            wires.board = Some(on.board);
+            wires.placement.pins = one
                 .wires
                 .iter()
                 .filter_map(|wire| {
@@ -74,8 +80,8 @@ fn fix(design: &mut Design, wiring: &Assignment) {
                 })
                 .collect();
             // The converter is chosen after the wiring and may change with company.
-            if !matches!(device.kind, Kind::Analog(_)) {
-                device.placement.unit = one.unit.clone().map(|value| Spanned { value, span });
+            if !matches!(wires.kind, Kind::Analog(_)) {
+                wires.placement.unit = one.unit.clone().map(|value| Spanned { value, span });
             }
         }
     }
@@ -139,42 +145,64 @@ fn with(base: &Design, board: BoardIndex, kind: KindName, count: usize) -> Desig
     let span = span.unwrap_or_else(|| Span::new(design.file, 0..0));
     for number in 0..count {
         let address = addresses.get(number).copied().unwrap_or_default();
-        design.devices.push(further(board, kind, number, address, span));
+        add(&mut design, board, (kind, number, address), span);
     }
     design
 }
 
-fn further(board: BoardIndex, kind: KindName, number: usize, address: u8, span: Span) -> Device {
+/// Adds a device with nothing but its kind.
+fn add(
+    design: &mut Design,
+    board: BoardIndex,
+    (kind, number, address): (KindName, usize, u8),
+    span: Span,
+) {
     let direction = kind.spec().directions.first().copied().unwrap_or(Direction::Sensor);
-    Device {
-        name: Spanned { value: format!("further {}", number + 1), span },
+    let (part, name) =
+        (PartIndex(design.parts.len()), Spanned { value: format!("further {}", number + 1), span });
+    let device = DeviceIndex(design.devices.len());
+    let connections = vec![ConnectionIndex(design.connections.len())];
+    let kind = Kind::plain(kind, address);
+    let (wishes, placement) = (Vec::new(), Placement::default());
+    design.connections.push(Connection {
+        part,
+        name: None,
+        element: None,
+        device,
+        kind: kind.clone(),
+        direction,
+        board: Some(board),
+        placement,
+        wishes,
+        level: None,
+    });
+    design.devices.push(Device {
+        part,
+        name: name.clone(),
         block: span,
         id: Spanned { value: 0, span },
         direction,
         value: Spanned { value: ValueType::scalar(ScalarType::Uint16), span },
-        kind: Kind::plain(kind, address),
+        kind,
         kind_span: span,
         delay_ms: 1_000,
         delay_span: None,
         prio: 0,
         prio_span: None,
         group: None,
-        board: Some(board),
-        placement: Placement::default(),
-        wishes: Vec::new(),
         shown: Presentation::default(),
-        level: None,
-        driver: None,
-        allows: Vec::new(),
-    }
+        connections,
+    });
+    let board = Some(board);
+    design.parts.push(Part { name, block: span, board, driver: None, allows: Vec::new() });
 }
 
 fn free_addresses(design: &Design) -> Vec<u8> {
     let used = |address: &u8| {
         design
-            .devices
+            .connections
             .iter()
-            .any(|device| matches!(&device.kind, Kind::I2c(i2c) if i2c.address == *address))
+            .any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.address == *address))
     };
     ADDRESSES.filter(|address| !used(address)).collect()
 }

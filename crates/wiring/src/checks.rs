@@ -15,7 +15,7 @@ use sensedsl_diagnostics::codes::{
     e0321_too_much_voltage, w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
     w0610_level_not_known,
 };
-use sensedsl_model::design::{Board, BoardIndex, Design, Device, Level, Spanned, WishFor};
+use sensedsl_model::design::{Board, BoardIndex, Connection, Design, Level, Spanned, WishFor};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::pins::PinRef;
 use sensedsl_model::volts::{shown_mv, shown_ohm};
@@ -30,9 +30,11 @@ use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 /// Reports what is wrong with the placement of devices that have no way to be connected at all.
 pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
-    for (device, meanings) in design.devices.iter().zip(&formulation.meanings) {
-        if meanings.is_empty() {
-            diagnostics.extend(why_hopeless(design, formulation, device));
+    // The elements of an array have one reason.
+    let mut told = BTreeSet::new();
+    for (wires, meanings) in design.connections.iter().zip(&formulation.meanings) {
+        if meanings.is_empty() && told.insert((wires.part, wires.name.as_deref())) {
+            diagnostics.extend(why_hopeless(design, formulation, wires));
         }
     }
     diagnostics
@@ -41,37 +43,37 @@ pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
 fn why_hopeless(
     design: &Design,
     formulation: &Formulation<'_>,
-    device: &Device,
+    wires: &Connection,
 ) -> Option<Diagnostic> {
-    let offers = offers(formulation, device);
-    if let Some(level) = device.level
-        && possible(design, &offers, device, |wanted| wanted.level_mv = None)
+    let offers = offers(formulation, wires);
+    if let Some(level) = wires.level
+        && possible(design, &offers, wires, |wanted| wanted.level_mv = None)
     {
-        return Some(too_much_voltage(&offers, device, level));
+        return Some(too_much_voltage(design, &offers, wires, level));
     }
-    for (role, pin) in &device.placement.pins {
+    for (role, pin) in &wires.placement.pins {
         if let Some(withheld) = withheld(&offers, pin) {
             return Some(withheld);
         }
-        if !possible(design, &offers, device, |wanted| {
+        if !possible(design, &offers, wires, |wanted| {
             wanted.unit = None;
             wanted.side = None;
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
         }) {
-            let report = bus_only(design, &offers, device, *role, pin);
-            let report = report.or_else(|| by_silicon(design, &offers, device, *role, pin));
-            let report = report.or_else(|| analog_only(design, &offers, device, *role, pin));
+            let report = bus_only(design, &offers, wires, *role, pin);
+            let report = report.or_else(|| by_silicon(design, &offers, wires, *role, pin));
+            let report = report.or_else(|| analog_only(design, &offers, wires, *role, pin));
             return Some(
-                report.unwrap_or_else(|| cannot_serve(design, &offers, device, *role, pin)),
+                report.unwrap_or_else(|| cannot_serve(design, &offers, wires, *role, pin)),
             );
         }
     }
-    if let Some(report) = without_silicon(&offers, device) {
+    if let Some(report) = without_silicon(design, &offers, wires) {
         return Some(report);
     }
-    let unit = device.placement.unit.as_ref()?;
-    let reachable = possible(design, &offers, device, |wanted| {
+    let unit = wires.placement.unit.as_ref()?;
+    let reachable = possible(design, &offers, wires, |wanted| {
         wanted.pins.clear();
         wanted.side = None;
         wanted.header = None;
@@ -79,17 +81,17 @@ fn why_hopeless(
     if reachable {
         return None;
     }
-    let units = units(design, &offers, device);
-    let kind = device.kind.name().with_article();
-    if let Some(because) = unit_lacks(&offers, device, &unit.value) {
+    let units = units(design, &offers, wires);
+    let kind = wires.kind.name().with_article();
+    if let Some(because) = unit_lacks(&offers, wires, &unit.value) {
         let (name, list) = (&unit.value, units.join(", "));
         return Some(e0320_silicon_cannot::unit_cannot(unit.span, name, &kind, because, &list));
     }
     Some(e0311_unknown_unit::unknown_unit(unit.span, &unit.value, &kind, &units.join(", ")))
 }
 
-fn offers<'f, 'a>(formulation: &'f Formulation<'a>, device: &Device) -> Vec<&'f Offer<'a>> {
-    let bound = |offer: &&Offer<'a>| device.board.is_none_or(|board| board == offer.index);
+fn offers<'f, 'a>(formulation: &'f Formulation<'a>, wires: &Connection) -> Vec<&'f Offer<'a>> {
+    let bound = |offer: &&Offer<'a>| wires.board.is_none_or(|board| board == offer.index);
     formulation.offers.iter().filter(bound).collect()
 }
 
@@ -147,16 +149,21 @@ fn withheld(offers: &[&Offer<'_>], pin: &Spanned<PinRef>) -> Option<Diagnostic> 
 }
 
 /// The report for a device whose level no pin stands that it could have.
-fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Diagnostic {
+fn too_much_voltage(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    wires: &Connection,
+    level: Level,
+) -> Diagnostic {
     let most = |offer: &&Offer<'_>| {
         let pins = offer.pins().map(|(_, pin)| pin).filter(|pin| {
-            device
+            wires
                 .placement
                 .pins
                 .iter()
                 .all(|(_, fixed)| fixed.value.on(offer.index) == Some(&pin.name))
         });
-        let of_pin = |pin| match stands(offer.board, pin, &device.kind, level.at_pin_mv()) {
+        let of_pin = |pin| match stands(offer.board, pin, &wires.kind, level.at_pin_mv()) {
             Stands::No(most) => Some(most),
             Stands::Yes | Stands::Unknown => None,
         };
@@ -164,23 +171,24 @@ fn too_much_voltage(offers: &[&Offer<'_>], device: &Device, level: Level) -> Dia
     };
     let supply = offers.iter().filter_map(|offer| supply_mv(offer.board)).max().unwrap_or(3_300);
     let most = offers.iter().filter_map(most).max().unwrap_or(supply);
-    let help = if device.kind.name().spec().sharing == Sharing::Own {
+    let help = if wires.kind.name().spec().sharing == Sharing::Own {
         let [upper, lower] = divider(level.mv, supply).map(shown_ohm);
         format!("put two resistors in between, and write `divider = [{upper}, {lower}];`")
     } else {
         format!("put a level shifter in between, and write `level = {};`", shown_mv(supply))
     };
     let at_pin = level.at_pin_mv();
-    let (name, shown) = (&device.name.value, shown_mv(at_pin));
+    let (name, shown) = (design.part_name(wires.part), shown_mv(at_pin));
+    let at = design.part(wires.part).map_or(level.span, |part| part.name.span);
     let most = if most < at_pin { most } else { supply };
-    let (device, stated) = ((device.name.span, name.as_str()), (level.span, shown.as_str()));
+    let (device, stated) = ((at, name), (level.span, shown.as_str()));
     e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
 }
 
 fn cannot_serve(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     role: Role,
     pin: &Spanned<PinRef>,
 ) -> Diagnostic {
@@ -188,7 +196,7 @@ fn cannot_serve(
         let row = offer.board.table.pin(pin.value.on(offer.index)?)?;
         Some(offer.board.table_span(row.range.clone()))
     });
-    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    let (needs, pins) = needs_and_pins(design, offers, wires, role);
     e0314_pin_cannot_serve::pin_cannot_serve(pin.span, &pin.value.shown(), &needs, row, &pins)
 }
 
@@ -196,11 +204,11 @@ fn cannot_serve(
 fn needs_and_pins(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     role: Role,
 ) -> (String, String) {
-    let needs = format!("`{role}` of {}", device.kind.name().with_article());
-    (needs, pins_of(design, offers, device, role).join(", "))
+    let needs = format!("`{role}` of {}", wires.kind.name().with_article());
+    (needs, pins_of(design, offers, wires, role).join(", "))
 }
 
 /// The report for a fixed pin that an on-board part has left to the devices of its bus, where the
@@ -208,7 +216,7 @@ fn needs_and_pins(
 fn bus_only(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     role: Role,
     pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
@@ -219,7 +227,7 @@ fn bus_only(
     };
     let (name, part) = offers.iter().find_map(row)?;
     let released: Vec<Offer<'_>> = offers.iter().map(|offer| offer.with_released(&name)).collect();
-    let meanings = relaxed_on(design, &released, device, |wanted| {
+    let meanings = relaxed_on(design, &released, wires, |wanted| {
         wanted.unit = None;
         wanted.side = None;
         wanted.header = None;
@@ -237,30 +245,30 @@ fn bus_only(
 fn possible(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     relax: impl Fn(&mut Wanted<'_>),
 ) -> bool {
-    !relaxed(design, offers, device, relax).is_empty()
+    !relaxed(design, offers, wires, relax).is_empty()
 }
 
 fn relaxed(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     relax: impl Fn(&mut Wanted<'_>),
 ) -> Vec<crate::formulate::Meaning> {
     let fresh: Vec<Offer<'_>> =
         offers.iter().map(|offer| Offer::new(offer.index, offer.board)).collect();
-    relaxed_on(design, &fresh, device, relax)
+    relaxed_on(design, &fresh, wires, relax)
 }
 
 fn relaxed_on(
     design: &Design,
     offers: &[Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     relax: impl Fn(&mut Wanted<'_>),
 ) -> Vec<crate::formulate::Meaning> {
-    let mut wanted = wanted(design, device);
+    let mut wanted = wanted(design, wires);
     relax(&mut wanted);
     let mut builder = Builder::new(design, Converters::Later);
     wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
@@ -274,11 +282,11 @@ fn free(wanted: &mut Wanted<'_>) {
     wanted.header = None;
 }
 
-fn units(design: &Design, offers: &[&Offer<'_>], device: &Device) -> Vec<String> {
-    let meanings = relaxed(design, offers, device, free);
+fn units(design: &Design, offers: &[&Offer<'_>], wires: &Connection) -> Vec<String> {
+    let meanings = relaxed(design, offers, wires, free);
     let mut units: Vec<String> = meanings.into_iter().filter_map(|one| one.unit).collect();
     if units.is_empty() {
-        for meaning in relaxed(design, offers, device, free) {
+        for meaning in relaxed(design, offers, wires, free) {
             let Some(board) = design.board(meaning.board) else { continue };
             for chosen in meaning.roles.iter().flatten() {
                 let pin = board.table.pins.get(chosen.pin);
@@ -293,10 +301,10 @@ fn units(design: &Design, offers: &[&Offer<'_>], device: &Device) -> Vec<String>
     units
 }
 
-fn pins_of(design: &Design, offers: &[&Offer<'_>], device: &Device, role: Role) -> Vec<String> {
-    let at = device.kind.roles(device.direction).iter().position(|one| *one == role);
+fn pins_of(design: &Design, offers: &[&Offer<'_>], wires: &Connection, role: Role) -> Vec<String> {
+    let at = wires.kind.roles(wires.direction).iter().position(|one| *one == role);
     let mut pins: Vec<String> = Vec::new();
-    for meaning in relaxed(design, offers, device, free) {
+    for meaning in relaxed(design, offers, wires, free) {
         let Some(board) = design.board(meaning.board) else { continue };
         let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
         let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
@@ -311,29 +319,30 @@ fn pins_of(design: &Design, offers: &[&Offer<'_>], device: &Device, role: Role) 
 pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for (on, board) in assignment.used(design) {
-        for wiring in &on.devices {
-            let Some(device) = design.device(wiring.device) else { continue };
+        for wiring in &on.connections {
+            let Some(wires) = design.connection(wiring.connection) else { continue };
+            let Some(part) = design.part(wires.part) else { continue };
+            let (span, name) = (part.name.span, &part.name.value);
             for wire in &wiring.wires {
                 let Some(pin) = wire.pin(board) else { continue };
-                if let Some(level) = device.level
+                if let Some(level) = wires.level
                     && wire.role.is_driven_by_device()
-                    && stands(board, pin, &device.kind, level.at_pin_mv()) == Stands::Unknown
+                    && stands(board, pin, &wires.kind, level.at_pin_mv()) == Stands::Unknown
                 {
-                    let (name, level) = (&device.name.value, shown_mv(level.at_pin_mv()));
+                    let level = shown_mv(level.at_pin_mv());
                     let report = w0610_level_not_known::level_not_known;
-                    diagnostics.push(report(device.name.span, name, &level, pin.name.as_str()));
+                    diagnostics.push(report(span, name, &level, pin.name.as_str()));
                 }
                 let on_bus = |part: &Onboard| part.how == Occupation::Bus;
                 let Some(with) = on.shared_with(wire) else { continue };
                 // A device that names the part wants it, and one that joins its bus does not disturb it.
                 let named =
-                    device.placement.pins.iter().any(|(role, pin)| {
+                    wires.placement.pins.iter().any(|(role, pin)| {
                         *role == wire.role && names_part(&pin.value.spelled, with)
                     });
                 if !named && !pin.onboard.as_ref().is_some_and(on_bus) {
-                    let (span, device) = (device.name.span, &device.name.value);
                     let pin = pin.name.as_str();
-                    diagnostics.push(w0605_onboard_part::onboard_part(span, device, pin, with));
+                    diagnostics.push(w0605_onboard_part::onboard_part(span, name, pin, with));
                 }
             }
         }
@@ -350,21 +359,24 @@ fn names_part(name: &str, part: &str) -> bool {
 
 /// Devices of one address that are on two buses although the file asks for no bus.
 fn same_addresses(design: &Design, on: &BoardAssignment) -> Vec<Diagnostic> {
-    let mut first: BTreeMap<u8, (&Device, &str)> = BTreeMap::new();
+    let mut first: BTreeMap<u8, (&Connection, &str)> = BTreeMap::new();
     let mut diagnostics = Vec::new();
-    for wiring in &on.devices {
-        let Some(device) = design.device(wiring.device) else { continue };
-        let (Some(i2c), Some(unit)) = (device.kind.i2c(), wiring.unit.as_deref()) else { continue };
+    for wiring in &on.connections {
+        let Some(wires) = design.connection(wiring.connection) else { continue };
+        let (Some(i2c), Some(unit)) = (wires.kind.i2c(), wiring.unit.as_deref()) else { continue };
         let Some((other, on)) = first.get(&i2c.address) else {
-            first.insert(i2c.address, (device, unit));
+            first.insert(i2c.address, (wires, unit));
             continue;
         };
         let meant =
-            |device: &Device| device.placement.unit.is_some() || !device.placement.pins.is_empty();
-        if !(meant(other) && meant(device)) {
+            |one: &Connection| one.placement.unit.is_some() || !one.placement.pins.is_empty();
+        if meant(other) && meant(wires) {
+            continue;
+        }
+        if let (Some(part), Some(before)) = (design.part(wires.part), design.part(other.part)) {
             diagnostics.push(w0609_one_address_on_two_buses::one_address_on_two_buses(
-                (device.name.span, &device.name.value, unit),
-                (other.name.span, &other.name.value, on),
+                (part.name.span, &part.name.value, unit),
+                (before.name.span, &before.name.value, on),
                 i2c.address,
             ));
         }
@@ -393,12 +405,12 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         }
         diagnostics.extend(releases(BoardIndex(index), board));
     }
-    for device in &design.devices {
-        let several = device.kind.roles(device.direction).len() > 1;
-        for wish in &device.wishes {
+    for wires in &design.connections {
+        let several = wires.kind.roles(wires.direction).len() > 1;
+        for wish in &wires.wishes {
             if several && wish.prefer && matches!(wish.what, WishFor::Pin(None, _)) {
                 let roles: Vec<&str> =
-                    device.kind.roles(device.direction).iter().map(|role| role.name()).collect();
+                    wires.kind.roles(wires.direction).iter().map(|role| role.name()).collect();
                 let why = format!("the device has several wires: name one of {}", roles.join(", "));
                 diagnostics.push(w0604_unused_rule::unused_rule(wish.span, "prefer pin", &why));
             }

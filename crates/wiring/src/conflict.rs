@@ -3,7 +3,7 @@
 use sensedsl_board::table::Pin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0401_no_wiring;
-use sensedsl_model::design::{BoardIndex, Design, DeviceIndex};
+use sensedsl_model::design::{BoardIndex, Design, PartIndex};
 use sensedsl_solve::{Cancel, Conflict};
 
 use crate::blame::{self, Rule};
@@ -19,7 +19,7 @@ const REPAIRS_NAMED_MAX: usize = 4;
 pub struct NoWiring {
     /// Without any one of them the others can be connected. In file order; empty when the serial
     /// links of the boards alone have no wires.
-    pub devices: Vec<DeviceIndex>,
+    pub parts: Vec<PartIndex>,
     /// Boards whose serial link is part of the conflict.
     pub links: Vec<BoardIndex>,
     /// Pins and other resources that they fight for.
@@ -48,10 +48,6 @@ pub struct Contested {
     pub pins: Vec<usize>,
 }
 
-fn name(design: &Design, device: DeviceIndex) -> &str {
-    design.device(device).map_or("", |device| device.name.value.as_str())
-}
-
 /// The solver's conflict in names, with repairs.
 pub(crate) fn read(
     design: &Design,
@@ -59,33 +55,40 @@ pub(crate) fn read(
     conflict: &Conflict,
     cancel: Cancel<'_>,
 ) -> NoWiring {
-    let mut named = named(formulation, conflict);
+    let mut named = named(design, formulation, conflict);
     if !named.minimal {
         named.explained = false;
         return named;
     }
     if named.links.is_empty() {
-        named.rules = blame::rules(design, &named.devices, cancel);
+        named.rules = blame::rules(design, &named.parts, cancel);
     }
-    named.repairs = repairs::find(design, formulation, &named.devices, cancel);
+    named.repairs = repairs::find(design, formulation, &named.parts, cancel);
     named.explained = !cancel.is_over();
     named
 }
 
 /// The solver's conflict in names, without repairs.
-pub(crate) fn named(formulation: &Formulation<'_>, conflict: &Conflict) -> NoWiring {
+pub(crate) fn named(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    conflict: &Conflict,
+) -> NoWiring {
     let askers = conflict.devices.iter().filter_map(|id| formulation.askers.get(id.0 as usize));
-    let (mut devices, mut links) = (Vec::new(), Vec::new());
+    let (mut parts, mut links) = (Vec::new(), Vec::new());
     for asker in askers {
         match asker {
-            Asker::Device(device) => devices.push(*device),
+            Asker::Connection(connection) => {
+                parts.extend(design.connection(*connection).map(|one| one.part));
+            }
             Asker::Link(board) => links.push(*board),
         }
     }
+    parts.dedup();
     let resources = resources(formulation, conflict);
     let (rules, repairs) = (Vec::new(), Vec::new());
     let minimal = conflict.minimal;
-    NoWiring { devices, links, resources, rules, repairs, minimal, explained: true }
+    NoWiring { parts, links, resources, rules, repairs, minimal, explained: true }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
@@ -122,7 +125,7 @@ impl NoWiring {
     /// The diagnostic: all devices of the conflict, each at its place.
     #[must_use]
     pub fn diagnostic(&self, design: &Design) -> Diagnostic {
-        let mut names: Vec<&str> = self.devices.iter().map(|one| name(design, *one)).collect();
+        let mut names: Vec<&str> = self.parts.iter().map(|one| design.part_name(*one)).collect();
         let link_names: Vec<String> = self
             .links
             .iter()
@@ -131,10 +134,10 @@ impl NoWiring {
             .collect();
         names.extend(link_names.iter().map(String::as_str));
         let mut places = self
-            .devices
+            .parts
             .iter()
-            .filter_map(|device| design.device(*device))
-            .map(|device| device.name.span)
+            .filter_map(|part| design.part(*part))
+            .map(|part| part.name.span)
             .chain(self.links.iter().filter_map(|b| design.board(*b)).map(|b| b.name.span));
         let first = places.next().or_else(|| design.boards.first().map(|board| board.name.span));
         let Some(first) = first else {
@@ -185,8 +188,8 @@ impl NoWiring {
                 .to_owned();
         }
         let dropped = self.repairs.iter().filter_map(|one| {
-            let Repair::Drop(device) = one.repair else { return None };
-            Some(name(design, device))
+            let Repair::Drop(part) = one.repair else { return None };
+            Some(design.part_name(part))
         });
         let dropped: Vec<&str> = dropped.collect();
         let others = self.repairs.iter().filter(|one| !matches!(one.repair, Repair::Drop(_)));
@@ -221,5 +224,5 @@ impl NoWiring {
 }
 
 fn names_one(conflict: &NoWiring) -> bool {
-    conflict.devices.len() + conflict.links.len() == 1
+    conflict.parts.len() + conflict.links.len() == 1
 }

@@ -8,22 +8,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::signal::Function;
-use sensedsl_model::design::{Board, Design, DeviceIndex, Wish, WishFor};
+use sensedsl_model::design::{Board, ConnectionIndex, Design, Wish, WishFor};
 use sensedsl_model::kind::Kind;
 
-use crate::assignment::DeviceWiring;
+use crate::assignment::ConnectionWiring;
 use crate::formulate::Converters;
 
-/// An analog device and the converters that can sample it.
-type Input = (DeviceIndex, BTreeSet<u8>);
+/// An analog input and the converters that can sample it.
+type Input = (ConnectionIndex, BTreeSet<u8>);
 
-/// The converter of each analog device on the board, such that `streams_suffice` for the choice;
+/// The converter of each analog input on the board, such that `streams_suffice` for the choice;
 /// none where no choice will do. Wishes for converters are given up when the problem has counted
 /// them so.
 pub(crate) fn choose(
     design: &Design,
     board: &Board,
-    wirings: &[DeviceWiring],
+    wirings: &[ConnectionWiring],
     when: Converters,
     streams_suffice: impl Fn(&Choice) -> bool,
 ) -> Option<Choice> {
@@ -42,27 +42,28 @@ fn best(classes: &Classes, streams_suffice: impl Fn(&Choice) -> bool) -> Option<
     })
 }
 
-/// The converter of each analog device.
-pub(crate) type Choice = BTreeMap<DeviceIndex, String>;
+/// The converter of each analog input.
+pub(crate) type Choice = BTreeMap<ConnectionIndex, String>;
 
 /// Analog devices by cycle time and priority.
 type Classes = BTreeMap<(u32, i8), Vec<Input>>;
 
 /// `wishes` leaves only the converters that meet most of them.
-fn classes(design: &Design, board: &Board, wirings: &[DeviceWiring], wishes: bool) -> Classes {
+fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes: bool) -> Classes {
     let mut classes = Classes::new();
     for wiring in wirings {
-        let Some(device) = design.device(wiring.device) else { continue };
-        if !matches!(device.kind, Kind::Analog(_)) {
+        let Some(connection) = design.connection(wiring.connection) else { continue };
+        let Some(device) = design.device(connection.device) else { continue };
+        if !matches!(connection.kind, Kind::Analog(_)) {
             continue;
         }
-        let fixed = device.placement.unit.as_ref().map(|unit| unit.value.as_str());
+        let fixed = connection.placement.unit.as_ref().map(|unit| unit.value.as_str());
         let mut units = units(board, wiring, fixed);
         if wishes {
-            units = wished(board, units, &device.wishes);
+            units = wished(board, units, &connection.wishes);
         }
         let class = (device.delay_ms, device.prio);
-        classes.entry(class).or_default().push((wiring.device, units));
+        classes.entry(class).or_default().push((wiring.connection, units));
     }
     classes
 }
@@ -98,7 +99,7 @@ fn subsets(all: &BTreeSet<u8>) -> impl Iterator<Item = BTreeSet<u8>> {
 const SUBSET_MAX: usize = 10;
 
 /// The units that can sample a device's input.
-fn units(board: &Board, wiring: &DeviceWiring, fixed: Option<&str>) -> BTreeSet<u8> {
+fn units(board: &Board, wiring: &ConnectionWiring, fixed: Option<&str>) -> BTreeSet<u8> {
     let usage = wiring.wires.first().and_then(|wire| wire.usage(board));
     let Some(Function::Adc { units, channel }) = usage.map(|usage| usage.signal.function()) else {
         return BTreeSet::new();

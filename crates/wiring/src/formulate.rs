@@ -4,7 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
-use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex, Link, Transport};
+use sensedsl_model::design::{
+    Board, BoardIndex, Connection, ConnectionIndex, Design, Link, Transport,
+};
 use sensedsl_model::kind::{Kind, uart};
 use sensedsl_solve::Cancel;
 use sensedsl_solve::problem::{
@@ -23,7 +25,7 @@ pub(crate) const GPIO: &str = "GPIO";
 /// Who asks for wires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Asker {
-    Device(DeviceIndex),
+    Connection(ConnectionIndex),
     /// The serial link of a board.
     Link(BoardIndex),
 }
@@ -182,22 +184,22 @@ pub(crate) fn formulate<'a>(
     let mut askers = Vec::new();
     let mut devices = Vec::new();
     let mut meanings = Vec::new();
-    let of_devices = design
-        .devices
+    let of_connections = design
+        .connections
         .iter()
         .enumerate()
-        .map(|(index, device)| (Asker::Device(DeviceIndex(index)), wanted(design, device)));
+        .map(|(index, one)| (Asker::Connection(ConnectionIndex(index)), wanted(design, one)));
     let of_links = links.iter().map(|(board, kind, link)| {
         let unit = link.unit.as_ref().map(|unit| unit.value.as_str());
         (Asker::Link(*board), Wanted::link(*board, kind, unit, &link.pins))
     });
-    for (asker, wanted) in of_devices.chain(of_links) {
+    for (asker, wanted) in of_connections.chain(of_links) {
         if cancel.is_over() {
             break;
         }
         let (mut list, meaning) = alternatives(&mut builder, &offers, &wanted);
-        if let (Some(keep), Asker::Device(device)) = (keep, asker) {
-            mark_moved(design, keep, device, &mut list, &meaning);
+        if let (Some(keep), Asker::Connection(connection)) = (keep, asker) {
+            mark_moved(design, keep, connection, &mut list, &meaning);
         }
         askers.push(asker);
         devices.push(solver::Device { alternatives: list });
@@ -234,16 +236,18 @@ pub(crate) fn formulate<'a>(
     }
 }
 
-/// Marks the candidates that are not where the device's wire was.
+/// Marks the candidates that are not where the connection's wire was.
 fn mark_moved(
     design: &Design,
     keep: &Keep,
-    device: DeviceIndex,
+    connection: ConnectionIndex,
     alternatives: &mut [solver::Alternative],
     meanings: &[Meaning],
 ) {
-    let Some(device) = design.device(device) else { return };
-    let roles = device.kind.roles(device.direction);
+    let Some(connection) = design.connection(connection) else { return };
+    let Some(device) = design.device(connection.device) else { return };
+    let roles = connection.kind.roles(connection.direction);
+    let roles: Vec<String> = roles.into_iter().map(|role| connection.wire_name(role)).collect();
     for (alternative, meaning) in alternatives.iter_mut().zip(meanings) {
         let Some(board) = design.board(meaning.board) else { continue };
         let wires = alternative.roles.iter_mut().zip(&meaning.roles).zip(&roles);
@@ -251,7 +255,7 @@ fn mark_moved(
             for (candidate, at) in role.candidates.iter_mut().zip(chosen) {
                 let Some(pin) = board.table.pins.get(at.pin) else { continue };
                 let device = &device.name.value;
-                candidate.moved = keep.moves(device, *name, &board.name.value, pin.name.as_str());
+                candidate.moved = keep.moves(device, name, &board.name.value, pin.name.as_str());
             }
         }
     }
@@ -261,12 +265,12 @@ pub(crate) fn board_id(board: BoardIndex) -> BoardId {
     BoardId(u32::try_from(board.0).unwrap_or(u32::MAX))
 }
 
-pub(crate) fn wanted<'a>(design: &'a Design, device: &'a Device) -> Wanted<'a> {
-    let boards = match device.board {
+pub(crate) fn wanted<'a>(design: &'a Design, connection: &'a Connection) -> Wanted<'a> {
+    let boards = match connection.board {
         Some(board) => vec![board],
         None => (0..design.boards.len()).map(BoardIndex).collect(),
     };
-    Wanted::device(device, boards)
+    Wanted::connection(connection, boards)
 }
 
 /// All pins of all boards in tie-break order, and where each board begins.

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_model::kind::Role;
-
 /// Where each wire of an earlier answer was: by device and role the board and the pin.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Keep {
@@ -18,8 +16,8 @@ impl Keep {
 
     /// Whether a wire of the device would be somewhere else than before. A wire that is new is not
     /// moved.
-    pub(crate) fn moves(&self, device: &str, role: Role, board: &str, pin: &str) -> bool {
-        let before = self.wires.get(&(device.to_owned(), role.name().to_owned()));
+    pub(crate) fn moves(&self, device: &str, role: &str, board: &str, pin: &str) -> bool {
+        let before = self.wires.get(&(device.to_owned(), role.to_owned()));
         before.is_some_and(|(on, at)| on != board || at != pin)
     }
 }

@@ -57,8 +57,9 @@ impl Namer<'_> {
     fn device(&self, asker: Asker) -> String {
         let board = |board| self.design.board(board).map_or("", |board| &board.name.value);
         match asker {
-            Asker::Device(device) => {
-                self.design.device(device).map_or(String::new(), |one| one.name.value.clone())
+            Asker::Connection(connection) => {
+                let connection = self.design.connection(connection);
+                connection.map_or(String::new(), |one| self.design.connection_name(one))
             }
             Asker::Link(of) => format!("link of {}", board(of)),
         }
@@ -136,8 +137,8 @@ impl Namer<'_> {
         let mut names = Vec::new();
         for asker in &self.formulation.askers {
             let (own, boards): (&[Wish], _) = match asker {
-                Asker::Device(index) => match self.design.device(*index) {
-                    Some(device) => (&device.wishes, wanted(self.design, device).boards),
+                Asker::Connection(index) => match self.design.connection(*index) {
+                    Some(one) => (&one.wishes, wanted(self.design, one).boards),
                     None => (&[], Vec::new()),
                 },
                 Asker::Link(board) => (&[], vec![*board]),

@@ -185,7 +185,7 @@ impl<'a> Wiring<'a> {
                 None => self.no_streams(),
             },
             Meant::Infeasible(conflict) => {
-                Solved::Infeasible(conflict::named(&self.formulation, &conflict))
+                Solved::Infeasible(conflict::named(self.design, &self.formulation, &conflict))
             }
         }
     }

@@ -118,8 +118,9 @@ fn pin_name(formulation: &Formulation<'_>, number: usize) -> String {
 
 fn device_name(design: &Design, asker: Asker) -> String {
     match asker {
-        Asker::Device(device) => {
-            atom(design.device(device).map_or("", |device| &device.name.value))
+        Asker::Connection(connection) => {
+            let connection = design.connection(connection);
+            atom(&connection.map_or(String::new(), |one| design.connection_name(one)))
         }
         Asker::Link(board) => {
             let name = design.board(board).map_or("", |board| &board.name.value);

@@ -1,12 +1,15 @@
 //! From the solver's answer to names: wires, peripheral instances, DMA streams.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use sensedsl_board::table::Pin;
-use sensedsl_model::design::{Board, BoardIndex, Design, DeviceIndex};
+use sensedsl_model::design::{Board, BoardIndex, ConnectionIndex, Design, DeviceIndex};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_solve::{Answer, Optimality};
 
 use crate::assignment::{
-    Assignment, BoardAssignment, DeviceWiring, DmaAssignment, LinkWiring, SharedPin, Status, Wire,
+    Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, DmaAssignment, LinkWiring,
+    SharedPin, Status, Wire,
 };
 use crate::converters::{self, Choice};
 use crate::formulate::{Asker, Converters, Formulation};
@@ -24,6 +27,7 @@ pub(crate) fn read_back(
             board: BoardIndex(index),
             cost: 0,
             shared: Vec::new(),
+            connections: Vec::new(),
             devices: Vec::new(),
             link: None,
             dma: Vec::new(),
@@ -36,12 +40,18 @@ pub(crate) fn read_back(
         let chosen = meaning.roles.iter().zip(&choice.candidates);
         let chosen = chosen.filter_map(|(role, candidate)| role.get(*candidate));
         let wires = roles(design, *asker).into_iter().zip(chosen);
-        let wires = wires.map(|(role, at)| Wire { role, pin: at.pin, usage: at.usage }).collect();
+        let connection = match asker {
+            Asker::Connection(connection) => Some(*connection),
+            Asker::Link(_) => None,
+        };
+        let wires = wires.map(|(role, at)| Wire { connection, role, pin: at.pin, usage: at.usage });
+        let wires = wires.collect();
         match asker {
-            Asker::Device(device) => {
+            Asker::Connection(connection) => {
+                let connection = *connection;
                 // Which converter it is in the end is up to `converters`.
-                let unit = meaning.unit.clone().filter(|_| !is_analog(design, *device));
-                board.devices.push(DeviceWiring { device: *device, unit, wires });
+                let unit = meaning.unit.clone().filter(|_| !is_analog(design, connection));
+                board.connections.push(ConnectionWiring { connection, unit, wires });
             }
             Asker::Link(_) => {
                 let unit = meaning.unit.clone().unwrap_or_default();
@@ -51,8 +61,9 @@ pub(crate) fn read_back(
     }
     for assignment in &mut boards {
         let Some(board) = design.board(assignment.board) else { continue };
-        name_channels(design, board, &mut assignment.devices);
+        name_channels(design, board, &mut assignment.connections);
         assignment.dma = name_converters(design, board, assignment, formulation.converters)?;
+        assignment.devices = devices(design, &assignment.connections);
         let pins = pins(assignment);
         let cost = pins.iter().filter_map(|pin| board.table.pins.get(*pin)).map(Pin::cost);
         assignment.cost = cost.sum();
@@ -80,18 +91,18 @@ pub(crate) fn read_back(
 /// The roles of whoever asks, in order.
 pub(crate) fn roles(design: &Design, asker: Asker) -> Vec<Role> {
     match asker {
-        Asker::Device(device) => design
-            .device(device)
-            .map(|device| device.kind.roles(device.direction))
+        Asker::Connection(connection) => design
+            .connection(connection)
+            .map(|one| one.kind.roles(one.direction))
             .unwrap_or_default(),
         Asker::Link(_) => vec![Role::Tx, Role::Rx],
     }
 }
 
 /// Fills in the instances of single channels: timers of the pure model, outputs of a converter.
-fn name_channels(design: &Design, board: &Board, wirings: &mut [DeviceWiring]) {
+fn name_channels(design: &Design, board: &Board, wirings: &mut [ConnectionWiring]) {
     for wiring in wirings.iter_mut().filter(|wiring| wiring.unit.is_none()) {
-        if !is_analog(design, wiring.device) {
+        if !is_analog(design, wiring.connection) {
             let signal = wiring.wires.first().and_then(|wire| wire.usage(board));
             let units = signal.map(|usage| usage.signal.function().units()).unwrap_or_default();
             wiring.unit = units.first().map(ToString::to_string);
@@ -107,28 +118,56 @@ fn name_converters(
     assignment: &mut BoardAssignment,
     when: Converters,
 ) -> Option<Vec<DmaAssignment>> {
-    let others = assignment.devices.iter().filter_map(|wiring| wiring.unit.as_deref());
+    let others = assignment.connections.iter().filter_map(|wiring| wiring.unit.as_deref());
     let others: Vec<&str> = others.collect();
     let served = |choice: &Choice| {
         let all = others.iter().copied().chain(choice.values().map(String::as_str));
         streams::serve(board, all.collect())
     };
     let suffice = |choice: &Choice| served(choice).is_some();
-    let choice = converters::choose(design, board, &assignment.devices, when, suffice)?;
+    let choice = converters::choose(design, board, &assignment.connections, when, suffice)?;
     let dma = served(&choice);
-    for wiring in assignment.devices.iter_mut().filter(|wiring| is_analog(design, wiring.device)) {
-        wiring.unit = choice.get(&wiring.device).cloned();
+    for wiring in &mut assignment.connections {
+        if is_analog(design, wiring.connection) {
+            wiring.unit = choice.get(&wiring.connection).cloned();
+        }
     }
     dma
 }
 
-fn is_analog(design: &Design, device: DeviceIndex) -> bool {
-    design.device(device).is_some_and(|device| matches!(device.kind, Kind::Analog(_)))
+fn is_analog(design: &Design, connection: ConnectionIndex) -> bool {
+    design.connection(connection).is_some_and(|one| matches!(one.kind, Kind::Analog(_)))
+}
+
+/// The devices whose values go over the connections of a board, with their wires.
+fn devices(design: &Design, connections: &[ConnectionWiring]) -> Vec<DeviceWiring> {
+    let find = |index: ConnectionIndex| {
+        let at = connections.binary_search_by_key(&index, |one| one.connection).ok()?;
+        connections.get(at)
+    };
+    // Those that no value goes over are shown with the first device of their part.
+    let used: BTreeSet<ConnectionIndex> =
+        design.devices.iter().flat_map(|device| device.connections.iter().copied()).collect();
+    let mut unused: BTreeMap<DeviceIndex, Vec<&Wire>> = BTreeMap::new();
+    for one in connections.iter().filter(|one| !used.contains(&one.connection)) {
+        let Some(connection) = design.connection(one.connection) else { continue };
+        unused.entry(connection.device).or_default().extend(&one.wires);
+    }
+    let mut devices = Vec::new();
+    for (index, device) in (0..).map(DeviceIndex).zip(&design.devices) {
+        let of: Vec<_> = device.connections.iter().filter_map(|one| find(*one)).collect();
+        let Some(main) = of.first() else { continue };
+        let own = of.iter().flat_map(|one| &one.wires);
+        let others = unused.remove(&index).unwrap_or_default();
+        let wires = own.chain(others).copied().collect();
+        devices.push(DeviceWiring { device: index, unit: main.unit.clone(), wires });
+    }
+    devices
 }
 
 /// The pins that the board's devices and its link use, each once, ascending.
 fn pins(assignment: &BoardAssignment) -> Vec<usize> {
-    let of_devices = assignment.devices.iter().flat_map(|wiring| &wiring.wires);
+    let of_devices = assignment.connections.iter().flat_map(|wiring| &wiring.wires);
     let of_link = assignment.link.iter().flat_map(|link| &link.wires);
     let mut pins: Vec<usize> = of_devices.chain(of_link).map(|wire| wire.pin).collect();
     pins.sort_unstable();

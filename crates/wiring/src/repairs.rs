@@ -6,7 +6,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::Occupation;
 use sensedsl_model::design::{
-    Board, BoardIndex, Design, Device, DeviceIndex, Link, Placement, Spanned, Transport,
+    Board, BoardIndex, Design, Link, PartIndex, Placement, Spanned, Transport,
 };
 use sensedsl_model::kind::Kind;
 
@@ -19,13 +19,13 @@ use crate::{Cancel, Solved, Wiring, solver};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
     /// Remove what the file fixes of the device's wiring.
-    Free(DeviceIndex),
+    Free(PartIndex),
     /// Let the devices share a bus.
-    Share(Vec<DeviceIndex>),
+    Share(Vec<PartIndex>),
     /// Run an output at the frequency of others, so that they can be on one timer.
-    Retune(DeviceIndex, u32),
+    Retune(PartIndex, u32),
     /// Let the device go to another board of the file.
-    Move(DeviceIndex, BoardIndex),
+    Move(PartIndex, BoardIndex),
     /// Do without a `reserve`.
     Unreserve(BoardIndex, String),
     /// Do without an on-board part.
@@ -33,7 +33,7 @@ pub enum Repair {
     /// Let the board talk to its host in another way, or not at all.
     Relink(BoardIndex, Transport),
     /// Leave the device out.
-    Drop(DeviceIndex),
+    Drop(PartIndex),
 }
 
 /// A repair and the opportunity cost of the best wiring after it.
@@ -63,7 +63,7 @@ impl Repair {
 
     /// The device that is changed, where it is a single one.
     #[must_use]
-    pub const fn device(&self) -> Option<DeviceIndex> {
+    pub const fn device(&self) -> Option<PartIndex> {
         match self {
             Self::Free(device)
             | Self::Retune(device, _)
@@ -80,9 +80,7 @@ impl Repair {
     /// The repair as an instruction.
     #[must_use]
     pub fn describe(&self, design: &Design) -> String {
-        let device = |index: &DeviceIndex| {
-            design.device(*index).map_or("", |device| device.name.value.as_str())
-        };
+        let device = |index: &PartIndex| design.part_name(*index);
         let board =
             |index: &BoardIndex| design.board(*index).map_or("", |board| board.name.value.as_str());
         match self {
@@ -114,29 +112,29 @@ impl Repair {
         let mut design = design.clone();
         match self {
             Self::Free(index) => {
-                if let Some(device) = design.devices.get_mut(index.0) {
-                    device.placement = Placement::default();
+                for wires in design.connections_of_mut(*index) {
+                    wires.placement = Placement::default();
                 }
             }
             Self::Share(devices) => {
-                for index in devices {
-                    if let Some(device) = design.devices.get_mut(index.0)
-                        && let Kind::I2c(i2c) = &mut device.kind
+                for wires in &mut design.connections {
+                    if let Kind::I2c(i2c) = &mut wires.kind
+                        && devices.contains(&wires.part)
                     {
                         i2c.exclusive = false;
                     }
                 }
             }
             Self::Retune(index, hz) => {
-                if let Some(device) = design.devices.get_mut(index.0)
-                    && let Kind::Pwm(pwm) = &mut device.kind
-                {
-                    pwm.frequency_hz = *hz;
+                for wires in design.connections_of_mut(*index) {
+                    if let Kind::Pwm(pwm) = &mut wires.kind {
+                        pwm.frequency_hz = *hz;
+                    }
                 }
             }
             Self::Move(index, to) => {
-                if let Some(device) = design.devices.get_mut(index.0) {
-                    device.board = Some(*to);
+                for wires in design.connections_of_mut(*index) {
+                    wires.board = Some(*to);
                 }
             }
             Self::Unreserve(on, name) => {
@@ -157,9 +155,7 @@ impl Repair {
                 }
             }
             Self::Drop(index) => {
-                if index.0 < design.devices.len() {
-                    design.devices.remove(index.0);
-                }
+                design.retain_parts(|part, _| part != *index);
             }
         }
         design
@@ -177,19 +173,28 @@ const TRIED_MAX: usize = 256;
 pub(crate) fn find(
     design: &Design,
     formulation: &Formulation<'_>,
-    devices: &[DeviceIndex],
+    parts: &[PartIndex],
     cancel: Cancel<'_>,
 ) -> Vec<Repaired> {
     let mut found = Vec::new();
     // To leave out one of several devices that are alike helps as much as to leave out another.
     let mut dropped: BTreeMap<Likeness, Option<u32>> = BTreeMap::new();
     let alike = solver::alike(&formulation.problem).unwrap_or_default();
-    let likeness = |index: &DeviceIndex| -> Option<Likeness> {
-        let device = design.device(*index)?;
-        let number = formulation.askers.iter().position(|one| *one == Asker::Device(*index))?;
+    let likeness = |index: &PartIndex| -> Option<Likeness> {
+        let of_part = |asker: &Asker| {
+            let Asker::Connection(connection) = asker else { return None };
+            design.connection(*connection).filter(|one| one.part == *index)
+        };
+        let mut all = formulation.askers.iter().enumerate();
+        let (number, connection) = all.find_map(|(at, asker)| Some((at, of_part(asker)?)))?;
+        // Several sets of wires are alike only as a whole.
+        if all.any(|(_, asker)| of_part(asker).is_some()) {
+            return None;
+        }
+        let device = design.device(connection.device)?;
         Some((*alike.get(number)?, device.delay_ms, device.prio))
     };
-    let mut proposals = proposals(design, devices);
+    let mut proposals = proposals(design, parts);
     proposals.sort_by_key(|repair| !is_of_one_device(repair));
     for repair in proposals.into_iter().take(TRIED_MAX) {
         if cancel.is_over() {
@@ -208,7 +213,7 @@ pub(crate) fn find(
         found.extend(tried);
     }
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
-        found.extend(sharing(design, devices, cancel));
+        found.extend(sharing(design, parts, cancel));
     }
     found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
     found
@@ -236,18 +241,20 @@ fn tried(design: &Design, repair: Repair, cancel: Cancel<'_>) -> Option<Repaired
 }
 
 /// The first two devices, or else all, that would help by sharing a bus.
-fn sharing(design: &Design, devices: &[DeviceIndex], cancel: Cancel<'_>) -> Option<Repaired> {
-    let exclusive = |index: &&DeviceIndex| {
-        let kind = design.device(**index).map(|device| &device.kind);
-        matches!(kind, Some(Kind::I2c(i2c)) if i2c.exclusive)
-    };
-    let exclusive: Vec<DeviceIndex> = devices.iter().filter(exclusive).copied().collect();
+fn sharing(design: &Design, parts: &[PartIndex], cancel: Cancel<'_>) -> Option<Repaired> {
+    let exclusive = |index: &&PartIndex| is_exclusive(design, **index);
+    let exclusive: Vec<PartIndex> = parts.iter().filter(exclusive).copied().collect();
     let (first, others) = exclusive.split_first()?;
     let pairs = others.iter().map(|other| vec![*first, *other]);
     pairs
         .take(TRIED_MAX)
         .chain([exclusive.clone()])
         .find_map(|some| tried(design, Repair::Share(some), cancel))
+}
+
+fn is_exclusive(design: &Design, part: PartIndex) -> bool {
+    let mut connections = design.connections_of(part);
+    connections.any(|one| matches!(&one.kind, Kind::I2c(i2c) if i2c.exclusive))
 }
 
 const fn is_of_one_device(repair: &Repair) -> bool {
@@ -276,12 +283,15 @@ fn rank(design: &Design, repair: &Repair) -> usize {
 /// The other frequencies at which outputs of the conflict run.
 fn frequencies<'a>(
     design: &'a Design,
-    devices: &'a [DeviceIndex],
-    device: &'a Device,
+    parts: &'a [PartIndex],
+    part: PartIndex,
 ) -> impl Iterator<Item = u32> {
-    let hz = |device: &Device| device.kind.pwm().map(|pwm| pwm.frequency_hz);
-    let own = hz(device);
-    let all = devices.iter().filter_map(move |index| hz(design.device(*index)?));
+    let hz = |part: PartIndex| {
+        let outputs = design.connections_of(part).filter_map(|one| one.kind.pwm());
+        outputs.map(|pwm| pwm.frequency_hz).next()
+    };
+    let own = hz(part);
+    let all = parts.iter().filter_map(move |index| hz(*index));
     let others: BTreeSet<u32> = all.filter(|hz| own.is_some_and(|own| own != *hz)).collect();
     others.into_iter()
 }
@@ -303,19 +313,19 @@ fn links(board: &Board) -> impl Iterator<Item = Transport> {
 }
 
 /// Changes that could help the devices of a conflict.
-fn proposals(design: &Design, devices: &[DeviceIndex]) -> Vec<Repair> {
+fn proposals(design: &Design, parts: &[PartIndex]) -> Vec<Repair> {
     let mut proposals = Vec::new();
     let mut boards: Vec<BoardIndex> = Vec::new();
-    for index in devices {
-        let Some(device) = design.device(*index) else { continue };
-        if device.placement != Placement::default() {
+    for index in parts {
+        let Some(part) = design.part(*index) else { continue };
+        if design.connections_of(*index).any(|one| one.placement != Placement::default()) {
             proposals.push(Repair::Free(*index));
         }
-        if matches!(&device.kind, Kind::I2c(i2c) if i2c.exclusive) {
+        if is_exclusive(design, *index) {
             proposals.push(Repair::Share(vec![*index]));
         }
-        proposals.extend(frequencies(design, devices, device).map(|hz| Repair::Retune(*index, hz)));
-        if let Some(bound) = device.board {
+        proposals.extend(frequencies(design, parts, *index).map(|hz| Repair::Retune(*index, hz)));
+        if let Some(bound) = part.board {
             boards.push(bound);
             let others = (0..design.boards.len()).map(BoardIndex).filter(|to| *to != bound);
             proposals.extend(others.map(|to| Repair::Move(*index, to)));

@@ -1,6 +1,6 @@
 //! Why this pin and not that one: the cost of each alternative for one device.
 
-use sensedsl_model::design::{Board, Design, DeviceIndex};
+use sensedsl_model::design::{ConnectionIndex, Design, DeviceIndex};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Problem, Role as SolverRole};
 use sensedsl_solve::{Cancel, Objective, Options, Outcome, solve};
@@ -13,8 +13,8 @@ use crate::read_back::roles;
 /// What one pin would cost for one wire of a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Alternative {
-    /// The wire.
-    pub role: Role,
+    /// The wire: `in`, `in[3]`, `pwm`.
+    pub wire: String,
     /// The board's name.
     pub board: String,
     /// The pin.
@@ -38,12 +38,28 @@ pub(crate) fn why(
     (wiring, device): (&Assignment, DeviceIndex),
     cancel: Cancel<'_>,
 ) -> Found<Alternative> {
-    let Some(number) = formulation.askers.iter().position(|one| *one == Asker::Device(device))
-    else {
-        return Found { all: Vec::new(), complete: formulation.complete };
-    };
     let mut all = Vec::new();
-    for (at, role) in roles(design, Asker::Device(device)).into_iter().enumerate() {
+    let connections = design.device(device).map(|device| device.connections.as_slice());
+    for connection in connections.unwrap_or_default() {
+        if !of_connection(design, formulation, (wiring, *connection), cancel, &mut all) {
+            return Found { all, complete: false };
+        }
+    }
+    Found { all, complete: formulation.complete }
+}
+
+/// Adds what there is for one connection; false when time ran out.
+fn of_connection(
+    design: &Design,
+    formulation: &Formulation<'_>,
+    (wiring, connection): (&Assignment, ConnectionIndex),
+    cancel: Cancel<'_>,
+    all: &mut Vec<Alternative>,
+) -> bool {
+    let asker = Asker::Connection(connection);
+    let number = formulation.askers.iter().position(|one| *one == asker);
+    let (Some(number), Some(wires)) = (number, design.connection(connection)) else { return true };
+    for (at, role) in roles(design, asker).into_iter().enumerate() {
         for (board, pin, usage) in places(formulation, number, at) {
             let Some(offer) = formulation.offers.get(board) else { continue };
             let Some(row) = offer.board.table.pins.get(pin) else { continue };
@@ -51,21 +67,21 @@ pub(crate) fn why(
             let problem = restricted(formulation, number, at, (board, pin, usage));
             let best = best(&problem, cancel);
             if cancel.is_over() {
-                return Found { all, complete: false };
+                return false;
             }
             all.push(Alternative {
-                role,
+                wire: wires.wire_name(role),
                 board: offer.board.name.value.clone(),
                 pin: row.name.to_string(),
                 signal: signal.map_or_else(|| "GPIO".into(), |usage| usage.spelled.clone()),
                 usages: row.cost(),
                 shared_with: offer.shared_with(pin).map(str::to_owned),
                 best,
-                chosen: is_chosen(wiring, device, role, (offer.board, board), (pin, usage)),
+                chosen: is_chosen(wiring, connection, role, (board, pin, usage)),
             });
         }
     }
-    Found { all, complete: formulation.complete }
+    true
 }
 
 /// A wire: board, pin and usage by their indices.
@@ -115,18 +131,12 @@ fn best(problem: &Problem, cancel: Cancel<'_>) -> Option<Objective> {
 
 fn is_chosen(
     wiring: &Assignment,
-    device: DeviceIndex,
+    connection: ConnectionIndex,
     role: Role,
-    (_, board): (&Board, usize),
-    (pin, usage): (usize, Option<usize>),
+    (board, pin, usage): Place,
 ) -> bool {
-    wiring.device(device).is_some_and(|(on, one)| {
-        let here = |wire: &&crate::assignment::Wire| wire.role == role;
-        on.0 == board
-            && one
-                .wires
-                .iter()
-                .find(here)
-                .is_some_and(|wire| wire.pin == pin && wire.usage == usage)
+    wiring.connection(connection).is_some_and(|(on, one)| {
+        let wire = one.wires.iter().find(|wire| wire.role == role);
+        on.0 == board && wire.is_some_and(|wire| wire.pin == pin && wire.usage == usage)
     })
 }

@@ -85,7 +85,7 @@ fn device(design: &Design, name: &str) -> Result<DeviceIndex> {
 
 fn value(one: &Alternative) -> Value {
     json!({
-        "role": one.role.name(),
+        "role": one.wire,
         "board": one.board,
         "pin": one.pin,
         "signal": one.signal,
@@ -127,7 +127,7 @@ fn human(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> 
         .iter()
         .map(|one| {
             let pin = if several { format!("{} {}", one.board, one.pin) } else { one.pin.clone() };
-            let role = one.role.name().to_owned();
+            let role = one.wire.clone();
             [role, pin, one.signal.clone(), one.usages.to_string(), verdict(one)]
         })
         .collect();

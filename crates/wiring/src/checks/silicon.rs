@@ -3,7 +3,7 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0320_silicon_cannot;
-use sensedsl_model::design::{Design, Device, Spanned};
+use sensedsl_model::design::{Connection, Design, Spanned};
 use sensedsl_model::kind::Role;
 use sensedsl_model::pins::PinRef;
 
@@ -13,14 +13,18 @@ use crate::alternatives::timers::{Channel, channel};
 use crate::offer::Offer;
 
 /// The report for a kind that the silicon of no board in question can do.
-pub(super) fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<Diagnostic> {
+pub(super) fn without_silicon(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    wires: &Connection,
+) -> Option<Diagnostic> {
     let unable = offers.iter().map(|offer| {
-        let ability = served(&device.kind).ability(offer.board)?;
+        let ability = served(&wires.kind).ability(offer.board)?;
         ability.channels.is_empty().then_some((ability, offer.board.mcu.as_deref()?))
     });
     let all: Option<Vec<_>> = unable.collect();
     let (ability, mcu) = all?.into_iter().next()?;
-    let (name, kind) = (&device.name, device.kind.name().with_article());
+    let (name, kind) = (&design.part(wires.part)?.name, wires.kind.name().with_article());
     let because = &ability.because;
     Some(e0320_silicon_cannot::silicon_cannot(name.span, &name.value, &kind, mcu, because))
 }
@@ -28,11 +32,11 @@ pub(super) fn without_silicon(offers: &[&Offer<'_>], device: &Device) -> Option<
 /// Why a timer that a board has can do on no pin what the device needs.
 pub(super) fn unit_lacks(
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     unit: &str,
 ) -> Option<&'static str> {
     offers.iter().find_map(|offer| {
-        let ability = served(&device.kind).ability(offer.board)?;
+        let ability = served(&wires.kind).ability(offer.board)?;
         let usages = offer.pins().flat_map(|(_, pin)| &pin.usages);
         let of_unit = |one: &Channel<'_>| offer.same_unit(unit, one.unit.as_str());
         let mut channels = usages.filter_map(channel).filter(of_unit).peekable();
@@ -45,7 +49,7 @@ pub(super) fn unit_lacks(
 pub(super) fn analog_only(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     role: Role,
     pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
@@ -54,7 +58,7 @@ pub(super) fn analog_only(
         row.is_some_and(|row| offer.is_analog_only(row))
     })?;
     let because = "the pad is an input of the converter alone";
-    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    let (needs, pins) = needs_and_pins(design, offers, wires, role);
     let name = pin.value.shown();
     Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, because, &pins))
 }
@@ -63,20 +67,20 @@ pub(super) fn analog_only(
 pub(super) fn by_silicon(
     design: &Design,
     offers: &[&Offer<'_>],
-    device: &Device,
+    wires: &Connection,
     role: Role,
     pin: &Spanned<PinRef>,
 ) -> Option<Diagnostic> {
-    if let Some(report) = without_silicon(offers, device) {
+    if let Some(report) = without_silicon(design, offers, wires) {
         return Some(report);
     }
     let ability = offers.iter().find_map(|offer| {
-        let ability = served(&device.kind).ability(offer.board)?;
+        let ability = served(&wires.kind).ability(offer.board)?;
         let usages = &offer.board.table.pin(pin.value.on(offer.index)?)?.usages;
         let mut channels = usages.iter().filter_map(channel);
         channels.any(|channel| !channel.captures(Some(ability))).then_some(ability)
     })?;
-    let (needs, pins) = needs_and_pins(design, offers, device, role);
+    let (needs, pins) = needs_and_pins(design, offers, wires, role);
     let name = pin.value.shown();
     Some(e0320_silicon_cannot::channel_cannot(pin.span, &name, &needs, &ability.because, &pins))
 }
