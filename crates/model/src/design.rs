@@ -290,6 +290,36 @@ pub struct Placement {
     pub side: Option<Spanned<String>>,
     /// Only pins on that header.
     pub header: Option<Spanned<String>>,
+    /// What the elements of an array have in common.
+    pub together: Vec<Spanned<Together>>,
+    /// The elements of an array come one after the other along a header.
+    pub sequence: Option<Span>,
+}
+
+/// What the elements of an array can have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Together {
+    /// The peripheral instance.
+    Unit,
+    /// The header.
+    Header,
+    /// The side.
+    Side,
+}
+
+impl Together {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Unit, Self::Header, Self::Side];
+
+    /// The word of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unit => "unit",
+            Self::Header => "header",
+            Self::Side => "side",
+        }
+    }
 }
 
 /// A soft rule: `prefer` or `avoid`.
@@ -314,6 +344,10 @@ pub enum WishFor {
     Side(String),
     /// A header of the board.
     Header(String),
+    /// The elements of an array have something in common.
+    Together(Together),
+    /// The elements of an array come one after the other along a header.
+    Sequence,
 }
 
 /// A warning that is accepted.

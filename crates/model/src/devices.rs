@@ -1,6 +1,5 @@
 //! One device: from its block to a checked [`Device`].
 
-use crate::pins::PinRef;
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0207_unknown_kind, e0208_unknown_type, e0211_out_of_range,
     e0213_property_of_other_kind, e0214_wrong_direction, e0220_impossible_type,
@@ -12,17 +11,19 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::{
     BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Group, Level, Part, PartIndex,
-    Placement, Presentation, Spanned,
+    Presentation, Spanned,
 };
 use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, span};
-use crate::kind::{Kind, KindName, i2c};
+use crate::kind::{KindName, i2c};
 use crate::parts::ReadPart;
+use crate::placement;
 use crate::rules;
 
 /// The properties of every device, but for those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] = &[
-    "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "level", "divider",
+    "id", "type", "driver", "delay", "prio", "group", "unit", "side", "header", "together",
+    "sequence", "level", "divider",
 ];
 /// The properties by which a host shows a value.
 pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset", "min", "max"];
@@ -35,6 +36,8 @@ const DELAY_MAX_MS: u32 = 3_600_000;
 const LEVEL_MAX_MV: u32 = 1_000_000;
 /// Most elements of an array.
 const ARRAY_MAX: u64 = 1_024;
+/// Most elements of an array of wires: more than any part has of one kind.
+const WIRES_MAX: u16 = 128;
 
 /// Reads the device `node` of `file`; none when too little of it is understood.
 pub(crate) fn read(
@@ -59,6 +62,13 @@ pub(crate) fn read(
     fields.rename_owner(kind_name.value.with_article());
     let driver = take_driver(&mut fields, kind_name.value, drivers, &name.value);
     let value = value?;
+    let wires = kind_name.value.spec().values.wires(value.value);
+    if wires.is_some_and(|wires| wires > WIRES_MAX) {
+        let range = format!("1 to {WIRES_MAX}, because each element has a wire of its own");
+        let length = wires.unwrap_or_default().to_string();
+        fields.say(e0211_out_of_range::out_of_range(value.span, "array length", &length, &range));
+        return None;
+    }
     if let Err(can) = kind_name.value.spec().values.accept(value.value) {
         let (kind, found) = (kind_name.value.with_article(), value.value.to_string());
         fields.say(e0220_impossible_type::impossible_type(value.span, &kind, &found, can));
@@ -68,7 +78,7 @@ pub(crate) fn read(
     let prio_span = fields.own_span("prio");
     let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
     let group = group(&mut fields);
-    let placement = placement(&mut fields, &kind, direction);
+    let placements = placement::read(&mut fields, &kind, direction, value.value);
     let mut shown = presentation(&mut fields);
     let level = level(&mut fields);
     if let Some([upper, lower]) = level.as_ref().and_then(|level| level.divider) {
@@ -79,18 +89,20 @@ pub(crate) fn read(
     let id = id?;
     let id = Spanned { value: u8::try_from(id.value).ok()?, span: id.span };
     let block = span(file, node.range());
-    let connection = Connection {
+    let is_array = kind_name.value.spec().values.wires(value.value).is_some();
+    let connections = placements.into_iter().zip(0..).map(|(placement, element)| Connection {
         part: PartIndex(0),
         name: None,
-        element: None,
+        element: is_array.then_some(element),
         device: DeviceIndex(0),
         kind: kind.clone(),
         direction,
         board,
         placement,
-        wishes,
+        wishes: wishes.clone(),
         level,
-    };
+    });
+    let connections: Vec<Connection> = connections.collect();
     let device = Device {
         part: PartIndex(0),
         name: name.clone(),
@@ -106,10 +118,10 @@ pub(crate) fn read(
         prio_span,
         group,
         shown,
-        connections: vec![ConnectionIndex(0)],
+        connections: (0..connections.len()).map(ConnectionIndex).collect(),
     };
     let part = Part { name, block, board, driver, allows };
-    Some(ReadPart { part, devices: vec![device], connections: vec![connection] })
+    Some(ReadPart { part, devices: vec![device], connections })
 }
 
 fn value_type(
@@ -214,32 +226,11 @@ fn is_bare_ranger(fields: &mut Fields<'_>) -> bool {
         .is_some_and(|address| RANGER_ADDRESSES.contains(&address) && address % 2 == 0)
 }
 
-fn placement(fields: &mut Fields<'_>, kind: &Kind, direction: Direction) -> Placement {
-    let mut pins = Vec::new();
-    for role in kind.roles(direction) {
-        if let Some(pin) = pin(fields, role.property()) {
-            pins.push((role, pin));
-        }
-    }
-    let unit = fields.name("unit", "a peripheral such as ADC1");
-    Placement {
-        pins,
-        unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
-        side: fields.name("side", "the name of a side"),
-        header: fields.name("header", "the name of a header"),
-    }
-}
-
 /// The devices that never measure at the same time; `none` takes a driver's group back.
 fn group(fields: &mut Fields<'_>) -> Option<Group> {
     let own = fields.own_span("group").is_some();
     let name = fields.name("group", "the name of a group, or none")?;
     (name.value != "none").then_some(Group { name: name.value, span: name.span, own })
-}
-
-fn pin(fields: &mut Fields<'_>, property: &str) -> Option<Spanned<PinRef>> {
-    let Spanned { value, span } = fields.name(property, "a pin such as PA1")?;
-    Some(Spanned { value: PinRef::unbound(&value), span })
 }
 
 /// The voltage that the device puts on its wires.

@@ -24,6 +24,11 @@ pub(crate) fn span(file: FileId, range: TextRange) -> Span {
     Span::new(file, range.start().into()..range.end().into())
 }
 
+/// The span of a syntax range in the file of another span.
+pub(crate) fn span_in(other: Span, range: TextRange) -> Span {
+    span(other.file, range)
+}
+
 /// One property that was written.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
@@ -153,7 +158,7 @@ impl<'a> Fields<'a> {
         Some(field.clone())
     }
 
-    fn wrong(&mut self, field: &Field, takes: &str) {
+    pub(crate) fn wrong(&mut self, field: &Field, takes: &str) {
         // The parser has reported what is not a number at all.
         if let Value::Number(number) = &field.value
             && number.magnitude().is_none()
@@ -329,6 +334,17 @@ impl<'a> Fields<'a> {
             other_span,
             &format!("`{other}`"),
             "change or remove one of the two",
+        ));
+    }
+
+    /// Reports a property that only arrays have.
+    pub(crate) fn needs_array(&mut self, here: Span, name: &str) {
+        self.diagnostics.push(e0222_contradiction::contradiction(
+            here,
+            &format!("`{name}` is for arrays only"),
+            self.owner_span,
+            "this device has one value",
+            "remove the line, or make it an array: `returns uint16[4]`",
         ));
     }
 

@@ -15,6 +15,7 @@ pub mod kind;
 mod names;
 mod parts;
 pub mod pins;
+mod placement;
 mod resolve;
 mod rules;
 mod sound;

@@ -5,18 +5,18 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0110_misplaced_item, e0201_unknown_property, e0209_wrong_value,
-    w0604_unused_rule,
+    e0212_unknown_word, w0604_unused_rule,
 };
 use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, DeviceItem, Rule};
 
-use crate::design::{Allow, Design, Spanned, Wish, WishFor};
+use crate::design::{Allow, Design, Spanned, Together, Wish, WishFor};
 use crate::fields::{name_or_text, span};
 use crate::kind::Role;
 use crate::pins::PinRef;
 
 /// The properties that can be wished for beside the pins of the roles.
-const WISHES: [&str; 4] = ["pin", "unit", "side", "header"];
+const WISHES: [&str; 6] = ["pin", "unit", "side", "header", "together", "sequence"];
 
 /// All properties that can be wished for.
 fn wishes() -> impl Iterator<Item = &'static str> {
@@ -114,12 +114,42 @@ fn wish(
         return None;
     };
     let what = match name.text() {
+        word @ ("together" | "sequence") => {
+            of_array(file, prefer, word, &text, &value, diagnostics)?
+        }
         "unit" => WishFor::Unit(text.to_uppercase()),
         "side" => WishFor::Side(text),
         "header" => WishFor::Header(text),
         property => WishFor::Pin(Role::from_property(property), PinRef::unbound(&text)),
     };
     Some(Wish { prefer, what, span: at })
+}
+
+/// A wish for the elements of an array.
+fn of_array(
+    file: FileId,
+    prefer: bool,
+    word: &str,
+    text: &str,
+    value: &ast::Value,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<WishFor> {
+    let at = span(file, value.range());
+    if !prefer {
+        let why = "it can be preferred, not avoided";
+        diagnostics.push(w0604_unused_rule::unused_rule(at, &format!("avoid {word}"), why));
+        return None;
+    }
+    let known: &[Together] = if word == "together" { &Together::ALL } else { &[Together::Header] };
+    let words = || known.iter().map(|one| one.name());
+    let Some(found) = known.iter().find(|one| one.name() == text) else {
+        let all: Vec<&str> = words().collect();
+        let meant = nearest(text, words());
+        let unknown = e0212_unknown_word::unknown_word;
+        diagnostics.push(unknown(at, word, text, &all.join(", "), meant));
+        return None;
+    };
+    Some(if word == "together" { WishFor::Together(*found) } else { WishFor::Sequence })
 }
 
 fn allow(

@@ -73,6 +73,12 @@ fn wires(design: &Design, on: &BoardAssignment, board: &Board, wires: &[Wire]) -
             "signal": wire.signal(board),
             "usages": pin.cost(),
         });
+        let connection = wire.connection.and_then(|index| design.connection(index));
+        let is_one_of_several =
+            connection.is_some_and(|one| one.element.is_some() || one.name.is_some());
+        if let (true, Some(object)) = (is_one_of_several, value.as_object_mut()) {
+            object.insert("unit".into(), on.unit_of(wire).into());
+        }
         if let (Some(with), Some(object)) = (on.shared_with(wire), value.as_object_mut()) {
             object.insert("shared".into(), with.into());
         }

@@ -42,7 +42,7 @@ pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
                 rows.extend(row(
                     (design, board, wire, shared),
                     (&device.name.value, Some(device.id.value), device.kind.name().name()),
-                    wiring.unit.as_deref().unwrap_or_default(),
+                    on.unit_of(wire).unwrap_or_default(),
                 ));
             }
         }

@@ -20,7 +20,7 @@ mod uart;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::silicon::Ability;
-use sensedsl_model::design::{Board, BoardIndex, Connection, Placement, Wish};
+use sensedsl_model::design::{Board, BoardIndex, Connection, PartIndex, Placement, Wish};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::pins::PinRef;
 use sensedsl_solve::problem::Alternative;
@@ -32,6 +32,10 @@ use crate::wishes;
 
 /// A connection, or a link, as far as its wires go.
 pub(crate) struct Wanted<'a> {
+    /// None for a link.
+    pub(crate) part: Option<PartIndex>,
+    /// Whether it is one element of an array.
+    pub(crate) is_element: bool,
     pub(crate) kind: &'a Kind,
     pub(crate) direction: Direction,
     /// The boards it may go to.
@@ -47,8 +51,10 @@ pub(crate) struct Wanted<'a> {
 
 impl<'a> Wanted<'a> {
     pub(crate) fn connection(connection: &'a Connection, boards: Vec<BoardIndex>) -> Self {
-        let Placement { pins, unit, side, header } = &connection.placement;
+        let Placement { pins, unit, side, header, .. } = &connection.placement;
         Self {
+            part: Some(connection.part),
+            is_element: connection.element.is_some(),
             kind: &connection.kind,
             direction: connection.direction,
             boards,
@@ -73,7 +79,20 @@ impl<'a> Wanted<'a> {
         let pins = pins.iter().map(|pin| PinRef::of_board(board, pin.clone()));
         let pins = [Role::Tx, Role::Rx].into_iter().zip(pins).collect();
         let (side, header) = (None, None);
-        Self { kind, direction, boards, pins, unit, side, header, wishes: &[], level_mv: None }
+        let (part, is_element, level_mv, wishes) = (None, false, None, &[]);
+        Self {
+            part,
+            is_element,
+            kind,
+            direction,
+            boards,
+            pins,
+            unit,
+            side,
+            header,
+            wishes,
+            level_mv,
+        }
     }
 
     pub(crate) fn fixed(&self, role: Role) -> Option<&PinRef> {

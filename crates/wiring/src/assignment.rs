@@ -84,6 +84,12 @@ impl BoardAssignment {
         self.connections.get(at)
     }
 
+    /// The peripheral instance that serves a wire; none for a bare GPIO.
+    #[must_use]
+    pub fn unit_of(&self, wire: &Wire) -> Option<&str> {
+        self.connection(wire.connection?)?.unit.as_deref()
+    }
+
     /// What else is on the pin of a wire.
     #[must_use]
     pub fn shared_with(&self, wire: &Wire) -> Option<&str> {
@@ -134,7 +140,7 @@ pub struct LinkWiring {
 }
 
 /// One wire: a role on a pin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Wire {
     /// The connection that it is of; none for a wire of a link.
     pub connection: Option<ConnectionIndex>,
@@ -185,6 +191,15 @@ pub struct DmaAssignment {
 }
 
 impl Assignment {
+    /// All wires of all connections, by which wirings are told apart.
+    pub(crate) fn wires(&self) -> Vec<(BoardIndex, Vec<Wire>)> {
+        let of = |board: &BoardAssignment| {
+            let wires = board.connections.iter().flat_map(|one| &one.wires);
+            (board.board, wires.copied().collect())
+        };
+        self.boards.iter().map(of).collect()
+    }
+
     /// The wiring of one device and its board.
     #[must_use]
     pub fn device(&self, index: DeviceIndex) -> Option<(BoardIndex, &DeviceWiring)> {

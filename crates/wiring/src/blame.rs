@@ -34,6 +34,8 @@ pub enum Rule {
     Unit(PartIndex, Span),
     /// A fixed pin of a device.
     Pin(PartIndex, Role, Span),
+    /// What the elements of an array must have in common, or their order.
+    Tie(PartIndex, Span),
     /// The board that a device stands in, where there are others.
     Board(PartIndex),
 }
@@ -47,6 +49,7 @@ impl Rule {
             | Self::Side(_, span)
             | Self::Header(_, span)
             | Self::Unit(_, span)
+            | Self::Tie(_, span)
             | Self::Pin(.., span) => Some(*span),
             Self::Target(_) | Self::Part(..) | Self::Exclusive(_) | Self::Board(_) => None,
         }
@@ -69,6 +72,7 @@ impl Rule {
             Self::Header(index, _) => format!("the header of {}", device(index)),
             Self::Unit(index, _) => format!("the unit of {}", device(index)),
             Self::Pin(index, role, _) => format!("the fixed `{role}` of {}", device(index)),
+            Self::Tie(index, _) => format!("what ties the wires of {}", device(index)),
             Self::Board(index) => format!("the board of {}", device(index)),
         }
     }
@@ -98,6 +102,7 @@ impl Rule {
             | Self::Header(index, _)
             | Self::Unit(index, _)
             | Self::Pin(index, ..)
+            | Self::Tie(index, _)
             | Self::Board(index) => self.lift_of_device(design, *index),
         }
     }
@@ -116,6 +121,10 @@ impl Rule {
                     wires.placement.unit.take_if(|unit| unit.span == *span);
                 }
                 Self::Pin(.., span) => wires.placement.pins.retain(|(_, pin)| pin.span != *span),
+                Self::Tie(_, span) => {
+                    wires.placement.together.retain(|one| one.span != *span);
+                    wires.placement.sequence.take_if(|one| *one == *span);
+                }
                 Self::Board(_) => wires.board = None,
                 Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
             }
@@ -168,6 +177,7 @@ impl Rule {
             | Self::Header(index, _)
             | Self::Unit(index, _)
             | Self::Pin(index, ..)
+            | Self::Tie(index, _)
             | Self::Board(index) => *index = *parts.get(index.0)?,
             Self::Target(_) | Self::Part(..) | Self::Reserve(..) => {}
         }
@@ -220,7 +230,9 @@ fn in_force(design: &Design) -> Vec<Rule> {
         let header = placement.header.iter().map(|header| Rule::Header(index, header.span));
         let unit = placement.unit.iter().map(|unit| Rule::Unit(index, unit.span));
         let pins = placement.pins.iter().map(|(role, pin)| Rule::Pin(index, *role, pin.span));
-        for rule in side.chain(header).chain(unit).chain(pins) {
+        let ties = placement.together.iter().map(|one| one.span).chain(placement.sequence);
+        let ties = ties.map(|span| Rule::Tie(index, span));
+        for rule in side.chain(header).chain(unit).chain(pins).chain(ties) {
             // The wires of one part have some of them in common.
             if rule.span().is_none_or(|span| told.insert(span)) {
                 rules.push(rule);

@@ -1,6 +1,7 @@
 //! What can be said before and after solving: fixed pins that cannot serve, instances that do not
 //! exist, on-board parts that are touched.
 
+mod arrays;
 mod silicon;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,6 +37,9 @@ pub(crate) fn hopeless(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
         if meanings.is_empty() && told.insert((wires.part, wires.name.as_deref())) {
             diagnostics.extend(why_hopeless(design, formulation, wires));
         }
+    }
+    if diagnostics.is_empty() {
+        diagnostics.extend(arrays::too_long(design, formulation));
     }
     diagnostics
 }
@@ -405,14 +409,25 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         }
         diagnostics.extend(releases(BoardIndex(index), board));
     }
+    let mut told = BTreeSet::new();
     for wires in &design.connections {
-        let several = wires.kind.roles(wires.direction).len() > 1;
+        // The connections of a part have their rules in common.
+        if !told.insert(wires.part) {
+            continue;
+        }
+        let several = wires.kind.roles(wires.direction).len() > 1 || wires.element.is_some();
         for wish in &wires.wishes {
             if several && wish.prefer && matches!(wish.what, WishFor::Pin(None, _)) {
                 let roles: Vec<&str> =
                     wires.kind.roles(wires.direction).iter().map(|role| role.name()).collect();
                 let why = format!("the device has several wires: name one of {}", roles.join(", "));
                 diagnostics.push(w0604_unused_rule::unused_rule(wish.span, "prefer pin", &why));
+            }
+            let of_array = matches!(wish.what, WishFor::Together(_) | WishFor::Sequence);
+            if of_array && wires.element.is_none() {
+                let text = crate::labels::describe(wish);
+                let why = "it is for arrays, whose elements have a wire each";
+                diagnostics.push(w0604_unused_rule::unused_rule(wish.span, &text, why));
             }
         }
     }

@@ -10,6 +10,7 @@ use crate::blame::{self, Rule};
 use crate::formulate::{Asker, Formulation};
 use crate::names::list;
 use crate::repairs::{self, Repair, Repaired};
+use crate::{Solved, Wiring};
 
 /// Repairs in one message; all are in the JSON output.
 const REPAIRS_NAMED_MAX: usize = 4;
@@ -60,12 +61,37 @@ pub(crate) fn read(
         named.explained = false;
         return named;
     }
+    if named.links.is_empty() && named.parts.iter().any(|part| has_several(design, *part)) {
+        needed(design, &mut named.parts, cancel);
+    }
     if named.links.is_empty() {
         named.rules = blame::rules(design, &named.parts, cancel);
     }
     named.repairs = repairs::find(design, formulation, &named.parts, cancel);
     named.explained = !cancel.is_over();
     named
+}
+
+fn has_several(design: &Design, part: PartIndex) -> bool {
+    design.connections_of(part).nth(1).is_some()
+}
+
+/// Leaves the parts that are needed for the conflict. Of a part with several sets of wires the solver
+/// has named some; with all of them, another part may not be needed.
+fn needed(design: &Design, parts: &mut Vec<PartIndex>, cancel: Cancel<'_>) {
+    let mut at = 0;
+    while at < parts.len() && parts.len() > 1 {
+        let mut without = parts.clone();
+        without.remove(at);
+        let mut left = design.clone();
+        left.retain_parts(|part, _| without.contains(&part));
+        let wiring = Wiring::within(&left, None, cancel);
+        if wiring.is_impossible() || matches!(wiring.solve_only(true), Solved::Infeasible(_)) {
+            *parts = without;
+        } else {
+            at += 1;
+        }
+    }
 }
 
 /// The solver's conflict in names, without repairs.
@@ -101,7 +127,7 @@ fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Conteste
     };
     let of_chip = conflict.resources.iter().filter_map(|id| {
         let resource = formulation.resources.get(id.0 as usize)?;
-        on(resource.board(), resource.name(), &|pin| resource.is_shown_by(pin))
+        on(resource.board()?, resource.name(), &|pin| resource.is_shown_by(pin))
     });
     let streams = conflict.streams.iter().filter_map(|id| {
         let (board, stream) = formulation.streams.get(id.0 as usize)?;

@@ -8,7 +8,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::signal::Function;
-use sensedsl_model::design::{Board, ConnectionIndex, Design, Wish, WishFor};
+use sensedsl_board::table::Usage;
+use sensedsl_model::design::{
+    Board, Connection, ConnectionIndex, Design, PartIndex, Together, Wish, WishFor,
+};
 use sensedsl_model::kind::Kind;
 
 use crate::assignment::ConnectionWiring;
@@ -65,7 +68,33 @@ fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes:
         let class = (device.delay_ms, device.prio);
         classes.entry(class).or_default().push((wiring.connection, units));
     }
+    for class in classes.values_mut() {
+        keep_together(design, class);
+    }
     classes
+}
+
+/// Leaves the elements of an array that are wanted on one converter those that serve all of them.
+fn keep_together(design: &Design, class: &mut [Input]) {
+    let tied = |connection: &ConnectionIndex| -> Option<PartIndex> {
+        let connection: &Connection = design.connection(*connection)?;
+        let hard = connection.placement.together.iter().any(|one| one.value == Together::Unit);
+        let wish = |wish: &Wish| wish.what == WishFor::Together(Together::Unit);
+        (hard || connection.wishes.iter().any(wish)).then_some(connection.part)
+    };
+    let mut common: BTreeMap<PartIndex, BTreeSet<u8>> = BTreeMap::new();
+    for (connection, units) in class.iter() {
+        let Some(part) = tied(connection) else { continue };
+        let all = common.entry(part).or_insert_with(|| units.clone());
+        *all = &*all & units;
+    }
+    for (connection, units) in class {
+        let common = tied(connection).and_then(|part| common.get(&part));
+        // A wish that is not kept leaves none.
+        if let Some(common) = common.filter(|common| !common.is_empty()) {
+            units.clone_from(common);
+        }
+    }
 }
 
 /// For each class as few of the allowed units as will do.
@@ -98,10 +127,15 @@ fn subsets(all: &BTreeSet<u8>) -> impl Iterator<Item = BTreeSet<u8>> {
 /// More converters than any MCU has.
 const SUBSET_MAX: usize = 10;
 
-/// The units that can sample a device's input.
+/// The converters that can sample an input.
 fn units(board: &Board, wiring: &ConnectionWiring, fixed: Option<&str>) -> BTreeSet<u8> {
     let usage = wiring.wires.first().and_then(|wire| wire.usage(board));
-    let Some(Function::Adc { units, channel }) = usage.map(|usage| usage.signal.function()) else {
+    usage.map(|usage| sampling(board, usage, fixed)).unwrap_or_default()
+}
+
+/// The converters that can sample what a usage stands for.
+fn sampling(board: &Board, usage: &Usage, fixed: Option<&str>) -> BTreeSet<u8> {
+    let Function::Adc { units, channel } = usage.signal.function() else {
         return BTreeSet::new();
     };
     let serves = |unit: &u8| {
@@ -115,6 +149,14 @@ fn units(board: &Board, wiring: &ConnectionWiring, fixed: Option<&str>) -> BTree
     units.iter().copied().filter(serves).collect()
 }
 
+/// The peripheral instances that can serve a usage.
+pub(crate) fn units_of(board: &Board, usage: &Usage, fixed: Option<&str>) -> Vec<String> {
+    if matches!(usage.signal.function(), Function::Adc { .. }) {
+        return sampling(board, usage, fixed).iter().map(|unit| format!("ADC{unit}")).collect();
+    }
+    usage.signal.function().units().iter().map(ToString::to_string).collect()
+}
+
 /// The units that meet most of the wishes for units.
 fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
     let met = |unit: u8| {
@@ -122,7 +164,11 @@ fn wished(board: &Board, units: BTreeSet<u8>, own: &[Wish]) -> BTreeSet<u8> {
             WishFor::Unit(wanted) => {
                 Some(board.same_unit(wanted, &format!("ADC{unit}")) == wish.prefer)
             }
-            WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => None,
+            WishFor::Pin(..)
+            | WishFor::Side(_)
+            | WishFor::Header(_)
+            | WishFor::Together(_)
+            | WishFor::Sequence => None,
         });
         wishes.filter(|met| *met).count()
     };

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_model::design::{
-    Board, BoardIndex, Connection, ConnectionIndex, Design, Link, Transport,
+    Board, BoardIndex, Connection, ConnectionIndex, Design, Link, PartIndex, Transport,
 };
 use sensedsl_model::kind::{Kind, uart};
 use sensedsl_solve::Cancel;
@@ -18,6 +18,8 @@ use crate::alternatives::{Wanted, alternatives};
 use crate::keep::Keep;
 use crate::names::{Group, Names, Resource};
 use crate::offer::Offer;
+use crate::ties::{self, Elements};
+use crate::wishes;
 
 /// Name of a wire that needs no signal.
 pub(crate) const GPIO: &str = "GPIO";
@@ -66,6 +68,15 @@ pub(crate) struct Formulation<'a> {
     pub(crate) complete: bool,
 }
 
+/// In which form the problem is put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Asked {
+    pub(crate) converters: Converters,
+    /// Whether arrays that violate a wish for their elements are told from those that keep it: each
+    /// wiring that keeps it is found a second time as one that need not.
+    pub(crate) wishes: bool,
+}
+
 /// When the converter of an analog device is chosen, where there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Converters {
@@ -86,8 +97,10 @@ pub(crate) struct Builder<'a> {
     dma_ids: BTreeMap<(BoardIndex, String), DmaUserId>,
     stream_ids: BTreeMap<(BoardIndex, String), StreamId>,
     streams: Vec<(BoardIndex, String)>,
-    /// The wishes for each soft rule.
+    /// The number of soft rules.
     rules: u32,
+    /// Those of each part.
+    rules_of: BTreeMap<PartIndex, Vec<wishes::Rule<'a>>>,
     pub(crate) design: &'a Design,
     pub(crate) converters: Converters,
 }
@@ -103,6 +116,7 @@ impl<'a> Builder<'a> {
             stream_ids: BTreeMap::new(),
             streams: Vec::new(),
             rules: 0,
+            rules_of: BTreeMap::new(),
             design,
             converters,
         }
@@ -123,6 +137,18 @@ impl<'a> Builder<'a> {
     pub(crate) fn rule(&mut self) -> RuleId {
         self.rules += 1;
         RuleId(self.rules - 1)
+    }
+
+    /// The soft rules of a part, where they are numbered.
+    pub(crate) fn rules_of(&self, part: PartIndex) -> Vec<wishes::Rule<'a>> {
+        self.rules_of.get(&part).cloned().unwrap_or_default()
+    }
+
+    /// Keeps the rules of a part for its other connections.
+    pub(crate) fn remember_rules(&mut self, part: PartIndex, rules: &[wishes::Rule<'a>]) {
+        if !self.rules_of.contains_key(&part) {
+            self.rules_of.insert(part, rules.to_vec());
+        }
     }
 
     /// The DMA user of a peripheral instance; none where its driver takes no streams.
@@ -168,7 +194,7 @@ impl<'a> Builder<'a> {
 pub(crate) fn formulate<'a>(
     design: &'a Design,
     keep: Option<&Keep>,
-    converters: Converters,
+    asked: Asked,
     cancel: Cancel<'_>,
 ) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
@@ -180,6 +206,7 @@ pub(crate) fn formulate<'a>(
         .collect();
     let pins = pins(design).0;
     let links = links(design);
+    let converters = asked.converters;
     let mut builder = Builder::new(design, converters);
     let mut askers = Vec::new();
     let mut devices = Vec::new();
@@ -205,6 +232,7 @@ pub(crate) fn formulate<'a>(
         devices.push(solver::Device { alternatives: list });
         meanings.push(meaning);
     }
+    tie(&mut builder, &askers, &mut devices, &mut meanings, asked.wishes);
     let solver_pins = pins.iter().filter_map(|(board, pin)| {
         let cost = design.board(*board)?.table.pins.get(*pin)?.cost();
         let shared = offers.get(board.0)?.shared_with(*pin).is_some();
@@ -233,6 +261,32 @@ pub(crate) fn formulate<'a>(
         pins,
         converters,
         complete: !cancel.is_over(),
+    }
+}
+
+/// Ties the connections of each part that has several.
+fn tie(
+    builder: &mut Builder<'_>,
+    askers: &[Asker],
+    devices: &mut [solver::Device],
+    meanings: &mut [Vec<Meaning>],
+    wishes: bool,
+) {
+    let design = builder.design;
+    let part = |asker: &Asker| match asker {
+        Asker::Connection(index) => design.connection(*index).map(|one| one.part),
+        Asker::Link(_) => None,
+    };
+    let mut from = 0;
+    for group in askers.chunk_by(|one, next| part(one) == part(next)) {
+        let range = from..from + group.len();
+        from = range.end;
+        let (Some(part), Some(devices), Some(meanings)) =
+            (group.first().and_then(part), devices.get_mut(range.clone()), meanings.get_mut(range))
+        else {
+            continue;
+        };
+        ties::tie(builder, part, &mut Elements { devices, meanings }, wishes);
     }
 }
 

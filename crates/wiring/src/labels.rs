@@ -71,11 +71,17 @@ impl Namer<'_> {
             // Several devices of a bus would claim the bus by that name otherwise.
             Resource::Signal(_, signal) => format!("signal {signal}"),
             Resource::Remap(_, unit, one, other) => format!("remap of {unit}, {one} or {other}"),
-            Resource::Unit(..) | Resource::Address(..) | Resource::Exti(..) | Resource::Pad(..) => {
-                resource.name()
-            }
+            Resource::Unit(..)
+            | Resource::Address(..)
+            | Resource::Exti(..)
+            | Resource::Pad(..)
+            | Resource::Part(_)
+            | Resource::Tie(..) => resource.name(),
         };
-        self.on(resource.board(), &name)
+        match resource.board() {
+            Some(board) => self.on(board, &name),
+            None => name,
+        }
     }
 
     fn group(&self, group: &Group) -> String {
@@ -83,7 +89,8 @@ impl Namer<'_> {
         | Group::Frequency(board, ..)
         | Group::Pin(board, ..)
         | Group::Pad(board, ..)
-        | Group::Blocks(board, ..)) = group;
+        | Group::Blocks(board, ..)
+        | Group::Tie(board, ..)) = group;
         let pin = |pin: usize| self.pin(*board, pin).map(|pin| pin.name.to_string());
         let name = match group {
             Group::Bus(_, unit, 0) => format!("bus {unit}"),
@@ -94,6 +101,7 @@ impl Namer<'_> {
             }
             Group::Pad(_, at) => pin(*at).unwrap_or_default(),
             Group::Blocks(_, unit, blocks) => format!("{unit} in {blocks}"),
+            Group::Tie(_, what) => format!("those {what}"),
         };
         self.on(*board, &name)
     }
@@ -135,7 +143,17 @@ impl Namer<'_> {
     /// In the order in which the rules were numbered: for each device its own, then its boards'.
     fn rules(&self, count: usize) -> Vec<String> {
         let mut names = Vec::new();
+        let mut last = None;
         for asker in &self.formulation.askers {
+            // The connections of a part have their rules in common.
+            let part = match asker {
+                Asker::Connection(index) => self.design.connection(*index).map(|one| one.part),
+                Asker::Link(_) => None,
+            };
+            if part.is_some() && part == last {
+                continue;
+            }
+            last = part;
             let (own, boards): (&[Wish], _) = match asker {
                 Asker::Connection(index) => match self.design.connection(*index) {
                     Some(one) => (&one.wishes, wanted(self.design, one).boards),
@@ -172,7 +190,8 @@ impl Namer<'_> {
     }
 }
 
-fn describe(wish: &Wish) -> String {
+/// A wish as it is written.
+pub(crate) fn describe(wish: &Wish) -> String {
     let verb = if wish.prefer { "prefer" } else { "avoid" };
     match &wish.what {
         WishFor::Pin(Some(role), pin) => format!("{verb} {} = {}", role.name(), pin.spelled),
@@ -180,5 +199,7 @@ fn describe(wish: &Wish) -> String {
         WishFor::Unit(unit) => format!("{verb} unit = {unit}"),
         WishFor::Side(side) => format!("{verb} side = {side}"),
         WishFor::Header(header) => format!("{verb} header = {header}"),
+        WishFor::Together(what) => format!("{verb} together = {}", what.name()),
+        WishFor::Sequence => format!("{verb} sequence = header"),
     }
 }

@@ -19,6 +19,7 @@ mod prolog;
 mod read_back;
 mod repairs;
 mod streams;
+mod ties;
 mod why;
 mod wishes;
 
@@ -27,12 +28,14 @@ use sensedsl_diagnostics::codes::{
     e0402_solver_disagrees, e0404_out_of_time, e0506_hardware_limit,
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
-use sensedsl_model::design::{Design, DeviceIndex};
+use std::collections::BTreeSet;
+
+use sensedsl_model::design::{Design, DeviceIndex, Wish, WishFor};
 use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
 use alloy::Known;
 use assignment::{Assignment, Bound};
-use formulate::{Converters, Formulation, formulate};
+use formulate::{Asked, Converters, Formulation, formulate};
 
 pub use blame::Rule;
 pub use capacity::{Capacity, capacity};
@@ -64,6 +67,8 @@ pub struct Wiring<'a> {
     design: &'a Design,
     keep: Option<Keep>,
     formulation: Formulation<'a>,
+    /// Whether wishes for arrays are part of the problem.
+    wishes: bool,
     cancel: Cancel<'a>,
 }
 
@@ -108,24 +113,21 @@ impl<'a> Wiring<'a> {
     /// cancelled.
     #[must_use]
     pub fn within(design: &'a Design, keep: Option<&Keep>, cancel: Cancel<'a>) -> Self {
-        Self::put(design, keep, Converters::Later, cancel)
+        let asked = Asked { converters: Converters::Later, wishes: true };
+        Self::put(design, keep, asked, cancel)
     }
 
-    fn put(
-        design: &'a Design,
-        keep: Option<&Keep>,
-        converters: Converters,
-        cancel: Cancel<'a>,
-    ) -> Self {
-        let formulation = formulate(design, keep, converters, cancel);
-        Self { design, keep: keep.cloned(), formulation, cancel }
+    fn put(design: &'a Design, keep: Option<&Keep>, asked: Asked, cancel: Cancel<'a>) -> Self {
+        let formulation = formulate(design, keep, asked, cancel);
+        Self { design, keep: keep.cloned(), formulation, wishes: asked.wishes, cancel }
     }
 
     /// The same problem with the converters in it, for when the best wiring leaves them no DMA
     /// streams; none where they are in it already.
     fn with_converters(&self) -> Option<Self> {
         let later = self.formulation.converters == Converters::Later;
-        later.then(|| Self::put(self.design, self.keep.as_ref(), Converters::Now, self.cancel))
+        let asked = Asked { converters: Converters::Now, wishes: true };
+        later.then(|| Self::put(self.design, self.keep.as_ref(), asked, self.cancel))
     }
 
     /// The problem as the solver is asked it.
@@ -240,7 +242,11 @@ impl<'a> Wiring<'a> {
     /// All wirings, best first, but for those that leave the converters no streams.
     pub fn enumerate(&self) -> impl Iterator<Item = Solved> {
         let answers: Answers<'_> = solver::enumerate(&self.formulation.problem, self.cancel);
-        answers.filter_map(|answer| match self.named(answer.map(Outcome::Solved)) {
+        let mut seen = BTreeSet::new();
+        answers.filter_map(move |answer| match self.named(answer.map(Outcome::Solved)) {
+            Meant::Solved(Solved::Wired(wiring)) if self.finds_twice() => {
+                seen.insert(wiring.wires()).then_some(Solved::Wired(wiring))
+            }
             Meant::Solved(solved) => Some(solved),
             Meant::NoStreams | Meant::Infeasible(_) => None,
         })
@@ -251,8 +257,25 @@ impl<'a> Wiring<'a> {
     /// # Errors
     /// The diagnostic of a fault in the solver.
     pub fn count(&self) -> Result<Count, Box<Diagnostic>> {
+        if self.finds_twice() {
+            let asked = Asked { converters: self.formulation.converters, wishes: false };
+            let (design, keep) = (self.design, self.keep.as_ref());
+            return Self::put(design, keep, asked, self.cancel).count();
+        }
         solver::count(&self.formulation.problem, self.cancel)
             .map_err(|fault| Box::new(self.fault(&fault)))
+    }
+
+    /// Whether a wiring that keeps a wish for an array is found again as one that need not.
+    fn finds_twice(&self) -> bool {
+        let is_of_array =
+            |wish: &Wish| matches!(wish.what, WishFor::Together(_) | WishFor::Sequence);
+        let of_boards = self.design.boards.iter().flat_map(|board| &board.wishes);
+        let mut arrays = self.design.connections.iter().filter(|one| one.element.is_some());
+        self.wishes
+            && arrays.clone().next().is_some()
+            && (of_boards.clone().any(is_of_array)
+                || arrays.any(|one| one.wishes.iter().any(is_of_array)))
     }
 
     /// The pin problem as a program for SWI-Prolog that prints the best cost.

@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use sensedsl_board::remap::Blocks;
 use sensedsl_board::signal::{Function, Signal};
 use sensedsl_board::table::Pin;
-use sensedsl_model::design::BoardIndex;
+use sensedsl_model::design::{BoardIndex, PartIndex};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Claim, Holder, ResourceId};
+
+use crate::ties::Tied;
 
 /// A resource beside the pins.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,6 +29,10 @@ pub(crate) enum Resource {
     /// That a peripheral's signals are in the first remap blocks, or in the second: no block is in
     /// both.
     Remap(BoardIndex, String, Blocks, Blocks),
+    /// That a part is on one board.
+    Part(PartIndex),
+    /// What the elements of an array have in common; the number is that of the wish for it.
+    Tie(PartIndex, Option<u32>, Tied),
 }
 
 impl Resource {
@@ -40,6 +46,19 @@ impl Resource {
             Self::Exti(_, line) => format!("EXTI{line}"),
             Self::Pad(_, name) => format!("contact {name}"),
             Self::Remap(_, unit, ..) => format!("{unit} remap block"),
+            Self::Part(part) => format!("board of part {}", part.0 + 1),
+            Self::Tie(part, wish, tied) => {
+                let of = format!("of part {}", part.0 + 1);
+                let wish = wish.map(|wish| format!(", wish {wish}")).unwrap_or_default();
+                match tied {
+                    Tied::Kept => format!("tie {of}{wish}"),
+                    Tied::Same(what) => format!("{} {of}{wish}", what.name()),
+                    Tied::Units(one, two) => format!("units {one} or {two} {of}{wish}"),
+                    Tied::Place(element, _, header, place) => {
+                        format!("place {place} of {header} behind element {element} {of}{wish}")
+                    }
+                }
+            }
         }
     }
 
@@ -59,13 +78,13 @@ impl Resource {
                 Some(unit) => of_unit(&unit),
                 None => pin.usages.iter().any(|usage| usage.signal.name() == name),
             },
-            Self::Exti(..) | Self::Pad(..) => false,
+            Self::Exti(..) | Self::Pad(..) | Self::Part(_) | Self::Tie(..) => false,
         }
     }
 
-    /// The board it is on.
+    /// The board it is on; none of what ties a part.
     #[must_use]
-    pub(crate) fn board(&self) -> BoardIndex {
+    pub(crate) fn board(&self) -> Option<BoardIndex> {
         match self {
             Self::Signal(board, _)
             | Self::Unit(board, _)
@@ -73,7 +92,8 @@ impl Resource {
             | Self::Address(board, ..)
             | Self::Exti(board, _)
             | Self::Pad(board, _)
-            | Self::Remap(board, ..) => *board,
+            | Self::Remap(board, ..) => Some(*board),
+            Self::Part(_) | Self::Tie(..) => None,
         }
     }
 }
@@ -116,6 +136,8 @@ pub(crate) enum Group {
     Pad(BoardIndex, usize),
     /// The devices whose signals of a peripheral are in these remap blocks.
     Blocks(BoardIndex, String, Blocks),
+    /// The connections of a part that have that in common.
+    Tie(BoardIndex, String),
 }
 
 /// Numbers for things, given in the order in which they are first seen.

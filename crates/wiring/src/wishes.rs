@@ -13,10 +13,12 @@ use crate::alternatives::Wanted;
 use crate::formulate::Builder;
 use crate::offer::Offer;
 
+/// A soft rule, with the board that it is bound to where it stands in one.
+pub(crate) type Rule<'a> = (RuleId, Option<BoardIndex>, &'a Wish);
+
 /// The soft rules for one device.
 pub(crate) struct Rules<'a> {
-    /// With the board a rule is bound to, where it stands in one.
-    rules: Vec<(RuleId, Option<BoardIndex>, &'a Wish)>,
+    rules: Vec<Rule<'a>>,
     single: bool,
     /// The unit that the device fixes.
     unit: Option<&'a str>,
@@ -24,6 +26,17 @@ pub(crate) struct Rules<'a> {
 
 /// Collects the rules for a device: its own, and those of the boards it may go to.
 pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules<'a> {
+    // The connections of a part have them in common: each counts once, however many violate it.
+    let known = wanted.part.map(|part| builder.rules_of(part)).unwrap_or_default();
+    let rules = if known.is_empty() { number(builder, wanted) } else { known };
+    if let Some(part) = wanted.part {
+        builder.remember_rules(part, &rules);
+    }
+    let single = wanted.kind.roles(wanted.direction).len() == 1 && !wanted.is_element;
+    Rules { rules, single, unit: wanted.unit }
+}
+
+fn number<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Vec<Rule<'a>> {
     let mut rules = Vec::new();
     for wish in wanted.wishes {
         rules.push((builder.rule(), None, wish));
@@ -35,8 +48,7 @@ pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules
             rules.push((builder.rule(), Some(*index), wish));
         }
     }
-    let single = wanted.kind.roles(wanted.direction).len() == 1;
-    Rules { rules, single, unit: wanted.unit }
+    rules
 }
 
 impl Rules<'_> {
@@ -66,6 +78,8 @@ impl Rules<'_> {
             WishFor::Side(side) => place(&pin.side, side) != wish.prefer,
             WishFor::Header(header) => place(&pin.header, header) != wish.prefer,
             WishFor::Unit(unit) => self.wire_violates(offer, (usage, channels), unit, wish.prefer),
+            // They are kept or violated by the array as a whole.
+            WishFor::Together(_) | WishFor::Sequence => false,
         };
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }
@@ -75,7 +89,11 @@ impl Rules<'_> {
         let Some(unit) = unit else { return Vec::new() };
         let violated = |wish: &Wish| match &wish.what {
             WishFor::Unit(wanted) => offer.same_unit(wanted, unit) != wish.prefer,
-            WishFor::Pin(..) | WishFor::Side(_) | WishFor::Header(_) => false,
+            WishFor::Pin(..)
+            | WishFor::Side(_)
+            | WishFor::Header(_)
+            | WishFor::Together(_)
+            | WishFor::Sequence => false,
         };
         self.on(offer.index).filter(|(_, wish)| violated(wish)).map(|(id, _)| id).collect()
     }

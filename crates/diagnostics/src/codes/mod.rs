@@ -75,6 +75,7 @@ codes! {
     e0318_several_pins,
     e0320_silicon_cannot,
     e0321_too_much_voltage,
+    e0322_array_too_long,
     e0401_no_wiring,
     e0402_solver_disagrees,
     e0403_no_certificate,

@@ -50,26 +50,35 @@ impl Values {
     /// # Errors
     /// The types that it may have, in words.
     pub fn accept(self, value: ValueType) -> Result<(), &'static str> {
-        let plain = value.length.is_none();
         let (fits, can) = match self {
             Self::OneNumber => (
-                plain && value.scalar != ScalarType::Bool,
-                "one number: uint8..uint64, int8..int64, float32 or float64",
+                value.scalar != ScalarType::Bool,
+                "one number a wire: uint8..uint64, int8..int64, float32 or float64",
             ),
             Self::WholeNumber => {
-                (plain && value.scalar.integer_range().is_some(), "bool or one whole number")
+                (value.scalar.integer_range().is_some(), "bool or one whole number a wire")
             }
             Self::Any => (true, ""),
         };
         if fits { Ok(()) } else { Err(can) }
     }
 
+    /// How many sets of wires a value takes: an array of numbers that have a wire each as many as it
+    /// has elements.
+    #[must_use]
+    pub const fn wires(self, value: ValueType) -> Option<u16> {
+        match self {
+            Self::OneNumber | Self::WholeNumber => value.length,
+            Self::Any => None,
+        }
+    }
+
     /// For the language page.
     #[must_use]
     pub const fn shown(self) -> &'static str {
         match self {
-            Self::OneNumber => "one number, no `bool`",
-            Self::WholeNumber => "`bool` or one whole number",
+            Self::OneNumber => "one number, no `bool`; an array is as many wires",
+            Self::WholeNumber => "`bool` or one whole number; an array is as many wires",
             Self::Any => "any type",
         }
     }

@@ -1,0 +1,97 @@
+//! Arrays with more elements than a board has wires for: the alternatives of all elements in, a
+//! report with the counts out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0322_array_too_long;
+use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together};
+
+use super::relaxed;
+use crate::converters::units_of;
+use crate::formulate::{Formulation, Meaning};
+
+/// Reports the arrays that cannot have a wire for each element, whatever else is on the board.
+pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Diagnostic> {
+    let all = || (0..).map(ConnectionIndex).zip(&design.connections);
+    let first = all().filter(|(_, one)| one.element == Some(0));
+    first.filter_map(|(_, one)| array(design, formulation, one)).collect()
+}
+
+/// Where pins are that are wanted in one place.
+type Place = (BoardIndex, String);
+
+fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> Option<Diagnostic> {
+    let asked = design.connections_of(first.part).count();
+    let offers = super::offers(formulation, first);
+    let meanings = relaxed(design, &offers, first, |wanted| wanted.pins.clear());
+    // What has no way at all has another report.
+    meanings.first()?;
+    let device = design.device(first.device)?;
+    let hard = first.placement.together.iter().map(|one| one.value);
+    let ties: BTreeSet<Together> =
+        hard.chain(first.placement.sequence.map(|_| Together::Header)).collect();
+    for tie in [None].into_iter().chain(ties.into_iter().map(Some)) {
+        let places = places(design, &meanings, first, tie);
+        let most = places.values().map(BTreeSet::len).max().unwrap_or_default();
+        if most >= asked {
+            continue;
+        }
+        let names: Vec<&str> = places
+            .iter()
+            .filter(|(_, pins)| pins.len() == most)
+            .map(|((_, name), _)| name.as_str())
+            .collect();
+        let roles = first.kind.roles(first.direction).first().map_or("wire", |role| role.name());
+        let pins = format!("`{roles}` pins of {}", first.kind.name().with_article());
+        let most = match tie {
+            None => format!("the board has {most}"),
+            Some(what) if names.is_empty() => format!("no pin of the board has a {}", what.name()),
+            Some(what) => {
+                let what = what.name();
+                format!("no {what} has more than {most} ({})", names.join(", "))
+            }
+        };
+        let help = if tie.is_some() {
+            "write `prefer` in front of the line, make the array shorter, or take another board"
+        } else {
+            "make the array shorter, or take another board: `sensedsl parts FILE` lists those that can carry it"
+        };
+        let what = format!("{most} {pins}").replace("the board has", "the board has only");
+        let report = e0322_array_too_long::array_too_long;
+        return Some(report(device.value.span, &device.name.value, asked, &what, help));
+    }
+    None
+}
+
+/// The pins that an element could have, by the place that all elements must have in common.
+fn places(
+    design: &Design,
+    meanings: &[Meaning],
+    first: &Connection,
+    tie: Option<Together>,
+) -> BTreeMap<Place, BTreeSet<usize>> {
+    let fixed = first.placement.unit.as_ref().map(|unit| unit.value.as_str());
+    let mut places: BTreeMap<Place, BTreeSet<usize>> = BTreeMap::new();
+    for meaning in meanings {
+        let Some(board) = design.board(meaning.board) else { continue };
+        for at in meaning.roles.first().into_iter().flatten() {
+            let Some(pin) = board.table.pins.get(at.pin) else { continue };
+            let usage = at.usage.and_then(|usage| pin.usages.get(usage));
+            let names: Vec<String> = match tie {
+                None => vec![String::new()],
+                Some(Together::Header) => pin.header.iter().cloned().collect(),
+                Some(Together::Side) => pin.side.iter().cloned().collect(),
+                Some(Together::Unit) => match (&meaning.unit, usage) {
+                    (Some(unit), _) => vec![unit.clone()],
+                    (None, Some(usage)) => units_of(board, usage, fixed),
+                    (None, None) => Vec::new(),
+                },
+            };
+            for name in names {
+                places.entry((meaning.board, name)).or_default().insert(at.pin);
+            }
+        }
+    }
+    places
+}

@@ -1,0 +1,328 @@
+//! What holds the connections of one part together: a chip is on one board, the elements of an
+//! array may be wanted on one unit, one header, one side, or one after the other along a header.
+//!
+//! All of it is said with claims: of a resource that stands for what is to be the same, each
+//! connection takes hold as one of those who chose the same. An order is a claim on each place
+//! of the header: an element takes all places up to its own for those before, the next element
+//! all from its own on for those behind, so that no place is taken for both.
+//!
+//! A wish doubles the alternatives: those that keep it, and loose ones that violate it. The loose
+//! ones take hold as the loose, so all elements of an array are one or the other.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::pin::natural;
+use sensedsl_board::table::{Pin, Usage};
+use sensedsl_model::design::{Board, BoardIndex, Connection, Design, PartIndex, Together, WishFor};
+use sensedsl_solve::problem::{self as solver, Alternative, Claim, RuleId};
+
+use crate::converters::units_of;
+use crate::formulate::{Builder, Chosen, Meaning};
+use crate::names::{Group, Resource};
+
+/// What is the same for all connections of a part, or in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Tie {
+    Together(Together),
+    Sequence,
+}
+
+/// What a resource of a tie stands for.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Tied {
+    /// Whether a wish is kept.
+    Kept,
+    /// The unit, header or side.
+    Same(Together),
+    /// Whether a unit is among these, or among those: no unit is among both.
+    Units(String, String),
+    /// A place of a header: whether this element is at most there, or the next one at least.
+    Place(u16, BoardIndex, String, usize),
+}
+
+/// The connections of one part as the solver gets them.
+pub(crate) struct Elements<'e> {
+    pub(crate) devices: &'e mut [solver::Device],
+    pub(crate) meanings: &'e mut [Vec<Meaning>],
+}
+
+/// Ties the connections of a part. Without `wishes` only what must be.
+pub(crate) fn tie(
+    builder: &mut Builder<'_>,
+    part: PartIndex,
+    elements: &mut Elements<'_>,
+    wishes: bool,
+) {
+    let design = builder.design;
+    let connections: Vec<&Connection> = design.connections_of(part).collect();
+    let Some(first) = connections.first().filter(|_| connections.len() > 1) else { return };
+    if first.board.is_none() && design.boards.len() > 1 {
+        on_one_board(builder, part, elements);
+    }
+    if first.element.is_none() {
+        return;
+    }
+    let together = first.placement.together.iter().map(|one| Tie::Together(one.value));
+    for hard in together.chain(first.placement.sequence.map(|_| Tie::Sequence)) {
+        let tier = Tier::new(design, part, hard, None, &connections, elements);
+        tier.hard(builder, elements);
+    }
+    for (rule, board, wish) in builder.rules_of(part) {
+        let soft = match &wish.what {
+            WishFor::Together(what) => Tie::Together(*what),
+            WishFor::Sequence => Tie::Sequence,
+            WishFor::Pin(..) | WishFor::Unit(_) | WishFor::Side(_) | WishFor::Header(_) => continue,
+        };
+        if wishes {
+            let tier = Tier::new(design, part, soft, Some(rule), &connections, elements);
+            tier.soft(builder, elements, board);
+        }
+    }
+}
+
+fn on_one_board(builder: &mut Builder<'_>, part: PartIndex, elements: &mut Elements<'_>) {
+    for (device, meanings) in elements.devices.iter_mut().zip(elements.meanings.iter()) {
+        for (alternative, meaning) in device.alternatives.iter_mut().zip(meanings) {
+            let group = Group::Tie(meaning.board, "the board".to_owned());
+            alternative.claims.push(builder.names.shared(Resource::Part(part), group));
+        }
+    }
+}
+
+/// Makes the claims of one tie.
+struct Tier<'d> {
+    design: &'d Design,
+    part: PartIndex,
+    tie: Tie,
+    rule: Option<RuleId>,
+    connections: Vec<&'d Connection>,
+    /// All sets of units that the candidates have.
+    sets: Vec<String>,
+    /// The places of each header that the candidates have, in order.
+    places: BTreeMap<(BoardIndex, String), Vec<String>>,
+}
+
+impl<'d> Tier<'d> {
+    fn new(
+        design: &'d Design,
+        part: PartIndex,
+        tie: Tie,
+        rule: Option<RuleId>,
+        connections: &[&'d Connection],
+        elements: &Elements<'_>,
+    ) -> Self {
+        let (sets, places) = (Vec::new(), BTreeMap::new());
+        let connections = connections.to_vec();
+        let mut tier = Self { design, part, tie, rule, connections, sets, places };
+        for meaning in elements.meanings.iter().flatten() {
+            let Some(board) = design.board(meaning.board) else { continue };
+            for chosen in meaning.roles.iter().flatten() {
+                tier.sets.extend(tier.set(board, chosen));
+                let place = board.table.pins.get(chosen.pin).and_then(place);
+                if let Some((header, position)) = place {
+                    let key = (meaning.board, header.to_ascii_uppercase());
+                    tier.places.entry(key).or_default().push(position.to_owned());
+                }
+            }
+        }
+        tier.sets.sort();
+        tier.sets.dedup();
+        for positions in tier.places.values_mut() {
+            positions.sort_by(|a, b| natural(a, b));
+            positions.dedup();
+        }
+        tier
+    }
+
+    /// What is offered keeps the tie.
+    fn hard(&self, builder: &mut Builder<'_>, elements: &mut Elements<'_>) {
+        let each = elements.devices.iter_mut().zip(elements.meanings.iter_mut());
+        for ((device, meanings), number) in each.zip(0..) {
+            let alternatives = std::mem::take(&mut device.alternatives);
+            let all = alternatives.into_iter().zip(std::mem::take(meanings));
+            for (alternative, meaning) in all {
+                if let Some((tight, meaning)) = self.tight(builder, number, alternative, meaning) {
+                    device.alternatives.push(tight);
+                    meanings.push(meaning);
+                }
+            }
+        }
+    }
+
+    /// What is offered keeps the tie, or violates the rule as a whole.
+    fn soft(
+        &self,
+        builder: &mut Builder<'_>,
+        elements: &mut Elements<'_>,
+        only: Option<BoardIndex>,
+    ) {
+        let each = elements.devices.iter_mut().zip(elements.meanings.iter_mut());
+        for ((device, meanings), number) in each.zip(0..) {
+            let alternatives = std::mem::take(&mut device.alternatives);
+            let all = alternatives.into_iter().zip(std::mem::take(meanings));
+            let (mut tight, mut loose) = (Vec::new(), Vec::new());
+            for (alternative, meaning) in all {
+                if only.is_some_and(|board| board != meaning.board) {
+                    tight.push((alternative, meaning));
+                    continue;
+                }
+                let kept = self.tight(builder, number, alternative.clone(), meaning.clone());
+                tight.extend(kept);
+                loose.push((self.loose(builder, alternative, meaning.board), meaning));
+            }
+            tight.append(&mut loose);
+            (device.alternatives, *meanings) = tight.into_iter().unzip();
+        }
+    }
+
+    fn loose(
+        &self,
+        builder: &mut Builder<'_>,
+        mut alternative: Alternative,
+        board: BoardIndex,
+    ) -> Alternative {
+        let resource = self.resource(Tied::Kept);
+        let group = Group::Tie(board, "loose".to_owned());
+        alternative.claims.push(builder.names.shared(resource, group));
+        alternative.violates.extend(self.rule);
+        alternative
+    }
+
+    /// The alternative with the claims of the tie, without the candidates that cannot keep it; none
+    /// where a role has none left.
+    fn tight(
+        &self,
+        builder: &mut Builder<'_>,
+        number: u16,
+        mut alternative: Alternative,
+        mut meaning: Meaning,
+    ) -> Option<(Alternative, Meaning)> {
+        let board = self.design.board(meaning.board)?;
+        if self.rule.is_some() {
+            let resource = self.resource(Tied::Kept);
+            let group = Group::Tie(meaning.board, "tied".to_owned());
+            alternative.claims.push(builder.names.shared(resource, group));
+        }
+        if let (Tie::Together(Together::Unit), Some(unit)) = (self.tie, &meaning.unit) {
+            let resource = self.resource(Tied::Same(Together::Unit));
+            let group = Group::Tie(meaning.board, unit.clone());
+            alternative.claims.push(builder.names.shared(resource, group));
+            return Some((alternative, meaning));
+        }
+        for (role, chosen) in alternative.roles.iter_mut().zip(&mut meaning.roles) {
+            let all = std::mem::take(&mut role.candidates).into_iter();
+            let all = all.zip(std::mem::take(chosen));
+            for (mut candidate, at) in all {
+                let claims = self.claims(builder, number, (meaning.board, board), &at);
+                if let Some(claims) = claims {
+                    candidate.claims.extend(claims);
+                    role.candidates.push(candidate);
+                    chosen.push(at);
+                }
+            }
+            if role.candidates.is_empty() {
+                return None;
+            }
+        }
+        Some((alternative, meaning))
+    }
+
+    /// What a candidate takes; none where it cannot keep the tie.
+    fn claims(
+        &self,
+        builder: &mut Builder<'_>,
+        number: u16,
+        (index, board): (BoardIndex, &Board),
+        at: &Chosen,
+    ) -> Option<Vec<Claim>> {
+        let pin = board.table.pins.get(at.pin)?;
+        match self.tie {
+            Tie::Together(Together::Unit) => Some(self.units(builder, index, board, at)),
+            Tie::Together(Together::Header) => {
+                let header = pin.header.as_ref()?;
+                Some(vec![self.same(builder, Together::Header, index, header)])
+            }
+            Tie::Together(Together::Side) => {
+                let side = pin.side.as_ref()?;
+                Some(vec![self.same(builder, Together::Side, index, side)])
+            }
+            Tie::Sequence => self.order(builder, number, index, pin),
+        }
+    }
+
+    fn same(
+        &self,
+        builder: &mut Builder<'_>,
+        what: Together,
+        board: BoardIndex,
+        name: &str,
+    ) -> Claim {
+        let group = Group::Tie(board, name.to_ascii_uppercase());
+        let resource = self.resource(Tied::Same(what));
+        builder.names.shared(resource, group)
+    }
+
+    /// One of the units of each candidate is among those of all others: no two sets are apart.
+    fn units(
+        &self,
+        builder: &mut Builder<'_>,
+        index: BoardIndex,
+        board: &Board,
+        at: &Chosen,
+    ) -> Vec<Claim> {
+        let Some(own) = self.set(board, at) else { return Vec::new() };
+        let apart = self.sets.iter().filter(|other| {
+            let has = |unit: &str| own.split(' ').any(|one| one == unit);
+            !other.split(' ').any(has)
+        });
+        let claims = apart.map(|other| {
+            let (one, two) = (own.clone().min(other.clone()), own.clone().max(other.clone()));
+            let resource = self.resource(Tied::Units(one, two));
+            builder.names.shared(resource, Group::Tie(index, own.clone()))
+        });
+        claims.collect()
+    }
+
+    /// The units that can serve a candidate, as words.
+    fn set(&self, board: &Board, at: &Chosen) -> Option<String> {
+        let usage: &Usage = board.table.pins.get(at.pin)?.usages.get(at.usage?)?;
+        let placement = &self.connections.first()?.placement;
+        let fixed = placement.unit.as_ref().map(|unit| unit.value.as_str());
+        let units = units_of(board, usage, fixed);
+        (!units.is_empty()).then(|| units.join(" "))
+    }
+
+    fn order(
+        &self,
+        builder: &mut Builder<'_>,
+        number: u16,
+        index: BoardIndex,
+        pin: &Pin,
+    ) -> Option<Vec<Claim>> {
+        let (header, position) = place(pin)?;
+        let header = header.to_ascii_uppercase();
+        let places = self.places.get(&(index, header.clone()))?;
+        let own = places.iter().position(|place| place == position)?;
+        let mut claims = vec![self.same(builder, Together::Header, index, &header)];
+        let mut claim = |element: u16, place: usize, word: &str| {
+            let resource = self.resource(Tied::Place(element, index, header.clone(), place));
+            claims.push(builder.names.shared(resource, Group::Tie(index, word.to_owned())));
+        };
+        if usize::from(number) + 1 < self.connections.len() {
+            (0..=own).for_each(|place| claim(number, place, "before"));
+        }
+        if let Some(before) = number.checked_sub(1) {
+            (own..places.len()).for_each(|place| claim(before, place, "behind"));
+        }
+        Some(claims)
+    }
+
+    fn resource(&self, what: Tied) -> Resource {
+        Resource::Tie(self.part, self.rule.map(|rule| rule.0), what)
+    }
+}
+
+/// Header and position of a pin.
+fn place(pin: &Pin) -> Option<(&str, &str)> {
+    Some((pin.header.as_deref()?, pin.position.as_deref()?))
+}
