@@ -372,7 +372,14 @@ fn signed_magnitude(number: &sensedsl_syntax::ast::Number) -> Option<f64> {
 fn plain_number(value: &Value) -> Option<f64> {
     match value {
         Value::Number(number) if number.unit_token().is_none() => signed_magnitude(number),
-        Value::Number(_) | Value::Name(_) | Value::String(_) | Value::List(_) => None,
+        Value::Number(_)
+        | Value::Name(_)
+        | Value::String(_)
+        | Value::List(_)
+        | Value::Signed(_)
+        | Value::Paren(_)
+        | Value::Binary(_)
+        | Value::Range(_) => None,
     }
 }
 
@@ -385,7 +392,14 @@ fn plain_integer(value: &Value) -> Option<i128> {
             Magnitude::Integer(value) => Some(i128::from(value)),
             Magnitude::Float(_) => None,
         },
-        Value::Number(_) | Value::Name(_) | Value::String(_) | Value::List(_) => None,
+        Value::Number(_)
+        | Value::Name(_)
+        | Value::String(_)
+        | Value::List(_)
+        | Value::Signed(_)
+        | Value::Paren(_)
+        | Value::Binary(_)
+        | Value::Range(_) => None,
     }
 }
 
@@ -394,7 +408,12 @@ pub(crate) fn name_or_text(value: &Value) -> Option<String> {
     match value {
         Value::Name(name) => Some(name.name()?.text().into()),
         Value::String(text) => Some(text.literal()?.value()),
-        Value::Number(_) | Value::List(_) => None,
+        Value::Number(_)
+        | Value::List(_)
+        | Value::Signed(_)
+        | Value::Paren(_)
+        | Value::Binary(_)
+        | Value::Range(_) => None,
     }
 }
 
@@ -403,7 +422,11 @@ fn byte_list(value: &Value) -> Option<Vec<i128>> {
         Value::List(list) => list.values().map(|value| plain_integer(&value)).collect(),
         Value::String(text) => Some(text.literal()?.value().bytes().map(i128::from).collect()),
         Value::Number(_) => Some(vec![plain_integer(value)?]),
-        Value::Name(_) => None,
+        Value::Name(_)
+        | Value::Signed(_)
+        | Value::Paren(_)
+        | Value::Binary(_)
+        | Value::Range(_) => None,
     }
 }
 
@@ -421,5 +444,7 @@ fn describe(value: &Value) -> &'static str {
             "a list of something else"
         }
         Value::List(_) => "a list",
+        Value::Signed(_) | Value::Paren(_) | Value::Binary(_) => "an expression",
+        Value::Range(_) => "a range",
     }
 }

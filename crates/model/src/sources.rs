@@ -39,8 +39,17 @@ pub(crate) struct Reader<'a> {
 }
 
 /// The blocks and the statements that are counted.
-const ITEMS: [SyntaxKind; 3] = [SyntaxKind::Board, SyntaxKind::Driver, SyntaxKind::Device];
-const STATEMENTS: [SyntaxKind; 6] = [
+const ITEMS: [SyntaxKind; 7] = [
+    SyntaxKind::Board,
+    SyntaxKind::Driver,
+    SyntaxKind::Device,
+    SyntaxKind::Chip,
+    SyntaxKind::Connection,
+    SyntaxKind::Reading,
+    SyntaxKind::Command,
+];
+const STATEMENTS: [SyntaxKind; 7] = [
+    SyntaxKind::Const,
     SyntaxKind::Property,
     SyntaxKind::Prefer,
     SyntaxKind::Avoid,
@@ -103,7 +112,7 @@ impl<'a> Reader<'a> {
         for node in root.descendants() {
             let kind = node.kind();
             let (left, what, most) = if ITEMS.contains(&kind) {
-                (&mut self.left.items, "boards, drivers and devices", ITEMS_MAX)
+                (&mut self.left.items, "boards, drivers, chips and devices", ITEMS_MAX)
             } else if STATEMENTS.contains(&kind) {
                 (&mut self.left.statements, "properties and rules", STATEMENTS_MAX)
             } else {
@@ -123,6 +132,8 @@ impl<'a> Reader<'a> {
     fn item(&mut self, path: &str, file: FileId, item: FileItem) {
         match item {
             FileItem::Use(used) => self.used(path, file, &used),
+            // Of constants and chips no design is made yet.
+            FileItem::Constant(_) | FileItem::Chip(_) => {}
             FileItem::Driver(driver) => self.items.drivers.push((file, driver)),
             FileItem::Device(device) => self.items.devices.push((file, device, None)),
             FileItem::Board(board) if self.open.len() > 1 => {

@@ -20,9 +20,7 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
     let expected =
         |what: &str, found: &str| e0101_unexpected_token::unexpected_token(at, what, found);
     match &error.kind {
-        Kind::UnexpectedCharacter { character } => {
-            e0102_unknown_character::unknown_character(at, &character.to_string())
-        }
+        Kind::UnexpectedCharacter { character } => unexpected_character(at, *character),
         Kind::UnterminatedComment => e0103_unterminated::unterminated(at, "comment", "*/"),
         Kind::UnterminatedString => e0103_unterminated::unterminated(at, "string", "\""),
         Kind::UnknownEscape { escape } => e0109_bad_string::bad_string(at, escape),
@@ -42,10 +40,8 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
             name,
             "it has letters that generated code cannot spell",
         ),
-        Kind::HyphenInName { name, suggestion } => {
-            e0221_identifier_reserved::identifier_reserved(at, name, "it has a hyphen")
-                .here(format!("write `{suggestion}`"))
-                .replace(format!("change to `{suggestion}`"), at, suggestion.as_str())
+        Kind::HyphenInName { name, suggestion, in_value } => {
+            hyphen(at, name, suggestion, *in_value)
         }
         Kind::UnknownItem { found, suggestion: Some(meant), .. } => {
             e0107_misspelled_keyword::misspelled_keyword(at, found, meant)
@@ -67,6 +63,11 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::MissingCloseBrace { open, .. } => {
             e0105_missing_closing::missing_closing(at, "}", Some(span(file, *open)))
         }
+        Kind::MissingCloseParen { open } => {
+            e0105_missing_closing::missing_closing(at, ")", Some(span(file, *open)))
+        }
+        Kind::ParenthesesAroundList => expected("`[`", "`(` around a list"),
+        Kind::UnitAlone { unit } => e0106_bad_number::unit_alone(at, unit),
         Kind::MissingCloseBracket { open } => {
             e0105_missing_closing::missing_closing(at, "]", Some(span(file, *open)))
         }
@@ -76,6 +77,28 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::TooManyTokens { limit: _ } => e0116_too_many_tokens::too_many_tokens(at, TOKENS_MAX),
         Kind::More { listed, more } => e0117_more_mistakes::more_mistakes(at, *listed, *more),
     }
+}
+
+/// Two of the characters that mean nothing are habits of other languages.
+fn unexpected_character(at: Span, character: char) -> Diagnostic {
+    match character {
+        '#' => e0102_unknown_character::comment_with_hash(at),
+        ':' => e0102_unknown_character::colon(at),
+        _ => e0102_unknown_character::unknown_character(at, &character.to_string()),
+    }
+}
+
+fn hyphen(at: Span, name: &str, suggestion: &str, in_value: bool) -> Diagnostic {
+    let diagnostic = e0221_identifier_reserved::identifier_reserved(at, name, "it has a hyphen")
+        .here(format!("write `{suggestion}`"))
+        .replace(format!("change to `{suggestion}`"), at, suggestion);
+    if !in_value {
+        return diagnostic;
+    }
+    let apart = name.replace('-', " - ");
+    diagnostic.help(format!(
+        "write `{suggestion}` for a name, or `{apart}`, with spaces, for a subtraction"
+    ))
 }
 
 fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
@@ -93,20 +116,25 @@ fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
 /// What a block is made of.
 fn inside(block: Block) -> &'static str {
     match block {
-        Block::File => "`board`, `sensor`, `actuator`, `driver` or `use`",
-        Block::Board => "a sensor, an actuator, a rule, a link or a property",
+        Block::File => "`board`, `sensor`, `actuator`, `chip`, `driver`, `const` or `use`",
+        Block::Board => "a sensor, an actuator, a chip, a rule, a link or a property",
+        Block::Chip => "a sensor, an actuator, a connection, a rule or a property",
         Block::Sensor | Block::Actuator => "a property or a rule",
-        Block::Driver | Block::Link => "a property",
+        Block::Driver => "a property, a connection, a reading or a command",
+        Block::Connection | Block::Reading | Block::Command | Block::Link => "a property",
     }
 }
 
 /// Where an item belongs.
 fn belongs(item: Item) -> &'static str {
     match item {
-        Item::Use | Item::Board | Item::Driver => "at the top of a file",
-        Item::Sensor | Item::Actuator => "into a board or at the top of a file",
-        Item::Link => "into a board",
-        Item::Rule => "into a board or, for `prefer`, `avoid` and `allow`, into a device",
-        Item::Property => "into a board, a device, a driver or a link",
+        Item::Use | Item::Const | Item::Board | Item::Driver => "at the top of a file",
+        Item::Chip => "in a board or at the top of a file",
+        Item::Sensor | Item::Actuator => "in a board, in a chip or at the top of a file",
+        Item::Connection => "in a chip or in a driver",
+        Item::Reading | Item::Command => "in a driver",
+        Item::Link => "in a board",
+        Item::Rule => "in a board or, for `prefer`, `avoid` and `allow`, in a device or a chip",
+        Item::Property => "in a board, a device, a chip, a driver or a link",
     }
 }

@@ -3,10 +3,15 @@
 //! A view is a cheap handle. Where the text is incomplete the accessors return `None` or leave the
 //! broken part out; whoever needs all of it first looks whether the parse has errors.
 
+mod parts;
+mod rules;
 mod values;
 
+pub use parts::{Chip, ChipItem, Command, Connection, Driver, DriverItem, Reading};
+pub use rules::{Allow, Avoid, Prefer, Release, Reserve, Rule};
 pub use values::{
-    List, Magnitude, Name, NameValue, Number, Sign, StringLiteral, StringValue, Value,
+    Binary, List, Magnitude, Name, NameValue, Number, Operator, Paren, Range, Sign, Signed,
+    StringLiteral, StringValue, Value,
 };
 
 use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
@@ -81,6 +86,10 @@ node!(
     Use = Use
 );
 node!(
+    /// `const NAME = VALUE;`
+    Constant = Const
+);
+node!(
     /// `[spare] board NAME [on SOURCE] { ... }`
     Board = Board
 );
@@ -97,32 +106,8 @@ node!(
     Type = Type
 );
 node!(
-    /// `driver NAME for KIND { ... }`
-    Driver = Driver
-);
-node!(
     /// `NAME = VALUE;`
     Property = Property
-);
-node!(
-    /// `prefer NAME = VALUE;`
-    Prefer = Prefer
-);
-node!(
-    /// `avoid NAME = VALUE;`
-    Avoid = Avoid
-);
-node!(
-    /// `reserve NAME, ...;`
-    Reserve = Reserve
-);
-node!(
-    /// `release NAME, ...;`
-    Release = Release
-);
-node!(
-    /// `allow CODE "REASON";`
-    Allow = Allow
 );
 choice!(
     /// What a file is made of.
@@ -131,8 +116,12 @@ choice!(
         Use(Use),
         /// A board.
         Board(Board),
+        /// A value with a name.
+        Constant(Constant),
         /// A device that may go on any board.
         Device(Device),
+        /// A chip that may go on any board.
+        Chip(Chip),
         /// A reusable protocol.
         Driver(Driver),
     }
@@ -142,6 +131,8 @@ choice!(
     BoardItem {
         /// A device that stays on this board.
         Device(Device),
+        /// A chip that stays on this board.
+        Chip(Chip),
         /// A rule.
         Rule(Rule),
         /// A property of the board.
@@ -151,27 +142,21 @@ choice!(
     }
 );
 choice!(
+    /// What is wired: a part with one value, or with several.
+    Item {
+        /// A part with one value.
+        Device(Device),
+        /// A part with several.
+        Chip(Chip),
+    }
+);
+choice!(
     /// What a device holds.
     DeviceItem {
         /// A property of the device.
         Property(Property),
         /// A rule.
         Rule(Rule),
-    }
-);
-choice!(
-    /// A rule for the wiring or the checks.
-    Rule {
-        /// A wish.
-        Prefer(Prefer),
-        /// The opposite of a wish.
-        Avoid(Avoid),
-        /// Pins and peripherals that must be left alone.
-        Reserve(Reserve),
-        /// Pins and peripherals that may be used although the board uses them.
-        Release(Release),
-        /// A diagnostic that is accepted.
-        Allow(Allow),
     }
 );
 /// Where the pins of a board are told.
@@ -220,6 +205,18 @@ impl SourceFile {
     pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
         children(&self.0)
     }
+    /// The chips outside any board.
+    pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
+        children(&self.0)
+    }
+    /// The devices and chips outside any board, in the file's order.
+    pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
+        children(&self.0)
+    }
+    /// The constants.
+    pub fn constants(&self) -> impl Iterator<Item = Constant> + use<> {
+        children(&self.0)
+    }
     /// The drivers.
     pub fn drivers(&self) -> impl Iterator<Item = Driver> + use<> {
         children(&self.0)
@@ -231,6 +228,19 @@ impl Use {
     #[must_use]
     pub fn path(&self) -> Option<StringLiteral> {
         string(&self.0)
+    }
+}
+
+impl Constant {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// The value.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        children(&self.0).next()
     }
 }
 
@@ -262,6 +272,14 @@ impl Board {
     }
     /// The devices.
     pub fn devices(&self) -> impl Iterator<Item = Device> + use<> {
+        children(&self.0)
+    }
+    /// The chips.
+    pub fn chips(&self) -> impl Iterator<Item = Chip> + use<> {
+        children(&self.0)
+    }
+    /// The devices and chips in their order.
+    pub fn parts(&self) -> impl Iterator<Item = Item> + use<> {
         children(&self.0)
     }
     /// The rules.
@@ -332,28 +350,16 @@ impl Type {
     pub fn is_array(&self) -> bool {
         token(&self.0, SyntaxKind::LBracket).is_some()
     }
-    /// The number of elements of an array and where it stands.
+    /// The number of elements of an array and where it stands, when a number is written.
     #[must_use]
     pub fn length(&self) -> Option<(u64, TextRange)> {
         let digits = token(&self.0, SyntaxKind::Int)?;
         Some((literal::integer(digits.text())?, digits.text_range()))
     }
-}
-
-impl Driver {
-    /// The name.
+    /// The constant that is the number of elements of an array, when a name is written.
     #[must_use]
-    pub fn name(&self) -> Option<Name> {
-        name(&self.0)
-    }
-    /// The kind of device it is for. Whether there is such a kind is not checked here.
-    #[must_use]
-    pub fn kind(&self) -> Option<Name> {
-        name(&self.0.children().find(|node| node.kind() == SyntaxKind::Kind)?)
-    }
-    /// The properties.
-    pub fn properties(&self) -> impl Iterator<Item = Property> + use<> {
-        children(&self.0)
+    pub fn length_name(&self) -> Option<Name> {
+        names(&self.0).nth(1)
     }
 }
 
@@ -367,49 +373,6 @@ impl Property {
     #[must_use]
     pub fn value(&self) -> Option<Value> {
         children(&self.0).next()
-    }
-}
-
-impl Prefer {
-    /// What is wished for.
-    #[must_use]
-    pub fn property(&self) -> Option<Property> {
-        children(&self.0).next()
-    }
-}
-
-impl Avoid {
-    /// What is unwelcome.
-    #[must_use]
-    pub fn property(&self) -> Option<Property> {
-        children(&self.0).next()
-    }
-}
-
-impl Reserve {
-    /// The names.
-    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
-        names(&self.0)
-    }
-}
-
-impl Release {
-    /// The names.
-    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
-        names(&self.0)
-    }
-}
-
-impl Allow {
-    /// The code of the diagnostic.
-    #[must_use]
-    pub fn code(&self) -> Option<Name> {
-        name(&self.0)
-    }
-    /// Why it is accepted.
-    #[must_use]
-    pub fn reason(&self) -> Option<StringLiteral> {
-        string(&self.0)
     }
 }
 

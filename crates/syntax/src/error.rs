@@ -63,6 +63,8 @@ pub enum SyntaxErrorKind {
         name: String,
         /// The name with underscores instead.
         suggestion: String,
+        /// Whether it is a value, where a minus may be meant.
+        in_value: bool,
     },
     /// A word at the beginning of an item that begins no item of this block.
     UnknownItem {
@@ -115,6 +117,11 @@ pub enum SyntaxErrorKind {
         /// Its `{`.
         open: TextRange,
     },
+    /// A `(` that is never closed.
+    MissingCloseParen {
+        /// It.
+        open: TextRange,
+    },
     /// A list or an array length that is never closed.
     MissingCloseBracket {
         /// Its `[`.
@@ -131,7 +138,14 @@ pub enum SyntaxErrorKind {
         /// The unit that is probably meant.
         suggestion: Option<&'static str>,
     },
-    /// Blocks or lists nested deeper than any use of them.
+    /// Something between `(` and `)` that is written between `[` and `]`: `(1, 2)`.
+    ParenthesesAroundList,
+    /// A unit that does not follow a number: `N ms`.
+    UnitAlone {
+        /// The unit.
+        unit: String,
+    },
+    /// Blocks, lists or expressions nested deeper than any use of them.
     NestingTooDeep {
         /// The deepest allowed nesting.
         limit: usize,
@@ -170,7 +184,7 @@ impl Errors {
 /// What the grammar has at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// The name of a board, a device or a driver that is declared here.
+    /// The name of what is declared here.
     NameOf(Item),
     /// The name of a property.
     PropertyName,
@@ -190,12 +204,16 @@ pub enum Expected {
     Reason,
     /// The code of a diagnostic, after `allow`.
     Code,
-    /// The number of elements of an array.
+    /// The number of elements of an array, or the name of a constant.
     ArrayLength,
-    /// A number, after a sign.
-    Number,
-    /// A value of a list.
+    /// A value: of a list, after a sign or an operator.
     Value,
+    /// The end of a value.
+    EndOfValue,
+    /// The value after `..`.
+    RangeEnd,
+    /// A `)`.
+    CloseParen,
     /// A `{`.
     OpenBrace,
 }
@@ -214,8 +232,13 @@ pub enum Found {
 #[expect(missing_docs, reason = "each is named after the grammar")]
 pub enum Item {
     Use,
+    Const,
     Board,
     Driver,
+    Chip,
+    Connection,
+    Reading,
+    Command,
     Sensor,
     Actuator,
     Link,
@@ -231,7 +254,11 @@ pub enum Block {
     Board,
     Sensor,
     Actuator,
+    Chip,
+    Connection,
     Driver,
+    Reading,
+    Command,
     Link,
 }
 
@@ -248,9 +275,11 @@ impl fmt::Display for Expected {
             Self::FilePath => f.write_str("the path of a file in quotes"),
             Self::Reason => f.write_str("a reason in quotes"),
             Self::Code => f.write_str("the code of a diagnostic"),
-            Self::ArrayLength => f.write_str("the number of elements"),
-            Self::Number => f.write_str("a number"),
+            Self::ArrayLength => f.write_str("the number of elements or the name of a constant"),
             Self::Value => f.write_str("a value"),
+            Self::EndOfValue => f.write_str("the end of the value"),
+            Self::RangeEnd => f.write_str("the end of the range"),
+            Self::CloseParen => f.write_str("`)`"),
             Self::OpenBrace => f.write_str("`{`"),
         }
     }
@@ -269,6 +298,11 @@ impl fmt::Display for Item {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Use => "use",
+            Self::Const => "constant",
+            Self::Chip => "chip",
+            Self::Connection => "connection",
+            Self::Reading => "reading",
+            Self::Command => "command",
             Self::Board => "board",
             Self::Driver => "driver",
             Self::Sensor => "sensor",
@@ -284,6 +318,10 @@ impl fmt::Display for Block {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::File => "file",
+            Self::Chip => "chip",
+            Self::Connection => "connection",
+            Self::Reading => "reading",
+            Self::Command => "command",
             Self::Board => "board",
             Self::Sensor => "sensor",
             Self::Actuator => "actuator",

@@ -6,7 +6,7 @@
 //! the edges of a block. Laying out twice changes nothing.
 
 use crate::error::SyntaxError;
-use crate::kind::SyntaxKind;
+use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::{lexer, parser};
 use sensedsl_limits::TOKENS_MAX;
 
@@ -15,22 +15,47 @@ const INDENT: &str = "    ";
 /// The text in its canonical layout, or the mistakes that prevent it.
 pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
     let lexed = lexer::lex(text, TOKENS_MAX);
-    let (_, errors) = parser::parse(text, &lexed);
+    let (green, errors) = parser::parse(text, &lexed);
     if !errors.is_empty() {
         return Err(errors);
     }
     let mut printer = Printer::new(text.len());
-    for token in &lexed.tokens {
-        let text = text.get(std::ops::Range::from(token.range)).unwrap_or_default();
-        if token.kind == SyntaxKind::Whitespace {
+    let elements = SyntaxNode::new_root(green).descendants_with_tokens();
+    for token in elements.filter_map(SyntaxElement::into_token) {
+        let (kind, text) = (token.kind(), token.text());
+        if kind == SyntaxKind::Whitespace {
             printer.breaks += lines(text).count() - 1;
-        } else if token.kind.is_comment() {
-            printer.comment(token.kind, text);
-        } else if token.kind != SyntaxKind::Bom {
-            printer.token(token.kind, text);
+        } else if kind.is_comment() {
+            printer.comment(kind, text);
+        } else if kind != SyntaxKind::Bom {
+            printer.token(kind, sides(&token), text);
         }
     }
     Ok(printer.finish())
+}
+
+/// On which sides of it a token takes a space, if its neighbour does too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Sides {
+    before: bool,
+    after: bool,
+}
+
+fn sides(token: &SyntaxToken) -> Sides {
+    use SyntaxKind::{Comma, LBracket, LParen, Minus, Plus, RBracket, RParen, Semicolon};
+    let parent = token.parent();
+    let within = |kind| parent.as_ref().is_some_and(|node| node.kind() == kind);
+    let kind = token.kind();
+    if kind == SyntaxKind::DotDot {
+        let is_operation = |node: SyntaxNode| node.kind() == SyntaxKind::Binary;
+        let spaced = parent.is_some_and(|node| node.children().any(is_operation));
+        return Sides { before: spaced, after: spaced };
+    }
+    // A sign stands at what it is of; an operator does not.
+    let is_sign = matches!(kind, Plus | Minus) && !within(SyntaxKind::Binary);
+    let is_array = kind == LBracket && within(SyntaxKind::Type);
+    let before = !matches!(kind, Semicolon | Comma | RBracket | RParen) && !is_array;
+    Sides { before, after: !matches!(kind, LBracket | LParen) && !is_sign }
 }
 
 /// The lines of a text, whichever way they end.
@@ -57,6 +82,8 @@ struct Printer {
     last: Last,
     /// The last token, comments aside.
     last_token: Option<SyntaxKind>,
+    /// Whether that takes a space after it.
+    space_after: bool,
     /// The line breaks in the source since the last token or comment.
     breaks: usize,
 }
@@ -64,7 +91,8 @@ struct Printer {
 impl Printer {
     fn new(capacity: usize) -> Self {
         let out = String::with_capacity(capacity);
-        Self { out, depth: 0, last: Last::Nothing, last_token: None, breaks: 0 }
+        let last = Last::Nothing;
+        Self { out, depth: 0, last, last_token: None, space_after: true, breaks: 0 }
     }
 
     fn between_statements(&self) -> bool {
@@ -78,12 +106,16 @@ impl Printer {
         self.last == Last::Token && self.last_token == Some(SyntaxKind::LBrace)
     }
 
+    fn opens_brackets(&self) -> bool {
+        matches!(self.last_token, Some(SyntaxKind::LBracket | SyntaxKind::LParen))
+    }
+
     fn comment(&mut self, kind: SyntaxKind, text: &str) {
         let own_line = self.breaks > 0 || matches!(self.last, Last::Nothing | Last::LineComment);
         let leads = own_line || self.last == (Last::BlockComment { leads: true });
         if own_line {
             self.new_line();
-        } else if self.last != Last::Token || self.last_token != Some(SyntaxKind::LBracket) {
+        } else if self.last != Last::Token || !self.opens_brackets() {
             self.out.push(' ');
         }
         for (index, line) in lines(text).enumerate() {
@@ -100,7 +132,7 @@ impl Printer {
         };
     }
 
-    fn token(&mut self, kind: SyntaxKind, text: &str) {
+    fn token(&mut self, kind: SyntaxKind, sides: Sides, text: &str) {
         if kind == SyntaxKind::RBrace {
             self.depth = self.depth.saturating_sub(1);
             if !self.opens_block() {
@@ -115,7 +147,7 @@ impl Printer {
             }
         } else if self.last == Last::LineComment {
             self.new_line();
-        } else if self.spaced(kind) {
+        } else if sides.before && (self.last != Last::Token || self.space_after) {
             self.out.push(' ');
         }
         self.out.push_str(text);
@@ -125,22 +157,7 @@ impl Printer {
         self.breaks = 0;
         self.last = Last::Token;
         self.last_token = Some(kind);
-    }
-
-    /// Whether a space stands before this token within a statement.
-    fn spaced(&self, kind: SyntaxKind) -> bool {
-        if matches!(kind, SyntaxKind::Semicolon | SyntaxKind::Comma | SyntaxKind::RBracket) {
-            return false;
-        }
-        if self.last != Last::Token {
-            return true;
-        }
-        match self.last_token {
-            Some(SyntaxKind::LBracket | SyntaxKind::Plus | SyntaxKind::Minus) => false,
-            // The length of an array type.
-            Some(SyntaxKind::Ident) => kind != SyntaxKind::LBracket,
-            _ => true,
-        }
+        self.space_after = sides.after;
     }
 
     /// Begins a line, after a blank one if the source has one here. A line within a statement is

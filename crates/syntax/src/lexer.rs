@@ -105,6 +105,7 @@ impl<'a> Lexer<'a> {
             }
             '/' if rest.starts_with("/*") => self.block_comment(start),
             '"' => self.string(start),
+            '.' if self.peek() == Some('.') => self.dots(),
             '.' if self.peek().is_some_and(|next| next.is_ascii_digit()) => {
                 self.fraction_without_integer(start)
             }
@@ -198,9 +199,22 @@ impl<'a> Lexer<'a> {
         SyntaxKind::Int
     }
 
-    /// `.` and digits, after an integer.
+    /// `..`, after its first dot. A third one is a mistake of its own: ranges have two here, whatever
+    /// other languages have.
+    fn dots(&mut self) -> SyntaxKind {
+        self.bump();
+        let start = self.position;
+        self.bump_while(|character| character == '.');
+        if self.position > start {
+            let kind = SyntaxErrorKind::UnexpectedCharacter { character: '.' };
+            self.error(kind, start, self.position);
+        }
+        SyntaxKind::DotDot
+    }
+
+    /// `.` and digits, after an integer, unless a range begins here.
     fn fraction(&mut self, start: usize) -> bool {
-        if self.peek() != Some('.') {
+        if self.peek() != Some('.') || self.peek_second() == Some('.') {
             return false;
         }
         self.bump();
@@ -267,11 +281,15 @@ fn punctuation(character: char) -> Option<SyntaxKind> {
         '}' => SyntaxKind::RBrace,
         '[' => SyntaxKind::LBracket,
         ']' => SyntaxKind::RBracket,
+        '(' => SyntaxKind::LParen,
+        ')' => SyntaxKind::RParen,
         '=' => SyntaxKind::Eq,
         ';' => SyntaxKind::Semicolon,
         ',' => SyntaxKind::Comma,
         '+' => SyntaxKind::Plus,
         '-' => SyntaxKind::Minus,
+        '*' => SyntaxKind::Star,
+        '/' => SyntaxKind::Slash,
         _ => return None,
     })
 }
@@ -306,14 +324,11 @@ fn is_unknown(character: char) -> bool {
         && punctuation(character).is_none()
 }
 
-/// Whether a character that is otherwise unknown begins a comment or a number here.
+/// Whether a character that is otherwise unknown begins a range or a number here.
 fn starts_token(rest: &str) -> bool {
     let mut characters = rest.chars();
-    match (characters.next(), characters.next()) {
-        (Some('/'), Some('/' | '*')) => true,
-        (Some('.'), Some(next)) => next.is_ascii_digit(),
-        _ => false,
-    }
+    characters.next() == Some('.')
+        && characters.next().is_some_and(|next| next == '.' || next.is_ascii_digit())
 }
 
 /// The length of a word such as `8N1`: digits, letters, digits. Such a word is not a number with a unit,
@@ -372,6 +387,19 @@ mod tests {
     }
 
     #[test]
+    fn ranges_and_operators() {
+        use SyntaxKind::{DotDot, Float, Ident, Int, LParen, Minus, RParen, Slash, Star};
+        check("1..5", &[(Int, "1"), (DotDot, ".."), (Int, "5")]);
+        check("1.5..2.5", &[(Float, "1.5"), (DotDot, ".."), (Float, "2.5")]);
+        check("0x0..0xF", &[(Int, "0x0"), (DotDot, ".."), (Int, "0xF")]);
+        check("1e3..2", &[(Float, "1e3"), (DotDot, ".."), (Int, "2")]);
+        check("3V..5", &[(Int, "3"), (Ident, "V"), (DotDot, ".."), (Int, "5")]);
+        check("A..-1", &[(Ident, "A"), (DotDot, ".."), (Minus, "-"), (Int, "1")]);
+        check("(2*3)", &[(LParen, "("), (Int, "2"), (Star, "*"), (Int, "3"), (RParen, ")")]);
+        check("1/2//3", &[(Int, "1"), (Slash, "/"), (Int, "2"), (SyntaxKind::LineComment, "//3")]);
+    }
+
+    #[test]
     fn trivia_and_strings() {
         use SyntaxKind::{BlockComment, Bom, Ident, LineComment, Semicolon, Str, Whitespace};
         check("\u{feff}a", &[(Bom, "\u{feff}"), (Ident, "a")]);
@@ -390,7 +418,9 @@ mod tests {
         assert_eq!(kinds("@// a"), [Unknown, LineComment]);
         assert_eq!(kinds("@/* a */"), [Unknown, BlockComment]);
         assert_eq!(kinds("@.5"), [Unknown, Float]);
-        assert_eq!(kinds("@/."), [Unknown]);
+        assert_eq!(kinds("@:."), [Unknown]);
+        assert_eq!(kinds("@.."), [Unknown, SyntaxKind::DotDot]);
+        assert_eq!(kinds("@*"), [Unknown, SyntaxKind::Star]);
     }
 
     #[test]
@@ -405,6 +435,9 @@ mod tests {
         check_error("0x", r#"MissingDigits { number: "0x" }"#, "0x");
         check_error("0x_", r#"MissingDigits { number: "0x_" }"#, "0x_");
         check_error("1.;", r#"MissingDigits { number: "1." }"#, "1.");
+        check_error("1...5", "UnexpectedCharacter { character: '.' }", ".");
+        check_error("a . b", "UnexpectedCharacter { character: '.' }", ".");
+        check_error("a : b", "UnexpectedCharacter { character: ':' }", ":");
         check_error(".5", r#"MissingDigits { number: ".5" }"#, ".5");
         let large = "18446744073709551616";
         check_error(large, &format!("NumberTooLarge {{ number: {large:?} }}"), large);

@@ -1,16 +1,18 @@
 //! From tokens to the tree: recursive descent that never gives up.
 //!
 //! This file is the machinery (look-ahead, building the tree, reporting); the grammar is in
-//! [`items`], [`statements`] and [`values`]. Every token ends up in the tree exactly once. A mistake
+//! [`items`], [`heads`], [`statements`], [`names`] and [`expressions`]. Every token ends up in the tree exactly once. A mistake
 //! is reported where it is, what cannot be understood goes into an `Error` node, and parsing goes on
 //! at the next statement.
 //!
 //! Two rules keep one mistake from being reported twice: no second complaint is made before another
 //! token has been consumed, and none where the lexer has found unknown characters just before.
 
+mod expressions;
+mod heads;
 mod items;
+mod names;
 mod statements;
-mod values;
 
 use crate::error::{Block, Errors, Expected, Found, SyntaxError, SyntaxErrorKind};
 use crate::kind::{SenseDsl, SyntaxKind};
@@ -18,8 +20,8 @@ use crate::lexer::{Lexed, Token};
 use rowan::{GreenNode, GreenNodeBuilder, Language, TextRange, TextSize};
 use std::collections::BTreeSet;
 
-/// How deep blocks and lists may nest, together. The grammar needs four at most; the bound protects
-/// the stack from hostile input.
+/// How deep blocks, lists and expressions may nest, together. A design needs a few; the bound
+/// protects the stack from hostile input, here and wherever the tree is walked.
 pub(crate) const NESTING_LIMIT: usize = 32;
 
 /// Builds the tree of `text` and lists all its mistakes, those of the lexer included, in order.
@@ -62,7 +64,7 @@ struct Parser<'a> {
     complained: Option<usize>,
     /// The block whose items are being parsed.
     block: Block,
-    /// How many blocks and lists are open.
+    /// How many blocks, lists and operations are open.
     depth: usize,
     /// How many more `{` than `}` the file has, as far as not yet explained by a report.
     unclosed: usize,

@@ -1,7 +1,8 @@
 //! The typed views over correct files, and the shape of the tree.
 
 use sensedsl_syntax::ast::{
-    AstNode, BoardItem, BoardSource, Direction, FileItem, Magnitude, Rule, Sign, Value,
+    AstNode, BoardItem, BoardSource, ChipItem, Direction, DriverItem, FileItem, Item, Magnitude,
+    Operator, Rule, Sign, Value,
 };
 use sensedsl_syntax::{Unit, parse};
 
@@ -53,6 +54,23 @@ fn describe(value: &Value) -> Option<String> {
         Value::List(list) => {
             let values: Option<Vec<_>> = list.values().map(|value| describe(&value)).collect();
             format!("{:?}", values?)
+        }
+        Value::Signed(signed) => {
+            let sign = if signed.sign()? == Sign::Plus { "+" } else { "-" };
+            format!("{sign}<{}>", describe(&signed.value()?)?)
+        }
+        Value::Paren(paren) => format!("({})", describe(&paren.value()?)?),
+        Value::Binary(binary) => {
+            let operator = match binary.operator()? {
+                Operator::Add => '+',
+                Operator::Subtract => '-',
+                Operator::Multiply => '*',
+                Operator::Divide => '/',
+            };
+            format!("<{} {operator} {}>", describe(&binary.left()?)?, describe(&binary.right()?)?)
+        }
+        Value::Range(range) => {
+            format!("{} to {}", describe(&range.first()?)?, describe(&range.last()?)?)
         }
     })
 }
@@ -109,7 +127,9 @@ fn every_construct_has_its_view() {
         .map(|item| match item {
             FileItem::Use(_) => "use",
             FileItem::Board(_) => "board",
+            FileItem::Constant(_) => "constant",
             FileItem::Device(_) => "device",
+            FileItem::Chip(_) => "chip",
             FileItem::Driver(_) => "driver",
         })
         .collect();
@@ -127,6 +147,7 @@ fn every_construct_has_its_view() {
             BoardItem::Rule(_) => "rule",
             BoardItem::Property(_) => "property",
             BoardItem::Device(_) => "device",
+            BoardItem::Chip(_) => "chip",
         })
         .collect();
     assert_eq!(items, ["link", "rule", "rule", "rule", "property", "device", "device"]);
@@ -138,6 +159,140 @@ fn every_construct_has_its_view() {
     let property = driver.properties().next().expect("a property");
     assert_eq!(property.name().expect("a name").text(), "sensor");
     assert_eq!(property.value().and_then(|value| describe(&value)).expect("a value"), "name board");
+}
+
+const PARTS: &str = r#"
+const SIDE = 20;
+chip Free { driver = x; }
+sensor Loose returns uint8[CELLS] {}
+board Rover {
+    sensor Front returns uint8 { id = 1; }
+    chip Imu {
+        driver = mpu6050;
+        prefer side = left;
+        connection motion { pin = PA0; }
+        sensor Rate returns int16[3] { reading = rate; }
+    }
+    actuator Last accepts bool {}
+}
+driver mpu6050 {
+    part = "InvenSense MPU-6050";
+    connection bus for i2c { address = 0x68; }
+    connection motion for digital {}
+    reading rate returns int16[3] { via = bus; }
+    command wake accepts bool { via = bus; }
+}
+driver lm75 for i2c { reading temperature returns int16 { bits = 15..5; } }
+"#;
+
+#[test]
+fn chips_and_drivers_with_readings() {
+    let parsed = parse(PARTS);
+    assert_eq!(parsed.errors(), &[]);
+    let file = parsed.ast();
+    let constant = file.constants().next().expect("a constant");
+    assert_eq!(constant.name().expect("a name").text(), "SIDE");
+    assert_eq!(constant.value().and_then(|value| describe(&value)).as_deref(), Some("20"));
+    let part = |item: Item| match item {
+        Item::Device(device) => format!("device {}", device.name().expect("a name").text()),
+        Item::Chip(chip) => format!("chip {}", chip.name().expect("a name").text()),
+    };
+    assert_eq!(file.parts().map(part).collect::<Vec<_>>(), ["chip Free", "device Loose"]);
+    let length = |ty: sensedsl_syntax::ast::Type| {
+        let name = ty.length_name().map(|name| name.text().to_owned());
+        (ty.is_array(), ty.length().map(|length| length.0), name)
+    };
+    let loose = file.devices().next().and_then(|device| device.ty()).expect("a type");
+    assert_eq!(length(loose), (true, None, Some("CELLS".to_owned())));
+
+    let board = file.boards().next().expect("a board");
+    let parts: Vec<_> = board.parts().map(part).collect();
+    assert_eq!(parts, ["device Front", "chip Imu", "device Last"]);
+    let chip = board.chips().next().expect("a chip");
+    let items: Vec<&str> = chip
+        .items()
+        .map(|item| match item {
+            ChipItem::Property(_) => "property",
+            ChipItem::Rule(_) => "rule",
+            ChipItem::Device(_) => "device",
+            ChipItem::Connection(_) => "connection",
+        })
+        .collect();
+    assert_eq!(items, ["property", "rule", "connection", "device"]);
+    let connection = chip.connections().next().expect("a connection");
+    assert_eq!(connection.name().expect("a name").text(), "motion");
+    assert!(connection.kind().is_none());
+    assert_eq!((connection.properties().count(), chip.properties().count()), (1, 1));
+    assert_eq!((chip.rules().count(), chip.devices().count()), (1, 1));
+
+    let drivers: Vec<_> = file.drivers().collect();
+    assert!(drivers[0].kind().is_none());
+    assert_eq!(drivers[1].kind().expect("a kind").text(), "i2c");
+    let items: Vec<&str> = drivers[0]
+        .items()
+        .map(|item| match item {
+            DriverItem::Property(_) => "property",
+            DriverItem::Connection(_) => "connection",
+            DriverItem::Reading(_) => "reading",
+            DriverItem::Command(_) => "command",
+        })
+        .collect();
+    assert_eq!(items, ["property", "connection", "connection", "reading", "command"]);
+    let kinds: Vec<_> = drivers[0].connections().filter_map(|one| one.kind()).collect();
+    assert_eq!(kinds.iter().map(|kind| kind.text()).collect::<Vec<_>>(), ["i2c", "digital"]);
+    let reading = drivers[0].readings().next().expect("a reading");
+    assert_eq!(reading.name().expect("a name").text(), "rate");
+    assert_eq!(length(reading.ty().expect("a type")), (true, Some(3), None));
+    assert_eq!(reading.properties().count(), 1);
+    let command = drivers[0].commands().next().expect("a command");
+    assert_eq!(command.name().expect("a name").text(), "wake");
+    assert_eq!(command.ty().and_then(|ty| ty.scalar()).expect("a type").text(), "bool");
+    assert_eq!((command.properties().count(), drivers[0].properties().count()), (1, 1));
+}
+
+#[test]
+fn what_is_computed() {
+    let cases = [
+        ("1 + 2 * 3 - 4", "<<1 + <2 * 3>> - 4>"),
+        ("(1 + 2) * 3 / 4", "<<(<1 + 2>) * 3> / 4>"),
+        ("5 -3", "<5 - 3>"),
+        ("5-3", "<5 - 3>"),
+        ("5 ms-3us", "<5 Milliseconds - 3 Microseconds>"),
+        ("-5 ms", "-5 Milliseconds"),
+        ("- 5 * 2", "<-5 * 2>"),
+        ("1 - -2", "<1 - -2>"),
+        ("-N", "-<name N>"),
+        ("+-(N)", "+<-<(name N)>>"),
+        ("--1", "-<-1>"),
+        ("N - 5", "<name N - 5>"),
+        ("N -5", "<name N - 5>"),
+        ("3.3 / 4095", "<3.3e0 / 4095>"),
+        ("1..5", "1 to 5"),
+        ("3 V..5 V", "3 Volts to 5 Volts"),
+        ("-5..-3", "-5 to -3"),
+        ("A .. B + 1", "name A to <name B + 1>"),
+        ("(7)", "(7)"),
+        ("[1..2, -N, [3 * 4, 5]]", r#"["1 to 2", "-<name N>", "[\"<3 * 4>\", \"5\"]"]"#),
+        ("60\n    + 1", "<60 + 1>"),
+    ];
+    for (text, expected) in cases {
+        let parsed = parse(&format!("const A = {text};"));
+        assert_eq!(parsed.errors(), &[], "{text}");
+        let value = parsed.ast().constants().next().and_then(|one| one.value()).expect("a value");
+        assert_eq!(describe(&value).as_deref(), Some(expected), "{text}");
+        assert_eq!(
+            value.range(),
+            sensedsl_syntax::TextRange::at(10.into(), (text.len() as u32).into())
+        );
+    }
+    // One operand of a broken operation is not taken for the other.
+    let broken = parse("const A = 1 + ; const B = ..2;").ast();
+    let values: Vec<Value> = broken.constants().filter_map(|one| one.value()).collect();
+    let (Value::Binary(sum), Value::Range(range)) = (&values[0], &values[1]) else {
+        panic!("{values:?}")
+    };
+    assert!(sum.left().is_some() && sum.right().is_none());
+    assert!(range.first().is_none() && range.last().is_some());
 }
 
 #[test]
@@ -229,6 +384,9 @@ fn trees() {
             "rules",
             "board b { reserve A, B; release A; allow W1 \"r\"; prefer a = 1; avoid a = 2; }",
         ),
+        ("chips", "chip c { connection i { a = 1; } sensor s returns uint8[N] {} }"),
+        ("drivers", "driver d { connection i for i2c {} reading r returns int8 {} }"),
+        ("expressions", "const A = -(1 + N * 2 ms)..5 - -3;"),
         ("broken_head", "sensor 2nd return [ { id = 1; }"),
         ("broken_statements", "board b { id 17; x = ; y = 1 2 { 3 }; @ z = 4 }"),
         ("broken_blocks", "board b { foo bar { baz = 1; } sensor s returns uint8 {"),

@@ -10,7 +10,7 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "something else was expected here",
     explanation: r#"The text does not follow the grammar here. A file consists of `board`, `sensor`, `actuator`,
-`driver` and `use`. Braces hold properties, one `name = value;` per line:
+`chip`, `driver`, `const` and `use`. Braces hold properties, one `name = value;` per line:
 
     sensor IRFront returns uint16 {
         id = 17;

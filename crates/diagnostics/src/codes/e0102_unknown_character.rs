@@ -10,11 +10,13 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0102",
     severity: Severity::Error,
     title: "a character that means nothing here",
-    explanation: r#"The language is written with letters, digits and `{ } [ ] = ; , + - . " / _`. Other characters are
-allowed only in comments and strings; they often come from copying out of a document (typographic
-quotes, non-breaking spaces).
+    explanation: r#"The language is written with letters, digits and `{ } [ ] ( ) = ; , + - * / . " _`. Other characters
+are allowed only in comments and strings; they often come from copying out of a document (typographic
+quotes, non-breaking spaces), or from another language: a comment begins with `//` here, not with `#`,
+and a property is `name = value;`, without a colon.
 
-Way out: remove the character, or put the text between straight quotes.
+Way out: remove the character, write what this language has for it, or put the text between straight
+quotes.
 "#,
 };
 
@@ -26,4 +28,23 @@ pub const CODE: Code = Code(&INFO);
 pub fn unknown_character(span: Span, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{}` means nothing here", visible(found)))
         .help("remove it; text belongs between straight quotes or in a comment")
+}
+
+/// A `#` and the rest of its line, which is meant to be a comment.
+#[must_use]
+pub fn comment_with_hash(span: Span) -> Diagnostic {
+    let hash = Span { end: span.start + 1, ..span };
+    Diagnostic::new(CODE, span, "`#` does not begin a comment")
+        .here("write `//` instead of `#`")
+        .help("begin a comment with `//`")
+        .replace("change to `//`", hash, "//")
+}
+
+/// A `:`, which is meant to be a `=`.
+#[must_use]
+pub fn colon(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "`:` means nothing here")
+        .here("write `=`")
+        .help("write a property as `name = value;`")
+        .replace("change to `=`", span, "=")
 }

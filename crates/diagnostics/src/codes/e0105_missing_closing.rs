@@ -9,7 +9,7 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0105",
     severity: Severity::Error,
     title: "a closing brace or bracket is missing",
-    explanation: r#"Each `{` needs its `}` and each `[` its `]`. The second mark shows what was opened.
+    explanation: r#"Each `{` needs its `}`, each `[` its `]` and each `(` its `)`. The second mark shows what was opened.
 
 Way out: add the closing one.
 "#,

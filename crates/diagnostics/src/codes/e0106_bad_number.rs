@@ -10,7 +10,7 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "not a number",
     explanation: r#"Numbers are decimal (`60`, `0.5`, `1.5e-3`), hexadecimal (`0xE6`) or binary (`0b1010`), with `_`
-between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz`.
+between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz mV V Ohm kOhm`.
 
 Way out: write it in one of these forms.
 "#,
@@ -24,4 +24,12 @@ pub const CODE: Code = Code(&INFO);
 pub fn bad_number(span: Span, text: &str, why: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{text}` is not a number: {why}"))
         .help("write it like 60, 0.5, 0xE6 or 0b1010, with a unit such as ms or kHz where one is meant")
+}
+
+/// A unit after something that is not a number, such as a name.
+#[must_use]
+pub fn unit_alone(span: Span, unit: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the unit `{unit}` does not follow a number"))
+        .here("only a number has a unit")
+        .help(format!("remove it where the value has its unit already; otherwise multiply by `1 {unit}`"))
 }

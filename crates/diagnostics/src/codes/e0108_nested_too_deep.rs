@@ -1,4 +1,4 @@
-//! E0108: lists are nested too deep.
+//! E0108: blocks, lists or expressions are nested too deep.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,11 +8,11 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0108",
     severity: Severity::Error,
-    title: "lists are nested too deep",
-    explanation: r#"Lists may contain lists, but no property needs more than a few levels; anything deeper is taken for a
-typing mistake.
+    title: "nested too deep",
+    explanation: r#"Blocks, lists and expressions may stand in one another, but no property needs more than a few levels;
+anything deeper is taken for a typing mistake. In a chain such as `1 + 2 + 3` each operator is a level.
 
-Way out: remove brackets.
+Way out: remove brackets, or give parts of a long expression names: `const TOTAL = 1 + 2;`.
 "#,
 };
 
@@ -22,6 +22,6 @@ pub const CODE: Code = Code(&INFO);
 /// `most` is the depth that is still read.
 #[must_use]
 pub fn nested_too_deep(span: Span, most: usize) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("lists are nested more than {most} deep"))
-        .help("remove brackets: no property takes more than a list of numbers")
+    Diagnostic::new(CODE, span, format!("this is nested more than {most} deep"))
+        .help("remove brackets, or give parts of a long expression names with `const`")
 }

@@ -9,8 +9,9 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0110",
     severity: Severity::Error,
     title: "this does not belong here",
-    explanation: r#"Boards, drivers and `use` belong at the top of a file; rules (`reserve`, `release`) and `link` belong
-to a board; `prefer`, `avoid` and `allow` to a board or a device.
+    explanation: r#"Boards, drivers, constants and `use` belong at the top of a file; rules (`reserve`, `release`) and
+`link` belong in a board; `prefer`, `avoid` and `allow` in a board, a chip or a device; `reading` and
+`command` in a driver.
 
 Way out: move it where it belongs.
 "#,

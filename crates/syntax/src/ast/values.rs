@@ -1,4 +1,4 @@
-//! Views over names, strings, numbers and lists.
+//! Views over names, strings, numbers, lists, and what is computed of them.
 
 use super::{AstNode, children, choice, name, node, string, token};
 use crate::kind::{SyntaxKind, SyntaxNode, SyntaxToken};
@@ -21,6 +21,22 @@ node!(
     /// `[VALUE, ...]`
     List = List
 );
+node!(
+    /// A sign before anything but the digits of a number: `-N`, `-(1 + N)`.
+    Signed = Signed
+);
+node!(
+    /// `(EXPRESSION)`
+    Paren = Paren
+);
+node!(
+    /// Two operands with an operator between them.
+    Binary = Binary
+);
+node!(
+    /// `FIRST..LAST`
+    Range = Range
+);
 
 choice!(
     /// The value of a property.
@@ -33,6 +49,14 @@ choice!(
         String(StringValue),
         /// Several values.
         List(List),
+        /// A sign and what it is of.
+        Signed(Signed),
+        /// An expression in parentheses.
+        Paren(Paren),
+        /// An operation.
+        Binary(Binary),
+        /// A range. Lists have them, operations do not.
+        Range(Range),
     }
 );
 
@@ -115,8 +139,7 @@ impl Number {
     /// The sign, when one is written.
     #[must_use]
     pub fn sign(&self) -> Option<Sign> {
-        let plus = token(&self.0, SyntaxKind::Plus).map(|_| Sign::Plus);
-        plus.or_else(|| token(&self.0, SyntaxKind::Minus).map(|_| Sign::Minus))
+        sign(&self.0)
     }
     /// The number without its sign; `None` where it is out of range, which is an error already.
     #[must_use]
@@ -164,4 +187,99 @@ impl List {
     pub fn values(&self) -> impl Iterator<Item = Value> + use<> {
         children(&self.0)
     }
+}
+
+/// What is done with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+}
+
+impl Operator {
+    const ALL: [(SyntaxKind, Self); 4] = [
+        (SyntaxKind::Plus, Self::Add),
+        (SyntaxKind::Minus, Self::Subtract),
+        (SyntaxKind::Star, Self::Multiply),
+        (SyntaxKind::Slash, Self::Divide),
+    ];
+}
+
+impl Signed {
+    /// The sign.
+    #[must_use]
+    pub fn sign(&self) -> Option<Sign> {
+        sign(&self.0)
+    }
+    /// What it is of: a name, an expression in parentheses, something signed; by the grammar also a
+    /// text or a list, of which there is no negative.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        children(&self.0).next()
+    }
+}
+
+impl Paren {
+    /// The expression.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        children(&self.0).next()
+    }
+}
+
+impl Binary {
+    /// The operator.
+    #[must_use]
+    pub fn operator(&self) -> Option<Operator> {
+        self.operator_and_token().map(|found| found.0)
+    }
+    /// The operator as it stands in the text.
+    #[must_use]
+    pub fn operator_token(&self) -> Option<SyntaxToken> {
+        self.operator_and_token().map(|found| found.1)
+    }
+    /// The left operand.
+    #[must_use]
+    pub fn left(&self) -> Option<Value> {
+        operand(&self.0, &self.operator_token()?, true)
+    }
+    /// The right operand.
+    #[must_use]
+    pub fn right(&self) -> Option<Value> {
+        operand(&self.0, &self.operator_token()?, false)
+    }
+    fn operator_and_token(&self) -> Option<(Operator, SyntaxToken)> {
+        let of = |(kind, operator)| token(&self.0, kind).map(|token| (operator, token));
+        Operator::ALL.into_iter().find_map(of)
+    }
+}
+
+impl Range {
+    /// The value before the `..`.
+    #[must_use]
+    pub fn first(&self) -> Option<Value> {
+        operand(&self.0, &token(&self.0, SyntaxKind::DotDot)?, true)
+    }
+    /// The value after the `..`.
+    #[must_use]
+    pub fn last(&self) -> Option<Value> {
+        operand(&self.0, &token(&self.0, SyntaxKind::DotDot)?, false)
+    }
+}
+
+/// The value on one side of a token. The one on the other may be missing.
+fn operand(node: &SyntaxNode, middle: &SyntaxToken, before: bool) -> Option<Value> {
+    let start = middle.text_range().start();
+    children(node).find(|value: &Value| (value.range().start() < start) == before)
+}
+
+fn sign(node: &SyntaxNode) -> Option<Sign> {
+    let plus = token(node, SyntaxKind::Plus).map(|_| Sign::Plus);
+    plus.or_else(|| token(node, SyntaxKind::Minus).map(|_| Sign::Minus))
 }

@@ -11,11 +11,16 @@ use crate::kind::SyntaxKind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keyword {
     Use,
+    Const,
     Spare,
     Board,
+    Chip,
     Sensor,
     Actuator,
     Driver,
+    Connection,
+    Reading,
+    Command,
     Link,
     Rule(RuleKeyword),
 }
@@ -30,13 +35,18 @@ pub(super) enum RuleKeyword {
     Allow,
 }
 
-const KEYWORDS: [(&str, Keyword); 12] = [
+const KEYWORDS: [(&str, Keyword); 17] = [
     ("use", Keyword::Use),
+    ("const", Keyword::Const),
     ("spare", Keyword::Spare),
     ("board", Keyword::Board),
+    ("chip", Keyword::Chip),
     ("sensor", Keyword::Sensor),
     ("actuator", Keyword::Actuator),
     ("driver", Keyword::Driver),
+    ("connection", Keyword::Connection),
+    ("reading", Keyword::Reading),
+    ("command", Keyword::Command),
     ("link", Keyword::Link),
     ("prefer", Keyword::Rule(RuleKeyword::Prefer)),
     ("avoid", Keyword::Rule(RuleKeyword::Avoid)),
@@ -54,6 +64,11 @@ impl Keyword {
     fn item(self) -> Item {
         match self {
             Self::Use => Item::Use,
+            Self::Const => Item::Const,
+            Self::Chip => Item::Chip,
+            Self::Connection => Item::Connection,
+            Self::Reading => Item::Reading,
+            Self::Command => Item::Command,
             Self::Spare | Self::Board => Item::Board,
             Self::Sensor => Item::Sensor,
             Self::Actuator => Item::Actuator,
@@ -68,13 +83,39 @@ impl Keyword {
 fn allows(block: Block, item: Item) -> bool {
     match block {
         Block::File => {
-            matches!(item, Item::Use | Item::Board | Item::Driver | Item::Sensor | Item::Actuator)
+            matches!(
+                item,
+                Item::Use
+                    | Item::Const
+                    | Item::Board
+                    | Item::Driver
+                    | Item::Chip
+                    | Item::Sensor
+                    | Item::Actuator
+            )
         }
         Block::Board => {
-            matches!(item, Item::Sensor | Item::Actuator | Item::Rule | Item::Property | Item::Link)
+            matches!(
+                item,
+                Item::Sensor
+                    | Item::Actuator
+                    | Item::Chip
+                    | Item::Rule
+                    | Item::Property
+                    | Item::Link
+            )
+        }
+        Block::Chip => {
+            matches!(
+                item,
+                Item::Sensor | Item::Actuator | Item::Connection | Item::Rule | Item::Property
+            )
         }
         Block::Sensor | Block::Actuator => matches!(item, Item::Rule | Item::Property),
-        Block::Driver | Block::Link => item == Item::Property,
+        Block::Driver => {
+            matches!(item, Item::Connection | Item::Reading | Item::Command | Item::Property)
+        }
+        Block::Connection | Block::Reading | Block::Command | Block::Link => item == Item::Property,
     }
 }
 
@@ -94,7 +135,7 @@ impl Parser<'_> {
     }
 
     /// `{`, items, `}`.
-    fn body(&mut self, block: Block) {
+    pub(super) fn body(&mut self, block: Block) {
         if self.depth >= NESTING_LIMIT {
             self.complain(SyntaxErrorKind::NestingTooDeep { limit: NESTING_LIMIT }, self.here());
             if self.at(SyntaxKind::LBrace) {
@@ -186,16 +227,21 @@ impl Parser<'_> {
         let ident = |n| self.nth_at(n, SyntaxKind::Ident);
         match keyword {
             Keyword::Use => self.nth_at(1, SyntaxKind::Str),
+            Keyword::Const => ident(1) && self.nth_at(self.name_end(1), SyntaxKind::Eq),
             Keyword::Spare => self.nth_word(1, "board"),
             Keyword::Board => {
                 let end = self.name_end(1);
                 ident(1) && (self.nth_at(end, SyntaxKind::LBrace) || self.nth_word(end, "on"))
             }
-            Keyword::Sensor | Keyword::Actuator => {
+            Keyword::Chip => ident(1) && self.nth_at(self.name_end(1), SyntaxKind::LBrace),
+            Keyword::Sensor | Keyword::Actuator | Keyword::Reading | Keyword::Command => {
                 let near = |verb: &str| distance(self.nth_text(2), verb) <= 2;
                 ident(1) && ident(2) && (near("returns") || near("accepts"))
             }
-            Keyword::Driver => ident(1) && self.nth_word(2, "for"),
+            Keyword::Driver | Keyword::Connection => {
+                let end = self.name_end(1);
+                ident(1) && (self.nth_at(end, SyntaxKind::LBrace) || self.nth_word(end, "for"))
+            }
             Keyword::Link => self.nth_at(1, SyntaxKind::LBrace),
             Keyword::Rule(RuleKeyword::Prefer | RuleKeyword::Avoid) => {
                 ident(1) && self.nth_at(2, SyntaxKind::Eq)
@@ -231,16 +277,16 @@ impl Parser<'_> {
     fn parse_item(&mut self, keyword: Keyword) {
         match keyword {
             Keyword::Use => self.use_file(),
+            Keyword::Const => self.constant(),
             Keyword::Spare | Keyword::Board => self.board(keyword == Keyword::Spare),
-            Keyword::Sensor => self.device(Block::Sensor),
-            Keyword::Actuator => self.device(Block::Actuator),
-            Keyword::Driver => self.driver(),
-            Keyword::Link => {
-                self.start(SyntaxKind::Link);
-                self.bump_as(SyntaxKind::LinkKw);
-                self.body(Block::Link);
-                self.finish();
-            }
+            Keyword::Chip => self.chip(),
+            Keyword::Sensor => self.valued(Block::Sensor),
+            Keyword::Actuator => self.valued(Block::Actuator),
+            Keyword::Driver => self.wired(Block::Driver),
+            Keyword::Connection => self.wired(Block::Connection),
+            Keyword::Reading => self.valued(Block::Reading),
+            Keyword::Command => self.valued(Block::Command),
+            Keyword::Link => self.link(),
             Keyword::Rule(rule) => self.rule(rule),
         }
     }
@@ -278,81 +324,5 @@ impl Parser<'_> {
             return !more || self.nth_begins_line(end);
         }
         next.kind != SyntaxKind::LBrace
-    }
-
-    fn board(&mut self, spare: bool) {
-        self.start(SyntaxKind::Board);
-        if spare {
-            self.bump_as(SyntaxKind::SpareKw);
-            self.keyword("board", SyntaxKind::BoardKw);
-        } else {
-            self.bump_as(SyntaxKind::BoardKw);
-        }
-        // `board on X {` lacks its name; `board on {` is named so.
-        let source = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Str);
-        if self.at_word("on") && source(1) && !self.nth_word(1, "on") {
-            self.expected(Expected::NameOf(Item::Board));
-        } else {
-            self.name(Expected::NameOf(Item::Board));
-        }
-        if self.at_word("on") {
-            self.start(SyntaxKind::OnClause);
-            self.bump_as(SyntaxKind::OnKw);
-            if !self.eat(SyntaxKind::Str) {
-                self.name(Expected::BoardSource);
-            }
-            self.finish();
-        }
-        self.body(Block::Board);
-        self.finish();
-    }
-
-    fn device(&mut self, block: Block) {
-        let (item, first, verb, verb_kind) = if block == Block::Sensor {
-            (Item::Sensor, SyntaxKind::SensorKw, "returns", SyntaxKind::ReturnsKw)
-        } else {
-            (Item::Actuator, SyntaxKind::ActuatorKw, "accepts", SyntaxKind::AcceptsKw)
-        };
-        self.start(SyntaxKind::Device);
-        self.bump_as(first);
-        let verb_at = |n| self.nth_word(n, "returns") || self.nth_word(n, "accepts");
-        if verb_at(0) && !verb_at(1) {
-            self.expected(Expected::NameOf(item));
-        } else {
-            self.name(Expected::NameOf(item));
-        }
-        self.keyword(verb, verb_kind);
-        self.data_type();
-        self.body(block);
-        self.finish();
-    }
-
-    fn driver(&mut self) {
-        self.start(SyntaxKind::Driver);
-        self.bump_as(SyntaxKind::DriverKw);
-        if self.at_word("for") && !self.nth_word(1, "for") {
-            self.expected(Expected::NameOf(Item::Driver));
-        } else {
-            self.name(Expected::NameOf(Item::Driver));
-        }
-        self.keyword("for", SyntaxKind::ForKw);
-        self.start(SyntaxKind::Kind);
-        self.name(Expected::Kind);
-        self.finish();
-        self.body(Block::Driver);
-        self.finish();
-    }
-
-    /// A keyword within a head. Another word in its place is stepped over.
-    fn keyword(&mut self, word: &'static str, kind: SyntaxKind) {
-        if self.at_word(word) {
-            self.bump_as(kind);
-            return;
-        }
-        self.expected(Expected::Keyword(word));
-        let next_is_word = self.nth_at(1, SyntaxKind::Ident) && !self.nth_begins_line(1);
-        if self.at(SyntaxKind::Ident) && next_is_word && !self.begins_line() {
-            self.bump_error();
-        }
     }
 }

@@ -1,8 +1,8 @@
-//! Statements that end with `;`: `use`, properties and rules; and how to go on after a broken one.
+//! Statements that end with `;`: `use`, constants, properties and rules; and how to go on after a broken one.
 
 use super::Parser;
 use super::items::RuleKeyword;
-use crate::error::{Expected, SyntaxErrorKind};
+use crate::error::{Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
 impl Parser<'_> {
@@ -16,6 +16,19 @@ impl Parser<'_> {
         self.finish();
     }
 
+    /// `const NAME = VALUE;`
+    pub(super) fn constant(&mut self) {
+        self.start(SyntaxKind::Const);
+        self.bump_as(SyntaxKind::ConstKw);
+        if self.at(SyntaxKind::Ident) && !(self.begins_line() && self.at_item()) {
+            self.assignment(Expected::NameOf(Item::Const));
+        } else {
+            self.expected(Expected::NameOf(Item::Const));
+        }
+        self.end_statement();
+        self.finish();
+    }
+
     pub(super) fn at_property(&self) -> bool {
         self.at(SyntaxKind::Ident) && self.nth_at(self.name_end(0), SyntaxKind::Eq)
     }
@@ -23,8 +36,15 @@ impl Parser<'_> {
     /// `NAME = VALUE;`, at the name.
     pub(super) fn property(&mut self) {
         self.start(SyntaxKind::Property);
+        self.assignment(Expected::PropertyName);
+        self.end_statement();
+        self.finish();
+    }
+
+    /// `NAME = VALUE`, at the name.
+    fn assignment(&mut self, expected: Expected) {
         let property = self.nth_text(0).to_owned();
-        self.name(Expected::PropertyName);
+        self.name(expected);
         let equals = self.eat(SyntaxKind::Eq);
         if equals && self.at(SyntaxKind::Eq) {
             self.expected(Expected::Value);
@@ -38,8 +58,6 @@ impl Parser<'_> {
             }
             self.value();
         }
-        self.end_statement();
-        self.finish();
     }
 
     pub(super) fn rule(&mut self, keyword: RuleKeyword) {

@@ -1,0 +1,83 @@
+//! Views over rules.
+
+use super::{AstNode, Name, Property, StringLiteral, children, choice, name, names, node, string};
+use crate::kind::{SyntaxKind, SyntaxNode};
+
+node!(
+    /// `prefer NAME = VALUE;`
+    Prefer = Prefer
+);
+node!(
+    /// `avoid NAME = VALUE;`
+    Avoid = Avoid
+);
+node!(
+    /// `reserve NAME, ...;`
+    Reserve = Reserve
+);
+node!(
+    /// `release NAME, ...;`
+    Release = Release
+);
+node!(
+    /// `allow CODE "REASON";`
+    Allow = Allow
+);
+choice!(
+    /// A rule for the wiring or the checks.
+    Rule {
+        /// A wish.
+        Prefer(Prefer),
+        /// The opposite of a wish.
+        Avoid(Avoid),
+        /// Pins and peripherals that must be left alone.
+        Reserve(Reserve),
+        /// Pins and peripherals that may be used although the board uses them.
+        Release(Release),
+        /// A diagnostic that is accepted.
+        Allow(Allow),
+    }
+);
+
+impl Prefer {
+    /// What is wished for.
+    #[must_use]
+    pub fn property(&self) -> Option<Property> {
+        children(&self.0).next()
+    }
+}
+
+impl Avoid {
+    /// What is unwelcome.
+    #[must_use]
+    pub fn property(&self) -> Option<Property> {
+        children(&self.0).next()
+    }
+}
+
+impl Reserve {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        names(&self.0)
+    }
+}
+
+impl Release {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        names(&self.0)
+    }
+}
+
+impl Allow {
+    /// The code of the diagnostic.
+    #[must_use]
+    pub fn code(&self) -> Option<Name> {
+        name(&self.0)
+    }
+    /// Why it is accepted.
+    #[must_use]
+    pub fn reason(&self) -> Option<StringLiteral> {
+        string(&self.0)
+    }
+}

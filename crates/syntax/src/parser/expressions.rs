@@ -1,0 +1,340 @@
+//! Values: numbers, names, texts, lists, and what is computed of them.
+//!
+//! Every function here says how high the tree is that it has built. Blocks, lists and expressions
+//! together are never deeper than the limit, so whoever walks the tree may do so by recursion; that
+//! is why a chain of operators, whose tree leans to the left, counts with each of them.
+
+use super::{NESTING_LIMIT, Parser};
+use crate::error::{Expected, SyntaxErrorKind};
+use crate::kind::{SenseDsl, SyntaxKind};
+use crate::unit::Unit;
+use rowan::{Checkpoint, Language};
+
+/// Builds an operand and returns its height.
+type Operand<'a> = fn(&mut Parser<'a>) -> usize;
+
+impl<'a> Parser<'a> {
+    pub(super) fn at_value(&self) -> bool {
+        matches!(
+            self.kind(),
+            Some(
+                SyntaxKind::Ident
+                    | SyntaxKind::Int
+                    | SyntaxKind::Float
+                    | SyntaxKind::Str
+                    | SyntaxKind::LBracket
+                    | SyntaxKind::LParen
+                    | SyntaxKind::Plus
+                    | SyntaxKind::Minus
+                    // No value begins with these: what is missing before them is told there.
+                    | SyntaxKind::Star
+                    | SyntaxKind::Slash
+                    | SyntaxKind::DotDot
+            )
+        )
+    }
+
+    /// An expression, or a range of two; the caller has seen that one begins here.
+    pub(super) fn value(&mut self) -> usize {
+        let start = self.checkpoint();
+        let mut height = 0;
+        if self.at(SyntaxKind::DotDot) {
+            self.expected(Expected::Value);
+        } else {
+            height = self.expression();
+        }
+        if !self.at(SyntaxKind::DotDot) {
+            return height;
+        }
+        self.start_at(start, SyntaxKind::Range);
+        self.bump();
+        height = height.max(self.operand(Self::expression, Expected::RangeEnd));
+        self.finish();
+        if self.at(SyntaxKind::DotDot) {
+            self.expected(Expected::EndOfValue);
+            self.skip_value();
+        }
+        height + 1
+    }
+
+    fn expression(&mut self) -> usize {
+        self.chain([SyntaxKind::Plus, SyntaxKind::Minus], Self::term)
+    }
+
+    fn term(&mut self) -> usize {
+        self.chain([SyntaxKind::Star, SyntaxKind::Slash], Self::factor)
+    }
+
+    /// Operands with operators of one precedence between them.
+    fn chain(&mut self, operators: [SyntaxKind; 2], operand: Operand<'a>) -> usize {
+        let start = self.checkpoint();
+        let mut height = operand(self);
+        while self.kind().is_some_and(|kind| operators.contains(&kind)) {
+            if self.depth + height >= NESTING_LIMIT {
+                self.too_deep();
+                break;
+            }
+            self.start_at(start, SyntaxKind::Binary);
+            self.bump();
+            self.depth += 1;
+            height = 1 + height.max(self.operand(operand, Expected::Value));
+            self.depth -= 1;
+            self.finish();
+        }
+        height
+    }
+
+    /// What must follow an operator, a sign, a `(` or a `..`. The next statement does not.
+    fn operand(&mut self, parse: Operand<'a>, expected: Expected) -> usize {
+        let begins = self.at_value() && !self.at(SyntaxKind::DotDot);
+        if begins && !(self.begins_line() && self.at_item()) {
+            return parse(self);
+        }
+        self.expected(expected);
+        0
+    }
+
+    fn factor(&mut self) -> usize {
+        let at_operator =
+            |parser: &Self| parser.at(SyntaxKind::Star) || parser.at(SyntaxKind::Slash);
+        if at_operator(self) {
+            self.expected(Expected::Value);
+            self.start(SyntaxKind::Error);
+            while at_operator(self) {
+                self.bump();
+            }
+            self.finish();
+        }
+        match self.kind() {
+            Some(SyntaxKind::Ident) => self.name_value(),
+            Some(SyntaxKind::Str) => {
+                self.start(SyntaxKind::StringValue);
+                self.bump();
+                self.finish();
+            }
+            Some(SyntaxKind::Int | SyntaxKind::Float) => self.number(),
+            Some(SyntaxKind::LBracket) => return self.list(),
+            Some(SyntaxKind::LParen) => return self.parentheses(),
+            Some(SyntaxKind::Plus | SyntaxKind::Minus) => return self.signed(),
+            Some(_) | None => self.expected(Expected::Value),
+        }
+        0
+    }
+
+    fn name_value(&mut self) {
+        let has_hyphen = self.name_end(0) > 1;
+        self.start(SyntaxKind::NameValue);
+        self.name(Expected::Value);
+        self.finish();
+        if !self.at_unit() {
+        } else if has_hyphen {
+            // The unit of `N-5 ms`, which is told as a hyphen.
+            self.bump_error();
+        } else {
+            self.unit_alone();
+        }
+    }
+
+    /// A number, at its sign or its digits.
+    fn number(&mut self) {
+        self.start(SyntaxKind::Number);
+        if self.at(SyntaxKind::Plus) || self.at(SyntaxKind::Minus) {
+            self.bump();
+        }
+        self.bump();
+        self.unit();
+        self.finish();
+    }
+
+    /// A sign and its number, or a sign and what else has one.
+    fn signed(&mut self) -> usize {
+        if self.nth_at(1, SyntaxKind::Int) || self.nth_at(1, SyntaxKind::Float) {
+            self.number();
+            return 0;
+        }
+        if self.depth >= NESTING_LIMIT {
+            self.too_deep();
+            return 0;
+        }
+        self.depth += 1;
+        self.start(SyntaxKind::Signed);
+        self.bump();
+        let height = self.operand(Self::factor, Expected::Value);
+        self.finish();
+        self.depth -= 1;
+        height + 1
+    }
+
+    /// `(EXPRESSION)`, at the `(`.
+    fn parentheses(&mut self) -> usize {
+        if self.depth >= NESTING_LIMIT {
+            self.too_deep();
+            return 0;
+        }
+        self.depth += 1;
+        self.start(SyntaxKind::Paren);
+        let open = self.here();
+        self.bump();
+        let height = self.operand(Self::expression, Expected::Value);
+        if self.at(SyntaxKind::Comma) && self.closes_soon() {
+            self.complain(SyntaxErrorKind::ParenthesesAroundList, open);
+            self.start(SyntaxKind::Error);
+            while self.kind().is_some() && !self.at(SyntaxKind::RParen) {
+                self.bump();
+            }
+            self.finish();
+        } else if self.at(SyntaxKind::DotDot) {
+            self.expected(Expected::CloseParen);
+            self.skip_value();
+        }
+        if !self.eat(SyntaxKind::RParen) {
+            self.complain(SyntaxErrorKind::MissingCloseParen { open }, self.gap());
+        }
+        self.finish();
+        self.depth -= 1;
+        if self.at_unit() {
+            self.unit_alone();
+        }
+        height + 1
+    }
+
+    /// Whether a `)` follows before the value must end. The bound keeps this from quadratic time.
+    fn closes_soon(&self) -> bool {
+        let ends = |kind| {
+            matches!(
+                kind,
+                SyntaxKind::RParen
+                    | SyntaxKind::LParen
+                    | SyntaxKind::RBracket
+                    | SyntaxKind::Semicolon
+                    | SyntaxKind::LBrace
+                    | SyntaxKind::RBrace
+            )
+        };
+        let end = (0..64).find_map(|n| self.nth(n).filter(|token| ends(token.kind)));
+        end.is_some_and(|token| token.kind == SyntaxKind::RParen)
+    }
+
+    /// The word after a number on its line is its unit, unless it begins the next statement.
+    fn unit(&mut self) {
+        let begins_next = self.begins_line() || (!self.touches(0) && self.at_item());
+        if !self.at(SyntaxKind::Ident) || begins_next {
+            return;
+        }
+        let word = self.nth_text(0);
+        if Unit::from_name(word).is_none() {
+            let (found, suggestion) = (word.to_owned(), Unit::similar(word));
+            self.complain(SyntaxErrorKind::UnknownUnit { found, suggestion }, self.here());
+        }
+        self.bump_as(SyntaxKind::Unit);
+    }
+
+    /// Whether a unit follows on the line of what is not a number.
+    fn at_unit(&self) -> bool {
+        let is_unit = self.at(SyntaxKind::Ident) && Unit::from_name(self.nth_text(0)).is_some();
+        is_unit && !self.begins_line() && !self.at_item()
+    }
+
+    fn unit_alone(&mut self) {
+        let unit = self.nth_text(0).to_owned();
+        self.complain(SyntaxErrorKind::UnitAlone { unit }, self.here());
+        self.bump_error();
+    }
+
+    /// `[VALUE, ...]`, at the `[`.
+    fn list(&mut self) -> usize {
+        if self.depth >= NESTING_LIMIT {
+            self.too_deep();
+            return 0;
+        }
+        self.depth += 1;
+        self.start(SyntaxKind::List);
+        let open = self.here();
+        self.bump();
+        let height = self.list_values();
+        if !self.eat(SyntaxKind::RBracket) {
+            self.complain(SyntaxErrorKind::MissingCloseBracket { open }, self.gap());
+        }
+        self.finish();
+        self.depth -= 1;
+        height + 1
+    }
+
+    /// The values of a list up to its `]` or to where it must end without one.
+    fn list_values(&mut self) -> usize {
+        let mut height = 0;
+        // The last comma, while no value has followed it.
+        let mut comma = None;
+        let mut after_value = false;
+        loop {
+            match self.kind() {
+                Some(SyntaxKind::RBracket) => {
+                    if let Some(comma) = comma {
+                        self.complain(SyntaxErrorKind::TrailingComma, comma);
+                    }
+                    return height;
+                }
+                Some(SyntaxKind::Comma) => {
+                    if !after_value {
+                        self.expected(Expected::Value);
+                    }
+                    comma = Some(self.here());
+                    after_value = false;
+                    self.bump();
+                }
+                Some(SyntaxKind::Eq) => {
+                    self.expected(Expected::Value);
+                    self.bump_error();
+                }
+                Some(_) if self.at_value() && !self.at_item() => {
+                    if after_value {
+                        self.complain(SyntaxErrorKind::MissingComma, self.gap());
+                    }
+                    height = height.max(self.value());
+                    comma = None;
+                    after_value = true;
+                }
+                Some(_) | None => return height,
+            }
+        }
+    }
+
+    /// Steps over the rest of a value that nests too deep, without recursion.
+    fn too_deep(&mut self) {
+        self.complain(SyntaxErrorKind::NestingTooDeep { limit: NESTING_LIMIT }, self.here());
+        self.skip_value();
+    }
+
+    /// Steps over the next token, and what follows up to the end of the value.
+    fn skip_value(&mut self) {
+        self.start(SyntaxKind::Error);
+        let mut open = 0_usize;
+        let ends = |kind: SyntaxKind| {
+            matches!(kind, SyntaxKind::Semicolon | SyntaxKind::LBrace | SyntaxKind::RBrace)
+        };
+        while let Some(kind) = self.kind().filter(|kind| !ends(*kind)) {
+            let closes = matches!(kind, SyntaxKind::RBracket | SyntaxKind::RParen);
+            let ends_here = open == 0 && (closes || kind == SyntaxKind::Comma);
+            if ends_here || (self.begins_line() && self.at_item()) {
+                break;
+            }
+            if closes {
+                open -= 1;
+            } else if matches!(kind, SyntaxKind::LBracket | SyntaxKind::LParen) {
+                open += 1;
+            }
+            self.bump();
+        }
+        self.finish();
+    }
+
+    /// Where a node may begin later; the trivia before it stay outside.
+    fn checkpoint(&mut self) -> Checkpoint {
+        self.build_trivia();
+        self.builder.checkpoint()
+    }
+
+    fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
+        self.builder.start_node_at(checkpoint, SenseDsl::kind_to_raw(kind));
+    }
+}

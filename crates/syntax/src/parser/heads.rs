@@ -1,0 +1,117 @@
+//! The heads of blocks: what stands between the keyword and the `{`.
+
+use super::Parser;
+use crate::error::{Block, Expected, Item};
+use crate::kind::SyntaxKind;
+
+impl Parser<'_> {
+    pub(super) fn board(&mut self, spare: bool) {
+        self.start(SyntaxKind::Board);
+        if spare {
+            self.bump_as(SyntaxKind::SpareKw);
+            self.keyword("board", SyntaxKind::BoardKw);
+        } else {
+            self.bump_as(SyntaxKind::BoardKw);
+        }
+        // `board on X {` lacks its name; `board on {` is named so.
+        let source = |n| self.nth_at(n, SyntaxKind::Ident) || self.nth_at(n, SyntaxKind::Str);
+        if self.at_word("on") && source(1) && !self.nth_word(1, "on") {
+            self.expected(Expected::NameOf(Item::Board));
+        } else {
+            self.name(Expected::NameOf(Item::Board));
+        }
+        if self.at_word("on") {
+            self.start(SyntaxKind::OnClause);
+            self.bump_as(SyntaxKind::OnKw);
+            if !self.eat(SyntaxKind::Str) {
+                self.name(Expected::BoardSource);
+            }
+            self.finish();
+        }
+        self.body(Block::Board);
+        self.finish();
+    }
+
+    pub(super) fn link(&mut self) {
+        self.start(SyntaxKind::Link);
+        self.bump_as(SyntaxKind::LinkKw);
+        self.body(Block::Link);
+        self.finish();
+    }
+
+    pub(super) fn chip(&mut self) {
+        self.start(SyntaxKind::Chip);
+        self.bump_as(SyntaxKind::ChipKw);
+        self.name(Expected::NameOf(Item::Chip));
+        self.body(Block::Chip);
+        self.finish();
+    }
+
+    /// What has a type: a sensor, an actuator, a reading or a command.
+    pub(super) fn valued(&mut self, block: Block) {
+        let (node, item, first) = if block == Block::Reading {
+            (SyntaxKind::Reading, Item::Reading, SyntaxKind::ReadingKw)
+        } else if block == Block::Command {
+            (SyntaxKind::Command, Item::Command, SyntaxKind::CommandKw)
+        } else if block == Block::Actuator {
+            (SyntaxKind::Device, Item::Actuator, SyntaxKind::ActuatorKw)
+        } else {
+            (SyntaxKind::Device, Item::Sensor, SyntaxKind::SensorKw)
+        };
+        let (verb, verb_kind) = if matches!(item, Item::Sensor | Item::Reading) {
+            ("returns", SyntaxKind::ReturnsKw)
+        } else {
+            ("accepts", SyntaxKind::AcceptsKw)
+        };
+        self.start(node);
+        self.bump_as(first);
+        let verb_at = |n| self.nth_word(n, "returns") || self.nth_word(n, "accepts");
+        if verb_at(0) && !verb_at(1) {
+            self.expected(Expected::NameOf(item));
+        } else {
+            self.name(Expected::NameOf(item));
+        }
+        self.keyword(verb, verb_kind);
+        self.data_type();
+        self.body(block);
+        self.finish();
+    }
+
+    /// What may be for a kind: a driver or a connection.
+    pub(super) fn wired(&mut self, block: Block) {
+        let (node, item, first) = if block == Block::Driver {
+            (SyntaxKind::Driver, Item::Driver, SyntaxKind::DriverKw)
+        } else {
+            (SyntaxKind::Connection, Item::Connection, SyntaxKind::ConnectionKw)
+        };
+        self.start(node);
+        self.bump_as(first);
+        if self.at_word("for") && !self.nth_word(1, "for") {
+            self.expected(Expected::NameOf(item));
+        } else {
+            self.name(Expected::NameOf(item));
+        }
+        // A word on the line is a kind without its `for`, or a misspelled one.
+        if self.at_word("for") || (self.at(SyntaxKind::Ident) && !self.begins_line()) {
+            self.keyword("for", SyntaxKind::ForKw);
+            self.start(SyntaxKind::Kind);
+            self.name(Expected::Kind);
+            self.finish();
+        }
+        self.body(block);
+        self.finish();
+    }
+
+    /// A keyword within a head. Another word in its place is stepped over.
+    fn keyword(&mut self, word: &'static str, kind: SyntaxKind) {
+        if self.at_word(word) {
+            self.bump_as(kind);
+            return;
+        }
+        self.expected(Expected::Keyword(word));
+        let next_is_word = self.nth_at(1, SyntaxKind::Ident) && !self.nth_begins_line(1);
+        if self.at(SyntaxKind::Ident) && next_is_word && !self.begins_line() {
+            self.bump_error();
+        }
+    }
+}
