@@ -16,6 +16,7 @@ use sensedsl_parts::Completion;
 use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
 use sensedsl_wire::Checksum;
 
+use crate::constants::Constants;
 use crate::design::{Board, Link, Spanned, Transport};
 use crate::fields::{Fields, span};
 use crate::files::{Files, Unread, Wanted, What};
@@ -35,6 +36,7 @@ pub(crate) struct Context<'a> {
     pub(crate) files: &'a dyn Files,
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
+    pub(crate) constants: &'a Constants,
     /// The tables that were completed, each with its MCU.
     pub(crate) completed: BTreeMap<(FileId, Option<String>), Table>,
     /// The tables that were read from files.
@@ -82,7 +84,7 @@ struct Pins {
 pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -> Option<Board> {
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
-    let rules = rules::of_board(file, node, context.diagnostics);
+    let rules = rules::of_board(file, node, (context.constants, context.diagnostics));
     for property in node.properties() {
         let Some(property) = property.name() else { continue };
         context.diagnostics.push(e0201_unknown_property::unknown_property(
@@ -99,8 +101,13 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
     let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
     let target = pins.as_ref().and_then(|p| target(context, name.span, p.file, mcu.as_deref()));
     let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
-    let mut link =
-        link(file, node, target.as_ref(), &wired.unwrap_or_default(), context.diagnostics);
+    let mut link = link(
+        file,
+        node,
+        target.as_ref(),
+        &wired.unwrap_or_default(),
+        (context.constants, context.diagnostics),
+    );
     if let (Some(pins), Some(target)) = (&pins, &target) {
         link.vbus &= entry.is_none() || vbus_is_wired(&pins.table, target);
     }
@@ -339,13 +346,13 @@ fn link(
     node: &ast::Board,
     target: Option<&Target>,
     wired: &[catalog::Link],
-    diagnostics: &mut Vec<Diagnostic>,
+    said: (&Constants, &mut Vec<Diagnostic>),
 ) -> Link {
     let default = match target {
         Some(Target::Profile(profile)) => default_transport(profile, wired),
         Some(Target::None) | None => Transport::Usb,
     };
-    let mut link = stated_link(file, node, default, diagnostics);
+    let mut link = stated_link(file, node, default, said);
     let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
     let driven = |wired: &catalog::Link| match target {
         Some(Target::Profile(profile)) => is_driven(profile, wired),
@@ -396,7 +403,7 @@ fn stated_link(
     file: FileId,
     node: &ast::Board,
     default: Transport,
-    diagnostics: &mut Vec<Diagnostic>,
+    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
 ) -> Link {
     let mut links = node.links();
     let Some(link) = links.next() else {
@@ -411,7 +418,7 @@ fn stated_link(
         diagnostics.push(e0202_property_twice::property_twice(place(&again), "link", first));
     }
     let at = place(&link);
-    let mut fields = Fields::new(link.properties(), file, "a link", at, diagnostics);
+    let mut fields = Fields::new(link.properties(), file, "a link", at, (constants, diagnostics));
     let transports =
         [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
     let transport = fields.word("transport", &transports);

@@ -57,7 +57,10 @@ fn too_slow(device: &Device) -> Option<Diagnostic> {
 /// The bytes of an I2C device must make whole elements that a value can hold.
 fn impossible_length(device: &Device) -> Option<Diagnostic> {
     let Kind::I2c(i2c) = &device.kind else { return None };
-    let value = device.value.value;
+    if !device.coding.is_plain() {
+        return None;
+    }
+    let value = device.coding.of.unwrap_or(device.value.value);
     let length = usize::from(i2c.length_bytes);
     let element = length.checked_div(value.count()).unwrap_or_default();
     let element_max = match device.direction {
@@ -78,6 +81,9 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
     if device.kind.name().spec().values.accept(value).is_err() {
         return None;
     }
+    if device.coding.reading.is_some() {
+        return narrower_than_reading(device);
+    }
     let (_, most) = value.scalar.integer_range()?;
     let (bits, wider) = if device.kind.analog().is_some() {
         (ADC_BITS, "uint16".to_owned())
@@ -95,6 +101,19 @@ fn narrow(device: &Device) -> Option<Diagnostic> {
         format!("{} bytes", bits / 8)
     };
     let found = value.to_string();
+    Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
+}
+
+/// A value of a chip that has fewer bits than its driver's reading.
+fn narrower_than_reading(device: &Device) -> Option<Diagnostic> {
+    let (own, of) = (device.value.value, device.coding.of?);
+    let ((least, most), (of_least, of_most)) =
+        (own.scalar.integer_range()?, of.scalar.integer_range()?);
+    if (least <= of_least && most >= of_most) || device.direction == Direction::Actuator {
+        return None;
+    }
+    let (found, range) = (own.to_string(), format!("{of_least} to {of_most}"));
+    let wider = of.to_string();
     Some(w0603_narrow_type::narrow_type(device.value.span, &found, &range, &wider))
 }
 

@@ -11,6 +11,7 @@ use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 use crate::kind::{Kind, Role};
 use crate::pins::PinRef;
+use crate::protocol::{Coding, Filter, Protocol};
 use crate::volts::{shown_mv, shown_ohm};
 
 /// Index into [`Design::boards`].
@@ -174,6 +175,8 @@ pub struct Part {
     pub driver: Option<String>,
     /// Warnings that are not given for it.
     pub allows: Vec<Allow>,
+    /// How it is started and identified, where it is a chip.
+    pub chip: Option<Protocol>,
 }
 
 /// A sensor or an actuator.
@@ -207,6 +210,10 @@ pub struct Device {
     pub group: Option<Group>,
     /// How a host shows the value.
     pub shown: Presentation,
+    /// How the value is coded in what the part sends or is sent.
+    pub coding: Coding,
+    /// What becomes of it on the board before it is reported.
+    pub filter: Filter,
     /// The wires that its value goes over, the first of them those of `kind`.
     pub connections: Vec<ConnectionIndex>,
 }
@@ -378,6 +385,8 @@ pub struct Presentation {
     pub min: Option<f64>,
     /// Greatest value to expect, scaled.
     pub max: Option<f64>,
+    /// Points between which `scale * raw + offset` is interpolated; empty for none.
+    pub curve: Vec<(f64, f64)>,
 }
 
 impl Connection {

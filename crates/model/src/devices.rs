@@ -1,24 +1,28 @@
-//! One device: from its block to a checked [`Device`].
+//! One device by itself: from its block to a part with one value.
 
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0207_unknown_kind, e0208_unknown_type, e0211_out_of_range,
-    e0213_property_of_other_kind, e0214_wrong_direction, e0220_impossible_type,
-    h0703_default_protocol,
+    e0201_unknown_property, e0207_unknown_kind, e0211_out_of_range, e0213_property_of_other_kind,
+    e0214_wrong_direction, e0220_impossible_type, h0703_default_protocol,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
-use sensedsl_wire::{Direction, ScalarType, ValueType};
+use sensedsl_wire::{Direction, ValueType};
 
+use crate::chips;
+use crate::coding::{self, CODING, FILTER};
+use crate::constants::Constants;
 use crate::design::{
     BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Group, Level, Part, PartIndex,
     Presentation, Spanned,
 };
-use crate::drivers::{DEFAULT_RANGER, Drivers, RANGER_ADDRESSES};
-use crate::fields::{Field, Fields, span};
+use crate::drivers::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES};
+use crate::fields::{Field, Fields, name_or_text, span};
 use crate::kind::{KindName, i2c};
 use crate::parts::ReadPart;
 use crate::placement;
+use crate::protocol::Filter;
 use crate::rules;
+use crate::types;
 
 /// The properties of every device, but for those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] = &[
@@ -26,7 +30,8 @@ pub(crate) const COMMON_PROPERTIES: &[&str] = &[
     "sequence", "level", "divider",
 ];
 /// The properties by which a host shows a value.
-pub(crate) const PRESENTATION: &[&str] = &["label", "quantity", "scale", "offset", "min", "max"];
+pub(crate) const PRESENTATION: &[&str] =
+    &["label", "quantity", "scale", "offset", "min", "max", "curve"];
 
 /// Cycle time where the file says nothing (the paper, section 3.2).
 const DELAY_DEFAULT_MS: u32 = 1_000;
@@ -34,60 +39,49 @@ const DELAY_DEFAULT_MS: u32 = 1_000;
 const DELAY_MAX_MS: u32 = 3_600_000;
 /// Highest voltage that may stand in a file.
 const LEVEL_MAX_MV: u32 = 1_000_000;
-/// Most elements of an array.
-const ARRAY_MAX: u64 = 1_024;
 /// Most elements of an array of wires: more than any part has of one kind.
 const WIRES_MAX: u16 = 128;
 
-/// Reads the device `node` of `file`; none when too little of it is understood.
+/// What blocks refer to.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub(crate) constants: &'a Constants,
+    pub(crate) drivers: &'a Drivers,
+}
+
+/// Reads the device `node` of `file`; none when too little of it is understood. A device without an
+/// identifier has 0 until all are known.
 pub(crate) fn read(
     file: FileId,
     node: &ast::Device,
     board: Option<BoardIndex>,
-    drivers: &Drivers,
+    known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<ReadPart> {
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
-    let direction = match node.direction()? {
-        ast::Direction::Sensor => Direction::Sensor,
-        ast::Direction::Actuator => Direction::Actuator,
-    };
-    let value = value_type(file, node, diagnostics);
+    let direction = direction(node)?;
+    if let Some(driver) = driver_with_values(file, node, known) {
+        return chips::of_device(file, node, driver, board, known, diagnostics);
+    }
+    let value = types::read(file, node.ty(), (known.constants, diagnostics));
     let owner = format!("the {} `{}`", direction.name(), name.value);
-    let (wishes, allows) = rules::of_device(file, node, diagnostics);
-    let mut fields = Fields::new(node.properties(), file, &owner, name.span, diagnostics);
-    let id = fields.required_integer("id", 1..=254, "id = 17;");
-    let kind_name = kind_name(&mut fields, direction)?;
+    let (wishes, allows) =
+        rules::of_device(file, node.rules(), node.range(), (known.constants, diagnostics));
+    let said = (known.constants, &mut *diagnostics);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let kind_name = kind_name(&mut fields, direction, known.drivers)?;
     fields.rename_owner(kind_name.value.with_article());
-    let driver = take_driver(&mut fields, kind_name.value, drivers, &name.value);
+    let driver = take_driver(&mut fields, kind_name.value, known.drivers, &name.value);
     let value = value?;
-    let wires = kind_name.value.spec().values.wires(value.value);
-    if wires.is_some_and(|wires| wires > WIRES_MAX) {
-        let range = format!("1 to {WIRES_MAX}, because each element has a wire of its own");
-        let length = wires.unwrap_or_default().to_string();
-        fields.say(e0211_out_of_range::out_of_range(value.span, "array length", &length, &range));
-        return None;
-    }
-    if let Err(can) = kind_name.value.spec().values.accept(value.value) {
-        let (kind, found) = (kind_name.value.with_article(), value.value.to_string());
-        fields.say(e0220_impossible_type::impossible_type(value.span, &kind, &found, can));
-    }
+    accept(&mut fields, kind_name.value, value)?;
     let kind = kind_name.value.read(&mut fields, direction, value.value);
-    let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
-    let prio_span = fields.own_span("prio");
-    let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
-    let group = group(&mut fields);
+    let own = own(&mut fields);
     let placements = placement::read(&mut fields, &kind, direction, value.value);
-    let mut shown = presentation(&mut fields);
+    let coding = coding::coding(&mut fields, value.value, None);
     let level = level(&mut fields);
-    if let Some([upper, lower]) = level.as_ref().and_then(|level| level.divider) {
-        let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
-        shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
-    }
+    let shown = divided(own.shown, level.as_ref());
     leftovers(&mut fields, kind_name.value);
-    let id = id?;
-    let id = Spanned { value: u8::try_from(id.value).ok()?, span: id.span };
     let block = span(file, node.range());
     let is_array = kind_name.value.spec().values.wires(value.value).is_some();
     let connections = placements.into_iter().zip(0..).map(|(placement, element)| Connection {
@@ -107,70 +101,154 @@ pub(crate) fn read(
         part: PartIndex(0),
         name: name.clone(),
         block,
-        id,
+        id: own.id.unwrap_or(Spanned { value: 0, span: name.span }),
         direction,
         value,
         kind,
         kind_span: kind_name.span,
+        delay_ms: own.delay_ms,
+        delay_span: own.delay_span,
+        prio: own.prio,
+        prio_span: own.prio_span,
+        group: own.group,
+        shown,
+        coding,
+        filter: own.filter,
+        connections: (0..connections.len()).map(ConnectionIndex).collect(),
+    };
+    let part = Part { name, block, board, driver, allows, chip: None };
+    Some(ReadPart { part, devices: vec![device], connections })
+}
+
+/// Which way a device goes.
+pub(crate) fn direction(node: &ast::Device) -> Option<Direction> {
+    Some(match node.direction()? {
+        ast::Direction::Sensor => Direction::Sensor,
+        ast::Direction::Actuator => Direction::Actuator,
+    })
+}
+
+/// The driver that the device names, where that one tells several values apart.
+fn driver_with_values<'d>(
+    file: FileId,
+    node: &ast::Device,
+    known: Known<'d>,
+) -> Option<&'d Driver> {
+    let named = node.properties().find(|one| one.name().is_some_and(|n| n.text() == "driver"))?;
+    let (constants, said) = (known.constants, &mut Vec::new());
+    let value =
+        crate::value::Evaluator { file, constants, diagnostics: said }.value(&named.value()?);
+    let driver = known.drivers.look_up(&name_or_text(&value)?)?;
+    driver.has_values().then_some(driver)
+}
+
+/// What a device has whatever it is connected to.
+pub(crate) struct Own {
+    pub(crate) id: Option<Spanned<u8>>,
+    pub(crate) delay_ms: u32,
+    pub(crate) delay_span: Option<Span>,
+    pub(crate) prio: i8,
+    pub(crate) prio_span: Option<Span>,
+    pub(crate) group: Option<Group>,
+    pub(crate) shown: Presentation,
+    pub(crate) filter: Filter,
+}
+
+/// Reads what a device has whatever it is connected to.
+pub(crate) fn own(fields: &mut Fields<'_>) -> Own {
+    let id = fields.integer("id", 1..=254);
+    let (delay_span, delay) = (fields.own_span("delay"), fields.time_ms("delay", 1..=DELAY_MAX_MS));
+    let prio_span = fields.own_span("prio");
+    let prio = fields.integer("prio", -60..=60).and_then(|n| i8::try_from(n.value).ok());
+    Own {
+        id: id.and_then(|id| Some(Spanned { value: u8::try_from(id.value).ok()?, span: id.span })),
         delay_ms: delay.map_or(DELAY_DEFAULT_MS, |delay| delay.value),
         delay_span,
         prio: prio.unwrap_or(0),
         prio_span,
-        group,
-        shown,
-        connections: (0..connections.len()).map(ConnectionIndex).collect(),
-    };
-    let part = Part { name, block, board, driver, allows };
-    Some(ReadPart { part, devices: vec![device], connections })
+        group: group(fields),
+        shown: presentation(fields),
+        filter: coding::filter(fields),
+    }
 }
 
-fn value_type(
-    file: FileId,
-    node: &ast::Device,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Spanned<ValueType>> {
-    let ty = node.ty()?;
-    let scalar = ty.scalar()?;
-    let at = span(file, scalar.range());
-    let Some(found) = ScalarType::from_name(scalar.text()) else {
-        let meant = nearest(scalar.text(), ScalarType::ALL.map(ScalarType::name));
-        diagnostics.push(e0208_unknown_type::unknown_type(at, scalar.text(), meant));
-        return None;
-    };
-    let span_all = span(file, ty.range());
-    if !ty.is_array() {
-        return Some(Spanned { value: ValueType::scalar(found), span: span_all });
+/// The host undoes what resistors in between do.
+pub(crate) fn divided(mut shown: Presentation, level: Option<&Level>) -> Presentation {
+    if let Some([upper, lower]) = level.and_then(|level| level.divider) {
+        let ratio = (f64::from(upper) + f64::from(lower)) / f64::from(lower);
+        shown.scale = Some(shown.scale.unwrap_or(1.0) * ratio);
     }
-    let (length, range) = ty.length()?;
-    if !(1..=ARRAY_MAX).contains(&length) {
-        diagnostics.push(e0211_out_of_range::out_of_range(
-            span(file, range),
-            "array length",
-            &length.to_string(),
-            &format!("1 to {ARRAY_MAX}"),
-        ));
-        return None;
-    }
-    let value = ValueType { scalar: found, length: u16::try_from(length).ok() };
-    Some(Spanned { value, span: span_all })
+    shown
 }
 
-fn kind_name(fields: &mut Fields<'_>, direction: Direction) -> Option<Spanned<KindName>> {
-    if !fields.has("type") {
+/// Whether devices of the kind can have the type; otherwise that is reported.
+fn accept(fields: &mut Fields<'_>, kind: KindName, value: Spanned<ValueType>) -> Option<()> {
+    let wires = kind.spec().values.wires(value.value);
+    if wires.is_some_and(|wires| wires > WIRES_MAX) {
+        let range = format!("1 to {WIRES_MAX}, because each element has a wire of its own");
+        let length = wires.unwrap_or_default().to_string();
+        fields.say(e0211_out_of_range::out_of_range(value.span, "array length", &length, &range));
+        return None;
+    }
+    if let Err(can) = kind.spec().values.accept(value.value) {
+        let (kind, found) = (kind.with_article(), value.value.to_string());
+        fields.say(e0220_impossible_type::impossible_type(value.span, &kind, &found, can));
+    }
+    Some(())
+}
+
+/// The kind that `type` says, or the driver.
+fn kind_name(
+    fields: &mut Fields<'_>,
+    direction: Direction,
+    drivers: &Drivers,
+) -> Option<Spanned<KindName>> {
+    let Some(written) = fields.name("type", "a kind of device") else {
+        if fields.has("type") {
+            return None;
+        }
+        return of_driver(fields, direction, drivers);
+    };
+    let Some(kind) = KindName::from_name(&written.value) else {
+        let report = match drivers.look_up(&written.value) {
+            Some(driver) => {
+                let (at, part) = (written.span, &driver.name.value);
+                e0207_unknown_kind::driver_as_kind(at, &written.value, part)
+            }
+            None => {
+                let meant = nearest(&written.value, KindName::ALL.map(KindName::name));
+                let list = KindName::list();
+                e0207_unknown_kind::unknown_kind(written.span, &written.value, &list, meant)
+            }
+        };
+        fields.say(report);
+        return None;
+    };
+    check_direction(fields, Spanned { value: kind, span: written.span }, direction);
+    Some(Spanned { value: kind, span: written.span })
+}
+
+/// The kind that the driver is for, where the device does not say it.
+fn of_driver(
+    fields: &mut Fields<'_>,
+    direction: Direction,
+    drivers: &Drivers,
+) -> Option<Spanned<KindName>> {
+    let Some(at) = fields.value_span("driver") else {
         fields.missing("type", "type = analog;");
         return None;
-    }
-    let written = fields.name("type", "a kind of device")?;
-    let Some(kind) = KindName::from_name(&written.value) else {
-        let meant = nearest(&written.value, KindName::ALL.map(KindName::name));
-        fields.say(e0207_unknown_kind::unknown_kind(
-            written.span,
-            &written.value,
-            &KindName::list(),
-            meant,
-        ));
-        return None;
     };
+    let wanted = Spanned { value: fields.peek_name("driver")?, span: at };
+    let mut reports = Vec::new();
+    let kind = drivers.find(&wanted, &mut reports).and_then(|driver| driver.kind);
+    reports.into_iter().for_each(|report| fields.say(report));
+    let kind = Spanned { value: kind?, span: at };
+    check_direction(fields, kind, direction);
+    Some(kind)
+}
+
+fn check_direction(fields: &mut Fields<'_>, written: Spanned<KindName>, direction: Direction) {
+    let kind = written.value;
     if !kind.spec().directions.contains(&direction) {
         let can: Vec<&str> = kind
             .spec()
@@ -188,7 +266,6 @@ fn kind_name(fields: &mut Fields<'_>, direction: Direction) -> Option<Spanned<Ki
             &can,
         ));
     }
-    Some(Spanned { value: kind, span: written.span })
 }
 
 /// Takes over the properties of the driver that the device names, or of the one its address tells.
@@ -201,7 +278,7 @@ fn take_driver(
     let driver = if fields.has("driver") {
         let wanted = fields.name("driver", "the name of a driver")?;
         let mut reports = Vec::new();
-        let driver = drivers.find(&wanted, kind, &mut reports);
+        let driver = drivers.find_for(&wanted, kind, &mut reports);
         reports.into_iter().for_each(|report| fields.say(report));
         driver?
     } else if kind == KindName::I2c && is_bare_ranger(fields) {
@@ -212,7 +289,11 @@ fn take_driver(
     } else {
         return None;
     };
-    fields.inherit(driver.node.properties(), driver.file);
+    // What describes the part is for its page.
+    let about = |one: &ast::Property| one.name().is_some_and(|name| is_about_part(name.text()));
+    let properties = driver.node.properties().filter(|one| !about(one));
+    fields.drivers_follow();
+    fields.inherit(properties, driver.file);
     Some(driver.name.value.clone())
 }
 
@@ -234,7 +315,7 @@ fn group(fields: &mut Fields<'_>) -> Option<Group> {
 }
 
 /// The voltage that the device puts on its wires.
-fn level(fields: &mut Fields<'_>) -> Option<Level> {
+pub(crate) fn level(fields: &mut Fields<'_>) -> Option<Level> {
     let divider = fields.resistances_ohm("divider");
     let level = fields.voltage_mv("level", 1..=LEVEL_MAX_MV);
     if let (Some(divider), None) = (&divider, &level) {
@@ -245,6 +326,16 @@ fn level(fields: &mut Fields<'_>) -> Option<Level> {
     Some(Level { mv, divider: divider.map(|divider| divider.value), span })
 }
 
+/// Whether a property of a driver describes the part, for its page alone. `pull` is a resistor of the
+/// MCU to some kinds.
+pub(crate) fn is_about_part(name: &str) -> bool {
+    ABOUT_PART.contains(&name)
+}
+
+/// What a driver can say of its part.
+pub(crate) const ABOUT_PART: &[&str] =
+    &["part", "about", "aliases", "sheet", "checked", "supply", "connector", "note", "addresses"];
+
 fn presentation(fields: &mut Fields<'_>) -> Presentation {
     Presentation {
         label: fields.text("label").map(|text| text.value),
@@ -253,6 +344,7 @@ fn presentation(fields: &mut Fields<'_>) -> Presentation {
         offset: fields.number("offset").map(|number| number.value),
         min: unless_taken(fields, "min"),
         max: unless_taken(fields, "max"),
+        curve: coding::curve(fields),
     }
 }
 
@@ -264,23 +356,24 @@ fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<f64> {
 
 /// Reports what no part of the device has read.
 fn leftovers(fields: &mut Fields<'_>, kind: KindName) {
-    for Field { name, name_span, inherited, .. } in fields.rest() {
-        if inherited {
+    for field in fields.rest() {
+        if fields.is_inherited(&field) {
             continue;
         }
+        let Field { name, name_span, .. } = field;
         let report = unknown(&name, name_span, kind);
         fields.say(report);
     }
 }
 
-fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
+pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
     let others: Vec<&str> = KindName::ALL
         .into_iter()
         .filter(|other| *other != kind && other.spec().properties.contains(&name))
         .map(KindName::name)
         .collect();
     if others.is_empty() {
-        let common = COMMON_PROPERTIES.iter().chain(PRESENTATION);
+        let common = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
         let known = kind.spec().properties.iter().chain(common).copied();
         let meant = nearest(name, known);
         return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);

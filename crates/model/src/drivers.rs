@@ -1,65 +1,102 @@
 //! Drivers: those of the file, and the library that ships with the tool (`drivers/`).
 
+use std::cell::OnceCell;
+
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0207_unknown_kind, e0216_unknown_driver, e0217_driver_of_other_kind,
+    e0207_unknown_kind, e0216_unknown_driver, e0217_driver_of_other_kind,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 
+use crate::chips;
 use crate::design::Spanned;
-use crate::devices::{COMMON_PROPERTIES, PRESENTATION};
+use crate::devices::Known;
 use crate::fields::span;
 use crate::kind::KindName;
-
-/// The files of the library: name and text.
-pub const LIBRARY: &[(&str, &str)] = &[
-    ("drivers/environment.sense", include_str!("../../../drivers/environment.sense")),
-    ("drivers/motion.sense", include_str!("../../../drivers/motion.sense")),
-    ("drivers/radio_control.sense", include_str!("../../../drivers/radio_control.sense")),
-    ("drivers/rangers.sense", include_str!("../../../drivers/rangers.sense")),
-];
+use crate::names::folded;
 
 /// The driver that an i2c device without a protocol gets by its address, as in the paper's example.
 pub(crate) const DEFAULT_RANGER: &str = "srf08";
 /// The 8-bit addresses such a device can have.
 pub(crate) const RANGER_ADDRESSES: std::ops::RangeInclusive<i64> = 0xE0..=0xFE;
 
-/// A driver that devices can name.
+/// A driver that devices and chips can name.
 #[derive(Clone, Debug)]
 pub(crate) struct Driver {
     pub(crate) name: Spanned<String>,
-    pub(crate) kind: KindName,
+    /// None for a part whose connections are of several kinds.
+    pub(crate) kind: Option<KindName>,
     pub(crate) file: FileId,
     pub(crate) node: ast::Driver,
+    /// What people may call it beside its name.
+    aliases: Vec<String>,
+}
+
+impl Driver {
+    /// Whether it tells its values apart, so that it is for a chip.
+    pub(crate) fn has_values(&self) -> bool {
+        self.node.readings().next().is_some() || self.node.commands().next().is_some()
+    }
+
+    /// What follows after `driver = …` in a message: `an i2c driver`, or of several kinds.
+    pub(crate) fn what(&self) -> String {
+        match self.kind {
+            Some(kind) => kind.with_article().replace("device", "driver"),
+            None => "a driver of several connections".to_owned(),
+        }
+    }
+
+    fn is_called(&self, folded_name: &str) -> bool {
+        folded(&self.name.value) == folded_name
+            || self.aliases.iter().any(|alias| folded(alias) == folded_name)
+    }
+}
+
+/// A file of the library, read when something of it is asked for.
+#[derive(Debug)]
+struct Volume {
+    file: FileId,
+    text: &'static str,
+    drivers: OnceCell<Vec<Driver>>,
+}
+
+impl Volume {
+    fn drivers(&self) -> &[Driver] {
+        self.drivers.get_or_init(|| {
+            let parsed = parse(self.text).ast();
+            parsed.drivers().filter_map(|node| read(self.file, &node, &mut Vec::new())).collect()
+        })
+    }
 }
 
 /// All drivers in reach, those of the file first.
 #[derive(Debug, Default)]
 pub(crate) struct Drivers {
     own: Vec<Driver>,
-    library: Vec<Driver>,
+    library: Vec<Volume>,
 }
 
 impl Drivers {
-    /// The drivers of the file, checked, and the library, which `sources` gets to hold only when
-    /// it is needed.
+    /// The drivers of the file, and the library, whose texts `sources` gets to hold.
     pub(crate) fn new(
         own: &[(FileId, ast::Driver)],
         sources: &mut SourceMap,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let mut drivers = Self::default();
-        for (file, node) in own {
-            drivers.own.extend(read(*file, node, diagnostics));
-        }
-        for (name, text) in LIBRARY {
-            let file = sources.add(*name, *text);
-            for node in parse(text).ast().drivers() {
-                drivers.library.extend(read(file, &node, diagnostics));
-            }
-        }
-        drivers
+        let own = own.iter().filter_map(|(file, node)| read(*file, node, diagnostics)).collect();
+        let volume = |(name, text): &(&'static str, &'static str)| Volume {
+            file: sources.add(*name, *text),
+            text,
+            drivers: OnceCell::new(),
+        };
+        let library = crate::library::LIBRARY.iter().map(volume).collect();
+        Self { own, library }
+    }
+
+    /// The file's own drivers.
+    pub(crate) fn own(&self) -> &[Driver] {
+        &self.own
     }
 
     /// The names of the file's own drivers.
@@ -72,67 +109,102 @@ impl Drivers {
         self.own.iter().map(|one| (one.name.value.as_str(), span(one.file, one.node.range())))
     }
 
-    /// The driver of that name for a device of `kind`; otherwise the reason is reported.
+    /// The driver of that name, or of the part that is called so; none is reported.
     pub(crate) fn find(
+        &self,
+        wanted: &Spanned<String>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<&Driver> {
+        let found = self.look_up(&wanted.value);
+        if found.is_none() {
+            let names = || self.all().map(|driver| driver.name.value.as_str());
+            let meant = nearest(&wanted.value, names()).or_else(|| self.begins(&wanted.value));
+            let (span, name) = (wanted.span, &wanted.value);
+            diagnostics.push(e0216_unknown_driver::unknown_driver(span, name, meant));
+        }
+        found
+    }
+
+    /// As [`Self::find`], for a device of that kind.
+    pub(crate) fn find_for(
         &self,
         wanted: &Spanned<String>,
         kind: KindName,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<&Driver> {
-        let all = || self.own.iter().chain(&self.library);
-        let Some(driver) = all().find(|driver| driver.name.value == wanted.value) else {
-            let meant = nearest(&wanted.value, all().map(|driver| driver.name.value.as_str()));
-            let (span, name) = (wanted.span, &wanted.value);
-            diagnostics.push(e0216_unknown_driver::unknown_driver(span, name, meant));
-            return None;
-        };
-        if driver.kind != kind {
-            diagnostics.push(e0217_driver_of_other_kind::driver_of_other_kind(
-                wanted.span,
-                &wanted.value,
-                driver.kind.name(),
-                kind.name(),
-            ));
+        let driver = self.find(wanted, diagnostics)?;
+        if driver.kind != Some(kind) {
+            let (span, name) = (wanted.span, &driver.name.value);
+            let wrong = e0217_driver_of_other_kind::driver_of_other_kind;
+            diagnostics.push(wrong(span, name, &driver.what(), kind.name()));
             return None;
         }
         Some(driver)
     }
 
+    /// The driver of that name; otherwise the one whose part is called so, whatever its case,
+    /// hyphens and underscores.
+    pub(crate) fn look_up(&self, name: &str) -> Option<&Driver> {
+        let own = self.own.iter().find(|driver| driver.name.value == name);
+        own.or_else(|| self.library(name)).or_else(|| {
+            let folded_name = folded(name);
+            self.all().find(|driver| driver.is_called(&folded_name))
+        })
+    }
+
+    /// The only driver whose name begins so.
+    fn begins(&self, name: &str) -> Option<&str> {
+        let folded_name = folded(name);
+        let mut found = self.all().filter(|one| folded(&one.name.value).starts_with(&folded_name));
+        let first = found.next().filter(|_| folded_name.len() >= 3)?;
+        Some(&first.name.value)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Driver> {
+        self.own.iter().chain(self.library.iter().flat_map(Volume::drivers))
+    }
+
     /// The library's driver of that name.
     pub(crate) fn library(&self, name: &str) -> Option<&Driver> {
-        self.library.iter().find(|driver| driver.name.value == name)
+        let volumes = self.library.iter().filter(|volume| volume.text.contains(name));
+        volumes.flat_map(Volume::drivers).find(|driver| driver.name.value == name)
     }
 }
 
-/// Reads a driver's head and looks whether its kind has the properties.
+/// Reads a driver's head.
 fn read(file: FileId, node: &ast::Driver, diagnostics: &mut Vec<Diagnostic>) -> Option<Driver> {
-    let (name, kind) = (node.name()?, node.kind()?);
-    let kind_span = span(file, kind.range());
-    let Some(kind_name) = KindName::from_name(kind.text()) else {
-        let meant = nearest(kind.text(), KindName::ALL.map(KindName::name));
-        diagnostics.push(e0207_unknown_kind::unknown_kind(
-            kind_span,
-            kind.text(),
-            &KindName::list(),
-            meant,
-        ));
-        return None;
+    let name = node.name()?;
+    let kind = match node.kind() {
+        None => None,
+        Some(kind) => Some(kind_of(file, &kind, diagnostics)?),
     };
-    for property in node.properties() {
-        let Some(property) = property.name() else { continue };
-        let known = || {
-            let common = COMMON_PROPERTIES.iter().chain(PRESENTATION);
-            kind_name.spec().properties.iter().chain(common).copied()
-        };
-        if !known().any(|known| known == property.text()) {
-            diagnostics.push(e0201_unknown_property::unknown_property(
-                span(file, property.range()),
-                property.text(),
-                &kind_name.with_article().replace("device", "driver"),
-                nearest(property.text(), known()),
-            ));
-        }
-    }
     let name = Spanned { value: name.text().into(), span: span(file, name.range()) };
-    Some(Driver { name, kind: kind_name, file, node: node.clone() })
+    let aliases = node.properties().find(|one| one.name().is_some_and(|n| n.text() == "aliases"));
+    let words = aliases.and_then(|one| one.value()).into_iter().flat_map(|value| {
+        value.syntax().descendants().filter_map(ast::StringValue::cast).collect::<Vec<_>>()
+    });
+    let aliases = words.filter_map(|one| Some(one.literal()?.value())).collect();
+    Some(Driver { name, kind, file, node: node.clone(), aliases })
+}
+
+/// The kind that a name stands for; another name is reported.
+pub(crate) fn kind_of(
+    file: FileId,
+    kind: &ast::Name,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<KindName> {
+    let found = KindName::from_name(kind.text());
+    if found.is_none() {
+        let meant = nearest(kind.text(), KindName::ALL.map(KindName::name));
+        let (at, list) = (span(file, kind.range()), KindName::list());
+        diagnostics.push(e0207_unknown_kind::unknown_kind(at, kind.text(), &list, meant));
+    }
+    found
+}
+
+/// Reports what is wrong with the drivers of the file, whether anything names them or not.
+pub(crate) fn check(known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    for driver in known.drivers.own() {
+        chips::check_driver(driver, known, diagnostics);
+    }
 }

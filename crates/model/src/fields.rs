@@ -14,19 +14,16 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::TextRange;
-use sensedsl_syntax::ast::{AstNode as _, Magnitude, Property, Sign, Value};
+use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::Direction;
 
+use crate::constants::Constants;
 use crate::design::Spanned;
+use crate::value::{Evaluator, Measure, Value};
 
 /// The span of a syntax range.
 pub(crate) fn span(file: FileId, range: TextRange) -> Span {
     Span::new(file, range.start().into()..range.end().into())
-}
-
-/// The span of a syntax range in the file of another span.
-pub(crate) fn span_in(other: Span, range: TextRange) -> Span {
-    span(other.file, range)
 }
 
 /// One property that was written.
@@ -36,8 +33,10 @@ pub(crate) struct Field {
     pub(crate) name_span: Span,
     pub(crate) value: Value,
     pub(crate) value_span: Span,
-    /// It comes from the device's driver, not from the device.
-    pub(crate) inherited: bool,
+    /// As it is written.
+    node: ast::Value,
+    /// 0 for the block's own; what was taken over from a driver comes later.
+    layer: u8,
     taken: bool,
 }
 
@@ -46,6 +45,13 @@ pub(crate) struct Fields<'a> {
     fields: Vec<Field>,
     /// Where each name stands in the list.
     names: BTreeMap<String, usize>,
+    constants: &'a Constants,
+    /// How many times something was taken over.
+    layers: u8,
+    /// The first so many layers are what the user wrote.
+    own_layers: u8,
+    /// The driver's reading or command that the block is.
+    reading: String,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
@@ -62,19 +68,23 @@ impl<'a> Fields<'a> {
         file: FileId,
         owner: &str,
         owner_span: Span,
-        diagnostics: &'a mut Vec<Diagnostic>,
+        (constants, diagnostics): (&'a Constants, &'a mut Vec<Diagnostic>),
     ) -> Self {
         let (owner, names) = (owner.to_owned(), BTreeMap::new());
         let mut fields = Self {
             fields: Vec::new(),
             names,
+            constants,
+            layers: 0,
+            own_layers: 1,
+            reading: String::new(),
             owner,
             owner_span,
             diagnostics,
             #[cfg(test)]
             asked: std::collections::BTreeSet::new(),
         };
-        fields.add(own, file, false);
+        fields.add(own, file);
         fields
     }
 
@@ -85,15 +95,17 @@ impl<'a> Fields<'a> {
 
     /// Takes over the properties of a driver; what the block itself says wins.
     pub(crate) fn inherit(&mut self, driver: impl Iterator<Item = Property>, file: FileId) {
-        self.add(driver, file, true);
+        self.layers += 1;
+        self.add(driver, file);
     }
 
-    fn add(&mut self, properties: impl Iterator<Item = Property>, file: FileId, inherited: bool) {
+    fn add(&mut self, properties: impl Iterator<Item = Property>, file: FileId) {
+        let layer = self.layers;
         for property in properties {
-            let (Some(name), Some(value)) = (property.name(), property.value()) else { continue };
+            let (Some(name), Some(node)) = (property.name(), property.value()) else { continue };
             let name_span = span(file, name.range());
             if let Some(first) = self.field(name.text()) {
-                if first.inherited == inherited {
+                if first.layer == layer {
                     self.diagnostics.push(e0202_property_twice::property_twice(
                         name_span,
                         name.text(),
@@ -103,15 +115,38 @@ impl<'a> Fields<'a> {
                 continue;
             }
             self.names.insert(name.text().into(), self.fields.len());
+            let (constants, diagnostics) = (self.constants, &mut *self.diagnostics);
+            let value = Evaluator { file, constants, diagnostics }.value(&node);
             self.fields.push(Field {
                 name: name.text().into(),
                 name_span,
-                value_span: span(file, value.range()),
+                value_span: span(file, node.range()),
                 value,
-                inherited,
+                node,
+                layer,
                 taken: false,
             });
         }
+    }
+
+    /// What was taken over so far is the user's own; what comes now is the driver's.
+    pub(crate) fn drivers_follow(&mut self) {
+        self.own_layers = self.layers + 1;
+    }
+
+    /// Whether it comes from the driver, not from what the user wrote.
+    pub(crate) const fn is_inherited(&self, field: &Field) -> bool {
+        field.layer >= self.own_layers
+    }
+
+    /// The driver's reading or command that the block is.
+    pub(crate) fn set_reading(&mut self, name: &str) {
+        name.clone_into(&mut self.reading);
+    }
+
+    /// See [`Self::set_reading`].
+    pub(crate) fn reading_name(&self) -> String {
+        self.reading.clone()
     }
 
     fn field(&self, name: &str) -> Option<&Field> {
@@ -134,6 +169,11 @@ impl<'a> Fields<'a> {
         i64::try_from(plain_integer(&field.value)?).ok()
     }
 
+    /// The name of a property that is not taken by looking.
+    pub(crate) fn peek_name(&self, name: &str) -> Option<String> {
+        name_or_text(&self.field(name)?.value)
+    }
+
     /// Where the value of a property stands.
     pub(crate) fn value_span(&self, name: &str) -> Option<Span> {
         self.field(name).map(|field| field.value_span)
@@ -141,7 +181,7 @@ impl<'a> Fields<'a> {
 
     /// Where a property that the block itself wrote stands, name and value.
     pub(crate) fn own_span(&self, name: &str) -> Option<Span> {
-        let field = self.field(name).filter(|field| !field.inherited)?;
+        let field = self.field(name).filter(|field| !self.is_inherited(field))?;
         Some(field.name_span.cover(field.value_span))
     }
 
@@ -159,10 +199,8 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn wrong(&mut self, field: &Field, takes: &str) {
-        // The parser has reported what is not a number at all.
-        if let Value::Number(number) = &field.value
-            && number.magnitude().is_none()
-        {
+        // What could not be computed has been reported.
+        if field.value == Value::Unknown {
             return;
         }
         let found = describe(&field.value);
@@ -246,7 +284,7 @@ impl<'a> Fields<'a> {
         let field = self.take(name)?;
         let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
         // `8E1` is a number to the parser, and a word to who wants one.
-        let as_written = field.value.syntax().text().to_string();
+        let as_written = field.node.syntax().text().to_string();
         let is_word = words.iter().any(|(word, _)| *word == as_written);
         let found = name_or_text(&field.value).or_else(|| is_word.then_some(as_written));
         let Some(found) = found else {
@@ -256,15 +294,62 @@ impl<'a> Fields<'a> {
         if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
             return Some(Spanned { value: *value, span: field.value_span });
         }
-        let meant = nearest(&found, words.iter().map(|(word, _)| *word));
-        self.diagnostics.push(e0212_unknown_word::unknown_word(
-            field.value_span,
-            name,
-            &found,
-            &all(),
-            meant,
-        ));
+        self.unknown_word(field.value_span, name, &found, words);
         None
+    }
+
+    /// Reports a word that is none of a few.
+    pub(crate) fn unknown_word<T>(
+        &mut self,
+        at: Span,
+        name: &str,
+        found: &str,
+        words: &[(&str, T)],
+    ) {
+        let all: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let meant = nearest(found, all.iter().copied());
+        let unknown = e0212_unknown_word::unknown_word;
+        self.diagnostics.push(unknown(at, name, found, &all.join(", "), meant));
+    }
+
+    /// Two whole numbers as a range, or one that is both.
+    pub(crate) fn integer_range(
+        &mut self,
+        name: &str,
+        range: RangeInclusive<u8>,
+    ) -> Option<Spanned<(u8, u8)>> {
+        let field = self.take(name)?;
+        let ends = match field.value.range() {
+            Some([first, last]) => plain_integer(&first.value).zip(plain_integer(&last.value)),
+            None => plain_integer(&field.value).map(|one| (one, one)),
+        };
+        let within = |number: i128| u8::try_from(number).ok().filter(|n| range.contains(n));
+        let found = ends.and_then(|(first, last)| Some((within(first)?, within(last)?)));
+        if found.is_none() {
+            let (least, most) = (range.start(), range.end());
+            self.wrong(
+                &field,
+                &format!("a range of whole numbers from {least} to {most}, such as 7..0"),
+            );
+        }
+        Some(Spanned { value: found?, span: field.value_span })
+    }
+
+    /// One name, or a list of names.
+    pub(crate) fn names(&mut self, name: &str, takes: &str) -> Option<Vec<Spanned<String>>> {
+        let field = self.take(name)?;
+        let one = |value: &Spanned<Value>| {
+            Some(Spanned { value: name_or_text(&value.value)?, span: value.span })
+        };
+        let all: Option<Vec<_>> = match field.value.list() {
+            Some(list) => list.iter().map(one).collect(),
+            None => name_or_text(&field.value)
+                .map(|value| vec![Spanned { value, span: field.value_span }]),
+        };
+        if all.is_none() {
+            self.wrong(&field, takes);
+        }
+        all
     }
 
     /// Takes the property when it is the given word, and leaves it otherwise.
@@ -360,91 +445,57 @@ impl<'a> Fields<'a> {
     }
 }
 
-fn signed_magnitude(number: &sensedsl_syntax::ast::Number) -> Option<f64> {
-    let magnitude = match number.magnitude()? {
-        #[expect(clippy::cast_precision_loss, reason = "quantities are far below 2^53")]
-        Magnitude::Integer(value) => value as f64,
-        Magnitude::Float(value) => value,
-    };
-    Some(if number.sign() == Some(Sign::Minus) { -magnitude } else { magnitude })
-}
-
-fn plain_number(value: &Value) -> Option<f64> {
+/// A number without a unit.
+pub(crate) fn plain_number(value: &Value) -> Option<f64> {
     match value {
-        Value::Number(number) if number.unit_token().is_none() => signed_magnitude(number),
+        Value::Number(number) if number.measure == Measure::Bare => Some(number.value),
         Value::Number(_)
         | Value::Name(_)
-        | Value::String(_)
+        | Value::Text(_)
         | Value::List(_)
-        | Value::Signed(_)
-        | Value::Paren(_)
-        | Value::Binary(_)
-        | Value::Range(_) => None,
+        | Value::Range(_)
+        | Value::Unknown => None,
     }
 }
 
-fn plain_integer(value: &Value) -> Option<i128> {
+/// A whole number without a unit.
+pub(crate) fn plain_integer(value: &Value) -> Option<i128> {
     match value {
-        Value::Number(number) if number.unit_token().is_none() => match number.magnitude()? {
-            Magnitude::Integer(value) if number.sign() == Some(Sign::Minus) => {
-                Some(-i128::from(value))
-            }
-            Magnitude::Integer(value) => Some(i128::from(value)),
-            Magnitude::Float(_) => None,
-        },
-        Value::Number(_)
-        | Value::Name(_)
-        | Value::String(_)
-        | Value::List(_)
-        | Value::Signed(_)
-        | Value::Paren(_)
-        | Value::Binary(_)
-        | Value::Range(_) => None,
+        Value::Number(number) => number.integer,
+        Value::Name(_) | Value::Text(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
     }
 }
 
 /// The text of a name or a string.
 pub(crate) fn name_or_text(value: &Value) -> Option<String> {
     match value {
-        Value::Name(name) => Some(name.name()?.text().into()),
-        Value::String(text) => Some(text.literal()?.value()),
-        Value::Number(_)
-        | Value::List(_)
-        | Value::Signed(_)
-        | Value::Paren(_)
-        | Value::Binary(_)
-        | Value::Range(_) => None,
+        Value::Name(text) | Value::Text(text) => Some(text.clone()),
+        Value::Number(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
     }
 }
 
 fn byte_list(value: &Value) -> Option<Vec<i128>> {
     match value {
-        Value::List(list) => list.values().map(|value| plain_integer(&value)).collect(),
-        Value::String(text) => Some(text.literal()?.value().bytes().map(i128::from).collect()),
+        Value::List(list) => list.iter().map(|one| plain_integer(&one.value)).collect(),
+        Value::Text(text) => Some(text.bytes().map(i128::from).collect()),
         Value::Number(_) => Some(vec![plain_integer(value)?]),
-        Value::Name(_)
-        | Value::Signed(_)
-        | Value::Paren(_)
-        | Value::Binary(_)
-        | Value::Range(_) => None,
+        Value::Name(_) | Value::Range(_) | Value::Unknown => None,
     }
 }
 
 /// What a value is, for messages.
 fn describe(value: &Value) -> &'static str {
     match value {
-        Value::Number(number) if number.unit_token().is_some() => "a number with a unit",
-        Value::Number(number) => match number.magnitude() {
-            Some(Magnitude::Float(_)) => "a number with a fraction",
-            Some(Magnitude::Integer(_)) | None => "a number",
-        },
+        Value::Number(number) if number.measure != Measure::Bare => "a number with a unit",
+        Value::Number(number) if number.integer.is_none() => "a number with a fraction",
+        Value::Number(_) => "a number",
         Value::Name(_) => "a name",
-        Value::String(_) => "a text",
-        Value::List(list) if list.values().any(|value| plain_integer(&value).is_none()) => {
+        Value::Text(_) => "a text",
+        Value::List(list) if list.iter().any(|one| plain_integer(&one.value).is_none()) => {
             "a list of something else"
         }
         Value::List(_) => "a list",
-        Value::Signed(_) | Value::Paren(_) | Value::Binary(_) => "an expression",
         Value::Range(_) => "a range",
+        Value::Unknown => "an expression",
     }
 }

@@ -6,27 +6,35 @@
 
 mod boards;
 mod checks;
+mod chips;
+mod coding;
+mod constants;
 pub mod design;
 mod devices;
 mod drivers;
 mod fields;
 mod files;
+mod ids;
 pub mod kind;
+mod library;
 mod names;
 mod parts;
 pub mod pins;
 mod placement;
+pub mod protocol;
 mod resolve;
 mod rules;
 mod sound;
 mod sources;
 mod syntax_errors;
 mod table_findings;
+mod types;
+mod value;
 
 pub mod volts;
 
-pub use drivers::LIBRARY;
 pub use files::{Files, Unread, Wanted, What, stays_inside};
+pub use library::LIBRARY;
 pub use resolve::{Request, Resolved, resolve, sort};
 pub use rules::apply_allows;
 pub use sensedsl_syntax::Parse as SyntaxTree;

@@ -71,6 +71,6 @@ fn is_reserved_on_windows(name: &str) -> bool {
 }
 
 /// What is left of a name when neither case nor underscores count.
-fn folded(name: &str) -> String {
-    name.chars().filter(|&c| c != '_').flat_map(char::to_lowercase).collect()
+pub(crate) fn folded(name: &str) -> String {
+    name.chars().filter(|&c| c != '_' && c != '-').flat_map(char::to_lowercase).collect()
 }

@@ -2,13 +2,13 @@
 //! common.
 
 use sensedsl_diagnostics::codes::{e0209_wrong_value, e0211_out_of_range};
-use sensedsl_syntax::ast::{AstNode as _, Value};
 use sensedsl_wire::{Direction, ValueType};
 
 use crate::design::{Placement, Spanned, Together};
-use crate::fields::{Fields, name_or_text, span_in};
+use crate::fields::{Fields, name_or_text};
 use crate::kind::{Kind, Role};
 use crate::pins::PinRef;
+use crate::value::Value;
 
 /// The words after `together`.
 const TOGETHER: [(&str, Together); 3] = [
@@ -67,9 +67,9 @@ fn pins(fields: &mut Fields<'_>, role: Role, count: u16) -> Vec<Spanned<PinRef>>
         return Vec::new();
     };
     let mut pins = Vec::new();
-    for value in list.values() {
-        let at = span_in(field.value_span, value.range());
-        let Some(name) = name_or_text(&value) else {
+    for Spanned { value, span: at } in list {
+        let at = *at;
+        let Some(name) = name_or_text(value) else {
             let property = role.property();
             fields.say(e0209_wrong_value::wrong_value(at, property, "a pin", "another value"));
             return Vec::new();

@@ -12,10 +12,13 @@ use sensedsl_syntax::{Parse, ast};
 
 use crate::boards::{self, Context, Left};
 use crate::checks;
+use crate::chips;
+use crate::constants::{self, Constants};
 use crate::design::{Board, BoardIndex, Design, Spanned};
-use crate::devices;
-use crate::drivers::Drivers;
+use crate::devices::{self, Known};
+use crate::drivers::{self, Drivers};
 use crate::files::Files;
+use crate::ids;
 use crate::names;
 use crate::parts::{ReadPart, assemble, on_known_boards};
 use crate::pins;
@@ -62,10 +65,17 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let items = std::mem::take(&mut reader.items);
     let trees = std::mem::take(&mut reader.trees);
     let mut read: Vec<FileId> = trees.iter().map(|(file, _)| *file).collect();
+    let constants = Constants::new(&items.constants, &mut diagnostics);
     let drivers = Drivers::new(&items.drivers, &mut sources, &mut diagnostics);
-    let (boards, tables) = read_boards(request, files, &items, &mut sources, &mut diagnostics);
+    let (boards, tables) =
+        read_boards(request, files, &items, &constants, &mut sources, &mut diagnostics);
     read.extend(tables);
-    let (parts, unread) = read_parts(&items, &drivers, &mut diagnostics);
+    let known = Known { constants: &constants, drivers: &drivers };
+    let (mut parts, unread) = read_parts(&items, known, &mut diagnostics);
+    ids::complete(&mut parts, &mut diagnostics);
+    drivers::check(known, &mut diagnostics);
+    let constant_names = constants::names(&items.constants);
+    names::check("constant", &constant_names.iter().collect::<Vec<_>>(), &mut diagnostics);
     let board_names = board_names(&items);
     check_names(&board_names, &parts, &drivers, &mut diagnostics);
     if items.boards.is_empty() && !items.broken {
@@ -84,6 +94,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         diagnostics.retain(|one| one.code != missing);
     }
     sort(&mut diagnostics);
+    once(&mut diagnostics);
     let is_wrong = diagnostics.iter().any(|one| one.severity == Severity::Error);
     let (design, partial) = if is_wrong {
         let left_out = [unread, homeless].concat();
@@ -119,11 +130,17 @@ pub fn sort(diagnostics: &mut [Diagnostic]) {
     diagnostics.sort_by_key(|one| (one.primary.span, one.severity, one.code));
 }
 
+/// Leaves each of them once: a driver's mistake is met in each of its devices.
+fn once(diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.dedup();
+}
+
 /// The boards, and the files of their tables.
 fn read_boards(
     request: &Request<'_>,
     files: &dyn Files,
     items: &Items,
+    constants: &Constants,
     sources: &mut SourceMap,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Vec<Option<Board>>, Vec<FileId>) {
@@ -132,6 +149,7 @@ fn read_boards(
         files,
         sources,
         diagnostics,
+        constants,
         completed: BTreeMap::new(),
         tables: BTreeMap::new(),
         built_in: BTreeMap::new(),
@@ -145,14 +163,23 @@ fn read_boards(
 /// The parts, and the names of those of which too little is understood.
 fn read_parts(
     items: &Items,
-    drivers: &Drivers,
+    known: Known<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Vec<ReadPart>, Vec<Spanned<String>>) {
     let (mut parts, mut unread) = (Vec::new(), Vec::new());
-    for (file, node, board) in &items.devices {
-        match devices::read(*file, node, board.map(BoardIndex), drivers, diagnostics) {
+    for (file, node, board) in &items.parts {
+        let board = board.map(BoardIndex);
+        let (read, name) = match node {
+            ast::Item::Device(node) => {
+                (devices::read(*file, node, board, known, diagnostics), node.name())
+            }
+            ast::Item::Chip(node) => {
+                (chips::read(*file, node, board, known, diagnostics), node.name())
+            }
+        };
+        match read {
             Some(part) => parts.push(part),
-            None => unread.extend(node.name().map(|name| Spanned {
+            None => unread.extend(name.map(|name| Spanned {
                 value: name.text().to_owned(),
                 span: crate::fields::span(*file, name.range()),
             })),
@@ -180,12 +207,17 @@ fn check_names(
     names::check("board", &boards.iter().flatten().collect::<Vec<_>>(), diagnostics);
     names::check("driver", &drivers.own_names(), diagnostics);
     let devices = || parts.iter().flat_map(|read| &read.devices);
+    // A chip's name and those of its devices name different things and are code in different places.
     let device_names: Vec<_> = devices().map(|device| &device.name).collect();
     names::check("device", &device_names, diagnostics);
+    let chips = parts.iter().filter(|read| read.part.chip.is_some());
+    let stands_alone = |read: &&ReadPart| read.devices.iter().all(|one| one.name != read.part.name);
+    let chips: Vec<_> = chips.filter(stands_alone).map(|read| &read.part.name).collect();
+    names::check("chip", &chips, diagnostics);
     let mut seen: BTreeMap<u8, Span> = BTreeMap::new();
     let used: BTreeSet<u8> = devices().map(|device| device.id.value).collect();
     let free = (1..=254_u8).find(|id| !used.contains(id));
-    for Spanned { value, span } in devices().map(|device| device.id) {
+    for Spanned { value, span } in devices().map(|device| device.id).filter(|id| id.value > 0) {
         match seen.get(&value) {
             Some(first) => diagnostics
                 .push(e0203_duplicate_identifier::duplicate_identifier(span, value, *first, free)),

@@ -8,12 +8,15 @@ use sensedsl_diagnostics::codes::{
     e0212_unknown_word, w0604_unused_rule,
 };
 use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
-use sensedsl_syntax::ast::{self, AstNode as _, DeviceItem, Rule};
+use sensedsl_syntax::TextRange;
+use sensedsl_syntax::ast::{self, AstNode as _, Rule};
 
+use crate::constants::Constants;
 use crate::design::{Allow, Design, Spanned, Together, Wish, WishFor};
 use crate::fields::{name_or_text, span};
 use crate::kind::Role;
 use crate::pins::PinRef;
+use crate::value::Evaluator;
 
 /// The properties that can be wished for beside the pins of the roles.
 const WISHES: [&str; 6] = ["pin", "unit", "side", "header", "together", "sequence"];
@@ -37,17 +40,17 @@ pub(crate) struct BoardRules {
 pub(crate) fn of_board(
     file: FileId,
     node: &ast::Board,
-    diagnostics: &mut Vec<Diagnostic>,
+    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
 ) -> BoardRules {
     let mut rules = BoardRules::default();
     let scope = span(file, node.range());
     for rule in node.rules() {
         match rule {
             Rule::Prefer(rule) => {
-                rules.wishes.extend(wish(file, true, rule.property(), diagnostics));
+                rules.wishes.extend(wish(file, true, rule.property(), (constants, diagnostics)));
             }
             Rule::Avoid(rule) => {
-                rules.wishes.extend(wish(file, false, rule.property(), diagnostics));
+                rules.wishes.extend(wish(file, false, rule.property(), (constants, diagnostics)));
             }
             Rule::Reserve(rule) => rules.reserved.extend(names(file, rule.names())),
             Rule::Release(rule) => rules.released.extend(names(file, rule.names())),
@@ -57,23 +60,27 @@ pub(crate) fn of_board(
     rules
 }
 
-/// Reads the rules of a device.
+/// Reads the rules of a device or a chip, whose block is there.
 pub(crate) fn of_device(
     file: FileId,
-    node: &ast::Device,
-    diagnostics: &mut Vec<Diagnostic>,
+    rules: impl Iterator<Item = Rule>,
+    block: TextRange,
+    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
 ) -> (Vec<Wish>, Vec<Allow>) {
     let (mut wishes, mut allows) = (Vec::new(), Vec::new());
-    let scope = span(file, node.range());
-    for item in node.items() {
-        let DeviceItem::Rule(rule) = item else { continue };
+    let scope = span(file, block);
+    for rule in rules {
         match rule {
-            Rule::Prefer(rule) => wishes.extend(wish(file, true, rule.property(), diagnostics)),
-            Rule::Avoid(rule) => wishes.extend(wish(file, false, rule.property(), diagnostics)),
+            Rule::Prefer(rule) => {
+                wishes.extend(wish(file, true, rule.property(), (constants, diagnostics)));
+            }
+            Rule::Avoid(rule) => {
+                wishes.extend(wish(file, false, rule.property(), (constants, diagnostics)));
+            }
             Rule::Allow(rule) => allows.extend(allow(file, &rule, scope, diagnostics)),
             Rule::Reserve(_) | Rule::Release(_) => {
                 let at = span(file, rule.range());
-                let what = "`reserve` or `release` in a device";
+                let what = "`reserve` or `release` in a part";
                 diagnostics.push(e0110_misplaced_item::misplaced_item(at, what, "into a board"));
             }
         }
@@ -91,7 +98,7 @@ fn wish(
     file: FileId,
     prefer: bool,
     property: Option<ast::Property>,
-    diagnostics: &mut Vec<Diagnostic>,
+    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
 ) -> Option<Wish> {
     let property = property?;
     let (name, value) = (property.name()?, property.value()?);
@@ -107,7 +114,8 @@ fn wish(
         return None;
     }
     let at = span(file, property.range());
-    let Some(text) = name_or_text(&value) else {
+    let evaluated = Evaluator { file, constants, diagnostics }.value(&value);
+    let Some(text) = name_or_text(&evaluated) else {
         let place = span(file, value.range());
         let wrong = e0209_wrong_value::wrong_value(place, name.text(), "a name", "another value");
         diagnostics.push(wrong);

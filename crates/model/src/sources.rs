@@ -19,8 +19,9 @@ use crate::syntax_errors;
 pub(crate) struct Items {
     pub(crate) boards: Vec<(FileId, ast::Board)>,
     pub(crate) drivers: Vec<(FileId, ast::Driver)>,
-    /// Devices with the index of their board.
-    pub(crate) devices: Vec<(FileId, ast::Device, Option<usize>)>,
+    pub(crate) constants: Vec<(FileId, ast::Constant)>,
+    /// Devices and chips with the index of their board.
+    pub(crate) parts: Vec<(FileId, ast::Item, Option<usize>)>,
     /// Some text could not be parsed: what is missing may be a consequence.
     pub(crate) broken: bool,
 }
@@ -132,10 +133,12 @@ impl<'a> Reader<'a> {
     fn item(&mut self, path: &str, file: FileId, item: FileItem) {
         match item {
             FileItem::Use(used) => self.used(path, file, &used),
-            // Of constants and chips no design is made yet.
-            FileItem::Constant(_) | FileItem::Chip(_) => {}
+            FileItem::Constant(constant) => self.items.constants.push((file, constant)),
+            FileItem::Chip(chip) => self.items.parts.push((file, ast::Item::Chip(chip), None)),
             FileItem::Driver(driver) => self.items.drivers.push((file, driver)),
-            FileItem::Device(device) => self.items.devices.push((file, device, None)),
+            FileItem::Device(device) => {
+                self.items.parts.push((file, ast::Item::Device(device), None));
+            }
             FileItem::Board(board) if self.open.len() > 1 => {
                 let at = board.name().map_or_else(|| board.range(), |name| name.range());
                 self.diagnostics.push(e0110_misplaced_item::misplaced_item(
@@ -146,8 +149,8 @@ impl<'a> Reader<'a> {
             }
             FileItem::Board(board) => {
                 let index = self.items.boards.len();
-                for device in board.devices() {
-                    self.items.devices.push((file, device, Some(index)));
+                for part in board.parts() {
+                    self.items.parts.push((file, part, Some(index)));
                 }
                 self.items.boards.push((file, board));
             }

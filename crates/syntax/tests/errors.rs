@@ -386,7 +386,9 @@ fn tokens() {
         ),
         (
             "sensor X returns uint8 { max-rate = 3; id = 1; }",
-            &[r#"1:26 `max-rate` HyphenInName { name: "max-rate", suggestion: "max_rate", in_value: false }"#],
+            &[
+                r#"1:26 `max-rate` HyphenInName { name: "max-rate", suggestion: "max_rate", in_value: false }"#,
+            ],
         ),
         (
             "sensor X returns uint8 { id = 300000000000000000000; }",

@@ -10,6 +10,7 @@ use sensedsl_model::design::{
 };
 use sensedsl_model::kind::{Kind, KindName, Sharing};
 use sensedsl_model::pins::PinRef;
+use sensedsl_model::protocol::{Coding, Filter};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::assignment::Assignment;
@@ -191,10 +192,19 @@ fn add(
         prio_span: None,
         group: None,
         shown: Presentation::default(),
+        coding: Coding::default(),
+        filter: Filter::default(),
         connections,
     });
     let board = Some(board);
-    design.parts.push(Part { name, block: span, board, driver: None, allows: Vec::new() });
+    design.parts.push(Part {
+        name,
+        block: span,
+        board,
+        driver: None,
+        allows: Vec::new(),
+        chip: None,
+    });
 }
 
 fn free_addresses(design: &Design) -> Vec<u8> {

@@ -146,9 +146,7 @@ impl<'a> Builder<'a> {
 
     /// Keeps the rules of a part for its other connections.
     pub(crate) fn remember_rules(&mut self, part: PartIndex, rules: &[wishes::Rule<'a>]) {
-        if !self.rules_of.contains_key(&part) {
-            self.rules_of.insert(part, rules.to_vec());
-        }
+        self.rules_of.entry(part).or_insert_with(|| rules.to_vec());
     }
 
     /// The DMA user of a peripheral instance; none where its driver takes no streams.

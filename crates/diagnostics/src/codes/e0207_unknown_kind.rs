@@ -19,6 +19,14 @@ Way out: use one of these.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
+/// The name of a part of the library in the place of a kind.
+#[must_use]
+pub fn driver_as_kind(span: Span, name: &str, driver: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` is a part, not a kind of connection"))
+        .here(format!("write `driver = {driver};` instead of this line"))
+        .help(format!("`driver = {driver};` says how it is connected: `sensedsl drivers {driver}` shows it"))
+}
+
 /// `known` are all kinds; `meant` the nearest.
 #[must_use]
 pub fn unknown_kind(span: Span, name: &str, known: &str, meant: Option<&str>) -> Diagnostic {

@@ -21,6 +21,6 @@ pub const CODE: Code = Code(&INFO);
 /// The driver, its kind, and the device's kind.
 #[must_use]
 pub fn driver_of_other_kind(span: Span, driver: &str, its: &str, kind: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("the driver `{driver}` is for {its}, the device is {kind}"))
-        .help(format!("write `type = {its};`, or take a driver for {kind}"))
+    Diagnostic::new(CODE, span, format!("`{driver}` is {its}, and the device is {kind}"))
+        .help(format!("leave `type` out, which the driver says, or take a driver for {kind}"))
 }

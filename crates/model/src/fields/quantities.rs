@@ -4,10 +4,10 @@ use std::ops::RangeInclusive;
 
 use sensedsl_diagnostics::codes::e0210_wrong_unit;
 use sensedsl_syntax::Unit;
-use sensedsl_syntax::ast::Value;
 
-use super::{Field, Fields, signed_magnitude};
+use super::{Field, Fields};
 use crate::design::Spanned;
+use crate::value::{Dimension, Measure, Number, Value};
 
 impl Fields<'_> {
     /// A time in microseconds; a bare number is milliseconds.
@@ -37,7 +37,7 @@ impl Fields<'_> {
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
         let field = self.take(name)?;
-        let hz = self.quantity(&field, Unit::Hertz, &FREQUENCIES, "a frequency such as 400 kHz")?;
+        let hz = self.quantity(&field, Unit::Hertz, &FREQUENCY, "a frequency such as 400 kHz")?;
         self.whole(&field, hz, range, "Hz")
     }
 
@@ -53,17 +53,17 @@ impl Fields<'_> {
             self.wrong(&field, "a frequency such as 1 MHz, or the time of one tick such as 1 us");
             return None;
         };
-        let unit = number.unit().unwrap_or(bare);
-        let value = signed_magnitude(number)?;
-        let hz = match factor(unit) {
-            (Dimension::Time, us) => 1_000_000.0 / (value * us),
-            (Dimension::Frequency, hz) => value * hz,
-            (Dimension::Voltage | Dimension::Resistance, _) => {
-                let takes = "Hz, kHz, MHz, us, ms or s";
-                let wrong = e0210_wrong_unit::wrong_unit;
-                self.diagnostics.push(wrong(field.value_span, &field.name, unit.name(), takes));
-                return None;
-            }
+        let number = with_unit(number, bare);
+        let base = number.in_base_units();
+        let hz = if number.dimension() == Dimension::TIME {
+            1.0 / base
+        } else if number.dimension() == Dimension::FREQUENCY {
+            base
+        } else {
+            let (takes, found) = ("Hz, kHz, MHz, us, ms or s", number.unit_name());
+            let wrong = e0210_wrong_unit::wrong_unit;
+            self.diagnostics.push(wrong(field.value_span, &field.name, &found, takes));
+            return None;
         };
         self.whole(&field, hz, range, "Hz")
     }
@@ -71,7 +71,7 @@ impl Fields<'_> {
     /// A time as a field and its microseconds; a bare number is milliseconds.
     fn time(&mut self, name: &str) -> Option<(Field, f64)> {
         let field = self.take(name)?;
-        let us = self.quantity(&field, Unit::Milliseconds, &TIMES, "a time such as 60 ms")?;
+        let us = self.quantity(&field, Unit::Milliseconds, &TIME, "a time such as 60 ms")?;
         Some((field, us))
     }
 
@@ -82,7 +82,7 @@ impl Fields<'_> {
         range: RangeInclusive<u32>,
     ) -> Option<Spanned<u32>> {
         let field = self.take(name)?;
-        let mv = self.quantity(&field, Unit::Volts, &VOLTAGES, "a voltage such as 5 V")?;
+        let mv = self.quantity(&field, Unit::Volts, &VOLTAGE, "a voltage such as 5 V")?;
         self.whole(&field, mv, range, "mV")
     }
 
@@ -94,15 +94,14 @@ impl Fields<'_> {
             self.wrong(&field, TAKES);
             return None;
         };
-        let values: Vec<Value> = list.values().collect();
-        let [upper, lower] = values.as_slice() else {
+        let [upper, lower] = list.as_slice() else {
             self.wrong(&field, TAKES);
             return None;
         };
         let mut ohms = [0; 2];
         for (value, ohm) in [upper, lower].into_iter().zip(&mut ohms) {
-            let one = Field { value: value.clone(), ..field.clone() };
-            let found = self.quantity(&one, Unit::Ohms, &RESISTANCES, TAKES)?;
+            let one = Field { value: value.value.clone(), ..field.clone() };
+            let found = self.quantity(&one, Unit::Ohms, &RESISTANCE, TAKES)?;
             *ohm = self.whole(&one, found, 1..=100_000_000, "Ohm")?.value;
         }
         Some(Spanned { value: ohms, span: field.value_span })
@@ -112,25 +111,21 @@ impl Fields<'_> {
         &mut self,
         field: &Field,
         bare: Unit,
-        dimension: &(Dimension, &str),
+        quantity: &Quantity,
         takes: &str,
     ) -> Option<f64> {
         let Value::Number(number) = &field.value else {
             self.wrong(field, takes);
             return None;
         };
-        let unit = number.unit().unwrap_or(bare);
-        let (found, factor) = factor(unit);
-        if found != dimension.0 {
-            self.diagnostics.push(e0210_wrong_unit::wrong_unit(
-                field.value_span,
-                &field.name,
-                unit.name(),
-                dimension.1,
-            ));
+        let number = with_unit(number, bare);
+        if number.dimension() != quantity.dimension {
+            let (at, found) = (field.value_span, number.unit_name());
+            let wrong = e0210_wrong_unit::wrong_unit;
+            self.diagnostics.push(wrong(at, &field.name, &found, quantity.units));
             return None;
         }
-        Some(signed_magnitude(number)? * factor)
+        Some(number.in_base_units() * quantity.per_base)
     }
 
     fn whole(
@@ -160,32 +155,26 @@ impl Fields<'_> {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Dimension {
-    Time,
-    Frequency,
-    Voltage,
-    Resistance,
-}
-
-const TIMES: (Dimension, &str) = (Dimension::Time, "us, ms or s");
-const FREQUENCIES: (Dimension, &str) = (Dimension::Frequency, "Hz, kHz or MHz");
-
-const VOLTAGES: (Dimension, &str) = (Dimension::Voltage, "mV or V");
-const RESISTANCES: (Dimension, &str) = (Dimension::Resistance, "Ohm or kOhm");
-
-/// A unit's dimension and its factor to microseconds, hertz, millivolts or ohms.
-fn factor(unit: Unit) -> (Dimension, f64) {
-    match unit {
-        Unit::Microseconds => (Dimension::Time, 1.0),
-        Unit::Milliseconds => (Dimension::Time, 1e3),
-        Unit::Seconds => (Dimension::Time, 1e6),
-        Unit::Hertz => (Dimension::Frequency, 1.0),
-        Unit::Kilohertz => (Dimension::Frequency, 1e3),
-        Unit::Megahertz => (Dimension::Frequency, 1e6),
-        Unit::Millivolts => (Dimension::Voltage, 1.0),
-        Unit::Volts => (Dimension::Voltage, 1e3),
-        Unit::Ohms => (Dimension::Resistance, 1.0),
-        Unit::Kiloohms => (Dimension::Resistance, 1e3),
+/// A number without a unit is one of that unit.
+fn with_unit(number: &Number, bare: Unit) -> Number {
+    match number.measure {
+        Measure::Bare => Number { measure: Measure::Unit(bare), ..*number },
+        Measure::Unit(_) | Measure::Derived(_) => *number,
     }
 }
+
+/// What a quantity is of, the factor of its base unit to microseconds, hertz, millivolts or ohms, and
+/// the units it is written in.
+struct Quantity {
+    dimension: Dimension,
+    per_base: f64,
+    units: &'static str,
+}
+
+const TIME: Quantity = Quantity { dimension: Dimension::TIME, per_base: 1e6, units: "us, ms or s" };
+const FREQUENCY: Quantity =
+    Quantity { dimension: Dimension::FREQUENCY, per_base: 1.0, units: "Hz, kHz or MHz" };
+const VOLTAGE: Quantity =
+    Quantity { dimension: Dimension::VOLTAGE, per_base: 1e3, units: "mV or V" };
+const RESISTANCE: Quantity =
+    Quantity { dimension: Dimension::RESISTANCE, per_base: 1.0, units: "Ohm or kOhm" };

@@ -169,8 +169,10 @@ mod tests {
         let file = sources.add("x.sense", "");
         let mut all = BTreeSet::new();
         for direction in kind.spec().directions {
+            let constants = crate::constants::Constants::default();
             let (mut said, at) = (Vec::new(), Span::new(file, 0..0));
-            let mut fields = Fields::new(std::iter::empty(), file, "a device", at, &mut said);
+            let mut fields =
+                Fields::new(std::iter::empty(), file, "a device", at, (&constants, &mut said));
             kind.read(&mut fields, *direction, ValueType::scalar(ScalarType::Uint16));
             all.append(&mut fields.asked);
         }

@@ -1,0 +1,28 @@
+//! E0231: no identifier is left for a device without one.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0231",
+    severity: Severity::Error,
+    title: "no identifier is left",
+    explanation: r#"A device without `id` gets the number behind the greatest that stands in the file. Identifiers go up to 254, so a
+large `id` leaves few behind it, and a chip's values count up from the chip's own.
+
+Way out: give devices smaller identifiers; `sensedsl fmt --ids` writes all of them into the file.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The device, and the greatest identifier there is.
+#[must_use]
+pub fn no_identifier_left(span: Span, device: &str, last: u8) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{device}` has no `id`, and none is left behind {last}"))
+        .here("identifiers go up to 254")
+        .help("write an `id` that is free here, or a smaller one in the device that has the greatest")
+}

@@ -1,0 +1,393 @@
+//! Chips: from a block and the driver it names to a part with connections and values.
+//!
+//! What one value needs is said in several places. From the nearest to the farthest: the device, the
+//! chip, the chip's `connection` block, the driver's reading or command, the driver's connection,
+//! the driver. The nearest wins.
+
+mod sockets;
+mod values;
+
+use sensedsl_diagnostics::codes::{e0201_unknown_property, e0229_wrong_driver};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _, Property};
+
+use crate::coding::{self, CODING, FILTER, PROTOCOL};
+use crate::design::{
+    BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, PartIndex, Spanned,
+};
+use crate::devices::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
+use crate::drivers::Driver;
+use crate::fields::{Fields, span};
+use crate::kind::{KindName, Values};
+use crate::parts::ReadPart;
+use crate::protocol::Protocol;
+use crate::rules;
+use sockets::Socket;
+use values::Asked;
+
+use values::Given;
+
+/// The properties of a chip beside those of its connections.
+const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
+/// The properties of a chip's devices.
+const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading"];
+
+/// A chip, or a device that is the only value of one, and its driver.
+struct Whole<'a> {
+    file: FileId,
+    name: Spanned<String>,
+    block: Span,
+    driver: &'a Driver,
+    known: Known<'a>,
+    /// What is said of the chip as a whole.
+    properties: Vec<Property>,
+    protocol: Protocol,
+    /// The values that the driver tells apart.
+    given: Vec<Given>,
+}
+
+/// Reads a chip; none when too little of it is understood.
+pub(crate) fn read(
+    file: FileId,
+    node: &ast::Chip,
+    board: Option<BoardIndex>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<ReadPart> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let rest = (known.constants, &mut *diagnostics);
+    let (wishes, allows) = rules::of_device(file, node.rules(), node.range(), rest);
+    let said = (known.constants, &mut *diagnostics);
+    let owner = format!("the chip `{}`", name.value);
+    let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
+    let Some(wanted) = fields.name("driver", "the name of a driver") else {
+        if !fields.has("driver") {
+            fields.missing("driver", "driver = mpu6050;");
+        }
+        return None;
+    };
+    let first_id = fields.integer("id", 1..=254).and_then(|id| u8::try_from(id.value).ok());
+    drop(fields);
+    let driver = known.drivers.find(&wanted, diagnostics)?;
+    let properties: Vec<Property> = node.properties().collect();
+    let block = span(file, node.range());
+    let protocol = protocol(file, driver, &properties, known, diagnostics);
+    let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
+    let whole = Whole { file, name, block, driver, known, properties, protocol, given };
+    sockets::describe(&mut sockets, &whole, node.connections().collect(), diagnostics);
+    whole.check_properties(&sockets, CHIP, diagnostics);
+    let asked: Vec<Asked> = if node.devices().next().is_some() {
+        let devices = node.devices();
+        devices.filter_map(|one| values::stated(&whole, &one, diagnostics)).collect()
+    } else {
+        values::all(&whole, diagnostics)
+    };
+    let devices = whole.devices(asked, first_id, &mut sockets, diagnostics);
+    let connections = whole.connections(&devices, &sockets, board, &wishes, diagnostics);
+    whole.part(board, allows, devices, connections)
+}
+
+/// Reads a device whose driver tells several values apart: a chip of which one is wanted.
+pub(crate) fn of_device(
+    file: FileId,
+    node: &ast::Device,
+    driver: &Driver,
+    board: Option<BoardIndex>,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<ReadPart> {
+    let name = node.name()?;
+    let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
+    let rest = (known.constants, &mut *diagnostics);
+    let (wishes, allows) = rules::of_device(file, node.rules(), node.range(), rest);
+    let block = span(file, node.range());
+    let of_value = |one: &Property| {
+        let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
+        let name = name.as_str();
+        OF_DEVICE.contains(&name) || PRESENTATION.contains(&name) || FILTER.contains(&name)
+    };
+    let properties: Vec<Property> = node.properties().filter(|one| !of_value(one)).collect();
+    let protocol = protocol(file, driver, &properties, known, diagnostics);
+    let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
+    let whole = Whole { file, name, block, driver, known, properties, protocol, given };
+    let own: Vec<&str> = CHIP.iter().chain(&["type"]).copied().collect();
+    whole.check_properties(&sockets, &own, diagnostics);
+    let mut asked = values::stated(&whole, node, diagnostics)?;
+    asked.own.retain(of_value);
+    let devices = whole.devices(vec![asked], None, &mut sockets, diagnostics);
+    let connections = whole.connections(&devices, &sockets, board, &wishes, diagnostics);
+    whole.part(board, allows, devices, connections)
+}
+
+/// What a driver gives and takes, and the connections that it has for it.
+fn values_and_sockets(
+    driver: &Driver,
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<(Vec<Given>, Vec<Socket>)> {
+    let mut sockets = sockets::of_driver(driver, diagnostics)?;
+    let names: Vec<Option<&str>> = sockets.iter().map(|one| one.name.as_deref()).collect();
+    let given = values::given(driver, &names, (known.constants, diagnostics));
+    for number in given.iter().flat_map(|one| &one.via) {
+        if let Some(socket) = sockets.get_mut(*number) {
+            socket.is_of_a_value = true;
+        }
+    }
+    Some((given, sockets))
+}
+
+/// Reports what is wrong with a driver of the file.
+pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
+    protocol(driver.file, driver, &[], known, diagnostics);
+    let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
+    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let of_part = driver.node.properties().map(|one| (one, true));
+    let of_values = given.iter().flat_map(|one| one.properties.iter().cloned());
+    let all = of_part.chain(blocks.chain(of_values).map(|one| (one, false)));
+    for (property, is_of_part) in all {
+        let Some(name) = property.name() else { continue };
+        let known = || {
+            let of_kinds = kinds.iter().flat_map(|kind| kind.spec().properties);
+            let shared = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
+            let about = ABOUT_PART.iter().chain(&["pull"]).filter(|_| is_of_part);
+            of_kinds.chain(shared).chain(PROTOCOL).chain(about).copied()
+        };
+        if known().all(|one| one != name.text()) {
+            let at = span(driver.file, name.range());
+            let unknown = e0201_unknown_property::unknown_property;
+            diagnostics.push(unknown(
+                at,
+                name.text(),
+                &driver.what(),
+                nearest(name.text(), known()),
+            ));
+        }
+    }
+    twice(driver, &given, diagnostics);
+}
+
+/// Reports readings that are the same bits of the same register.
+fn twice(driver: &Driver, given: &[Given], diagnostics: &mut Vec<Diagnostic>) {
+    const PLACE: [&str; 9] =
+        ["register", "trigger", "exchange", "byte", "bits", "output", "sentence", "field", "via"];
+    let place = |one: &Given| {
+        let words = one.properties.iter().filter_map(|property| {
+            let (name, value) = (property.name()?, property.value()?);
+            PLACE
+                .contains(&name.text())
+                .then(|| format!("{} {}", name.text(), value.syntax().text()))
+        });
+        let mut words: Vec<String> = words.collect();
+        words.sort();
+        (one.direction, words)
+    };
+    for (at, one) in given.iter().enumerate() {
+        let own = place(one);
+        let has_register = own.1.iter().any(|word| word.starts_with("register "));
+        let before = given.iter().take(at).find(|other| place(other) == own);
+        if let Some(before) = before.filter(|_| has_register) {
+            let message = format!("`{}` and `{}` are the same register", before.name, one.name);
+            diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
+        }
+    }
+}
+
+/// How the chip is started, as the driver says it; the chip may say otherwise.
+fn protocol(
+    file: FileId,
+    driver: &Driver,
+    properties: &[Property],
+    known: Known<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Protocol {
+    let of_protocol =
+        |one: &Property| one.name().is_some_and(|name| PROTOCOL.contains(&name.text()));
+    let at = span(driver.file, driver.node.range());
+    let own = properties.iter().filter(|one| of_protocol(one)).cloned();
+    let said = (known.constants, diagnostics);
+    let mut fields = Fields::new(own, file, "a driver", at, said);
+    fields.drivers_follow();
+    let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
+    let all = driver.node.properties().chain(blocks);
+    fields.inherit(all.filter(of_protocol), driver.file);
+    coding::protocol(&mut fields)
+}
+
+impl Whole<'_> {
+    /// The properties of the chip that concern a connection of that kind.
+    fn properties_for(&self, kind: KindName) -> impl Iterator<Item = Property> {
+        let concerns = move |one: &Property| {
+            one.name().is_some_and(|name| {
+                let name = name.text();
+                let common = COMMON_PROPERTIES.contains(&name);
+                let own = matches!(name, "id" | "driver" | "type");
+                (common && !own) || kind.spec().properties.contains(&name)
+            })
+        };
+        self.properties.iter().filter(move |one| concerns(one)).cloned()
+    }
+
+    /// Reports what the chip says and nothing of it has.
+    fn check_properties(
+        &self,
+        sockets: &[Socket],
+        own: &[&str],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let known = || {
+            let of_kinds = sockets.iter().flat_map(|socket| socket.kind.spec().properties);
+            let placed = ["unit", "level", "divider"];
+            let wires = sockets.iter().filter_map(|socket| socket.name.as_deref());
+            let own = own.iter().chain(PROTOCOL).copied().chain(placed);
+            of_kinds.copied().chain(own).chain(wires)
+        };
+        for property in &self.properties {
+            let Some(name) = property.name() else { continue };
+            if known().all(|one| one != name.text()) {
+                let at = span(self.file, name.range());
+                let meant = nearest(name.text(), known());
+                let unknown = e0201_unknown_property::unknown_property;
+                let of = format!("a chip of `{}`", self.driver.name.value);
+                diagnostics.push(unknown(at, name.text(), &of, meant));
+            }
+        }
+    }
+
+    /// All values that are wanted. Their connections are marked as used.
+    fn devices(
+        &self,
+        asked: Vec<Asked>,
+        first_id: Option<u8>,
+        sockets: &mut [Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Device> {
+        for (asked, index) in asked.iter().zip((0..).map(DeviceIndex)) {
+            for number in &asked.given.via {
+                if let Some(socket) = sockets.get_mut(*number) {
+                    socket.take(index, &asked.given);
+                }
+            }
+        }
+        for socket in sockets.iter_mut().filter(|socket| !socket.is_of_a_value) {
+            socket.is_used = true;
+        }
+        let mut devices = Vec::new();
+        for (asked, at) in asked.into_iter().zip(0_u8..) {
+            let id = first_id.and_then(|first| first.checked_add(at));
+            devices.extend(self.device(&asked, id, sockets, diagnostics));
+        }
+        devices
+    }
+
+    fn device(
+        &self,
+        asked: &Asked,
+        id: Option<u8>,
+        sockets: &[Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Device> {
+        let Asked { name, block, own, value, given } = asked;
+        let direction = given.direction;
+        let main = sockets.get(*given.via.first()?)?;
+        let said = (self.known.constants, &mut *diagnostics);
+        let owner = format!("`{}`", name.value);
+        let mut fields = Fields::new(own.iter().cloned(), self.file, &owner, name.span, said);
+        // On a bus each value has a register of its own; other wires are the same for all values, and
+        // `min` of a pwm output is not that of the value.
+        let is_bus = main.kind.spec().values == Values::Any;
+        let of_wires = |one: &Property| {
+            let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
+            main.kind.spec().properties.contains(&name.as_str())
+        };
+        let of_value = |one: &Property| is_bus || !of_wires(one);
+        fields.inherit(self.properties_for(main.kind).filter(of_value), self.file);
+        fields.inherit(main.block_properties().filter(of_value), self.file);
+        fields.drivers_follow();
+        fields.inherit(given.properties.iter().cloned(), self.driver.file);
+        fields.inherit(main.driver_properties().filter(of_value), self.driver.file);
+        fields.inherit(values::shared(self.driver).filter(of_value), self.driver.file);
+        fields.set_reading(&given.name);
+        let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
+        let own = devices::own(&mut fields);
+        let formula = self.protocol.formula.filter(|_| values::is_computed(given));
+        let mut coding = coding::coding(&mut fields, given.value, formula);
+        coding.reading = Some(given.name.clone());
+        let level = devices::level(&mut fields);
+        drop(fields);
+        let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);
+        let id = own.id.or(id.map(|value| Spanned { value, span: name.span }));
+        // Those that are not used are not among the part's connections.
+        let place =
+            |wanted: &usize| sockets.iter().take(*wanted).filter(|socket| socket.is_used).count();
+        let connections = given.via.iter().map(place).map(ConnectionIndex).collect();
+        Some(Device {
+            part: PartIndex(0),
+            name: name.clone(),
+            block: *block,
+            id: id.unwrap_or(Spanned { value: 0, span: name.span }),
+            direction,
+            value: *value,
+            kind,
+            kind_span: name.span,
+            delay_ms: own.delay_ms,
+            delay_span: own.delay_span,
+            prio: own.prio,
+            prio_span: own.prio_span,
+            group: own.group,
+            shown: devices::divided(own.shown, level.as_ref()),
+            coding,
+            filter: own.filter,
+            connections,
+        })
+    }
+
+    /// The wires of the connections that are used, in the driver's order.
+    fn connections(
+        &self,
+        devices: &[Device],
+        sockets: &[Socket],
+        board: Option<BoardIndex>,
+        wishes: &[crate::design::Wish],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Connection> {
+        if devices.is_empty() {
+            return Vec::new();
+        }
+        let used = sockets.iter().filter(|socket| socket.is_used);
+        used.map(|socket| {
+            let (kind, placement, level) = socket.read(self, diagnostics);
+            Connection {
+                part: PartIndex(0),
+                name: socket.name.clone(),
+                element: None,
+                device: socket.device,
+                kind,
+                direction: socket.direction,
+                board,
+                placement,
+                wishes: wishes.to_vec(),
+                level,
+            }
+        })
+        .collect()
+    }
+
+    fn part(
+        self,
+        board: Option<BoardIndex>,
+        allows: Vec<crate::design::Allow>,
+        devices: Vec<Device>,
+        connections: Vec<Connection>,
+    ) -> Option<ReadPart> {
+        if devices.is_empty() {
+            return None;
+        }
+        let (name, block) = (self.name, self.block);
+        let driver = Some(self.driver.name.value.clone());
+        let chip = Some(self.protocol);
+        let part = Part { name, block, board, driver, allows, chip };
+        Some(ReadPart { part, devices, connections })
+    }
+}

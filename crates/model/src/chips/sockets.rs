@@ -1,0 +1,177 @@
+//! The connections of a chip: what its driver names, with what the chip says of each.
+
+use sensedsl_diagnostics::codes::{
+    e0204_duplicate_name, e0229_wrong_driver, e0230_unknown_reading,
+};
+use sensedsl_diagnostics::{Diagnostic, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _, Property};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
+
+use super::{Given, Whole};
+use crate::design::{DeviceIndex, Level, Placement, Spanned};
+use crate::devices;
+use crate::drivers::{Driver, kind_of};
+use crate::fields::{Fields, span};
+use crate::kind::{Kind, KindName};
+use crate::pins::PinRef;
+use crate::placement;
+
+/// A connection that a driver has.
+pub(super) struct Socket {
+    /// None where the driver is for one kind.
+    pub(super) name: Option<String>,
+    pub(super) kind: KindName,
+    pub(super) direction: Direction,
+    /// The first device whose value goes over it.
+    pub(super) device: DeviceIndex,
+    /// Whether a device of the chip needs it, or every chip of the driver does.
+    pub(super) is_used: bool,
+    /// Whether a reading or command of the driver goes over it.
+    pub(super) is_of_a_value: bool,
+    value: ValueType,
+    /// What the driver says of it.
+    node: Option<ast::Connection>,
+    /// What the chip says of it.
+    block: Option<ast::Connection>,
+}
+
+/// Adds the chip's blocks for its connections.
+pub(super) fn describe(
+    sockets: &mut [Socket],
+    whole: &Whole<'_>,
+    blocks: Vec<ast::Connection>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for block in blocks {
+        let Some(name) = block.name() else { continue };
+        let at = span(whole.file, name.range());
+        let names = || sockets.iter().filter_map(|socket| socket.name.as_deref());
+        let Some(number) = names().position(|one| one == name.text()) else {
+            let has = names().collect::<Vec<_>>().join(", ");
+            let driver = &whole.driver.name.value;
+            let message = format!("`{driver}` has no connection `{}`", name.text());
+            let meant = nearest(name.text(), names());
+            let report = e0230_unknown_reading::unknown_reading;
+            diagnostics.push(report(at, &message, &has, meant));
+            continue;
+        };
+        let Some(socket) = sockets.get_mut(number) else { continue };
+        if let Some(first) = socket.block.as_ref().and_then(ast::Connection::name) {
+            let first = span(whole.file, first.range());
+            let twice = e0204_duplicate_name::duplicate_name;
+            diagnostics.push(twice(at, "connection", name.text(), first));
+            continue;
+        }
+        socket.block = Some(block);
+    }
+}
+
+/// The connections that a driver names; one without a name where it is for one kind.
+pub(super) fn of_driver(driver: &Driver, diagnostics: &mut Vec<Diagnostic>) -> Option<Vec<Socket>> {
+    let mut sockets: Vec<Socket> = Vec::new();
+    if let Some(kind) = driver.kind {
+        sockets.push(Socket::new(None, kind, None));
+    }
+    for node in driver.node.connections() {
+        let (Some(name), Some(kind)) = (node.name(), node.kind()) else { continue };
+        let at = span(driver.file, name.range());
+        if sockets.iter().any(|one| one.name.as_deref() == Some(name.text())) {
+            let message = format!("it has two connections `{}`", name.text());
+            diagnostics.push(e0229_wrong_driver::wrong_driver(at, &message));
+            continue;
+        }
+        let Some(kind) = kind_of(driver.file, &kind, diagnostics) else { continue };
+        sockets.push(Socket::new(Some(name.text().to_owned()), kind, Some(node)));
+    }
+    if sockets.is_empty() {
+        let message = format!(
+            "`{}` has no connection: write `driver NAME for KIND`, or `connection NAME for KIND {{ }}` in it",
+            driver.name.value
+        );
+        diagnostics.push(e0229_wrong_driver::wrong_driver(driver.name.span, &message));
+        return None;
+    }
+    Some(sockets)
+}
+
+impl Socket {
+    fn new(name: Option<String>, kind: KindName, node: Option<ast::Connection>) -> Self {
+        Self {
+            name,
+            kind,
+            // What no value goes over is held at a level.
+            direction: kind.spec().directions.last().copied().unwrap_or(Direction::Actuator),
+            device: DeviceIndex(0),
+            is_used: false,
+            is_of_a_value: false,
+            value: ValueType::scalar(ScalarType::Uint16),
+            node,
+            block: None,
+        }
+    }
+
+    /// Notes that the value of a device goes over it.
+    pub(super) fn take(&mut self, device: DeviceIndex, given: &Given) {
+        if !self.is_used {
+            self.device = device;
+            self.direction = given.direction;
+            let one = given.via.len() == 1;
+            self.value = if one { given.value } else { ValueType::scalar(ScalarType::Uint16) };
+        }
+        self.is_used = true;
+        self.is_of_a_value = true;
+    }
+
+    /// What the chip's block for it says.
+    pub(super) fn block_properties(&self) -> impl Iterator<Item = Property> {
+        self.block.iter().flat_map(|node| node.properties().collect::<Vec<_>>())
+    }
+
+    /// What the driver's block for it says.
+    pub(super) fn driver_properties(&self) -> impl Iterator<Item = Property> {
+        self.node.iter().flat_map(|node| node.properties().collect::<Vec<_>>())
+    }
+
+    /// What it is, and what is fixed of its wires.
+    pub(super) fn read(
+        &self,
+        whole: &Whole<'_>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> (Kind, Placement, Option<Level>) {
+        let said = (whole.known.constants, diagnostics);
+        let owner = self.kind.with_article();
+        let at = whole.name.span;
+        let mut fields = Fields::new(self.block_properties(), whole.file, &owner, at, said);
+        fields.inherit(whole.properties_for(self.kind), whole.file);
+        fields.drivers_follow();
+        fields.inherit(self.driver_properties(), whole.driver.file);
+        fields.inherit(super::values::shared(whole.driver), whole.driver.file);
+        let kind = self.kind.read(&mut fields, self.direction, self.value);
+        let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
+        let level = devices::level(&mut fields);
+        let mut placement = placements.into_iter().next().unwrap_or_default();
+        self.short_pin(whole, &kind, &mut placement);
+        (kind, placement, level)
+    }
+
+    /// `in1 = PA3;` in a chip fixes the pin of its connection `in1`.
+    fn short_pin(&self, whole: &Whole<'_>, kind: &Kind, placement: &mut Placement) {
+        let Some(name) = &self.name else { return };
+        let is_named = |one: &&Property| one.name().is_some_and(|own| own.text() == name);
+        let Some(property) = whole.properties.iter().find(is_named) else { return };
+        let Some(value) = property.value() else { return };
+        let (file, constants) = (whole.file, whole.known.constants);
+        let diagnostics = &mut Vec::new();
+        let found = crate::value::Evaluator { file, constants, diagnostics }.value(&value);
+        let roles = kind.roles(self.direction);
+        if let ([role], Some(pin)) = (roles.as_slice(), crate::fields::name_or_text(&found)) {
+            let pin = Spanned { value: PinRef::unbound(&pin), span: span(file, value.range()) };
+            placement.pins.push((*role, pin));
+        }
+    }
+}
+
+/// One set of wires, whatever the value.
+fn whole_value() -> ValueType {
+    ValueType::scalar(ScalarType::Uint16)
+}

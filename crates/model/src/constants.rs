@@ -1,0 +1,106 @@
+//! Constants: the `const` statements of all files in, their values out.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::codes::e0228_constants_in_a_circle;
+use sensedsl_diagnostics::{Diagnostic, FileId};
+use sensedsl_syntax::ast::{self, AstNode as _};
+
+use crate::design::Spanned;
+use crate::fields::span;
+use crate::value::{Evaluator, Value};
+
+/// All constants by name.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Constants {
+    values: BTreeMap<String, Value>,
+}
+
+/// A constant whose value is not known yet.
+struct Pending {
+    file: FileId,
+    name: ast::Name,
+    value: ast::Value,
+    /// The other constants that it names.
+    needs: Vec<String>,
+}
+
+impl Constants {
+    /// Computes the values, each after those that it needs.
+    pub(crate) fn new(all: &[(FileId, ast::Constant)], diagnostics: &mut Vec<Diagnostic>) -> Self {
+        let mut pending: BTreeMap<String, Pending> = BTreeMap::new();
+        for (file, node) in all {
+            let (Some(name), Some(value)) = (node.name(), node.value()) else { continue };
+            let names = value.syntax().descendants().filter_map(ast::NameValue::cast);
+            let needs = names.filter_map(|one| Some(one.name()?.text().to_owned())).collect();
+            let key = name.text().to_owned();
+            // A name that stands twice is told elsewhere; the first counts.
+            pending.entry(key).or_insert(Pending { file: *file, name, value, needs });
+        }
+        let mut constants = Self::default();
+        while let Some((first, _)) = pending.first_key_value() {
+            let first = first.clone();
+            constants.compute(first, &mut pending, diagnostics);
+        }
+        constants
+    }
+
+    /// Computes one, before it those that it needs. They may be a long chain, so there is a stack and
+    /// no recursion.
+    fn compute(
+        &mut self,
+        first: String,
+        pending: &mut BTreeMap<String, Pending>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let mut open: Vec<String> = vec![first];
+        while let Some(name) = open.last().cloned() {
+            let Some(one) = pending.get_mut(&name) else {
+                open.pop();
+                continue;
+            };
+            if let Some(need) = one.needs.pop() {
+                if open.contains(&need) {
+                    let circle = open.iter().skip_while(|name| **name != need);
+                    let mut circle: Vec<&str> = circle.map(String::as_str).collect();
+                    circle.push(&need);
+                    let at = span(one.file, one.name.range());
+                    let report = e0228_constants_in_a_circle::constants_in_a_circle;
+                    diagnostics.push(report(at, &circle.join(" -> ")));
+                    // Whoever needs any of them is not told a second time.
+                    for name in open.drain(..) {
+                        pending.remove(&name);
+                        self.values.insert(name, Value::Unknown);
+                    }
+                } else if pending.contains_key(&need) {
+                    open.push(need);
+                }
+                continue;
+            }
+            let Some(one) = pending.remove(&name) else { continue };
+            let mut evaluator = Evaluator { file: one.file, constants: self, diagnostics };
+            let value = evaluator.value(&one.value);
+            self.values.insert(name, value);
+            open.pop();
+        }
+    }
+
+    /// The value of a constant.
+    pub(crate) fn get(&self, name: &str) -> Option<&Value> {
+        self.values.get(name)
+    }
+
+    /// Their names.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> + Clone {
+        self.values.keys().map(String::as_str)
+    }
+}
+
+/// The names of the constants, and where they stand.
+pub(crate) fn names(all: &[(FileId, ast::Constant)]) -> Vec<Spanned<String>> {
+    let name = |(file, node): &(FileId, ast::Constant)| {
+        let name = node.name()?;
+        Some(Spanned { value: name.text().to_owned(), span: span(*file, name.range()) })
+    };
+    all.iter().filter_map(name).collect()
+}

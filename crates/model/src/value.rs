@@ -1,0 +1,358 @@
+//! Values as they are meant: names of constants replaced, operations done.
+//!
+//! A number has a unit or none; numbers of units are multiplied and divided as in physics, and added
+//! only to their like.
+
+use sensedsl_diagnostics::codes::e0227_cannot_compute as cannot;
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_syntax::Unit;
+use sensedsl_syntax::ast::{self, AstNode as _, Magnitude, Operator, Sign};
+
+use crate::constants::Constants;
+use crate::design::Spanned;
+use crate::fields::span;
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    /// A number with its unit.
+    Number(Number),
+    /// A name: a pin, a kind, `true`.
+    Name(String),
+    /// A text.
+    Text(String),
+    /// Several values.
+    List(Vec<Spanned<Value>>),
+    /// From the first to the last.
+    Range(Box<[Spanned<Value>; 2]>),
+    /// What could not be read or computed; that has been reported.
+    Unknown,
+}
+
+impl Value {
+    /// The values of a list.
+    pub(crate) fn list(&self) -> Option<&[Spanned<Value>]> {
+        if let Self::List(list) = self { Some(list) } else { None }
+    }
+
+    /// The number that it is.
+    pub(crate) fn number(&self) -> Option<&Number> {
+        if let Self::Number(number) = self { Some(number) } else { None }
+    }
+
+    /// The ends of a range.
+    pub(crate) fn range(&self) -> Option<&[Spanned<Value>; 2]> {
+        if let Self::Range(ends) = self { Some(ends) } else { None }
+    }
+}
+
+/// A number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Number {
+    /// In its unit.
+    pub(crate) value: f64,
+    /// The same exactly, of a whole number without a unit.
+    pub(crate) integer: Option<i128>,
+    /// What it is a number of.
+    pub(crate) measure: Measure,
+}
+
+/// What a number is a number of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Measure {
+    /// Nothing.
+    Bare,
+    /// A unit of the language.
+    Unit(Unit),
+    /// Seconds, volts and ohms, each to a power.
+    Derived(Dimension),
+}
+
+/// The powers of seconds, volts and ohms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Dimension {
+    seconds: i8,
+    volts: i8,
+    ohms: i8,
+}
+
+impl Dimension {
+    pub(crate) const TIME: Self = Self { seconds: 1, volts: 0, ohms: 0 };
+    pub(crate) const FREQUENCY: Self = Self { seconds: -1, volts: 0, ohms: 0 };
+    pub(crate) const VOLTAGE: Self = Self { seconds: 0, volts: 1, ohms: 0 };
+    pub(crate) const RESISTANCE: Self = Self { seconds: 0, volts: 0, ohms: 1 };
+    const NONE: Self = Self { seconds: 0, volts: 0, ohms: 0 };
+
+    fn of(unit: Unit) -> Self {
+        match unit {
+            Unit::Microseconds | Unit::Milliseconds | Unit::Seconds => Self::TIME,
+            Unit::Hertz | Unit::Kilohertz | Unit::Megahertz => Self::FREQUENCY,
+            Unit::Millivolts | Unit::Volts => Self::VOLTAGE,
+            Unit::Ohms | Unit::Kiloohms => Self::RESISTANCE,
+        }
+    }
+
+    fn combine(self, other: Self, with: fn(i8, i8) -> i8) -> Self {
+        Self {
+            seconds: with(self.seconds, other.seconds),
+            volts: with(self.volts, other.volts),
+            ohms: with(self.ohms, other.ohms),
+        }
+    }
+}
+
+/// The factor of a unit to seconds, hertz, volts or ohms.
+fn factor(unit: Unit) -> f64 {
+    match unit {
+        Unit::Microseconds => 1e-6,
+        Unit::Milliseconds | Unit::Millivolts => 1e-3,
+        Unit::Seconds | Unit::Hertz | Unit::Volts | Unit::Ohms => 1.0,
+        Unit::Kilohertz | Unit::Kiloohms => 1e3,
+        Unit::Megahertz => 1e6,
+    }
+}
+
+impl Number {
+    /// Its dimension.
+    pub(crate) fn dimension(&self) -> Dimension {
+        match self.measure {
+            Measure::Bare => Dimension::NONE,
+            Measure::Unit(unit) => Dimension::of(unit),
+            Measure::Derived(dimension) => dimension,
+        }
+    }
+
+    /// In seconds, hertz, volts or ohms, whichever it is.
+    pub(crate) fn in_base_units(&self) -> f64 {
+        match self.measure {
+            Measure::Bare | Measure::Derived(_) => self.value,
+            Measure::Unit(unit) => self.value * factor(unit),
+        }
+    }
+
+    /// What it is a number of, for messages.
+    pub(crate) fn unit_name(&self) -> String {
+        match self.measure {
+            Measure::Bare => "no unit".to_owned(),
+            Measure::Unit(unit) => unit.name().to_owned(),
+            Measure::Derived(dimension) => {
+                let powers = [("s", dimension.seconds), ("V", dimension.volts)];
+                let powers = powers.into_iter().chain([("Ohm", dimension.ohms)]);
+                let word = |(unit, power): (&str, i8)| match power {
+                    0 => None,
+                    1 => Some(unit.to_owned()),
+                    power => Some(format!("{unit}^{power}")),
+                };
+                powers.filter_map(word).collect::<Vec<_>>().join(" ")
+            }
+        }
+    }
+
+    fn of(value: f64, measure: Measure) -> Self {
+        let is_none = measure == Measure::Derived(Dimension::NONE);
+        let measure = if is_none { Measure::Bare } else { measure };
+        let is_whole = measure == Measure::Bare && value.fract() == 0.0 && value.abs() < EXACT_MAX;
+        #[expect(clippy::cast_possible_truncation, reason = "whole and far within i128")]
+        let integer = is_whole.then_some(value as i128);
+        Self { value, integer, measure }
+    }
+}
+
+/// Whole numbers up to here are exact as `f64`.
+const EXACT_MAX: f64 = 9_007_199_254_740_992.0;
+
+/// Puts constants in and computes.
+pub(crate) struct Evaluator<'a> {
+    pub(crate) file: FileId,
+    pub(crate) constants: &'a Constants,
+    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Evaluator<'_> {
+    /// What a value means, and where it stands.
+    pub(crate) fn spanned(&mut self, node: &ast::Value) -> Spanned<Value> {
+        Spanned { value: self.value(node), span: self.span(node) }
+    }
+
+    fn span(&self, node: &ast::Value) -> Span {
+        span(self.file, node.range())
+    }
+
+    /// What a value means.
+    pub(crate) fn value(&mut self, node: &ast::Value) -> Value {
+        match node {
+            ast::Value::Number(number) => literal(number),
+            ast::Value::Name(name) => match name.name() {
+                Some(name) => match self.constants.get(name.text()) {
+                    Some(constant) => constant.clone(),
+                    None => Value::Name(name.text().to_owned()),
+                },
+                None => Value::Unknown,
+            },
+            ast::Value::String(text) => {
+                text.literal().map_or(Value::Unknown, |text| Value::Text(text.value()))
+            }
+            ast::Value::List(list) => {
+                Value::List(list.values().map(|one| self.spanned(&one)).collect())
+            }
+            ast::Value::Range(range) => match (range.first(), range.last()) {
+                (Some(first), Some(last)) => {
+                    Value::Range(Box::new([self.spanned(&first), self.spanned(&last)]))
+                }
+                _ => Value::Unknown,
+            },
+            ast::Value::Paren(paren) => {
+                paren.value().map_or(Value::Unknown, |inner| self.value(&inner))
+            }
+            ast::Value::Signed(signed) => self.signed(signed),
+            ast::Value::Binary(binary) => self.binary(binary),
+        }
+    }
+
+    fn signed(&mut self, signed: &ast::Signed) -> Value {
+        let Some(inner) = signed.value() else { return Value::Unknown };
+        let Some(number) = self.operand(&inner) else { return Value::Unknown };
+        if signed.sign() == Some(Sign::Minus) {
+            let integer = number.integer.and_then(i128::checked_neg);
+            return Value::Number(Number { value: -number.value, integer, ..number });
+        }
+        Value::Number(number)
+    }
+
+    /// A chain of operations, from the left. The chain may be long, so it is not gone down.
+    fn binary(&mut self, binary: &ast::Binary) -> Value {
+        let mut rest = vec![binary.clone()];
+        let mut left = binary.left();
+        while let Some(ast::Value::Binary(inner)) = &left {
+            let inner = inner.clone();
+            left = inner.left();
+            rest.push(inner);
+        }
+        let Some(first) = left else { return Value::Unknown };
+        let mut so_far = self.operand(&first);
+        for operation in rest.iter().rev() {
+            let right = operation.right().and_then(|right| self.operand(&right));
+            let (Some(left), Some(right), Some(operator)) = (so_far, right, operation.operator())
+            else {
+                return Value::Unknown;
+            };
+            match compute(left, operator, right) {
+                Ok(number) => so_far = Some(number),
+                Err(why) => {
+                    let at = span(self.file, operation.range());
+                    self.diagnostics.push(cannot::cannot_compute(at, &why.message, why.help));
+                    return Value::Unknown;
+                }
+            }
+        }
+        so_far.map_or(Value::Unknown, Value::Number)
+    }
+
+    /// The number that an operand is; what is not a number is reported.
+    fn operand(&mut self, node: &ast::Value) -> Option<Number> {
+        let at = self.span(node);
+        match self.value(node) {
+            Value::Number(number) => Some(number),
+            Value::Unknown => None,
+            Value::Name(name) => {
+                let meant = nearest(&name, self.constants.names());
+                self.diagnostics.push(cannot::not_a_constant(at, &name, meant));
+                None
+            }
+            Value::Text(_) | Value::List(_) | Value::Range(_) => {
+                let message = "this is not a number";
+                let help = "compute with numbers and with constants that are numbers";
+                self.diagnostics.push(cannot::cannot_compute(at, message, help));
+                None
+            }
+        }
+    }
+}
+
+fn literal(number: &ast::Number) -> Value {
+    let is_negative = number.sign() == Some(Sign::Minus);
+    let measure = match (number.unit_token(), number.unit()) {
+        (None, _) => Measure::Bare,
+        (Some(_), Some(unit)) => Measure::Unit(unit),
+        (Some(_), None) => return Value::Unknown,
+    };
+    let (value, integer) = match number.magnitude() {
+        Some(Magnitude::Integer(value)) =>
+        {
+            #[expect(clippy::cast_precision_loss, reason = "the exact number stands beside it")]
+            (value as f64, Some(i128::from(value)))
+        }
+        Some(Magnitude::Float(value)) => (value, None),
+        None => return Value::Unknown,
+    };
+    let signed = if is_negative { (-value, integer.map(|one| -one)) } else { (value, integer) };
+    let integer = signed.1.filter(|_| measure == Measure::Bare);
+    Value::Number(Number { value: signed.0, integer, measure })
+}
+
+/// Why two numbers cannot be put together.
+struct Why {
+    message: String,
+    help: &'static str,
+}
+
+fn compute(left: Number, operator: Operator, right: Number) -> Result<Number, Why> {
+    let (one, other) = (left.dimension(), right.dimension());
+    let bare = left.measure == Measure::Bare && right.measure == Measure::Bare;
+    let exact = left.integer.zip(right.integer).filter(|_| bare);
+    let number = match operator {
+        Operator::Add | Operator::Subtract => {
+            if one != other {
+                let (one, other) = (left.unit_name(), right.unit_name());
+                return Err(Why {
+                    message: format!("a number of {one} and a number of {other} cannot be added"),
+                    help: "give both the same kind of unit",
+                });
+            }
+            let sign = if operator == Operator::Add { 1.0 } else { -1.0 };
+            if left.measure == right.measure {
+                Number::of(left.value + sign * right.value, left.measure)
+            } else {
+                let sum = left.in_base_units() + sign * right.in_base_units();
+                Number::of(sum, Measure::Derived(one))
+            }
+        }
+        Operator::Multiply if right.measure == Measure::Bare => {
+            Number::of(left.value * right.value, left.measure)
+        }
+        Operator::Multiply if left.measure == Measure::Bare => {
+            Number::of(left.value * right.value, right.measure)
+        }
+        Operator::Multiply => {
+            let dimension = one.combine(other, i8::saturating_add);
+            let product = left.in_base_units() * right.in_base_units();
+            Number::of(product, Measure::Derived(dimension))
+        }
+        Operator::Divide if right.value == 0.0 => {
+            let (message, help) = ("this divides by zero".to_owned(), "divide by another number");
+            return Err(Why { message, help });
+        }
+        Operator::Divide if right.measure == Measure::Bare => {
+            Number::of(left.value / right.value, left.measure)
+        }
+        Operator::Divide => {
+            let dimension = one.combine(other, i8::saturating_sub);
+            let quotient = left.in_base_units() / right.in_base_units();
+            Number::of(quotient, Measure::Derived(dimension))
+        }
+    };
+    let exactly = exact.and_then(|(left, right)| match operator {
+        Operator::Add => left.checked_add(right),
+        Operator::Subtract => left.checked_sub(right),
+        Operator::Multiply => left.checked_mul(right),
+        Operator::Divide => (left % right == 0).then_some(left / right),
+    });
+    if !number.value.is_finite() || number.value.abs() > LARGEST {
+        let message = "the result is too large".to_owned();
+        return Err(Why { message, help: "stay below 2^64" });
+    }
+    Ok(Number { integer: exactly.or(number.integer), ..number })
+}
+
+/// The largest number of the language, 2^64.
+const LARGEST: f64 = 18_446_744_073_709_551_616.0;
