@@ -18,6 +18,7 @@ mod ids;
 pub mod kind;
 mod library;
 mod names;
+mod other_types;
 mod parts;
 pub mod pins;
 mod placement;

@@ -24,6 +24,7 @@ use crate::parts::{ReadPart, assemble, on_known_boards};
 use crate::pins;
 use crate::sound::{Partial, broken_drivers};
 use crate::sources::{Items, Reader};
+use crate::syntax_errors;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, Default)]
@@ -92,6 +93,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
         // What is missing may only be unreadable.
         let missing = e0206_missing_property::CODE;
         diagnostics.retain(|one| one.code != missing);
+        syntax_errors::drop_consequences(&trees, &mut diagnostics);
     }
     sort(&mut diagnostics);
     once(&mut diagnostics);

@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
                 self.diagnostics.push(e0110_misplaced_item::misplaced_item(
                     span(file, at),
                     "a board in a used file",
-                    "into the file that is solved",
+                    "in the file that is solved",
                 ));
             }
             FileItem::Board(board) => {

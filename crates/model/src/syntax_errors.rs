@@ -4,13 +4,15 @@ use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0102_unknown_character, e0103_unterminated, e0104_missing_semicolon,
     e0105_missing_closing, e0106_bad_number, e0107_misspelled_keyword, e0108_nested_too_deep,
     e0109_bad_string, e0110_misplaced_item, e0116_too_many_tokens, e0117_more_mistakes,
-    e0221_identifier_reserved,
+    e0208_unknown_type, e0209_wrong_value, e0210_wrong_unit, e0211_out_of_range,
+    e0212_unknown_word, e0220_impossible_type, e0221_identifier_reserved,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_limits::TOKENS_MAX;
-use sensedsl_syntax::{Block, Item, SyntaxError, SyntaxErrorKind};
+use sensedsl_syntax::{Block, Item, Parse, SyntaxError, SyntaxErrorKind, SyntaxKind};
 
 use crate::fields::span;
+use crate::other_types;
 
 /// The diagnostic of one syntax error in `file`.
 #[must_use]
@@ -51,8 +53,8 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         }
         Kind::NotAllowedHere { item, block } => e0110_misplaced_item::misplaced_item(
             at,
-            &format!("a {item} in a {block}"),
-            belongs(*item),
+            &format!("{} in {}", item.with_article(), block.with_article()),
+            belongs(*item, *block),
         ),
         Kind::Expected { expected: what, found } => expected(&what.to_string(), &found.to_string()),
         Kind::StrayToken { found, block } => expected(inside(*block), &found.to_string()),
@@ -66,7 +68,10 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         Kind::MissingCloseParen { open } => {
             e0105_missing_closing::missing_closing(at, ")", Some(span(file, *open)))
         }
-        Kind::ParenthesesAroundList => expected("`[`", "`(` around a list"),
+        Kind::ParenthesesAroundList => e0101_unexpected_token::parentheses_around_list(at),
+        Kind::TypeOfWords { name } => {
+            e0208_unknown_type::unknown_type(at, name, other_types::meant(name))
+        }
         Kind::UnitAlone { unit } => e0106_bad_number::unit_alone(at, unit),
         Kind::MissingCloseBracket { open } => {
             e0105_missing_closing::missing_closing(at, "]", Some(span(file, *open)))
@@ -79,11 +84,15 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
     }
 }
 
-/// Two of the characters that mean nothing are habits of other languages.
+/// Some of the characters that mean nothing are habits from other languages and word processors.
 fn unexpected_character(at: Span, character: char) -> Diagnostic {
     match character {
         '#' => e0102_unknown_character::comment_with_hash(at),
         ':' => e0102_unknown_character::colon(at),
+        '…' => e0102_unknown_character::ellipsis(at),
+        '\'' | '`' | '\u{2018}'..='\u{201f}' | '«' | '»' | '‹' | '›' => {
+            e0102_unknown_character::other_quotes(at)
+        }
         _ => e0102_unknown_character::unknown_character(at, &character.to_string()),
     }
 }
@@ -113,6 +122,46 @@ fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
     }
 }
 
+/// Drops what is said of the values in statements that the parser has complained about: they are not
+/// what was meant.
+pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec<Diagnostic>) {
+    let mut broken = Vec::new();
+    for (file, parsed) in trees {
+        let root = parsed.syntax();
+        for error in parsed.errors().iter().filter(|error| spoils_value(&error.kind)) {
+            let token = root.token_at_offset(error.range.start());
+            let token =
+                if error.range.is_empty() { token.left_biased() } else { token.right_biased() };
+            let mut nodes = token.into_iter().flat_map(|token| token.parent_ancestors());
+            let statement = nodes.find(|node| {
+                matches!(node.kind(), SyntaxKind::Property | SyntaxKind::Const | SyntaxKind::Type)
+            });
+            broken.extend(statement.map(|node| span(*file, node.text_range())));
+        }
+    }
+    let is_value = |one: &Diagnostic| {
+        let codes = [
+            e0209_wrong_value::CODE,
+            e0210_wrong_unit::CODE,
+            e0211_out_of_range::CODE,
+            e0212_unknown_word::CODE,
+            e0220_impossible_type::CODE,
+        ];
+        codes.contains(&one.code)
+    };
+    let is_told = |error: &Diagnostic| {
+        let at = error.primary.span;
+        broken.iter().any(|one| one.file == at.file && one.start <= at.start && at.end <= one.end)
+    };
+    diagnostics.retain(|one| !is_value(one) || !is_told(one));
+}
+
+/// Whether a mistake leaves the value of its statement in doubt.
+fn spoils_value(kind: &SyntaxErrorKind) -> bool {
+    use SyntaxErrorKind as Kind;
+    !matches!(kind, Kind::MissingSemicolon | Kind::MissingEquals { .. })
+}
+
 /// What a block is made of.
 fn inside(block: Block) -> &'static str {
     match block {
@@ -126,7 +175,7 @@ fn inside(block: Block) -> &'static str {
 }
 
 /// Where an item belongs.
-fn belongs(item: Item) -> &'static str {
+fn belongs(item: Item, block: Block) -> &'static str {
     match item {
         Item::Use | Item::Const | Item::Board | Item::Driver => "at the top of a file",
         Item::Chip => "in a board or at the top of a file",
@@ -135,6 +184,7 @@ fn belongs(item: Item) -> &'static str {
         Item::Reading | Item::Command => "in a driver",
         Item::Link => "in a board",
         Item::Rule => "in a board or, for `prefer`, `avoid` and `allow`, in a device or a chip",
+        Item::Property if block == Block::File => "in a block; a constant begins with `const`",
         Item::Property => "in a board, a device, a chip, a driver or a link",
     }
 }

@@ -7,6 +7,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{ScalarType, ValueType};
 
+use crate::other_types;
 use crate::constants::Constants;
 use crate::design::Spanned;
 use crate::fields::{plain_integer, span};
@@ -24,7 +25,7 @@ pub(crate) fn read(
     let scalar = ty.scalar()?;
     let at = span(file, scalar.range());
     let Some(found) = ScalarType::from_name(scalar.text()) else {
-        let meant = nearest(scalar.text(), ScalarType::ALL.map(ScalarType::name));
+        let meant = other_types::meant(scalar.text());
         diagnostics.push(e0208_unknown_type::unknown_type(at, scalar.text(), meant));
         return None;
     };

@@ -140,6 +140,11 @@ pub enum SyntaxErrorKind {
     },
     /// Something between `(` and `)` that is written between `[` and `]`: `(1, 2)`.
     ParenthesesAroundList,
+    /// A type of several words: `unsigned int`.
+    TypeOfWords {
+        /// The words, with one space between them.
+        name: String,
+    },
     /// A unit that does not follow a number: `N ms`.
     UnitAlone {
         /// The unit.
@@ -265,7 +270,7 @@ pub enum Block {
 impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NameOf(item) => write!(f, "a {item} name"),
+            Self::NameOf(item) => write!(f, "{} name", item.with_article()),
             Self::PropertyName => f.write_str("a property name"),
             Self::ResourceName => f.write_str("the name of a pin or a peripheral"),
             Self::Keyword(keyword) => write!(f, "`{keyword}`"),
@@ -328,5 +333,21 @@ impl fmt::Display for Block {
             Self::Driver => "driver",
             Self::Link => "link",
         })
+    }
+}
+
+impl Item {
+    /// The word with its article.
+    #[must_use]
+    pub fn with_article(self) -> String {
+        format!("{} {self}", if self == Self::Actuator { "an" } else { "a" })
+    }
+}
+
+impl Block {
+    /// The word with its article.
+    #[must_use]
+    pub fn with_article(self) -> String {
+        format!("{} {self}", if self == Self::Actuator { "an" } else { "a" })
     }
 }

@@ -266,6 +266,17 @@ impl<'a> Lexer<'a> {
         if first == '#' {
             self.bump_while(|character| !is_line_end(character));
         }
+        if is_other_quote(first) {
+            // A text between such quotes is one mistake.
+            let line = self.rest().split(is_line_end).next().unwrap_or_default();
+            if let Some((text, _)) = line.split_once(is_other_quote) {
+                self.position += text.len();
+                self.bump();
+                let kind = SyntaxErrorKind::UnexpectedCharacter { character: first };
+                self.error(kind, start, self.position);
+                return SyntaxKind::Unknown;
+            }
+        }
         while self.peek().is_some_and(is_unknown) && !starts_token(self.rest()) {
             self.bump();
         }
@@ -314,6 +325,11 @@ fn is_name_start(character: char) -> bool {
 
 fn is_name_continue(character: char) -> bool {
     character.is_alphanumeric() || character == '_'
+}
+
+/// Quotes that are not `"`: those of other languages and of word processors.
+fn is_other_quote(character: char) -> bool {
+    matches!(character, '\'' | '`' | '\u{2018}'..='\u{201f}' | '«' | '»' | '‹' | '›')
 }
 
 fn is_unknown(character: char) -> bool {

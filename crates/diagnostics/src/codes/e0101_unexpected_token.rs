@@ -30,7 +30,15 @@ pub fn unexpected_token(span: Span, expected: &str, found: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("expected {expected}, found {found}"))
         .here(format!("expected {expected}"))
         .help(match found {
-            "none" | "the end of the file" => format!("write {expected} here"),
-            found => format!("write {expected} here, or remove {found}"),
+            found if found.starts_with('`') => format!("write {expected} here, or remove {found}"),
+            _ => format!("write {expected} here"),
         })
+}
+
+/// `span` is the `(` of something with commas.
+#[must_use]
+pub fn parentheses_around_list(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "a list is written in brackets, not in parentheses")
+        .here("expected `[`")
+        .help("write a list as `[1, 2]`")
 }

@@ -48,3 +48,20 @@ pub fn colon(span: Span) -> Diagnostic {
         .help("write a property as `name = value;`")
         .replace("change to `=`", span, "=")
 }
+
+/// The single character that word processors make of three dots.
+#[must_use]
+pub fn ellipsis(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "`…` means nothing here")
+        .here("write `..`")
+        .help("write a range as `1..5`")
+        .replace("change to `..`", span, "..")
+}
+
+/// A text between quotes that are not `"`.
+#[must_use]
+pub fn other_quotes(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "text is written between straight double quotes")
+        .here("these are other quotes")
+        .help("write it as `\"text\"`")
+}

@@ -24,5 +24,5 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn misplaced_item(span: Span, what: &str, belongs: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("{what} does not belong here"))
-        .help(format!("move it: {what} belongs {belongs}"))
+        .help(format!("move it: it belongs {belongs}"))
 }

@@ -23,7 +23,7 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn unknown_type(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
     let diagnostic = Diagnostic::new(CODE, span, format!("`{name}` is not a value type"))
-        .help("use bool, uint8..uint64, int8..int64, float32, float64, or an array such as int16[3]");
+        .help("use bool, uint8..uint64, int8..int64, float32, float64, or an array such as int16[3]; text is uint8[N]");
     match meant {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))

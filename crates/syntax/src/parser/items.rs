@@ -179,6 +179,14 @@ impl Parser<'_> {
             self.bump();
             return true;
         }
+        if self.at(SyntaxKind::Eq) && !self.begins_line() {
+            // `chip NAME = VALUE;`
+            self.start(SyntaxKind::Error);
+            while !self.at_statement_end() {
+                self.bump_group();
+            }
+            self.finish();
+        }
         !self.eat(SyntaxKind::Semicolon) && self.at_property()
     }
 
@@ -297,6 +305,9 @@ impl Parser<'_> {
         let allowed = KEYWORDS.into_iter().filter(|entry| allows(block, entry.1.item()));
         let similar = nearest(word, allowed.map(|entry| entry.0))
             .or_else(|| nearest(word, KEYWORDS.map(|entry| entry.0)));
+        // `int N = 5;`, `let N = 5;`
+        let is_constant = block == Block::File && self.has_shape(Keyword::Const);
+        let similar = if is_constant { Some("const") } else { similar };
         let unknown =
             SyntaxErrorKind::UnknownItem { found: word.to_owned(), suggestion: similar, block };
         let keyword = similar.and_then(Keyword::from_word);

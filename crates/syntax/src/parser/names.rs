@@ -78,7 +78,11 @@ impl Parser<'_> {
             return;
         }
         self.start(SyntaxKind::Type);
-        self.name(Expected::Type);
+        if self.at_type_of_words() {
+            self.type_of_words();
+        } else {
+            self.name(Expected::Type);
+        }
         if self.at(SyntaxKind::LBracket) {
             let open = self.here();
             self.bump();
@@ -88,6 +92,26 @@ impl Parser<'_> {
             }
         }
         self.finish();
+    }
+
+    /// Whether several words stand here, as in `unsigned int {`.
+    fn at_type_of_words(&self) -> bool {
+        let is_word = |n: usize| self.nth_at(n, SyntaxKind::Ident) && !self.nth_begins_line(n);
+        let end = (1..4).find(|&n| !is_word(n)).unwrap_or(4);
+        let block = self.nth_at(end, SyntaxKind::LBrace) || self.nth_at(end, SyntaxKind::LBracket);
+        end > 1 && block
+    }
+
+    fn type_of_words(&mut self) {
+        let (start, mut name) = (self.here(), String::new());
+        self.start(SyntaxKind::Error);
+        while self.at(SyntaxKind::Ident) && (name.is_empty() || !self.begins_line()) {
+            name.push_str(if name.is_empty() { "" } else { " " });
+            name.push_str(self.nth_text(0));
+            self.bump();
+        }
+        self.finish();
+        self.report(SyntaxErrorKind::TypeOfWords { name }, start.cover(self.gap()));
     }
 
     /// A number or the name of a constant. An expression is reported and stepped over.
@@ -108,14 +132,16 @@ impl Parser<'_> {
             return;
         }
         self.expected(Expected::ArrayLength);
-        self.start(SyntaxKind::Error);
-        while matches!(
-            self.kind(),
-            Some(SyntaxKind::Ident | SyntaxKind::Int | SyntaxKind::Float | SyntaxKind::Str)
-        ) || operator(self.kind())
-        {
-            self.bump();
+        let skipped = |kind: Option<SyntaxKind>| {
+            let plain = [SyntaxKind::Ident, SyntaxKind::Int, SyntaxKind::Float, SyntaxKind::Str];
+            operator(kind) || kind.is_some_and(|kind| plain.contains(&kind))
+        };
+        if skipped(self.kind()) {
+            self.start(SyntaxKind::Error);
+            while skipped(self.kind()) {
+                self.bump();
+            }
+            self.finish();
         }
-        self.finish();
     }
 }

@@ -21,6 +21,11 @@ impl Parser<'_> {
         self.start(SyntaxKind::Const);
         self.bump_as(SyntaxKind::ConstKw);
         if self.at(SyntaxKind::Ident) && !(self.begins_line() && self.at_item()) {
+            if self.nth_at(1, SyntaxKind::Ident) && self.nth_at(2, SyntaxKind::Eq) {
+                // A type, as other languages have it.
+                self.expected(Expected::NameOf(Item::Const));
+                self.bump_error();
+            }
             self.assignment(Expected::NameOf(Item::Const));
         } else {
             self.expected(Expected::NameOf(Item::Const));
@@ -50,6 +55,9 @@ impl Parser<'_> {
             self.expected(Expected::Value);
             self.bump_error();
         }
+        if !equals {
+            self.other_assignment(&property);
+        }
         if !self.at_value() || (self.begins_line() && (!equals || self.at_item())) {
             self.complain(SyntaxErrorKind::MissingValue { property }, self.gap());
         } else {
@@ -57,6 +65,25 @@ impl Parser<'_> {
                 self.complain(SyntaxErrorKind::MissingEquals { property }, self.gap());
             }
             self.value();
+        }
+    }
+
+    /// `->` and `+=` in place of `=`.
+    fn other_assignment(&mut self, property: &str) {
+        use SyntaxKind::{Minus, Plus, Slash, Star, Unknown};
+        if !matches!(self.kind(), Some(Plus | Minus | Star | Slash)) || self.begins_line() {
+            return;
+        }
+        if self.nth_at(1, SyntaxKind::Eq) && self.touches(1) {
+            let property = property.to_owned();
+            self.complain(SyntaxErrorKind::MissingEquals { property }, self.gap());
+            self.start(SyntaxKind::Error);
+            self.bump();
+            self.bump();
+            self.finish();
+            self.complained = Some(self.consumed);
+        } else if self.trivia_before(1).iter().any(|token| token.kind == Unknown) {
+            self.bump_error();
         }
     }
 
@@ -140,7 +167,7 @@ impl Parser<'_> {
     }
 
     /// Whether a statement cannot go on with the next token.
-    fn at_statement_end(&self) -> bool {
+    pub(super) fn at_statement_end(&self) -> bool {
         match self.kind() {
             None | Some(SyntaxKind::Semicolon | SyntaxKind::RBrace) => true,
             Some(_) => self.begins_line() || self.at_item(),
@@ -148,7 +175,7 @@ impl Parser<'_> {
     }
 
     /// Consumes one token, or all of a block.
-    fn bump_group(&mut self) {
+    pub(super) fn bump_group(&mut self) {
         if self.at(SyntaxKind::LBrace) {
             self.bump_braces();
         } else {
