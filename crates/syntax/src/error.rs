@@ -221,6 +221,8 @@ pub enum Expected {
     CloseParen,
     /// A `{`.
     OpenBrace,
+    /// A `;`.
+    Semicolon,
 }
 
 /// What is at a place.
@@ -286,6 +288,7 @@ impl fmt::Display for Expected {
             Self::RangeEnd => f.write_str("the end of the range"),
             Self::CloseParen => f.write_str("`)`"),
             Self::OpenBrace => f.write_str("`{`"),
+            Self::Semicolon => f.write_str("`;`"),
         }
     }
 }

@@ -1,24 +1,10 @@
 //! Malformed texts and exactly what is reported for each: `line:column`, the text that is marked
 //! (nothing where something is missing) and the kind of mistake.
 
-use sensedsl_syntax::{SyntaxError, parse};
+mod mistakes;
 
-fn describe(text: &str, error: &SyntaxError) -> String {
-    let before = &text[..usize::from(error.range.start())];
-    let line = before.split('\n').count();
-    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-    format!("{line}:{column} `{}` {:?}", &text[error.range], error.kind)
-}
-
-fn check(cases: &[(&str, &[&str])]) {
-    for (text, expected) in cases {
-        let parsed = parse(text);
-        assert_eq!(parsed.syntax().text(), *text);
-        let errors: Vec<String> =
-            parsed.errors().iter().map(|error| describe(text, error)).collect();
-        assert_eq!(errors, *expected, "{text}");
-    }
-}
+use mistakes::check;
+use sensedsl_syntax::parse;
 
 #[test]
 fn blocks() {

@@ -2,7 +2,7 @@
 
 use super::Parser;
 use super::items::RuleKeyword;
-use crate::error::{Expected, Item, SyntaxErrorKind};
+use crate::error::{Block, Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
 impl Parser<'_> {
@@ -157,7 +157,11 @@ impl Parser<'_> {
             return;
         }
         let (found, block) = (self.found(), self.block);
-        self.complain(SyntaxErrorKind::StrayToken { found, block }, self.here());
+        if block == Block::File {
+            self.expected(Expected::Semicolon);
+        } else {
+            self.complain(SyntaxErrorKind::StrayToken { found, block }, self.here());
+        }
         self.start(SyntaxKind::Error);
         while !self.at_statement_end() {
             self.bump_group();
