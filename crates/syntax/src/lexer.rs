@@ -268,9 +268,10 @@ impl<'a> Lexer<'a> {
         }
         if is_other_quote(first) {
             // A text between such quotes is one mistake.
-            let line = self.rest().split(is_line_end).next().unwrap_or_default();
-            if let Some((text, _)) = line.split_once(is_other_quote) {
-                self.position += text.len();
+            let ends = |character| is_other_quote(character) || is_line_end(character);
+            let length = self.rest().find(ends).unwrap_or_default();
+            if self.rest().get(length..).is_some_and(|rest| rest.starts_with(is_other_quote)) {
+                self.position += length;
                 self.bump();
                 let kind = SyntaxErrorKind::UnexpectedCharacter { character: first };
                 self.error(kind, start, self.position);

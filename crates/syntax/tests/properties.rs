@@ -15,6 +15,11 @@ fn piece() -> impl Strategy<Value = &'static str> {
         "sensor",
         "actuator",
         "driver",
+        "chip",
+        "connection",
+        "reading",
+        "command",
+        "const",
         "link",
         "use",
         "spare",
@@ -40,6 +45,12 @@ fn piece() -> impl Strategy<Value = &'static str> {
         ",",
         "+",
         "-",
+        "*",
+        "/",
+        "(",
+        ")",
+        "..",
+        "...",
         "17",
         "0xE6",
         "0b12",
@@ -109,8 +120,25 @@ fn item() -> impl Strategy<Value = Vec<&'static str>> {
         vec!["[", "]"],
         vec!["[", "0x00", ",", "0x51", "]"],
         vec!["[", "a", ",", "[", "-", "1", "]", ",", "\"s\"", "]"],
+        vec!["5", "..", "N"],
+        vec!["-", "3", "V", "..", "5", "V"],
+        vec!["N", "*", "2", "..", "(", "N", "-", "1", ")"],
+        vec!["-", "(", "1", "+", "N", ")", "/", "4", "ms", "-", "-", "2"],
+        vec!["[", "[", "1", "..", "2", "]", ",", "100", "ms", ",", "+", "-", "N", "]"],
     ]);
-    let name = prop::sample::select(vec!["id", "driver", "on", "sensor", "reserve", "link"]);
+    let name = prop::sample::select(vec![
+        "id",
+        "driver",
+        "on",
+        "sensor",
+        "reserve",
+        "link",
+        "const",
+        "chip",
+        "reading",
+        "command",
+        "connection",
+    ]);
     let property =
         (name, value).prop_map(|(name, value)| [vec![name, "="], value, vec![";"]].concat());
     let rule = (prop::sample::select(vec!["prefer", "avoid"]), property.clone())
@@ -124,6 +152,7 @@ fn item() -> impl Strategy<Value = Vec<&'static str>> {
     let head = prop::sample::select(vec![
         vec!["sensor", "X", "returns", "uint8", "{"],
         vec!["actuator", "board", "accepts", "float32", "[", "4", "]", "{"],
+        vec!["sensor", "chip", "returns", "uint8", "[", "const", "]", "{"],
     ]);
     let device = (head, prop::collection::vec(content.clone(), 0..4))
         .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
@@ -134,13 +163,36 @@ fn item() -> impl Strategy<Value = Vec<&'static str>> {
         vec!["spare", "board", "on", "on", "\"t.csv\"", "{"],
         vec!["board", "B", "on", "STM32F407VGT6", "{"],
     ]);
-    let board_content = prop_oneof![2 => device.clone(), 1 => content, 1 => link];
+    let connection_head = prop::sample::select(vec![
+        vec!["connection", "bus", "for", "i2c", "{"],
+        vec!["connection", "for", "for", "digital", "{"],
+        vec!["connection", "connection", "{"],
+    ]);
+    let block = |head, content| [head, content, vec!["}"]].concat();
+    let properties = || prop::collection::vec(property.clone(), 0..3).prop_map(|all| all.concat());
+    let connection = (connection_head, properties()).prop_map(move |(h, c)| block(h, c));
+    let chip_content =
+        prop_oneof![2 => device.clone(), 1 => content.clone(), 1 => connection.clone()];
+    let chip = prop::collection::vec(chip_content, 0..4)
+        .prop_map(move |content| block(vec!["chip", "chip", "{"], content.concat()));
+    let value_head = prop::sample::select(vec![
+        vec!["reading", "reading", "returns", "int16", "[", "3", "]", "{"],
+        vec!["command", "c", "accepts", "bool", "{"],
+    ]);
+    let reading = (value_head, properties()).prop_map(move |(h, c)| block(h, c));
+    let constant = (Just(vec!["const"]), property.clone()).prop_map(|(h, c)| [h, c].concat());
+    let board_content =
+        prop_oneof![2 => device.clone(), 1 => content, 1 => link, 1 => chip.clone()];
     let board = (board_head, prop::collection::vec(board_content, 0..4))
         .prop_map(|(head, content)| [head, content.concat(), vec!["}"]].concat());
-    let driver = prop::collection::vec(property, 0..3).prop_map(|content| {
-        [vec!["driver", "for", "for", "i2c", "{"], content.concat(), vec!["}"]].concat()
-    });
-    prop_oneof![board, device, driver, Just(vec!["use", "\"lib.sense\"", ";"])]
+    let driver_head = prop::sample::select(vec![
+        vec!["driver", "for", "for", "i2c", "{"],
+        vec!["driver", "d", "{"],
+    ]);
+    let driver_content = prop_oneof![2 => property, 1 => connection, 2 => reading];
+    let driver = (driver_head, prop::collection::vec(driver_content, 0..4))
+        .prop_map(move |(head, content)| block(head, content.concat()));
+    prop_oneof![board, device, driver, chip, constant, Just(vec!["use", "\"lib.sense\"", ";"])]
 }
 
 proptest! {
@@ -175,6 +227,10 @@ proptest! {
             let space = spaces.next().unwrap_or(" ");
             let in_number = token.starts_with(|c: char| c.is_ascii_digit());
             text.push_str(if in_number { " " } else { space });
+            // A division that a comment touches would begin one.
+            if token == "/" && space.starts_with('/') {
+                text.insert(text.len() - space.len(), ' ');
+            }
         }
         let parsed = parse(&text);
         prop_assert_eq!(parsed.errors(), &[], "{}", text);
@@ -228,6 +284,34 @@ fn hostile_texts_take_linear_time_and_little_stack() {
         "use ",
         "+",
         "a=1 b ",
+        "(",
+        ")",
+        "a=(",
+        "a=((((((((((((((((((((((((((((((((((",
+        "a=(1,",
+        "a=1+",
+        "1+",
+        "a=1",
+        "*",
+        "-",
+        "a=-",
+        "..",
+        "a=1..",
+        "chip c{",
+        "driver d{reading r returns b{",
+        "connection c for i",
+        "const a=",
+        "const a ",
+        "const ",
+        "a b=",
+        "chip c=",
+        "sensor a returns b c ",
+        "sensor a returns b[1+",
+        "'",
+        "' a",
+        "\u{201c}",
+        "...",
+        "a=N ms ",
     ];
     for piece in pieces {
         let text = piece.repeat(1_000_000 / piece.len());
@@ -251,6 +335,21 @@ fn deep_nesting_is_reported_and_takes_little_stack() {
         let reported = parsed.errors().iter().filter(|error| error.kind == too_deep).count();
         assert_eq!(reported, expected, "{open}");
     }
+    let too_deep = SyntaxErrorKind::NestingTooDeep { limit: 32 };
+    let deep = ["(1+", "-", "2*-(", "1+", "1*2-", "[1+", "[(", "1*(2+"];
+    for piece in deep {
+        let text = format!("const A = {}1;\nconst B = 2;", piece.repeat(20_000));
+        let parsed = parse(&text);
+        assert_eq!(parsed.errors().first().map(|error| &error.kind), Some(&too_deep), "{piece}");
+        assert!(parsed.errors().len() <= 2, "{piece}: {:?}", parsed.errors());
+        assert_eq!(parsed.ast().constants().count(), 2, "{piece}");
+        let ancestors = |node: sensedsl_syntax::SyntaxNode| node.ancestors().count();
+        let height = parsed.syntax().descendants().map(ancestors).max();
+        assert!(height < Some(40), "{piece}: {height:?}");
+    }
+    let sum = |terms: usize| format!("const A = {}0;", "1 + ".repeat(terms));
+    assert_eq!(parse(&sum(32)).errors(), &[]);
+    assert_eq!(parse(&sum(33)).errors().len(), 1);
     let lists = format!("board a {{ b = {}{}; }}", "[".repeat(100_000), "]".repeat(100_000));
     let parsed = parse(&lists);
     let [error] = parsed.errors() else { panic!("one error") };

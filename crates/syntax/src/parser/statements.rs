@@ -20,7 +20,8 @@ impl Parser<'_> {
     pub(super) fn constant(&mut self) {
         self.start(SyntaxKind::Const);
         self.bump_as(SyntaxKind::ConstKw);
-        if self.at(SyntaxKind::Ident) && !(self.begins_line() && self.at_item()) {
+        let is_next = self.begins_line() && self.at_item() && !self.at_property();
+        if self.at(SyntaxKind::Ident) && !is_next {
             if self.nth_at(1, SyntaxKind::Ident) && self.nth_at(2, SyntaxKind::Eq) {
                 // A type, as other languages have it.
                 self.expected(Expected::NameOf(Item::Const));
