@@ -38,6 +38,40 @@ fn statements_and_blocks() {
 }
 
 #[test]
+fn what_is_computed() {
+    let value = |text: &str, expected: &str| {
+        check(&format!("const A={text};"), &format!("const A = {expected};\n"));
+    };
+    value("1+2*3 -4/ 5", "1 + 2 * 3 - 4 / 5");
+    value("( 1+N )* -( 2 )", "(1 + N) * -(2)");
+    value("5-3", "5 - 3");
+    value("5 ms- -3us", "5 ms - -3 us");
+    value("- - N", "--N");
+    value("1 .. 5", "1..5");
+    value("3V .. 5 V", "3 V..5 V");
+    value("- 5 .. -3", "-5..-3");
+    value("N .. N+1", "N .. N + 1");
+    value("(N) .. (N+1)", "(N)..(N + 1)");
+    value("[1..2,( 3 ),- N,[4*5]]", "[1..2, (3), -N, [4 * 5]]");
+    value("1/ /* a */2", "1 / /* a */ 2");
+    value("1 /* a */ .. /* b */ 2", "1 /* a */.. /* b */ 2");
+    value("( /* a */ 1 /* b */ )", "(/* a */ 1 /* b */)");
+    value("1 + // a\n2", "1 + // a\n    2");
+}
+
+#[test]
+fn chips_and_drivers() {
+    check(
+        "chip A{driver=x;connection c{a=PA0;}sensor S returns uint8 [ N ]{id=1;}}",
+        "chip A {\n    driver = x;\n    connection c {\n        a = PA0;\n    }\n    sensor S returns uint8[N] {\n        id = 1;\n    }\n}\n",
+    );
+    check(
+        "driver d{connection c for i2c{}reading r returns int8{bits=15 .. 4;}command w accepts bool{}}",
+        "driver d {\n    connection c for i2c {}\n    reading r returns int8 {\n        bits = 15..4;\n    }\n    command w accepts bool {}\n}\n",
+    );
+}
+
+#[test]
 fn blank_lines() {
     check(
         "\n\nuse \"a\";\n\n\n\nuse \"b\";\ndriver D for i2c {\n\n\na = 1;\n\n\nb = 2;\n\n\n}\n\n\n",

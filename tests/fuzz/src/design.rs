@@ -65,6 +65,9 @@ pub fn draw(draw: &mut Draw<'_>) -> Input {
     if draw.chance(12) {
         input.board = Some(if draw.chance(128) { "table0.csv" } else { draw.word(BOARDS) });
     }
+    if manner != Manner::Plain && draw.chance(64) {
+        input.text.push_str(&parts(draw));
+    }
     if manner == Manner::Odd && draw.chance(80) {
         broken(draw, &mut input.text);
     }
@@ -154,6 +157,29 @@ impl Writer {
         text.push_str("}\n");
         text
     }
+}
+
+/// Constants, a chip, and a driver of a part with several values.
+fn parts(draw: &mut Draw<'_>) -> String {
+    let mut text = String::new();
+    for number in 0..draw.below(3) {
+        text.push_str(&format!("const N{number} = {};\n", draw.word(words::CONSTANTS)));
+    }
+    let block = |draw: &mut Draw<'_>, head: &str, lines: &[&str]| {
+        let mut text = format!("{head} {{\n");
+        for _ in 0..1 + draw.below(5) {
+            text.push_str(&format!("    {}\n", draw.word(lines)));
+        }
+        text + "}\n"
+    };
+    if draw.chance(160) {
+        text.push_str(&block(draw, "chip C0", words::CHIP_LINES));
+    }
+    if draw.chance(160) {
+        let head = draw.word(&["driver Part0", "driver Part0 for i2c", "driver Part0 for digital"]);
+        text.push_str(&block(draw, head, words::READING_LINES));
+    }
+    text
 }
 
 fn link(draw: &mut Draw<'_>, manner: Manner) -> String {

@@ -19,6 +19,37 @@ pub(super) struct Kind {
     pub(super) drivers: &'static [&'static str],
 }
 
+/// Values of constants, and what else may stand where a value may.
+pub(super) const CONSTANTS: &[&str] =
+    &["5", "60 ms", "3 V..5 V", "N0 * 2", "-(1 + 2) / 3", "[1..2, [3, 4 us]]", "N9", "1 / 0"];
+
+/// Lines of chips and of drivers with readings: such as are right, and such as are not.
+pub(super) const CHIP_LINES: &[&str] = &[
+    "driver = mpu6050;",
+    "address = 0x68;",
+    "delay = 2 * N0;",
+    "prefer side = left;",
+    "connection bus { speed = 100 kHz; }",
+    "connection c0 { pin = PA1; }",
+    "sensor Rate returns int16[3] { id = 201; reading = rate; }",
+    "actuator Set accepts uint8[N0] { id = 202; }",
+    "id = 200;",
+];
+
+/// The same of drivers.
+pub(super) const READING_LINES: &[&str] = &[
+    "connection bus for i2c { address = 0x68; speed = 400 kHz; }",
+    "connection c0 for digital {}",
+    "reading rate returns int16[3] { register = 0x43; length = 6; order = big; }",
+    "reading turn returns uint8 { via = bus; register = 1; bits = 7..4; signed = false; }",
+    "command set accepts uint16 { via = c0; }",
+    "init = [[0x6B, 0x80], 100 ms, [0x6B, 0x00]];",
+    "identity = [0x75, 0x68];",
+    "supply = 2.4 V..3.5 V;",
+    "curve = [[0.4, 80], [1.3, 20]];",
+    "part = \"a part\";",
+];
+
 const NUMBERS: &[&str] = &["uint16", "uint8", "int16", "uint32", "float32", "int64", "float64"];
 const ANY: &[&str] =
     &["uint16", "int16[3]", "uint8[32]", "bool", "float32", "uint64", "uint8[1024]"];
@@ -304,6 +335,13 @@ pub(super) const BREAKS: &[&str] = &[
     "board B {}",
     "18446744073709551616",
     "-",
+    "..",
+    "1..5",
+    " * (2",
+    ")",
+    "const N0 = 4;",
+    "chip C {",
+    "reading r returns int8 {",
     "é",
     "// x\n",
     "\\",
