@@ -7,10 +7,10 @@ use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{ScalarType, ValueType};
 
-use crate::other_types;
 use crate::constants::Constants;
 use crate::design::Spanned;
 use crate::fields::{plain_integer, span};
+use crate::other_types;
 
 /// Most elements of an array.
 const ARRAY_MAX: u64 = 1_024;

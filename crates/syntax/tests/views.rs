@@ -239,7 +239,10 @@ fn chips_and_drivers_with_readings() {
         .collect();
     assert_eq!(items, ["property", "connection", "connection", "reading", "command"]);
     let kinds: Vec<_> = drivers[0].connections().filter_map(|one| one.kind()).collect();
-    assert_eq!(kinds.iter().map(|kind| kind.text()).collect::<Vec<_>>(), ["i2c", "digital"]);
+    assert_eq!(
+        kinds.iter().map(sensedsl_syntax::ast::Name::text).collect::<Vec<_>>(),
+        ["i2c", "digital"]
+    );
     let reading = drivers[0].readings().next().expect("a reading");
     assert_eq!(reading.name().expect("a name").text(), "rate");
     assert_eq!(length(reading.ty().expect("a type")), (true, Some(3), None));
