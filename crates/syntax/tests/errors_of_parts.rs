@@ -195,6 +195,12 @@ fn drivers() {
             "driver d { connection for i2c { a = 1; } }",
             &[r#"1:23 `for` Expected { expected: NameOf(Connection), found: Token("for") }"#],
         ),
+    ]);
+}
+
+#[test]
+fn readings_and_commands() {
+    check(&[
         (
             "driver d { reading r int8 { a = 1; } }",
             &[r#"1:22 `int8` Expected { expected: Keyword("returns"), found: Token("int8") }"#],

@@ -1,6 +1,14 @@
 //! Whole files with everything the language has: they are read without a mistake, are laid out as
 //! they stand, and none of their mutations breaks what holds for every text.
 #![expect(clippy::disallowed_methods, reason = "a long run is asked for in the environment")]
+#![allow(
+    clippy::indexing_slicing,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test reads its data, and a panic is its failure"
+)]
 
 mod invariants;
 
@@ -164,7 +172,7 @@ fn mutated_samples() {
         let run = move |first: u64| {
             let numbers = (first..count).step_by(usize::try_from(threads).unwrap());
             let check = |number: u64| {
-                let text = mutation(number, &items);
+                let text = mutation(number, items);
                 if let Err(wrong) = invariants::check(&text) {
                     panic!("mutation {number}: {wrong}\n{text}");
                 }
