@@ -132,7 +132,7 @@ fn a_broken_device_leaves_the_others_their_wiring() {
         // Not understood at all.
         ("sensor Two returns uint16 { id = 2; type = analogue; }", "E0207"),
         ("sensor Two returns uint99 { id = 2; type = analog; }", "E0208"),
-        ("sensor Two returns uint16 { type = analog; }", "E0206"),
+        ("sensor Two returns uint16 { id = 2; }", "E0206"),
         // Understood, and wrong.
         ("sensor Two returns uint16 { id = 2; type = analog; pin = PZ1; }", "E0310"),
         ("sensor Two returns uint16 { id = 1; type = analog; }", "E0203"),
