@@ -93,9 +93,7 @@ fn elements(fields: &mut Fields<'_>, of: ValueType) -> Vec<u8> {
         return Vec::new();
     };
     if value.len() != of.count() {
-        let (found, range) =
-            (format!("{} places", value.len()), format!("{}, one an element", of.count()));
-        fields.say(e0211_out_of_range::out_of_range(span, "elements", &found, &range));
+        fields.say(e0211_out_of_range::wrong_count(span, "elements", value.len(), of.count()));
         return Vec::new();
     }
     value

@@ -77,9 +77,9 @@ fn pins(fields: &mut Fields<'_>, role: Role, count: u16) -> Vec<Spanned<PinRef>>
         pins.push(Spanned { value: PinRef::unbound(&name), span: at });
     }
     if pins.len() != usize::from(count) {
-        let (found, range) = (format!("{} pins", pins.len()), format!("{count}, one an element"));
-        let at = field.value_span;
-        fields.say(e0211_out_of_range::out_of_range(at, role.property(), &found, &range));
+        let (at, property) = (field.value_span, role.property());
+        let report = e0211_out_of_range::wrong_count;
+        fields.say(report(at, property, pins.len(), usize::from(count)));
         return Vec::new();
     }
     pins

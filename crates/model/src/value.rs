@@ -136,14 +136,21 @@ impl Number {
             Measure::Bare => "no unit".to_owned(),
             Measure::Unit(unit) => unit.name().to_owned(),
             Measure::Derived(dimension) => {
-                let powers = [("s", dimension.seconds), ("V", dimension.volts)];
-                let powers = powers.into_iter().chain([("Ohm", dimension.ohms)]);
-                let word = |(unit, power): (&str, i8)| match power {
-                    0 => None,
-                    1 => Some(unit.to_owned()),
-                    power => Some(format!("{unit}^{power}")),
+                let powers =
+                    [("V", dimension.volts), ("Ohm", dimension.ohms), ("s", dimension.seconds)];
+                let words = |sign: i8| {
+                    let word = move |(unit, power): (&str, i8)| match power.saturating_mul(sign) {
+                        ..1 => None,
+                        1 => Some(unit.to_owned()),
+                        power => Some(format!("{unit}^{power}")),
+                    };
+                    powers.into_iter().filter_map(word).collect::<Vec<_>>().join(" ")
                 };
-                powers.filter_map(word).collect::<Vec<_>>().join(" ")
+                match (words(1), words(-1)) {
+                    (above, below) if below.is_empty() => above,
+                    (above, below) if above.is_empty() => format!("1/{below}"),
+                    (above, below) => format!("{above}/{below}"),
+                }
             }
         }
     }

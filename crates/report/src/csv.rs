@@ -25,8 +25,8 @@ const HEAD: [&str; 11] = [
 pub fn csv(design: &Design, assignment: &Assignment) -> String {
     let mut out = line(&HEAD.map(String::from));
     for row in rows(design, assignment) {
-        let Row { board, device, id, kind, role, pin, signal, unit, place, shared, usages } = row;
-        let id = id.map_or(String::new(), |id| id.to_string());
+        let id = row.ids();
+        let Row { board, device, kind, role, pin, signal, unit, place, shared, usages, .. } = row;
         let usages = usages.to_string();
         out.push_str(&line(&[
             board, device, id, kind, role, pin, signal, unit, place, usages, shared,

@@ -66,23 +66,8 @@ pub fn human(design: &Design, assignment: &Assignment, colour: bool) -> String {
 
 fn table(out: &mut String, rows: &[&Row], style: Style) {
     let where_known = rows.iter().any(|row| !row.place.is_empty());
-    let cells: Vec<[String; 7]> = rows
-        .iter()
-        .enumerate()
-        .map(|(at, row)| {
-            let first = at == 0 || rows.get(at - 1).is_none_or(|last| last.device != row.device);
-            let device = if first { row.device.clone() } else { String::new() };
-            [
-                device,
-                row.role.clone(),
-                row.pin.clone(),
-                visible(&row.signal).into_owned(),
-                if row.unit.is_empty() { "-".into() } else { row.unit.clone() },
-                visible(&row.place).into_owned(),
-                row.usages.to_string(),
-            ]
-        })
-        .collect();
+    let cells: Vec<[String; 7]> =
+        rows.chunk_by(|one, next| one.device == next.device).flat_map(group).collect();
     let width = |column: usize| {
         let all = cells.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
         all.chain(HEAD.get(column).map(|head| head.len())).max().unwrap_or_default()
@@ -92,6 +77,31 @@ fn table(out: &mut String, rows: &[&Row], style: Style) {
     for row in &cells {
         line(out, row, &widths, where_known, ("", style.pin), style.reset);
     }
+}
+
+/// The lines of one device, or of one chip with its values below its name.
+fn group(rows: &[&Row]) -> Vec<[String; 7]> {
+    let Some(first) = rows.first() else { return Vec::new() };
+    let values = first.values.iter().map(|value| format!("  {value}"));
+    let names: Vec<String> = [first.device.clone()].into_iter().chain(values).collect();
+    let line = |at: usize| {
+        let name = names.get(at).cloned().unwrap_or_default();
+        let Some(row) = rows.get(at) else {
+            return [name].into_iter().chain(std::iter::repeat_n(String::new(), 6)).collect();
+        };
+        let unit = if row.unit.is_empty() { "-" } else { &row.unit };
+        vec![
+            name,
+            row.role.clone(),
+            row.pin.clone(),
+            visible(&row.signal).into_owned(),
+            unit.to_owned(),
+            visible(&row.place).into_owned(),
+            row.usages.to_string(),
+        ]
+    };
+    let lines = (0..rows.len().max(names.len())).map(line);
+    lines.filter_map(|cells| cells.try_into().ok()).collect()
 }
 
 fn line(
@@ -124,7 +134,7 @@ fn totals(out: &mut String, design: &Design, assignment: &Assignment, style: Sty
         wires.iter().map(|row| (row.board.as_str(), row.pin.as_str())).collect();
     pins.sort_unstable();
     pins.dedup();
-    let devices = design.devices.len();
+    let devices = design.parts.len();
     let _ = write!(
         out,
         "{devices} {} on {} {}, opportunity cost {}{}{}",

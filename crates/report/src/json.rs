@@ -40,13 +40,18 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
         .iter()
         .filter_map(|wiring| {
             let device = design.device(wiring.device)?;
-            Some(json!({
+            let mut value = json!({
                 "name": device.name.value,
                 "id": device.id.value,
                 "kind": device.kind.name().name(),
                 "unit": wiring.unit,
                 "wires": wires(design, on, board, &wiring.wires),
-            }))
+            });
+            let part = design.part(device.part)?;
+            if let (Some(_), Some(object)) = (&part.chip, value.as_object_mut()) {
+                object.insert("chip".into(), part.name.value.as_str().into());
+            }
+            Some(value)
         })
         .collect();
     let mut value = json!({

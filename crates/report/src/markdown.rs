@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::{Assignment, SharedPin, Status};
 
-use crate::rows::{dividers, rows};
+use crate::rows::{Row, dividers, rows};
 
 /// A table for each board, and the totals.
 #[must_use]
@@ -20,11 +20,11 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
         out.push_str("| Device | Id | Role | Pin | Signal | Unit | Where | Usages |\n");
         out.push_str("| --- | ---: | --- | --- | --- | --- | --- | ---: |\n");
         for row in rows.iter().filter(|row| row.board == board.name.value) {
-            let id = row.id.map_or(String::new(), |id| id.to_string());
+            let id = row.ids();
             let _ = writeln!(
                 out,
                 "| {} | {id} | {} | **{}** | {} | {} | {} | {} |",
-                cell(&row.device),
+                device(row),
                 row.role,
                 cell(&row.pin),
                 cell(&row.signal),
@@ -51,6 +51,14 @@ pub fn markdown(design: &Design, assignment: &Assignment) -> String {
         let _ = writeln!(out, "Wishes that could not be met: {}.", assignment.violated);
     }
     out
+}
+
+/// Its name, with those of a chip's values.
+fn device(row: &Row) -> String {
+    if row.values.is_empty() {
+        return cell(&row.device);
+    }
+    cell(&format!("{} ({})", row.device, row.values.join(", ")))
 }
 
 /// Text that cannot end its cell, begin markup or become a link, a formula or an entity.

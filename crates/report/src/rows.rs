@@ -8,10 +8,12 @@ use sensedsl_wiring::assignment::{Assignment, BoardAssignment, Wire};
 pub struct Row {
     /// The board's name in the file.
     pub board: String,
-    /// The device's name; `link` for the wires of a serial link.
+    /// The name of the device, or of the chip; `link` for the wires of a serial link.
     pub device: String,
-    /// Its identifier; none for a link.
-    pub id: Option<u8>,
+    /// Its identifiers: several of a chip, none of a link.
+    pub ids: Vec<u8>,
+    /// The names of a chip's values; empty for a device by itself.
+    pub values: Vec<String>,
     /// Its kind.
     pub kind: String,
     /// The role of the wire.
@@ -30,26 +32,43 @@ pub struct Row {
     pub usages: u32,
 }
 
-/// All wires: boards in file order, devices in file order, roles in their order.
+impl Row {
+    /// The identifiers as words: `30 31`.
+    #[must_use]
+    pub fn ids(&self) -> String {
+        self.ids.iter().map(u8::to_string).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// All wires: boards in file order, devices and chips in file order, roles in their order.
 #[must_use]
 pub fn rows(design: &Design, assignment: &Assignment) -> Vec<Row> {
     let mut rows = Vec::new();
     for (on, board) in assignment.used(design) {
-        for wiring in &on.devices {
-            let Some(device) = design.device(wiring.device) else { continue };
+        for wiring in &on.connections {
+            let Some(connection) = design.connection(wiring.connection) else { continue };
+            let Some(part) = design.part(connection.part) else { continue };
+            let devices = || design.devices.iter().filter(|one| one.part == connection.part);
+            let who = Who {
+                name: &part.name.value,
+                ids: devices().map(|one| one.id.value).collect(),
+                values: if devices().any(|one| one.name.value != part.name.value) {
+                    devices().map(|one| one.name.value.clone()).collect()
+                } else {
+                    Vec::new()
+                },
+                kind: connection.kind.name().name(),
+                unit: wiring.unit.as_deref().unwrap_or_default(),
+            };
             for wire in &wiring.wires {
-                let shared = on.shared_with(wire).unwrap_or_default();
-                rows.extend(row(
-                    (design, board, wire, shared),
-                    (&device.name.value, Some(device.id.value), device.kind.name().name()),
-                    on.unit_of(wire).unwrap_or_default(),
-                ));
+                rows.extend(row(design, (on, board), wire, &who));
             }
         }
         if let Some(link) = &on.link {
+            let (ids, values) = (Vec::new(), Vec::new());
+            let who = Who { name: "link", ids, values, kind: "uart", unit: &link.unit };
             for wire in &link.wires {
-                let shared = on.shared_with(wire).unwrap_or_default();
-                rows.extend(row((design, board, wire, shared), ("link", None, "uart"), &link.unit));
+                rows.extend(row(design, (on, board), wire, &who));
             }
         }
     }
@@ -68,10 +87,20 @@ pub(super) fn dividers<'a>(
     })
 }
 
+/// Whose wires they are.
+struct Who<'a> {
+    name: &'a str,
+    ids: Vec<u8>,
+    values: Vec<String>,
+    kind: &'a str,
+    unit: &'a str,
+}
+
 fn row(
-    (design, board, wire, shared): (&Design, &Board, &Wire, &str),
-    (device, id, kind): (&str, Option<u8>, &str),
-    unit: &str,
+    design: &Design,
+    (on, board): (&BoardAssignment, &Board),
+    wire: &Wire,
+    who: &Who<'_>,
 ) -> Option<Row> {
     let pin = wire.pin(board)?;
     let mut place = Vec::new();
@@ -89,15 +118,16 @@ fn row(
     }
     Some(Row {
         board: board.name.value.clone(),
-        device: device.to_owned(),
-        id,
-        kind: kind.to_owned(),
+        device: who.name.to_owned(),
+        ids: who.ids.clone(),
+        values: who.values.clone(),
+        kind: who.kind.to_owned(),
         role: wire.name(design),
         pin: pin.name.to_string(),
         signal: wire.signal(board).to_owned(),
-        unit: unit.to_owned(),
+        unit: who.unit.to_owned(),
         place: place.join(" "),
-        shared: shared.to_owned(),
+        shared: on.shared_with(wire).unwrap_or_default().to_owned(),
         usages: pin.cost(),
     })
 }

@@ -32,7 +32,9 @@ fn names_are_letters_digits_and_underscores_of_ascii() {
         for name in [format!("A{mark}b"), format!("{mark}Ab")] {
             for text in [sensor(&name), board(&name)] {
                 let codes = codes(text);
-                assert!(codes.iter().any(|code| code == "E0102"), "{name:?}: {codes:?}");
+                // What could be an operator is unexpected there, anything else an unknown character.
+                let told = |code: &String| code == "E0102" || code == "E0101";
+                assert!(codes.iter().any(told), "{name:?}: {codes:?}");
             }
         }
     }

@@ -19,6 +19,15 @@ Way out: take a value inside the range that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
+/// A list that has another number of entries than the array has elements.
+#[must_use]
+pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> Diagnostic {
+    let message = format!("`{name}` has {entries} entries, and the array has {elements} elements");
+    Diagnostic::new(CODE, span, message)
+        .here(format!("needs {elements}, one for each element"))
+        .help("add or remove entries, or change the length of the array")
+}
+
 /// The value as written and the range as text ("1 to 254").
 #[must_use]
 pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {

@@ -21,6 +21,21 @@ pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
 /// Where pins are that are wanted in one place.
 type Place = (BoardIndex, String);
 
+/// What a place has: a signal can be on several pins, and a pin can have several.
+#[derive(Default)]
+struct Room {
+    pins: BTreeSet<usize>,
+    signals: BTreeSet<String>,
+}
+
+impl Room {
+    /// No more elements than that find their wire there.
+    fn most(&self) -> usize {
+        let signals = if self.signals.is_empty() { usize::MAX } else { self.signals.len() };
+        self.pins.len().min(signals)
+    }
+}
+
 fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> Option<Diagnostic> {
     let asked = design.connections_of(first.part).count();
     let offers = super::offers(formulation, first);
@@ -33,13 +48,13 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
         hard.chain(first.placement.sequence.map(|_| Together::Header)).collect();
     for tie in [None].into_iter().chain(ties.into_iter().map(Some)) {
         let places = places(design, &meanings, first, tie);
-        let most = places.values().map(BTreeSet::len).max().unwrap_or_default();
+        let most = places.values().map(Room::most).max().unwrap_or_default();
         if most >= asked {
             continue;
         }
         let names: Vec<&str> = places
             .iter()
-            .filter(|(_, pins)| pins.len() == most)
+            .filter(|(_, room)| room.most() == most)
             .map(|((_, name), _)| name.as_str())
             .collect();
         let roles = first.kind.roles(first.direction).first().map_or("wire", |role| role.name());
@@ -70,9 +85,9 @@ fn places(
     meanings: &[Meaning],
     first: &Connection,
     tie: Option<Together>,
-) -> BTreeMap<Place, BTreeSet<usize>> {
+) -> BTreeMap<Place, Room> {
     let fixed = first.placement.unit.as_ref().map(|unit| unit.value.as_str());
-    let mut places: BTreeMap<Place, BTreeSet<usize>> = BTreeMap::new();
+    let mut places: BTreeMap<Place, Room> = BTreeMap::new();
     for meaning in meanings {
         let Some(board) = design.board(meaning.board) else { continue };
         for at in meaning.roles.first().into_iter().flatten() {
@@ -89,7 +104,9 @@ fn places(
                 },
             };
             for name in names {
-                places.entry((meaning.board, name)).or_default().insert(at.pin);
+                let room = places.entry((meaning.board, name)).or_default();
+                room.pins.insert(at.pin);
+                room.signals.extend(usage.map(|usage| usage.signal.name().to_owned()));
             }
         }
     }
