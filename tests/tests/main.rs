@@ -10,6 +10,7 @@ mod command_line;
 mod corpus;
 mod crash;
 mod decoders;
+mod drivers;
 mod firmware;
 mod generate;
 mod golden;

@@ -338,7 +338,7 @@ def field(part, driver, body):
         fields = fields[1:]
     text = fields[give("field")] if give("field") < len(fields) else ""
     if text == "":
-        return "invalid"
+        return "nothing"
     if give("format") == "degrees":
         point = text.index(".") if "." in text else len(text)
         minutes = number(text[point - 2:], 7)
@@ -459,7 +459,7 @@ class Case:
         return plain[first:first + length]
 
     def value(self, part):
-        """A reading: its elements, `invalid`, `fault`, `wrong identity` or `nothing`."""
+        """A reading: its elements, `invalid`, `wrong identity` or `nothing`."""
         driver = self.driver
         if not self.identity():
             return "wrong identity"
@@ -479,7 +479,7 @@ class Case:
         formula = driver["properties"].get("compensate")
         raw = self.raw(part)
         if raw is None:
-            return "fault"
+            return "invalid"
         if formula in ("bmp280", "bme280"):
             image = b"".join(self.registers(self.image, *one) for one in driver["properties"]["calibration"])
             return self.output(part, bosch(image, raw, formula == "bme280"))
@@ -503,7 +503,7 @@ class Case:
         if what == "edges":
             starts = [i for i, value in enumerate(values) if value > 2700]
             channels = values[starts[0] + 1:starts[1]]
-            return (channels + [0] * part["count"])[:part["count"]]
+            return channels[:part["count"]] if len(channels) >= part["count"] else [10**9]
         return values
 
     # What a host shows, and what a command does.
@@ -528,7 +528,7 @@ class Case:
         via = part["properties"].get("via")
         if isinstance(via, list) and part["properties"].get("drive") == "direction_pins":
             value = values[0]
-            return [f"{via[0]} = {abs(value)}"] + [f"{via[1]} = {int(value > 0)}", f"{via[2]} = {int(value < 0)}"][:2 * (value != 0)]
+            return [f"{via[0]} = {abs(value)}", f"{via[1]} = {int(value > 0)}", f"{via[2]} = {int(value < 0)}"]
         if isinstance(via, list):
             return [f"{via[0]} = {max(values[0], 0)}", f"{via[1]} = {max(-values[0], 0)}"]
         if driver["kind"] == "pwm":

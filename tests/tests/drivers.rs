@@ -1,0 +1,52 @@
+//! The drivers of the library against their vectors, by a reader of both that shares no code with the tool.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use sensedsl_tests::{Scratch, files, has, root};
+
+/// Runs `check.py` of a folder that is laid out as the repository is.
+fn check(root: &Path) -> Output {
+    Command::new("python3").arg(root.join("tests/vectors/drivers/check.py")).output().unwrap()
+}
+
+#[test]
+fn drivers_agree_with_their_vectors() {
+    if !has("python3") {
+        return;
+    }
+    let ran = check(&root());
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stdout));
+}
+
+/// A wrong byte, a wrong bit and a vector that is not there are told, each with the driver's name.
+#[test]
+fn what_disagrees_is_told() {
+    if !has("python3") {
+        return;
+    }
+    let copy = Scratch::new("driver-vectors");
+    for (folder, ending) in [("drivers", "sense"), ("tests/vectors/drivers", "txt")] {
+        fs::create_dir_all(copy.join(folder)).unwrap();
+        for file in files(&root().join(folder), ending) {
+            fs::copy(&file, copy.join(folder).join(file.file_name().unwrap())).unwrap();
+        }
+    }
+    let script = "tests/vectors/drivers/check.py";
+    fs::copy(root().join(script), copy.join(script)).unwrap();
+    let change = |path: &str, from: &str, to: &str| {
+        let text = fs::read_to_string(copy.join(path)).unwrap();
+        assert!(text.contains(from), "{path}: {from}");
+        fs::write(copy.join(path), text.replacen(from, to, 1)).unwrap();
+    };
+    change("tests/vectors/drivers/adxl345.txt", "00 01 00 00 00 F0", "00 01 00 00 00 F1");
+    change("drivers/position.sense", "bits = 13..0;", "bits = 12..0;");
+    fs::remove_file(copy.join("tests/vectors/drivers/srf02.txt")).unwrap();
+    let ran = check(copy.path());
+    let said = String::from_utf8_lossy(&ran.stdout).into_owned();
+    assert_eq!(ran.status.code(), Some(1), "{said}");
+    for driver in ["adxl345:", "as5047p:", "srf02: no vectors"] {
+        assert!(said.contains(driver), "{driver} in {said}");
+    }
+}
