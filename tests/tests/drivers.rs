@@ -6,9 +6,11 @@ use std::process::{Command, Output};
 
 use sensedsl_tests::{Scratch, files, has, root};
 
+const VECTORS: &str = "tests/vectors/drivers";
+
 /// Runs `check.py` of a folder that is laid out as the repository is.
 fn check(root: &Path) -> Output {
-    Command::new("python3").arg(root.join("tests/vectors/drivers/check.py")).output().unwrap()
+    Command::new("python3").arg(root.join(VECTORS).join("check.py")).output().unwrap()
 }
 
 #[test]
@@ -27,14 +29,12 @@ fn what_disagrees_is_told() {
         return;
     }
     let copy = Scratch::new("driver-vectors");
-    for (folder, ending) in [("drivers", "sense"), ("tests/vectors/drivers", "txt")] {
+    for (folder, ending) in [("drivers", "sense"), (VECTORS, "txt"), (VECTORS, "py")] {
         fs::create_dir_all(copy.join(folder)).unwrap();
         for file in files(&root().join(folder), ending) {
             fs::copy(&file, copy.join(folder).join(file.file_name().unwrap())).unwrap();
         }
     }
-    let script = "tests/vectors/drivers/check.py";
-    fs::copy(root().join(script), copy.join(script)).unwrap();
     let change = |path: &str, from: &str, to: &str| {
         let text = fs::read_to_string(copy.join(path)).unwrap();
         assert!(text.contains(from), "{path}: {from}");
