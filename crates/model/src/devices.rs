@@ -326,6 +326,26 @@ pub(crate) fn level(fields: &mut Fields<'_>) -> Option<Level> {
     Some(Level { mv, divider: divider.map(|divider| divider.value), span })
 }
 
+/// Words that people write for properties, and the properties.
+const OTHER_WORDS: &[(&str, &str)] = &[
+    ("addr", "address"),
+    ("baudrate", "baud"),
+    ("baud_rate", "baud"),
+    ("echo", "pin"),
+    ("freq", "frequency"),
+    ("gpio", "pin"),
+    ("interval", "delay"),
+    ("kind", "type"),
+    ("name", "label"),
+    ("period", "delay"),
+    ("port", "pin"),
+    ("priority", "prio"),
+    ("pull_up", "pull"),
+    ("pullup", "pull"),
+    ("rate", "delay"),
+    ("trig", "trigger"),
+];
+
 /// Whether a property of a driver describes the part, for its page alone. `pull` is a resistor of the
 /// MCU to some kinds.
 pub(crate) fn is_about_part(name: &str) -> bool {
@@ -372,6 +392,15 @@ pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
         .filter(|other| *other != kind && other.spec().properties.contains(&name))
         .map(KindName::name)
         .collect();
+    let own = kind.spec().properties;
+    let meant = OTHER_WORDS.iter().find(|(word, _)| *word == name).map(|(_, meant)| *meant);
+    let meant = meant.filter(|word| {
+        own.contains(word) || COMMON_PROPERTIES.contains(word) || PRESENTATION.contains(word)
+    });
+    if let Some(meant) = meant {
+        let unknown = e0201_unknown_property::unknown_property;
+        return unknown(at, name, &kind.with_article(), Some(meant));
+    }
     if others.is_empty() {
         let common = COMMON_PROPERTIES.iter().chain(PRESENTATION).chain(FILTER).chain(CODING);
         let known = kind.spec().properties.iter().chain(common).copied();

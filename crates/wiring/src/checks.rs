@@ -10,12 +10,12 @@ use sensedsl_board::pin::natural;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::{Occupation, Onboard};
-use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
     e0321_too_much_voltage, w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
     w0610_level_not_known,
 };
+use sensedsl_diagnostics::{Diagnostic, visible};
 use sensedsl_model::design::{Board, BoardIndex, Connection, Design, Level, Spanned, WishFor};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::pins::PinRef;
@@ -65,7 +65,8 @@ fn why_hopeless(
             wanted.header = None;
             wanted.pins.retain(|(fixed, _)| fixed == role);
         }) {
-            let report = bus_only(design, &offers, wires, *role, pin);
+            let report = swapped(design, &offers, wires, *role, pin);
+            let report = report.or_else(|| bus_only(design, &offers, wires, *role, pin));
             let report = report.or_else(|| by_silicon(design, &offers, wires, *role, pin));
             let report = report.or_else(|| analog_only(design, &offers, wires, *role, pin));
             return Some(
@@ -187,6 +188,29 @@ fn too_much_voltage(
     let most = if most < at_pin { most } else { supply };
     let (device, stated) = ((at, name), (level.span, shown.as_str()));
     e0321_too_much_voltage::too_much_voltage(device, stated, &shown_mv(most), &help)
+}
+
+/// The report for two fixed pins that could be each other's.
+fn swapped(
+    design: &Design,
+    offers: &[&Offer<'_>],
+    wires: &Connection,
+    role: Role,
+    pin: &Spanned<PinRef>,
+) -> Option<Diagnostic> {
+    let pins = &wires.placement.pins;
+    let (other, its_pin) = pins.iter().find(|(other, its_pin)| {
+        *other != role && its_pin.value.name() != pin.value.name() && {
+            let the_other_way = [(role, its_pin.value.clone()), (*other, pin.value.clone())];
+            possible(design, offers, wires, |wanted| wanted.pins = the_other_way.to_vec())
+        }
+    })?;
+    let needs = format!("`{role}` of {}", wires.kind.name().with_article());
+    let line = |role: Role, pin: &PinRef| format!("{} = {};", role.property(), pin.spelled);
+    let lines = format!("{} {}", line(role, &its_pin.value), line(*other, &pin.value));
+    let name = pin.value.shown();
+    let report = e0314_pin_cannot_serve::pins_swapped;
+    Some(report(pin.span, &name, &needs, its_pin.span, &lines))
 }
 
 fn cannot_serve(
@@ -312,7 +336,11 @@ fn pins_of(design: &Design, offers: &[&Offer<'_>], wires: &Connection, role: Rol
         let Some(board) = design.board(meaning.board) else { continue };
         let Some(candidates) = at.and_then(|at| meaning.roles.get(at)) else { continue };
         let names = candidates.iter().filter_map(|chosen| board.table.pins.get(chosen.pin));
-        pins.extend(names.map(|pin| pin.name.to_string()));
+        // With what is printed on the board, which is what people look for.
+        pins.extend(names.map(|pin| match &pin.label {
+            Some(label) => format!("{} ({})", pin.name, visible(label)),
+            None => pin.name.to_string(),
+        }));
     }
     pins.sort_by(|a, b| natural(a, b));
     pins.dedup();

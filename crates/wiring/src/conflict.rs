@@ -173,7 +173,7 @@ impl NoWiring {
                 &self.contested(design),
             );
         };
-        let resources = self.contested(design);
+        let resources = format!("{}{}", self.contested(design), self.counts(design));
         let mut diagnostic = match names.as_slice() {
             [alone] => e0401_no_wiring::nothing_serves(first, alone, &resources),
             _ => e0401_no_wiring::no_wiring(first, &list(&names, "and"), &resources),
@@ -187,6 +187,24 @@ impl NoWiring {
             }
         }
         diagnostic.help(self.help(design))
+    }
+
+    /// How many pins there are for how many wires, where that is the whole conflict.
+    fn counts(&self, design: &Design) -> String {
+        let connections = || self.parts.iter().flat_map(|part| design.connections_of(*part));
+        let one_wire = connections().all(|one| one.kind.roles(one.direction).len() == 1);
+        let is_pin = |one: &Contested| {
+            one.pins.len() == 1
+                && design.board(one.board).is_some_and(|board| {
+                    let pin = one.pins.first().and_then(|at| board.table.pins.get(*at));
+                    pin.is_some_and(|pin| one.name.ends_with(pin.name.as_str()))
+                })
+        };
+        let (pins, asked) = (self.resources.len(), connections().count());
+        if !one_wire || pins < 2 || asked <= pins || !self.resources.iter().all(is_pin) {
+            return String::new();
+        }
+        format!(": {pins} pins, {asked} asked")
     }
 
     /// What they fight for, with the lines of a table that the user can look at.

@@ -19,6 +19,15 @@ Way out: take a value inside the range that the message names.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
+/// A time without a unit, which is taken for milliseconds, and what was probably meant.
+#[must_use]
+pub fn bare_time(span: Span, name: &str, written: &str, range: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` cannot be {written} ms"))
+        .here("a time without a unit is in milliseconds")
+        .help(format!("write `{name} = {written} us;` if microseconds are meant; it must be {range}"))
+        .replace(format!("change to `{written} us`"), span, format!("{written} us"))
+}
+
 /// A list that has another number of entries than the array has elements.
 #[must_use]
 pub fn wrong_count(span: Span, name: &str, entries: usize, elements: usize) -> Diagnostic {

@@ -18,6 +18,15 @@ Way out: take one of the pins that the message lists, or leave the choice to the
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
+/// Two pins of a device that would do the other way round: what they are, and both lines as they should be.
+#[must_use]
+pub fn pins_swapped(span: Span, pin: &str, needs: &str, other: Span, lines: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("{pin} cannot be {needs}"))
+        .here("fixed here")
+        .label(other, "and the other one here")
+        .help(format!("the two are swapped: write `{lines}`"))
+}
+
 /// What the role needs, where the pin's usages stand, and which pins would do.
 #[must_use]
 pub fn pin_cannot_serve(span: Span, pin: &str, needs: &str, row: Option<Span>, pins: &str) -> Diagnostic {

@@ -12,7 +12,7 @@ pub const INFO: CodeInfo = CodeInfo {
     explanation: r#"Two i2c devices of a board have the same address, so they are wired to two buses, as two chips must be. Where
 both mean one chip, the second bus leads nowhere.
 
-Way out: if it is one chip, read it with one device, of which `register` and `length` cover both values. If they are two
+Way out: if it is one chip, write a `chip` with both devices in it. If they are two
 chips, give one of them another address where it has an address pin, or fix `unit` or the pins of both, which also ends the warning.
 "#,
 };
@@ -33,6 +33,8 @@ pub fn one_address_on_two_buses(
     );
     Diagnostic::new(CODE, span, text)
         .label(first_span, format!("on {first_unit}"))
-        .help("if it is one chip, read it with one device whose `register` and `length` cover both values; \
-               if they are two, fix the `unit` of both, or give one of them another address")
+        .help(format!(
+            "if it is one chip, put both into a `chip NAME {{ driver = …; address = 0x{address:02X}; }}`; \
+             if they are two, fix the `unit` of both, or give one of them another address"
+        ))
 }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use sensedsl_diagnostics::codes::e0210_wrong_unit;
+use sensedsl_diagnostics::codes::{e0210_wrong_unit, e0211_out_of_range};
 use sensedsl_syntax::Unit;
 
 use super::{Field, Fields};
@@ -142,6 +142,14 @@ impl Fields<'_> {
         let whole = (value - rounded).abs() <= 1e-6 * rounded.abs();
         if !(rounded >= least && rounded <= most && whole) {
             let text = format!("a whole number of {unit} from {least} to {most}");
+            let bare = field.value.number().filter(|number| number.measure == Measure::Bare);
+            let meant =
+                bare.filter(|number| unit == "us" && (least..=most).contains(&number.value));
+            if let Some(number) = meant {
+                let (at, written) = (field.value_span, number.value.to_string());
+                self.say(e0211_out_of_range::bare_time(at, &field.name, &written, &text));
+                return None;
+            }
             self.out_of_range(field, &format!("{value} {unit}"), &text);
             return None;
         }
