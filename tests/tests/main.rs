@@ -11,6 +11,7 @@ mod corpus;
 mod crash;
 mod decoders;
 mod drivers;
+mod examples;
 mod firmware;
 mod generate;
 mod golden;

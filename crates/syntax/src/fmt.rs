@@ -1,6 +1,9 @@
 //! The canonical layout: in comes a text, out comes the same sequence of tokens and comments with
 //! one statement a line, four spaces for each block and one space between words.
 //!
+//! A block that is written on one line stays there where it fits and has neither comments nor blocks
+//! in it.
+//!
 //! Numbers and strings keep their spelling. Comments keep their place: behind a statement, on a line
 //! of their own or within a statement. At most one blank line is kept between statements, none at
 //! the edges of a block. Laying out twice changes nothing.
@@ -11,6 +14,8 @@ use crate::{lexer, parser};
 use sensedsl_limits::TOKENS_MAX;
 
 const INDENT: &str = "    ";
+/// Longest line of a block that stays on one.
+const LINE_LETTERS_MAX: usize = 100;
 
 /// The text in its canonical layout, or the mistakes that prevent it.
 pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
@@ -28,6 +33,9 @@ pub(crate) fn format(text: &str) -> Result<String, Vec<SyntaxError>> {
         } else if kind.is_comment() {
             printer.comment(kind, text);
         } else if kind != SyntaxKind::Bom {
+            if kind == SyntaxKind::LBrace {
+                printer.is_inline = stays_inline(&token, printer.depth);
+            }
             printer.token(kind, sides(&token), text);
         }
     }
@@ -58,6 +66,35 @@ fn sides(token: &SyntaxToken) -> Sides {
     Sides { before, after: !matches!(kind, LBracket | LParen) && !is_sign }
 }
 
+/// Whether the block that the brace opens is written on one line and can stay there.
+fn stays_inline(brace: &SyntaxToken, depth: usize) -> bool {
+    let Some(block) = brace.parent().filter(|block| block.kind() != SyntaxKind::Board) else {
+        return false;
+    };
+    let tokens = block.descendants_with_tokens().filter_map(SyntaxElement::into_token);
+    let mut letters = depth * INDENT.len();
+    let mut braces = 0;
+    let (mut has_begun, mut space_after) = (false, false);
+    for token in tokens {
+        let kind = token.kind();
+        if kind == SyntaxKind::Whitespace {
+            if has_begun && braces < 2 && lines(token.text()).count() > 1 {
+                return false;
+            }
+            continue;
+        }
+        if kind.is_comment() {
+            return false;
+        }
+        braces += usize::from(matches!(kind, SyntaxKind::LBrace | SyntaxKind::RBrace));
+        let sides = sides(&token);
+        letters += usize::from(has_begun && sides.before && space_after);
+        letters += token.text().chars().count();
+        (has_begun, space_after) = (true, sides.after);
+    }
+    braces == 2 && letters <= LINE_LETTERS_MAX
+}
+
 /// The lines of a text, whichever way they end.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split("\r\n").flat_map(|lines| lines.split(['\n', '\r']))
@@ -86,13 +123,23 @@ struct Printer {
     space_after: bool,
     /// The line breaks in the source since the last token or comment.
     breaks: usize,
+    /// Whether the block that is open stays on one line.
+    is_inline: bool,
 }
 
 impl Printer {
     fn new(capacity: usize) -> Self {
         let out = String::with_capacity(capacity);
         let last = Last::Nothing;
-        Self { out, depth: 0, last, last_token: None, space_after: true, breaks: 0 }
+        Self {
+            out,
+            depth: 0,
+            last,
+            last_token: None,
+            space_after: true,
+            breaks: 0,
+            is_inline: false,
+        }
     }
 
     fn between_statements(&self) -> bool {
@@ -135,10 +182,14 @@ impl Printer {
     fn token(&mut self, kind: SyntaxKind, sides: Sides, text: &str) {
         if kind == SyntaxKind::RBrace {
             self.depth = self.depth.saturating_sub(1);
-            if !self.opens_block() {
+            if std::mem::take(&mut self.is_inline) {
+                self.out.push_str(if self.opens_block() { "" } else { " " });
+            } else if !self.opens_block() {
                 self.breaks = 0;
                 self.new_line();
             }
+        } else if self.is_inline && self.between_statements() {
+            self.out.push(' ');
         } else if self.between_statements() {
             if self.breaks == 0 && self.last == (Last::BlockComment { leads: true }) {
                 self.out.push(' ');

@@ -25,11 +25,11 @@ fn statements_and_blocks() {
     check("board A{}", "board A {}\n");
     check(
         "spare board A on\"t.csv\"{link{transport=usb;}prio=+ 2;}",
-        "spare board A on \"t.csv\" {\n    link {\n        transport = usb;\n    }\n    prio = +2;\n}\n",
+        "spare board A on \"t.csv\" {\n    link { transport = usb; }\n    prio = +2;\n}\n",
     );
     check(
         "sensor X returns uint8 [ 4 ] {trigger=[ 0x00,0x51 , - 1 ];a=[];b=[[1],[2 ]];}",
-        "sensor X returns uint8[4] {\n    trigger = [0x00, 0x51, -1];\n    a = [];\n    b = [[1], [2]];\n}\n",
+        "sensor X returns uint8[4] { trigger = [0x00, 0x51, -1]; a = []; b = [[1], [2]]; }\n",
     );
     check(
         "board A {reserve PA0,PA1 ;prefer side=left;allow W0301\"why\";delay=60ms;clock=1_000kHz;}",
@@ -63,12 +63,27 @@ fn what_is_computed() {
 fn chips_and_drivers() {
     check(
         "chip A{driver=x;connection c{a=PA0;}sensor S returns uint8 [ N ]{id=1;}}",
-        "chip A {\n    driver = x;\n    connection c {\n        a = PA0;\n    }\n    sensor S returns uint8[N] {\n        id = 1;\n    }\n}\n",
+        "chip A {\n    driver = x;\n    connection c { a = PA0; }\n    sensor S returns uint8[N] { id = 1; }\n}\n",
     );
     check(
         "driver d{connection c for i2c{}reading r returns int8{bits=15 .. 4;}command w accepts bool{}}",
-        "driver d {\n    connection c for i2c {}\n    reading r returns int8 {\n        bits = 15..4;\n    }\n    command w accepts bool {}\n}\n",
+        "driver d {\n    connection c for i2c {}\n    reading r returns int8 { bits = 15..4; }\n    command w accepts bool {}\n}\n",
     );
+}
+
+#[test]
+fn a_block_on_one_line_stays_there_where_it_fits() {
+    check("sensor X returns bool {id=1;\n}", "sensor X returns bool {\n    id = 1;\n}\n");
+    check("sensor X\nreturns bool {id=1;}", "sensor X returns bool {\n    id = 1;\n}\n");
+    check("sensor X returns bool {}", "sensor X returns bool {}\n");
+    check("sensor X returns bool {id=1;/*a*/}", "sensor X returns bool {\n    id = 1; /*a*/\n}\n");
+    let long = |letters: usize| {
+        let label = "a".repeat(letters - "sensor X returns bool { label = \"\"; }".len());
+        format!("sensor X returns bool {{ label = \"{label}\"; }}\n")
+    };
+    check(&long(100), &long(100));
+    let wrapped = long(101).replace("{ ", "{\n    ").replace("; }", ";\n}");
+    check(&long(101), &wrapped);
 }
 
 #[test]

@@ -1,0 +1,39 @@
+//! The examples: each is short, laid out canonically, solved as it stands, and everything but
+//! firmware for kinds that none is made for is generated of it.
+#![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
+
+use std::fs;
+
+use sensedsl_tests::{Scratch, root, sensedsl};
+
+/// The most lines of examples that show how short a robot can be told; none for the others.
+fn lines_max(name: &str) -> usize {
+    match name {
+        "line_follower.sense" => 20,
+        "quadcopter.sense" => 30,
+        _ => usize::MAX,
+    }
+}
+
+#[test]
+fn every_example_is_solved_and_generated() {
+    let entries = fs::read_dir(root().join("examples")).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.retain(|name| name.ends_with(".sense"));
+    names.sort();
+    assert!(names.len() >= 7, "{names:?}");
+    let scratch = Scratch::new("examples");
+    for name in &names {
+        let path = format!("examples/{name}");
+        let text = fs::read_to_string(root().join(&path)).unwrap();
+        assert!(text.lines().count() <= lines_max(name), "{name} is too long");
+        sensedsl(["fmt", "--check", &path]).run().exits(0);
+        let said = sensedsl(["check", &path]).run().exits(0);
+        assert!(!said.stdout.contains("error"), "{name}: {}", said.stdout);
+        let solved = sensedsl(["solve", &path]).run().exits(0).stdout;
+        assert!(solved.contains("proved optimal"), "{name}: {solved}");
+        let out = scratch.path().join(name).display().to_string();
+        sensedsl(["generate", &path, "--without", "firmware", "-o", &out]).run().exits(0);
+    }
+}
