@@ -1,0 +1,43 @@
+/*
+ * From one signed value to the two or three outputs of an H-bridge.
+ *
+ * The sign is the direction and the magnitude how strongly; it saturates at the outputs' full scale. The outputs are
+ * written in the order that up_drive() says, one after the other: then the two inputs of the bridge are never both
+ * driven, and no direction is driven with the strength meant for the other.
+ */
+#ifndef UP_DRIVE_H
+#define UP_DRIVE_H
+
+#include "up_schema.h"
+
+typedef enum {
+  UP_DRIVE_DIRECTION_PINS, /* outputs: 0 magnitude (PWM), 1 in1 (high: forward), 2 in2 (high: backward) */
+  UP_DRIVE_TWO_PWM         /* outputs: 0 forward (PWM), 1 backward (PWM) */
+} up_drive_mode_t;
+
+/* The most writes that one value takes. */
+#define UP_DRIVE_WRITES_MAX 4U
+
+typedef struct {
+  uint8_t mode;      /* up_drive_mode_t */
+  uint32_t full;     /* the greatest magnitude, in the unit of the PWM outputs (as their fields take it) */
+} up_drive_t;
+
+/* All zero at the start: then the first value writes every output. */
+typedef struct {
+  int8_t direction; /* -1, 0 or 1 */
+  bool has_written;
+} up_drive_state_t;
+
+typedef struct {
+  uint8_t output; /* see up_drive_mode_t */
+  uint32_t value; /* a magnitude of 0 to `full`, or 0 and 1 of a pin */
+} up_drive_write_t;
+
+/* What is to be written for an element of this type (integers, bool or float32; not a number is 0), in this order.
+ * Direction pins: with a new direction first the magnitude 0, then the pin that goes low, then the one that goes high,
+ * then the magnitude; both pins are low at 0. Two PWM: first the one that goes to 0. Returns how many. */
+size_t up_drive(const up_drive_t *drive, up_drive_state_t *state, uint8_t type, const void *element,
+                up_drive_write_t writes[UP_DRIVE_WRITES_MAX]);
+
+#endif
