@@ -4,7 +4,8 @@
  *
  * up_chip_step() is called once a cycle and never waits itself: it starts the chip, triggers, and reads what is ready.
  * What it says of each reading goes to a sink. After a failed transfer the chip is started again. A chip that is not
- * the one it should be is never asked for values, only for its identity, in every cycle.
+ * the one it should be is asked for nothing but its identity, in every cycle, until it is the right one; then it is
+ * started again from the beginning.
  */
 #ifndef UP_CHIP_H
 #define UP_CHIP_H
@@ -77,8 +78,8 @@ typedef struct {
   const up_chip_command_t *commands;
   const up_formula_t *formula;  /* NULL for none */
   const int32_t *parameters;    /* of the formula: parameters_count of them */
-  uint32_t cycle_ms;            /* how often up_chip_step() is called; a transfer is made in the step that is nearest to
-                                 * its time. 0: in the first step at or after it */
+  uint32_t cycle_ms;            /* how often up_chip_step() is called: a transfer is made in the first step that comes
+                                 * at its time, or too early by at most an eighth of this (clocks round) */
   uint8_t address;              /* see up_bus_t */
   uint8_t init_count;
   uint8_t calibration_count;
@@ -127,8 +128,9 @@ typedef struct {
   uint8_t identity_seen; /* the first byte that was wrong of the identity read last */
   uint8_t init_at;       /* which step of the initialisation is next */
   uint8_t in_flight;     /* 1 + index of the triggered transfer that has not been read; 0 for none */
-  bool is_pausing;
-  bool is_running; /* started: transfers are made and commands are taken */
+  bool is_pausing;       /* until pause_until_ms */
+  bool is_running;       /* started: transfers are made and commands are taken */
+  bool is_stranger;      /* the identity read last was wrong */
 } up_chip_state_t;
 
 /* Bytes of work buffer: the most that any transfer writes and reads together, a command's bytes included. */
@@ -140,8 +142,9 @@ size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema);
 void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
                   uint32_t now_ms, const up_value_sink_t *sink);
 
-/* How long from now until a step has something to do; 0 for at once. A system may call the next step so soon instead of
- * a cycle later: then initialisation takes its pauses and no more, and values are younger. */
+/* How long from now until a step has something to do; 0 for at once, a cycle after a failure. A system may call the
+ * next step so soon instead of a cycle later: then initialisation takes its pauses and no more, and values are younger.
+ * Calls between the cycles take nothing out of step. */
 uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms);
 
 /* Writes a value. UP_FRESH: it is written. UP_NOTHING: the chip is not started, ask again after the next step.

@@ -19,51 +19,131 @@ static const range_t ranges[] = {
     [UP_TYPE_INT64] = {INT64_MIN, INT64_MAX},
 };
 
-static void store_float32(float value, void *element) {
-  memcpy(element, &value, sizeof value);
+/* Stores mantissa * 2^exponent, and `is_more` says that a little more was meant: rounded to nearest, ties to even, as
+ * the machine would, but without linking its emulation of doubles. Numbers of 64 bits and their ratios are in range. */
+static void store_real(uint8_t type, bool is_negative, uint64_t mantissa, int exponent, bool is_more, void *element) {
+  const bool is_wide = type == UP_TYPE_FLOAT64;
+  const unsigned fraction_bits = is_wide ? 52U : 23U;
+  const unsigned spare_bits = 63U - fraction_bits;
+  const uint64_t half = (uint64_t)1U << (spare_bits - 1U);
+  uint64_t bits = 0U;
+  uint64_t rest;
+
+  if (mantissa != 0U) {
+    while ((mantissa >> 63) == 0U) {
+      mantissa <<= 1;
+      exponent--;
+    }
+    rest = mantissa & (2U * half - 1U);
+    bits = mantissa >> spare_bits;
+    if (rest > half || (rest == half && (is_more || (bits & 1U) != 0U))) {
+      bits++;
+    }
+    /* The leading 1 is not stored: it adds one to the exponent, and so does a carry out of the fraction. */
+    bits += (uint64_t)(exponent + 63 + (is_wide ? 1022 : 126)) << fraction_bits;
+    bits |= is_negative ? (uint64_t)1U << (is_wide ? 63 : 31) : 0U;
+  }
+  up_element_store(type, bits, element);
 }
 
-static void store_float64(double value, void *element) {
-  memcpy(element, &value, sizeof value);
+static bool is_signed(uint8_t type) {
+  return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
+}
+
+static bool is_real(uint8_t type) {
+  return type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64;
+}
+
+static void store_number(uint8_t type, bool is_negative, uint64_t raw, void *element) {
+  if (is_real(type)) {
+    store_real(type, is_negative, raw, 0, false, element);
+  } else if (type >= sizeof ranges / sizeof ranges[0]) {
+    return;
+  } else if (!is_negative || type == UP_TYPE_BOOL) {
+    up_element_store(type, (raw > ranges[type].max) ? ranges[type].max : raw, element);
+  } else {
+    const uint64_t greatest = 0U - (uint64_t)ranges[type].min;
+    up_element_store(type, 0U - ((raw > greatest) ? greatest : raw), element);
+  }
 }
 
 void up_store_unsigned(uint8_t type, uint64_t raw, void *element) {
-  if (type == UP_TYPE_FLOAT32) {
-    store_float32((float)raw, element);
-  } else if (type == UP_TYPE_FLOAT64) {
-    store_float64((double)raw, element);
-  } else if (type < sizeof ranges / sizeof ranges[0]) {
-    up_element_store(type, (raw > ranges[type].max) ? ranges[type].max : raw, element);
-  }
+  store_number(type, false, raw, element);
 }
 
 void up_store_signed(uint8_t type, int64_t raw, void *element) {
-  if (raw >= 0) {
-    up_store_unsigned(type, (uint64_t)raw, element);
-  } else if (type == UP_TYPE_FLOAT32) {
-    store_float32((float)raw, element);
-  } else if (type == UP_TYPE_FLOAT64) {
-    store_float64((double)raw, element);
-  } else if (type == UP_TYPE_BOOL) {
-    up_element_store(type, 1U, element);
-  } else if (type < sizeof ranges / sizeof ranges[0]) {
-    up_element_store(type, (uint64_t)((raw < ranges[type].min) ? ranges[type].min : raw), element);
-  }
+  store_number(type, raw < 0, (raw < 0) ? 0U - (uint64_t)raw : (uint64_t)raw, element);
 }
 
-void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void *element) {
+static void store_real_ratio(uint8_t type, bool is_negative, uint64_t numerator, uint64_t denominator, void *element) {
+  uint64_t quotient = numerator / denominator;
+  uint64_t remainder = numerator % denominator;
+  int exponent = 0;
+
+  /* Digit by digit until there are more than a double has. */
+  while (numerator != 0U && quotient < (uint64_t)1U << 55) {
+    const bool is_carried = (remainder >> 63) != 0U;
+    remainder <<= 1;
+    quotient <<= 1;
+    exponent--;
+    if (is_carried || remainder >= denominator) {
+      remainder -= denominator;
+      quotient++;
+    }
+  }
+  store_real(type, is_negative, quotient, exponent, remainder != 0U, element);
+}
+
+void up_store_signed_ratio(uint8_t type, bool is_negative, uint64_t numerator, uint64_t denominator, void *element) {
   if (denominator == 0U) {
     up_store_unsigned(type, 0U, element);
-  } else if (type == UP_TYPE_FLOAT32) {
-    store_float32((float)((double)numerator / (double)denominator), element);
-  } else if (type == UP_TYPE_FLOAT64) {
-    store_float64((double)numerator / (double)denominator, element);
+  } else if (is_real(type)) {
+    store_real_ratio(type, is_negative, numerator, denominator, element);
   } else {
     const uint64_t quotient = numerator / denominator;
     const uint64_t remainder = numerator % denominator;
     const uint64_t round_up = (remainder >= denominator - remainder) ? 1U : 0U;
-    up_store_unsigned(type, quotient + round_up, element);
+    store_number(type, is_negative, quotient + round_up, element);
   }
+}
+
+void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void *element) {
+  up_store_signed_ratio(type, false, numerator, denominator, element);
+}
+
+/* The magnitude of a number in floating point, rounded half away from zero. */
+static uint64_t round_real(uint64_t bits, unsigned fraction_bits, int bias) {
+  const uint64_t mantissa = bits & (((uint64_t)1U << fraction_bits) - 1U);
+  const int biased = (int)(bits >> fraction_bits);
+  const int shift = biased - bias - (int)fraction_bits;
+
+  if (biased == 2 * bias + 1) {
+    return (mantissa != 0U) ? 0U : UINT64_MAX;
+  }
+  if (biased == 0 || shift < -(int)fraction_bits - 1) {
+    return 0U;
+  }
+  if (shift > 63 - (int)fraction_bits) {
+    return UINT64_MAX;
+  }
+  if (shift >= 0) {
+    return (mantissa | (uint64_t)1U << fraction_bits) << shift;
+  }
+  return (((mantissa | (uint64_t)1U << fraction_bits) >> (-shift - 1)) + 1U) >> 1;
+}
+
+uint64_t up_load_magnitude(uint8_t type, const void *element, bool *is_negative) {
+  const uint64_t bits = up_element_load(type, element);
+  const uint64_t sign = (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
+
+  *is_negative = (is_real(type) || is_signed(type)) && (bits & sign) != 0U;
+  if (type == UP_TYPE_FLOAT32) {
+    return round_real(bits & ~sign, 23U, 127);
+  }
+  if (type == UP_TYPE_FLOAT64) {
+    return round_real(bits & ~sign, 52U, 1023);
+  }
+  return *is_negative ? 0U - ((bits ^ sign) - sign) : bits;
 }
 
 void up_store_mean(uint8_t type, const uint16_t *samples, size_t count, size_t stride, void *element) {
@@ -86,14 +166,8 @@ static uint64_t gather(const uint8_t *bytes, size_t size, bool little_endian) {
   return bits;
 }
 
-static bool is_signed(uint8_t type) {
-  return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
-}
-
 static void store_gathered(uint8_t type, uint64_t bits, size_t size, void *element) {
-  const bool is_float = type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64;
-
-  if (is_float && size == up_type_bytes(type)) {
+  if (is_real(type) && size == up_type_bytes(type)) {
     up_element_store(type, bits, element);
   } else if (is_signed(type)) {
     const uint64_t sign = (uint64_t)1U << (8U * size - 1U);

@@ -13,9 +13,14 @@
 void up_store_unsigned(uint8_t type, uint64_t raw, void *element);
 void up_store_signed(uint8_t type, int64_t raw, void *element);
 
-/* Stores numerator/denominator: rounded half up for integers, exact for floating point. A denominator of 0
- * stores 0. */
+/* Stores numerator/denominator: rounded half away from zero for integers, to nearest for floating point. A denominator
+ * of 0 stores 0. */
 void up_store_ratio(uint8_t type, uint64_t numerator, uint64_t denominator, void *element);
+void up_store_signed_ratio(uint8_t type, bool is_negative, uint64_t numerator, uint64_t denominator, void *element);
+
+/* The other way round: the magnitude of one element, rounded half away from zero. Not a number is 0, what is too large
+ * UINT64_MAX. */
+uint64_t up_load_magnitude(uint8_t type, const void *element, bool *is_negative);
 
 /* Mean of `count` samples that stand `stride` apart (one column of a conversion group's buffer). */
 void up_store_mean(uint8_t type, const uint16_t *samples, size_t count, size_t stride, void *element);

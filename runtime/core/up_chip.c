@@ -1,0 +1,481 @@
+#include "up_chip.h"
+
+#include <string.h>
+
+#include "up_convert.h"
+
+/* Nothing was read or written in this step yet. */
+#define UNTOUCHED 0xFFU
+/* Clocks of whole milliseconds make a cycle look shorter than it is. */
+#define EARLY_PARTS 8U
+
+typedef struct {
+  const up_chip_t *chip;
+  up_chip_state_t *state;
+  const up_bus_t *bus;
+  const up_schema_t *schema;
+  const up_value_sink_t *sink;
+  uint32_t now_ms;
+} step_t;
+
+/* Half the range of the clock lies ahead, half behind: right across its wrap. */
+static bool is_reached(uint32_t now_ms, uint32_t when_ms) {
+  return (uint32_t)(now_ms - when_ms) < 0x80000000U;
+}
+
+static uint32_t left_ms(uint32_t now_ms, uint32_t when_ms) {
+  return is_reached(now_ms, when_ms) ? 0U : (uint32_t)(when_ms - now_ms);
+}
+
+/* ---- the bus ---- */
+
+static void restart(up_chip_state_t *state) {
+  state->init_at = 0U;
+  state->in_flight = 0U;
+  state->is_pausing = false;
+  state->is_running = false;
+}
+
+/* Counts what a transfer came to; after one that failed, the chip is to be started again. */
+static bool went_through(up_chip_state_t *state, up_bus_result_t result) {
+  switch (result) {
+  case UP_BUS_DONE:
+    if (state->fault == UNTOUCHED) {
+      state->fault = UP_CHIP_WELL;
+    }
+    return true;
+  case UP_BUS_NOT_ACKNOWLEDGED:
+    state->counts.not_acknowledged++;
+    state->fault = UP_CHIP_NOT_ACKNOWLEDGED;
+    break;
+  case UP_BUS_FAILED:
+  default:
+    state->counts.failed++;
+    state->fault = UP_CHIP_FAILED;
+    break;
+  }
+  restart(state);
+  return false;
+}
+
+static bool write_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
+  memcpy(step->state->work, bytes, count);
+  return went_through(step->state, step->bus->write(step->bus->context, step->chip->address, step->state->work, count));
+}
+
+/* What was read, in the work buffer; NULL when it failed. */
+static const uint8_t *read_bytes(const step_t *step, const uint8_t *select, size_t select_count, size_t count) {
+  uint8_t *work = step->state->work;
+  up_bus_result_t result;
+
+  if (select_count > 0U) {
+    memcpy(work, select, select_count);
+  }
+  result = step->bus->write_read(step->bus->context, step->chip->address, work, select_count, &work[select_count],
+                                 count);
+  return went_through(step->state, result) ? &work[select_count] : NULL;
+}
+
+static const uint8_t *exchange_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
+  uint8_t *work = step->state->work;
+  up_bus_result_t result = UP_BUS_FAILED;
+
+  memcpy(work, bytes, count);
+  if (step->bus->exchange != NULL) {
+    result = step->bus->exchange(step->bus->context, step->chip->address, work, &work[count], count);
+  }
+  return went_through(step->state, result) ? &work[count] : NULL;
+}
+
+/* ---- starting ---- */
+
+/* True when all steps are done; false while it pauses, or when it failed. */
+static bool initialise(const step_t *step) {
+  up_chip_state_t *state = step->state;
+
+  if (state->is_pausing && !is_reached(step->now_ms, state->pause_until_ms)) {
+    return false;
+  }
+  state->is_pausing = false;
+  while (state->init_at < step->chip->init_count) {
+    const up_chip_init_t *init = &step->chip->init[state->init_at];
+    if (init->count > 0U && !write_bytes(step, init->bytes, init->count)) {
+      return false;
+    }
+    state->init_at++;
+    if (init->pause_ms > 0U) {
+      /* One more, for the first millisecond is cut short. */
+      state->pause_until_ms = step->now_ms + init->pause_ms + 1U;
+      state->is_pausing = true;
+      return false;
+    }
+  }
+  return true;
+}
+
+static bool identify(const step_t *step) {
+  const up_chip_identity_t *identity = step->chip->identity;
+  up_chip_state_t *state = step->state;
+  const uint8_t *found;
+  size_t i;
+
+  if (identity == NULL) {
+    return true;
+  }
+  found = read_bytes(step, identity->select, identity->select_count, identity->count);
+  if (found == NULL) {
+    return false;
+  }
+  for (i = 0U; i < identity->count; i++) {
+    const unsigned mask = (identity->mask != NULL) ? identity->mask[i] : 0xFFU;
+    if ((((unsigned)found[i] ^ identity->expected[i]) & mask) != 0U) {
+      state->identity_seen = found[i];
+      state->counts.wrong_identity++;
+      state->fault = UP_CHIP_WRONG_IDENTITY;
+      state->is_stranger = true;
+      restart(state);
+      return false;
+    }
+  }
+  return true;
+}
+
+static bool calibrate(const step_t *step) {
+  uint8_t *to = step->state->calibration;
+  size_t i;
+
+  for (i = 0U; i < step->chip->calibration_count; i++) {
+    const up_chip_calibration_t *block = &step->chip->calibration[i];
+    const uint8_t *bytes = read_bytes(step, block->select, block->select_count, block->count);
+    if (bytes == NULL) {
+      return false;
+    }
+    memcpy(to, bytes, block->count);
+    to += block->count;
+  }
+  return true;
+}
+
+static void begin_transfers(const step_t *step) {
+  size_t i;
+
+  for (i = 0U; i < step->chip->transfers_count; i++) {
+    step->state->transfers[i].due_ms = step->now_ms;
+    step->state->transfers[i].ready_ms = step->now_ms + step->chip->transfers[i].wait_ms;
+  }
+  step->state->is_running = true;
+  step->state->counts.starts++;
+}
+
+/* A stranger is not written to before it is known to be the right part after all. */
+static void start(const step_t *step) {
+  if (step->state->is_stranger) {
+    if (!identify(step)) {
+      return;
+    }
+    step->state->is_stranger = false;
+  }
+  if (initialise(step) && identify(step) && calibrate(step)) {
+    begin_transfers(step);
+  }
+}
+
+/* ---- readings ---- */
+
+static void say(const step_t *step, const up_chip_reading_t *reading, up_result_t result) {
+  up_chip_state_t *state = step->state;
+
+  if (result == UP_FRESH) {
+    state->counts.values++;
+  }
+  step->sink->on_value(step->sink->context, reading->field, result, (result == UP_FRESH) ? state->scratch : NULL);
+}
+
+/* All readings of one transfer; of all with `transfer` transfers_count. */
+static void say_error(const step_t *step, size_t transfer) {
+  size_t i;
+
+  for (i = 0U; i < step->chip->readings_count; i++) {
+    const up_chip_reading_t *reading = &step->chip->readings[i];
+    if (reading->transfer == transfer || transfer == step->chip->transfers_count) {
+      say(step, reading, UP_ERROR);
+    }
+  }
+}
+
+/* The formula's outputs of one raw block, computed once for all readings that stand in it. */
+typedef struct {
+  int64_t outputs[UP_FORMULA_OUTPUTS_MAX];
+  uint16_t offset;
+  bool is_known;
+  bool is_valid;
+} computed_t;
+
+static up_result_t compute(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
+                           const uint8_t *bytes, size_t length, computed_t *computed) {
+  const up_formula_t *formula = step->chip->formula;
+
+  if (formula == NULL || reading->output >= formula->outputs_count ||
+      (size_t)reading->offset + formula->raw_bytes > length) {
+    return UP_INVALID;
+  }
+  if (!computed->is_known || computed->offset != reading->offset) {
+    computed->is_valid = formula->compute(step->state->calibration, step->chip->parameters, &bytes[reading->offset],
+                                          computed->outputs);
+    computed->offset = reading->offset;
+    computed->is_known = true;
+  }
+  if (!computed->is_valid) {
+    return UP_INVALID;
+  }
+  up_store_signed(field->type, computed->outputs[reading->output], step->state->scratch);
+  return UP_FRESH;
+}
+
+static up_result_t decode(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
+                          const uint8_t *bytes, size_t length) {
+  if (reading->offset >= length) {
+    return UP_INVALID;
+  }
+  return up_value_decode(&reading->value, field, &bytes[reading->offset], length - reading->offset,
+                         step->state->scratch);
+}
+
+static void count_invalid(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
+                          const uint8_t *bytes, size_t length) {
+  const size_t end = (size_t)reading->offset + up_value_bytes(&reading->value, field->count);
+
+  if (!reading->computed && end <= length &&
+      !up_value_crc_is_right(&reading->value, field->count, &bytes[reading->offset])) {
+    step->state->counts.wrong_crc++;
+    step->state->fault = UP_CHIP_WRONG_CRC;
+  } else {
+    step->state->counts.invalid++;
+    step->state->fault = UP_CHIP_INVALID;
+  }
+}
+
+static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes) {
+  const size_t length = step->chip->transfers[transfer].length;
+  computed_t computed;
+  size_t i;
+
+  computed.is_known = false;
+  for (i = 0U; i < step->chip->readings_count; i++) {
+    const up_chip_reading_t *reading = &step->chip->readings[i];
+    const up_field_t *field = &step->schema->fields[reading->field];
+    up_result_t result;
+    if (reading->transfer != transfer) {
+      continue;
+    }
+    result = reading->computed ? compute(step, reading, field, bytes, length, &computed)
+                               : decode(step, reading, field, bytes, length);
+    if (result == UP_INVALID) {
+      count_invalid(step, reading, field, bytes, length);
+    }
+    say(step, reading, result);
+  }
+}
+
+/* ---- transfers ---- */
+
+static uint32_t cycle_of(const up_chip_t *chip, size_t transfer) {
+  const uint32_t cycle_ms = chip->transfers[transfer].cycle_ms;
+
+  return (cycle_ms > chip->cycle_ms) ? cycle_ms : chip->cycle_ms;
+}
+
+static uint32_t early_ms(const step_t *step) {
+  return (step->chip->cycle_ms + EARLY_PARTS - 1U) / EARLY_PARTS;
+}
+
+static bool is_due(const step_t *step, size_t transfer) {
+  return is_reached(step->now_ms + early_ms(step), step->state->transfers[transfer].due_ms);
+}
+
+/* The next time on the transfer's own grid; what was missed is left out. */
+static void set_next(const step_t *step, size_t transfer) {
+  up_chip_transfer_state_t *state = &step->state->transfers[transfer];
+  const uint32_t cycle_ms = cycle_of(step->chip, transfer);
+
+  if (cycle_ms == 0U) {
+    state->due_ms = step->now_ms;
+  } else if (is_reached(step->now_ms, state->due_ms)) {
+    state->due_ms += cycle_ms * ((uint32_t)(step->now_ms - state->due_ms) / cycle_ms + 1U);
+  } else {
+    state->due_ms += cycle_ms;
+  }
+}
+
+static bool fetch(const step_t *step, size_t transfer) {
+  const up_chip_transfer_t *table = &step->chip->transfers[transfer];
+  const uint8_t *bytes = table->exchange ? exchange_bytes(step, table->select, table->length)
+                                         : read_bytes(step, table->select, table->select_count, table->length);
+
+  if (bytes == NULL) {
+    say_error(step, transfer);
+    return false;
+  }
+  say_values(step, transfer, bytes);
+  return true;
+}
+
+/* Reads all that measure by themselves. */
+static bool fetch_free(const step_t *step) {
+  size_t i;
+
+  for (i = 0U; i < step->chip->transfers_count; i++) {
+    up_chip_transfer_state_t *state = &step->state->transfers[i];
+    if (step->chip->transfers[i].trigger_count > 0U || !is_due(step, i) || !is_reached(step->now_ms, state->ready_ms)) {
+      continue;
+    }
+    if (!fetch(step, i)) {
+      return false;
+    }
+    set_next(step, i);
+    state->ready_ms = step->now_ms + step->chip->transfers[i].wait_ms - early_ms(step);
+  }
+  return true;
+}
+
+/* The triggered transfer that has been due for longest; transfers_count for none. */
+static size_t next_triggered(const step_t *step) {
+  size_t found = step->chip->transfers_count;
+  size_t i;
+
+  for (i = 0U; i < step->chip->transfers_count; i++) {
+    if (step->chip->transfers[i].trigger_count > 0U && is_due(step, i) &&
+        (found == step->chip->transfers_count ||
+         !is_reached(step->state->transfers[i].due_ms, step->state->transfers[found].due_ms))) {
+      found = i;
+    }
+  }
+  return found;
+}
+
+/* Reads what is ready and triggers the next, so often that one that needs no time is read at once. */
+static void run_triggered(const step_t *step) {
+  up_chip_state_t *state = step->state;
+  size_t turns;
+
+  for (turns = 0U; turns <= step->chip->transfers_count; turns++) {
+    size_t transfer;
+    if (state->in_flight > 0U) {
+      transfer = (size_t)state->in_flight - 1U;
+      if (!is_reached(step->now_ms, state->transfers[transfer].ready_ms)) {
+        return;
+      }
+      state->in_flight = 0U;
+      if (!fetch(step, transfer)) {
+        return;
+      }
+    }
+    transfer = next_triggered(step);
+    if (transfer == step->chip->transfers_count) {
+      return;
+    }
+    if (!write_bytes(step, step->chip->transfers[transfer].trigger, step->chip->transfers[transfer].trigger_count)) {
+      say_error(step, transfer);
+      return;
+    }
+    set_next(step, transfer);
+    state->transfers[transfer].ready_ms = step->now_ms + step->chip->transfers[transfer].wait_ms;
+    state->in_flight = (uint8_t)(transfer + 1U);
+  }
+}
+
+void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
+                  uint32_t now_ms, const up_value_sink_t *sink) {
+  const step_t step = {chip, state, bus, schema, sink, now_ms};
+  const uint8_t fault = state->fault;
+
+  state->fault = UNTOUCHED;
+  if (!state->is_running) {
+    start(&step);
+    if (!state->is_running && state->fault != UNTOUCHED && state->fault != UP_CHIP_WELL) {
+      say_error(&step, chip->transfers_count);
+    }
+  }
+  if (state->is_running && fetch_free(&step)) {
+    run_triggered(&step);
+  }
+  if (state->fault == UNTOUCHED) {
+    state->fault = fault;
+  }
+}
+
+uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms) {
+  uint32_t idle_ms = UINT32_MAX;
+  size_t i;
+
+  if (!state->is_running) {
+    return state->is_pausing ? left_ms(now_ms, state->pause_until_ms) : chip->cycle_ms;
+  }
+  if (state->in_flight > 0U) {
+    idle_ms = left_ms(now_ms, state->transfers[state->in_flight - 1U].ready_ms);
+  }
+  for (i = 0U; i < chip->transfers_count; i++) {
+    const bool is_free = chip->transfers[i].trigger_count == 0U;
+    uint32_t wait_ms = left_ms(now_ms, state->transfers[i].due_ms);
+    if (is_free && left_ms(now_ms, state->transfers[i].ready_ms) > wait_ms) {
+      wait_ms = left_ms(now_ms, state->transfers[i].ready_ms);
+    }
+    if ((is_free || state->in_flight == 0U) && wait_ms < idle_ms) {
+      idle_ms = wait_ms;
+    }
+  }
+  return (idle_ms == UINT32_MAX) ? chip->cycle_ms : idle_ms;
+}
+
+up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
+                          const up_schema_t *schema, const up_chip_command_t *command, const void *value) {
+  const up_field_t *field = &schema->fields[command->field];
+  uint8_t *bytes = &state->work[command->prefix_count];
+  size_t count;
+
+  if (!state->is_running) {
+    return UP_NOTHING;
+  }
+  if (command->prefix_count > 0U) {
+    memcpy(state->work, command->prefix, command->prefix_count);
+  }
+  count = up_value_encode(&command->value, field, value, bytes, up_value_bytes(&command->value, field->count));
+  if (count == 0U ||
+      !went_through(state, bus->write(bus->context, chip->address, state->work, command->prefix_count + count))) {
+    return UP_ERROR;
+  }
+  state->counts.written++;
+  return UP_FRESH;
+}
+
+/* ---- sizes ---- */
+
+static size_t greater(size_t left, size_t right) {
+  return (left > right) ? left : right;
+}
+
+size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema) {
+  size_t bytes = 1U;
+  size_t i;
+
+  for (i = 0U; i < chip->init_count; i++) {
+    bytes = greater(bytes, chip->init[i].count);
+  }
+  if (chip->identity != NULL) {
+    bytes = greater(bytes, (size_t)chip->identity->select_count + chip->identity->count);
+  }
+  for (i = 0U; i < chip->calibration_count; i++) {
+    bytes = greater(bytes, (size_t)chip->calibration[i].select_count + chip->calibration[i].count);
+  }
+  for (i = 0U; i < chip->transfers_count; i++) {
+    const up_chip_transfer_t *transfer = &chip->transfers[i];
+    const size_t select = transfer->exchange ? transfer->length : transfer->select_count;
+    bytes = greater(bytes, greater(transfer->trigger_count, select + transfer->length));
+  }
+  for (i = 0U; i < chip->commands_count; i++) {
+    const up_chip_command_t *command = &chip->commands[i];
+    bytes = greater(bytes, command->prefix_count +
+                               up_value_bytes(&command->value, schema->fields[command->field].count));
+  }
+  return bytes;
+}

@@ -1,0 +1,319 @@
+#include "up_filter.h"
+
+#include <string.h>
+
+/* log2(e) - 1 and ln(2), times 2^32. */
+#define LOG2E_REST 1901360723U
+#define LN2 2977044472U
+/* exp(-23) is below 2^-32. */
+#define DECAY_END 23U
+#define ROOTS 16U
+
+/* 2^-(2^-i) times 2^32, for i from 1. */
+static const uint32_t roots[ROOTS] = {
+    0xB504F334U, 0xD744FCCBU, 0xEAC0C6E8U, 0xF5257D15U, 0xFA83B2DBU, 0xFD3E0C0DU, 0xFE9E115CU, 0xFF4ECB59U,
+    0xFFA75652U, 0xFFD3A752U, 0xFFE9D2B3U, 0xFFF4E91CU, 0xFFFA747FU, 0xFFFD3A3BU, 0xFFFE9D1DU, 0xFFFF4E8EU,
+};
+
+uint32_t up_filter_decay(uint32_t elapsed_ms, uint32_t constant_ms) {
+  uint64_t exponent, result = (uint64_t)1U << 32;
+  uint32_t fraction;
+  unsigned i;
+
+  if (constant_ms == 0U || elapsed_ms / constant_ms >= DECAY_END) {
+    return 0U;
+  }
+  /* exp(-x) is 2^-(x * log2(e)): whole halvings, then a root for each bit of the fraction. */
+  exponent = ((uint64_t)(elapsed_ms % constant_ms) << 32) / constant_ms;
+  exponent += (exponent * LOG2E_REST) >> 32;
+  exponent += (uint64_t)(elapsed_ms / constant_ms) * (((uint64_t)1U << 32) + LOG2E_REST);
+  fraction = (uint32_t)exponent;
+  for (i = 0U; i < ROOTS; i++) {
+    if ((fraction & (0x80000000U >> i)) != 0U) {
+      result = (result * roots[i] + 0x80000000U) >> 32;
+    }
+  }
+  result -= (result * (((uint64_t)(fraction & 0xFFFFU) * LN2) >> 32)) >> 32;
+  result >>= exponent >> 32;
+  return (result > UINT32_MAX) ? UINT32_MAX : (uint32_t)result;
+}
+
+/* ---- numbers that compare ---- */
+
+static bool is_real(uint8_t type) {
+  return type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64;
+}
+
+static bool is_signed(uint8_t type) {
+  return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
+}
+
+static uint64_t sign_of(uint8_t type) {
+  return (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
+}
+
+/* The bits of an element as an unsigned number that is in the same order. */
+static uint64_t key_of(uint8_t type, uint64_t bits) {
+  const uint64_t sign = sign_of(type);
+
+  if (is_real(type) && (bits & sign) != 0U) {
+    return (2U * sign - 1U) - bits;
+  }
+  return (is_real(type) || is_signed(type)) ? bits ^ sign : bits;
+}
+
+static uint64_t bits_of_key(uint8_t type, uint64_t key) {
+  return is_signed(type) ? key ^ sign_of(type) : key;
+}
+
+static uint64_t bits_of_number(uint8_t type, const up_number_t *number) {
+  const uint64_t mask = 2U * sign_of(type) - 1U;
+  uint32_t single;
+  uint64_t wide;
+
+  if (type == UP_TYPE_FLOAT32) {
+    memcpy(&single, &number->f, sizeof single);
+    return single;
+  }
+  if (type == UP_TYPE_FLOAT64) {
+    memcpy(&wide, &number->d, sizeof wide);
+    return wide;
+  }
+  return number->u & mask;
+}
+
+/* ---- invalid ---- */
+
+static bool is_invalid(const up_filter_t *filter, const up_field_t *field, const uint8_t *value) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  size_t element, i;
+
+  for (element = 0U; element < field->count; element++) {
+    const uint64_t key = key_of(field->type, up_element_load(field->type, &value[element * element_bytes]));
+    for (i = 0U; i < filter->invalid_count; i++) {
+      const up_range_t *range = &filter->invalid[i];
+      if (key >= key_of(field->type, bits_of_number(field->type, &range->low)) &&
+          key <= key_of(field->type, bits_of_number(field->type, &range->high))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/* ---- median ---- */
+
+/* The bits of one element that so many of the window are not above: counting needs no memory for a sorted copy. */
+static uint64_t middle(uint8_t type, const uint8_t *window, size_t stride, size_t count) {
+  const size_t rank = (count - 1U) / 2U;
+  uint64_t bits = 0U;
+  size_t candidate, i;
+
+  for (candidate = 0U; candidate < count; candidate++) {
+    const uint64_t key = key_of(type, up_element_load(type, &window[candidate * stride]));
+    size_t below = 0U, equal = 0U;
+    for (i = 0U; i < count; i++) {
+      const uint64_t other = key_of(type, up_element_load(type, &window[i * stride]));
+      below += (other < key) ? 1U : 0U;
+      equal += (other == key) ? 1U : 0U;
+    }
+    if (below <= rank && rank < below + equal) {
+      bits = up_element_load(type, &window[candidate * stride]);
+      break;
+    }
+  }
+  return bits;
+}
+
+static void take_median(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field, uint8_t *window,
+                        uint8_t *value) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  const size_t stride = up_field_bytes(field);
+  size_t element;
+
+  memcpy(&window[state->window_at * stride], value, stride);
+  state->window_at = (uint8_t)((state->window_at + 1U) % filter->median);
+  if (state->window_count < filter->median) {
+    state->window_count++;
+  }
+  for (element = 0U; element < field->count; element++) {
+    const uint64_t bits = middle(field->type, &window[element * element_bytes], stride, state->window_count);
+    up_element_store(field->type, bits, &value[element * element_bytes]);
+  }
+}
+
+/* ---- smooth ---- */
+
+/* A number of 64 bits with 32 behind the point, as it stands in the state. */
+typedef struct {
+  uint64_t whole;
+  uint32_t fraction;
+} fixed_t;
+
+static fixed_t times_decay(fixed_t number, uint32_t decay) {
+  const uint64_t low = (number.whole & UINT32_MAX) * decay;
+  const uint64_t fraction = (low & UINT32_MAX) + (((uint64_t)number.fraction * decay) >> 32);
+  fixed_t result;
+
+  result.whole = (number.whole >> 32) * decay + (low >> 32) + (fraction >> 32);
+  result.fraction = (uint32_t)fraction;
+  return result;
+}
+
+/* What is left of the distance to the input is taken towards 0 from either side: no drift, and it is reached. */
+static uint64_t smooth_key(uint64_t *state, uint32_t decay, uint64_t key) {
+  fixed_t now = {state[0], (uint32_t)state[1]};
+  fixed_t distance;
+
+  if (now.whole >= key) {
+    distance.whole = now.whole - key;
+    distance.fraction = now.fraction;
+    distance = times_decay(distance, decay);
+    now.whole = key + distance.whole;
+    now.fraction = distance.fraction;
+  } else {
+    distance.whole = key - now.whole - ((now.fraction > 0U) ? 1U : 0U);
+    distance.fraction = (uint32_t)(0U - now.fraction);
+    distance = times_decay(distance, decay);
+    now.whole = key - distance.whole - ((distance.fraction > 0U) ? 1U : 0U);
+    now.fraction = (uint32_t)(0U - distance.fraction);
+  }
+  state[0] = now.whole;
+  state[1] = now.fraction;
+  return now.whole + (now.fraction >> 31);
+}
+
+static float single_of(uint64_t bits) {
+  const uint32_t word = (uint32_t)bits;
+  float number;
+
+  memcpy(&number, &word, sizeof number);
+  return number;
+}
+
+static uint64_t bits_of_single(float number) {
+  uint32_t word;
+
+  memcpy(&word, &number, sizeof word);
+  return word;
+}
+
+static bool is_finite(uint64_t bits) {
+  return (bits & 0x7F800000U) != 0x7F800000U;
+}
+
+/* state[1] is what state[0] lacks for want of digits: without it, small steps would be lost. */
+static void smooth_single(uint64_t *state, uint32_t decay, void *element) {
+  const uint64_t bits = up_element_load(UP_TYPE_FLOAT32, element);
+  const float gain = (float)(uint32_t)(0U - decay) / 4294967296.0F;
+  const float old = single_of(state[0]), rest = single_of(state[1]);
+  float step, sum;
+
+  if (!is_finite(bits) || !is_finite(state[0]) || decay == 0U) {
+    state[0] = bits;
+    state[1] = 0U;
+    return;
+  }
+  step = rest + (single_of(bits) - old - rest) * gain;
+  sum = old + step;
+  state[0] = bits_of_single(sum);
+  state[1] = bits_of_single(step - (sum - old));
+  up_element_store(UP_TYPE_FLOAT32, state[0], element);
+}
+
+static void smooth_element(const up_filter_t *filter, uint8_t type, uint64_t *state, uint32_t decay, void *element) {
+  if (type == UP_TYPE_FLOAT32) {
+    smooth_single(state, decay, element);
+  } else if (type == UP_TYPE_FLOAT64) {
+    if (filter->wide != NULL) {
+      filter->wide->smooth(state, decay, element);
+    }
+  } else {
+    const uint64_t key = smooth_key(state, decay, key_of(type, up_element_load(type, element)));
+    up_element_store(type, bits_of_key(type, key), element);
+  }
+}
+
+static void smooth(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field, uint32_t now_ms,
+                   uint8_t *value) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  const uint32_t elapsed_ms = (uint32_t)(now_ms - state->seen_ms);
+  /* The first value is taken as it is. */
+  const uint32_t decay = state->has_seen ? up_filter_decay(elapsed_ms, filter->smooth_ms) : 0U;
+  size_t i;
+
+  for (i = 0U; i < field->count; i++) {
+    smooth_element(filter, field->type, &state->memory[UP_FILTER_SMOOTH_WORDS(i)], decay, &value[i * element_bytes]);
+  }
+}
+
+/* ---- change ---- */
+
+static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint64_t to) {
+  const uint64_t from_key = key_of(type, from), to_key = key_of(type, to);
+
+  if (type == UP_TYPE_FLOAT32) {
+    const float distance = single_of(from) - single_of(to);
+    /* Not a number is far from all others. */
+    return !(distance < filter->change.f && distance > -filter->change.f);
+  }
+  if (type == UP_TYPE_FLOAT64) {
+    return filter->wide == NULL || filter->wide->is_far(from, to, filter->change.d);
+  }
+  return ((from_key > to_key) ? from_key - to_key : to_key - from_key) >= filter->change.u;
+}
+
+static bool has_changed(const up_filter_t *filter, const up_field_t *field, const uint8_t *told, const uint8_t *value) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  size_t i;
+
+  for (i = 0U; i < field->count; i++) {
+    if (is_far(filter, field->type, up_element_load(field->type, &told[i * element_bytes]),
+               up_element_load(field->type, &value[i * element_bytes]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Whether the next value would come too late for the heartbeat, by more than a quarter of what lies between two. */
+static bool is_heartbeat(const up_filter_t *filter, const up_filter_state_t *state, uint32_t now_ms) {
+  const uint64_t silent_ms = (uint32_t)(now_ms - state->told_ms);
+  const uint64_t interval_ms = (uint32_t)(now_ms - state->seen_ms);
+
+  return filter->heartbeat_ms != 0U && silent_ms + interval_ms - interval_ms / 4U > filter->heartbeat_ms;
+}
+
+up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
+                            uint32_t now_ms, void *value) {
+  const size_t count = field->count;
+  const size_t smooth_words = (filter->smooth_ms > 0U) ? UP_FILTER_SMOOTH_WORDS(count) : 0U;
+  const size_t told_words = filter->has_change ? UP_FILTER_VALUE_WORDS(count, up_type_bytes(field->type)) : 0U;
+  uint64_t *told = (smooth_words > 0U) ? &state->memory[smooth_words] : state->memory;
+  uint64_t *window = (told_words > 0U) ? &told[told_words] : told;
+  bool is_told = true;
+
+  if (is_invalid(filter, field, value)) {
+    return UP_INVALID;
+  }
+  if (filter->median > 1U) {
+    take_median(filter, state, field, (uint8_t *)window, value);
+  }
+  if (filter->smooth_ms > 0U) {
+    smooth(filter, state, field, now_ms, value);
+  }
+  if (filter->has_change) {
+    is_told = !state->has_told || has_changed(filter, field, (uint8_t *)told, value) ||
+              is_heartbeat(filter, state, now_ms);
+    if (is_told) {
+      memcpy(told, value, up_field_bytes(field));
+    }
+  }
+  state->seen_ms = now_ms;
+  state->has_seen = true;
+  if (is_told) {
+    state->told_ms = now_ms;
+    state->has_told = true;
+  }
+  return is_told ? UP_FRESH : UP_NOTHING;
+}

@@ -1,0 +1,268 @@
+#include "up_message.h"
+
+#include <string.h>
+
+#include "up_checksum.h"
+#include "up_parse.h"
+
+#define DVB_S2_POLYNOMIAL 0xD5U
+#define IBUS_START 0xFFFFU
+
+static const uint8_t checksum_bytes[] = {
+    [UP_CHECKSUM_NONE] = 0U, [UP_CHECKSUM_SUM8] = 1U,        [UP_CHECKSUM_XOR8] = 1U,
+    [UP_CHECKSUM_IBUS] = 2U, [UP_CHECKSUM_CRC8_DVB_S2] = 1U, [UP_CHECKSUM_NMEA] = 3U,
+};
+
+static size_t checksum_size(const up_message_t *message) {
+  return (message->checksum < sizeof checksum_bytes) ? checksum_bytes[message->checksum] : 0U;
+}
+
+/* What stands around a body. */
+static size_t frame_bytes(const up_message_t *message) {
+  return (size_t)message->start_count + checksum_size(message) + message->end_count;
+}
+
+/* ---- is it a message? ---- */
+
+typedef enum {
+  MORE,  /* it may become one */
+  WHOLE, /* it is one */
+  BAD    /* it will never be one */
+} verdict_t;
+
+static bool starts_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
+  const size_t count = (size < message->start_count) ? size : message->start_count;
+
+  return count == 0U || memcmp(bytes, message->start, count) == 0;
+}
+
+static bool ends_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
+  return message->end_count == 0U || memcmp(&bytes[size - message->end_count], message->end, message->end_count) == 0;
+}
+
+static bool is_nmea_sum(const up_message_t *message, const uint8_t *bytes, size_t at) {
+  const up_piece_t digits = {(const char *)&bytes[at + 1U], 2U};
+  uint8_t sum = 0U;
+
+  return bytes[at] == (uint8_t)'*' && digits.start[0] != ' ' && digits.start[1] != ' ' &&
+         up_parse_hex(digits, UP_TYPE_UINT8, &sum) == UP_FRESH &&
+         sum == up_xor8(&bytes[message->start_count], at - message->start_count);
+}
+
+/* The checksum stands at `at`. */
+static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t at) {
+  const size_t from = (message->checksum_from < at) ? message->checksum_from : at;
+  const uint8_t *summed = &bytes[from];
+  const size_t count = at - from;
+  uint16_t sum;
+
+  switch ((up_checksum_t)message->checksum) {
+  case UP_CHECKSUM_SUM8:
+    return up_sum8(summed, count) == bytes[at];
+  case UP_CHECKSUM_XOR8:
+    return up_xor8(summed, count) == bytes[at];
+  case UP_CHECKSUM_CRC8_DVB_S2:
+    return up_crc8(DVB_S2_POLYNOMIAL, 0U, summed, count) == bytes[at];
+  case UP_CHECKSUM_IBUS:
+    sum = (uint16_t)(IBUS_START - up_sum16(summed, count));
+    return bytes[at] == (uint8_t)sum && bytes[at + 1U] == (uint8_t)(sum >> 8);
+  case UP_CHECKSUM_NMEA:
+    return is_nmea_sum(message, bytes, at);
+  case UP_CHECKSUM_NONE:
+  default:
+    return true;
+  }
+}
+
+static verdict_t judge(const up_message_t *message, up_message_state_t *state) {
+  const uint8_t *bytes = state->buffer;
+  const size_t size = state->size;
+  const size_t least = frame_bytes(message) + message->length;
+
+  if (!starts_right(message, bytes, size) || least > message->bytes_max) {
+    return BAD;
+  }
+  if (size < least || (message->length == 0U && !ends_right(message, bytes, size))) {
+    return (size < message->bytes_max) ? MORE : BAD;
+  }
+  if (!ends_right(message, bytes, size)) {
+    return BAD;
+  }
+  if (!sums_right(message, bytes, size - message->end_count - checksum_size(message))) {
+    state->wrong_checksum++;
+    return BAD;
+  }
+  return WHOLE;
+}
+
+/* ---- values ---- */
+
+/* True when the first field of a sentence ends with its type. */
+static bool is_sentence(up_piece_t text, const char *sentence, char separator) {
+  const size_t count = strlen(sentence);
+  up_piece_t first;
+
+  return up_parse_field(text, separator, 0U, &first) && first.size >= count &&
+         memcmp(&first.start[first.size - count], sentence, count) == 0;
+}
+
+static up_result_t text_element(const up_message_field_t *how, uint8_t type, up_piece_t text, size_t at,
+                                void *element) {
+  up_piece_t piece, next;
+
+  if (!up_parse_field(text, how->separator, at, &piece)) {
+    return UP_NOTHING;
+  }
+  switch ((up_format_t)how->format) {
+  case UP_FORMAT_DEGREES:
+    if (!up_parse_field(text, how->separator, at + 1U, &next)) {
+      next.start = piece.start;
+      next.size = 0U;
+    }
+    return up_parse_degrees(piece, next, type, element);
+  case UP_FORMAT_HEX:
+    return up_parse_hex(piece, type, element);
+  case UP_FORMAT_DECIMAL:
+  case UP_FORMAT_BINARY:
+  default:
+    return up_parse_decimal(piece, how->decimals, type, element);
+  }
+}
+
+/* One invalid element makes the whole value invalid, one that is empty makes it no measurement. */
+static up_result_t text_value(const up_message_field_t *how, const up_field_t *field, up_piece_t text, void *value) {
+  const size_t stride = (how->format == UP_FORMAT_DEGREES) ? 2U : 1U;
+  const size_t first = (size_t)how->index + ((how->sentence != NULL) ? 1U : 0U);
+  const size_t element_bytes = up_type_bytes(field->type);
+  up_result_t result = UP_FRESH;
+  uint8_t *memory = value;
+  size_t i;
+
+  for (i = 0U; i < field->count; i++) {
+    const up_result_t one = text_element(how, field->type, text, first + i * stride, &memory[i * element_bytes]);
+    if (one == UP_INVALID || result == UP_INVALID) {
+      result = UP_INVALID;
+    } else if (one == UP_NOTHING) {
+      result = UP_NOTHING;
+    }
+  }
+  return result;
+}
+
+bool up_message_value(const up_message_field_t *how, const up_field_t *field, const uint8_t *body, size_t body_count,
+                      void *value, up_result_t *result) {
+  up_piece_t text;
+
+  if (how->format == UP_FORMAT_BINARY) {
+    if ((size_t)how->byte + up_value_bytes(&how->value, field->count) > body_count) {
+      return false;
+    }
+    *result = up_value_decode(&how->value, field, &body[how->byte], body_count - how->byte, value);
+    return true;
+  }
+  text.start = (const char *)body;
+  text.size = body_count;
+  if (how->sentence != NULL && !is_sentence(text, how->sentence, how->separator)) {
+    return false;
+  }
+  *result = text_value(how, field, text, value);
+  return true;
+}
+
+static void say_values(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+                       const up_value_sink_t *sink) {
+  const uint8_t *body = &state->buffer[message->start_count];
+  const size_t body_count = state->size - frame_bytes(message);
+  size_t i;
+
+  for (i = 0U; i < message->fields_count; i++) {
+    const up_message_field_t *how = &message->fields[i];
+    up_result_t result = UP_NOTHING;
+    if (!up_message_value(how, &schema->fields[how->field], body, body_count, state->scratch, &result)) {
+      continue;
+    }
+    state->values += (result == UP_FRESH) ? 1U : 0U;
+    state->invalid += (result == UP_INVALID) ? 1U : 0U;
+    sink->on_value(sink->context, how->field, result, (result == UP_FRESH) ? state->scratch : NULL);
+  }
+}
+
+/* ---- the stream ---- */
+
+static void drop(up_message_state_t *state, size_t count) {
+  state->size = (uint16_t)(state->size - count);
+  state->dropped_bytes += (uint32_t)count;
+  memmove(state->buffer, &state->buffer[count], state->size);
+}
+
+/* Takes off the first byte, and what follows it up to the next that a message could begin with. */
+static void drop_candidate(const up_message_t *message, up_message_state_t *state) {
+  size_t count = 1U;
+
+  if (message->start_count > 0U) {
+    const uint8_t *next = (state->size > 1U) ? memchr(&state->buffer[1], message->start[0], state->size - 1U) : NULL;
+    count = (next != NULL) ? (size_t)(next - state->buffer) : state->size;
+  }
+  drop(state, count);
+}
+
+/* Whether nothing but a place tells where a message begins. */
+static bool needs_alignment(const up_message_t *message) {
+  const bool is_recognised = message->checksum != UP_CHECKSUM_NONE || message->end_count > 0U;
+
+  return message->start_count == 0U && (message->length == 0U || !is_recognised);
+}
+
+/* Before the first end nobody knows where a message began. True when the byte was taken. */
+static bool align(const up_message_t *message, up_message_state_t *state) {
+  if (state->is_aligned || !needs_alignment(message)) {
+    return false;
+  }
+  if (message->length == 0U && state->size >= message->end_count && message->end_count > 0U &&
+      ends_right(message, state->buffer, state->size)) {
+    drop(state, state->size);
+    state->is_aligned = true;
+  } else if (state->size >= message->end_count) {
+    /* Enough stays to recognise the end. */
+    drop(state, 1U);
+  }
+  return true;
+}
+
+static void take(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+                 const up_value_sink_t *sink) {
+  verdict_t verdict = align(message, state) ? MORE : judge(message, state);
+
+  while (verdict == BAD && state->size > 0U) {
+    if (needs_alignment(message)) {
+      /* Either too long, and its end is still to come, or at its end and wrong. */
+      state->is_aligned = state->size >= message->end_count && ends_right(message, state->buffer, state->size);
+      drop(state, state->size);
+    } else {
+      drop_candidate(message, state);
+    }
+    verdict = (state->size > 0U) ? judge(message, state) : MORE;
+  }
+  if (verdict == WHOLE) {
+    state->messages++;
+    say_values(message, state, schema, sink);
+    state->size = 0U;
+  }
+}
+
+void up_message_feed(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
+                     const uint8_t *bytes, size_t count, const up_value_sink_t *sink) {
+  size_t i;
+
+  for (i = 0U; i < count && message->bytes_max > 0U; i++) {
+    state->buffer[state->size] = bytes[i];
+    state->size++;
+    take(message, state, schema, sink);
+  }
+}
+
+void up_message_gap(up_message_state_t *state) {
+  state->dropped_bytes += state->size;
+  state->size = 0U;
+  state->is_aligned = true;
+}

@@ -1,0 +1,263 @@
+#include "up_value.h"
+
+#include <string.h>
+
+#include "up_checksum.h"
+#include "up_convert.h"
+
+#define SENSIRION_POLYNOMIAL 0x31U
+#define SENSIRION_START 0xFFU
+#define PACKED_BITS_MAX 32U
+
+static size_t words_of(const up_value_t *how, uint16_t count) {
+  return (how->words != 0U) ? how->words : count;
+}
+
+/* Bytes of the words alone. */
+static size_t data_bytes(const up_value_t *how, uint16_t count) {
+  const size_t words = words_of(how, count);
+
+  return (how->code == UP_CODE_PACKED) ? (words * how->bits + 7U) / 8U : words * how->word_bytes;
+}
+
+size_t up_value_bytes(const up_value_t *how, uint16_t count) {
+  const size_t data = data_bytes(how, count);
+
+  return (how->crc == UP_CRC_SENSIRION) ? data + data / 2U : data;
+}
+
+/* Where byte `at` of the words stands on the wire. */
+static size_t place(const up_value_t *how, size_t at) {
+  return (how->crc == UP_CRC_SENSIRION) ? at + at / 2U : at;
+}
+
+bool up_value_crc_is_right(const up_value_t *how, uint16_t count, const uint8_t *bytes) {
+  const size_t bytes_count = up_value_bytes(how, count);
+  size_t at;
+
+  if (how->crc == UP_CRC_SENSIRION) {
+    for (at = 0U; at + 3U <= bytes_count; at += 3U) {
+      if (up_crc8(SENSIRION_POLYNOMIAL, SENSIRION_START, &bytes[at], 2U) != bytes[at + 2U]) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+static uint64_t mask_of(unsigned bits) {
+  return (bits >= 64U) ? UINT64_MAX : ((uint64_t)1U << bits) - 1U;
+}
+
+/* How many bits of a word count; 0 where the table makes no sense. */
+static unsigned bits_of(const up_value_t *how) {
+  const unsigned word_bits = 8U * how->word_bytes;
+
+  if (how->code == UP_CODE_PACKED) {
+    return (how->bits <= PACKED_BITS_MAX) ? how->bits : 0U;
+  }
+  if (how->word_bytes == 0U || how->word_bytes > 8U || how->low >= word_bits) {
+    return 0U;
+  }
+  return (how->bits == 0U || how->bits > word_bits - how->low) ? word_bits - how->low : how->bits;
+}
+
+/* Where the word of an element stands; at least `words` where it stands nowhere. */
+static size_t word_of_element(const up_value_t *how, size_t element) {
+  return (how->elements != NULL) ? how->elements[element] : element;
+}
+
+/* ---- decoding ---- */
+
+static uint64_t packed_word(const up_value_t *how, const uint8_t *bytes, size_t word, unsigned bits) {
+  const size_t first = word * bits;
+  const size_t last = first + bits - 1U;
+  uint64_t gathered = 0U;
+  size_t at;
+
+  for (at = last / 8U + 1U; at > first / 8U; at--) {
+    gathered = (gathered << 8) | bytes[place(how, at - 1U)];
+  }
+  return gathered >> (first % 8U);
+}
+
+static uint64_t whole_word(const up_value_t *how, const uint8_t *bytes, size_t word) {
+  const size_t first = word * how->word_bytes;
+  uint64_t gathered = 0U;
+  size_t i;
+
+  for (i = 0U; i < how->word_bytes; i++) {
+    const size_t at = how->little_endian ? (size_t)how->word_bytes - 1U - i : i;
+    gathered = (gathered << 8) | bytes[place(how, first + at)];
+  }
+  return gathered >> how->low;
+}
+
+static bool store_bcd(uint8_t type, uint64_t digits, void *element) {
+  uint64_t number = 0U;
+  unsigned shift;
+
+  for (shift = 64U; shift > 0U; shift -= 4U) {
+    const unsigned digit = (unsigned)(digits >> (shift - 4U)) & 0xFU;
+    if (digit > 9U) {
+      return false;
+    }
+    number = 10U * number + digit;
+  }
+  up_store_unsigned(type, number, element);
+  return true;
+}
+
+/* IEEE 754 bits as they are; an exponent of all ones is no number. */
+static bool store_float(uint8_t type, uint64_t bits, unsigned word_bytes, void *element) {
+  const uint64_t exponent = (word_bytes == 4U) ? 0x7F800000U : (uint64_t)0x7FF00000U << 32;
+
+  if (word_bytes != up_type_bytes(type) || (bits & exponent) == exponent) {
+    return false;
+  }
+  up_element_store(type, bits, element);
+  return true;
+}
+
+static void store_integer(const up_value_t *how, uint8_t type, uint64_t number, unsigned bits, void *element) {
+  const uint64_t sign = (uint64_t)1U << (bits - 1U);
+  int64_t extended;
+
+  if (how->is_signed) {
+    number = (number ^ sign) - sign;
+    memcpy(&extended, &number, sizeof extended);
+    up_store_signed(type, extended, element);
+  } else {
+    up_store_unsigned(type, number, element);
+  }
+}
+
+static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *bytes, size_t word, void *element) {
+  const unsigned bits = bits_of(how);
+  uint64_t number;
+
+  if (bits == 0U) {
+    return false;
+  }
+  number = (how->code == UP_CODE_PACKED) ? packed_word(how, bytes, word, bits) : whole_word(how, bytes, word);
+  number &= mask_of(bits);
+  switch ((up_code_t)how->code) {
+  case UP_CODE_BCD:
+    return store_bcd(type, number, element);
+  case UP_CODE_FLOAT:
+    return store_float(type, number, how->word_bytes, element);
+  case UP_CODE_INTEGER:
+  case UP_CODE_PACKED:
+  default:
+    store_integer(how, type, number, bits, element);
+    return true;
+  }
+}
+
+up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, const uint8_t *bytes, size_t bytes_count,
+                            void *value) {
+  const size_t element_bytes = up_type_bytes(field->type);
+  uint8_t *memory = value;
+  size_t i;
+
+  if (bytes_count < up_value_bytes(how, field->count) || !up_value_crc_is_right(how, field->count, bytes)) {
+    return UP_INVALID;
+  }
+  for (i = 0U; i < field->count; i++) {
+    const size_t word = word_of_element(how, i);
+    if (word >= words_of(how, field->count) ||
+        !decode_element(how, field->type, bytes, word, &memory[i * element_bytes])) {
+      return UP_INVALID;
+    }
+  }
+  return UP_FRESH;
+}
+
+/* ---- encoding ---- */
+
+/* Binary-coded decimal in so many bits; the greatest there is when the number is greater. */
+static uint64_t to_bcd(uint64_t number, uint64_t mask) {
+  uint64_t rest = number, digits = 0U, greatest = 0U;
+  unsigned shift;
+
+  for (shift = 0U; shift < 64U; shift += 4U) {
+    const uint64_t most = (mask >> shift) & 0xFU;
+    digits |= (rest % 10U) << shift;
+    greatest |= ((most > 9U) ? 9U : most) << shift;
+    rest /= 10U;
+  }
+  return (rest > 0U || digits > mask) ? greatest : digits;
+}
+
+static uint64_t encode_element(const up_value_t *how, uint8_t type, const void *element, unsigned bits) {
+  const uint64_t mask = mask_of(bits);
+  const uint64_t greatest = how->is_signed ? mask >> 1 : mask;
+  bool is_negative;
+  const uint64_t magnitude = up_load_magnitude(type, element, &is_negative);
+
+  if (how->code == UP_CODE_FLOAT) {
+    return up_element_load(type, element);
+  }
+  if (how->code == UP_CODE_BCD) {
+    return is_negative ? 0U : to_bcd(magnitude, mask);
+  }
+  if (!is_negative) {
+    return (magnitude > greatest) ? greatest : magnitude;
+  }
+  if (!how->is_signed) {
+    return 0U;
+  }
+  return (0U - ((magnitude > greatest + 1U) ? greatest + 1U : magnitude)) & mask;
+}
+
+static void put_packed(uint8_t *bytes, size_t word, unsigned bits, uint64_t number) {
+  unsigned i;
+
+  for (i = 0U; i < bits; i++) {
+    const size_t at = word * bits + i;
+    bytes[at / 8U] = (uint8_t)(bytes[at / 8U] | (((number >> i) & 1U) << (at % 8U)));
+  }
+}
+
+static void put_word(const up_value_t *how, uint8_t *bytes, size_t word, uint64_t number) {
+  const size_t first = word * how->word_bytes;
+  size_t i;
+
+  for (i = 0U; i < how->word_bytes; i++) {
+    const size_t at = how->little_endian ? i : (size_t)how->word_bytes - 1U - i;
+    bytes[place(how, first + at)] = (uint8_t)number;
+    number >>= 8;
+  }
+}
+
+size_t up_value_encode(const up_value_t *how, const up_field_t *field, const void *value, uint8_t *bytes,
+                       size_t bytes_room) {
+  const size_t bytes_count = up_value_bytes(how, field->count);
+  const size_t element_bytes = up_type_bytes(field->type);
+  const unsigned bits = bits_of(how);
+  const uint8_t *memory = value;
+  size_t i;
+
+  if (bits == 0U || bytes_count > bytes_room || (how->code == UP_CODE_FLOAT && how->word_bytes != element_bytes)) {
+    return 0U;
+  }
+  memset(bytes, 0, bytes_count);
+  for (i = 0U; i < field->count; i++) {
+    const size_t word = word_of_element(how, i);
+    const uint64_t number = encode_element(how, field->type, &memory[i * element_bytes], bits);
+    if (word >= words_of(how, field->count)) {
+      return 0U;
+    }
+    if (how->code == UP_CODE_PACKED) {
+      put_packed(bytes, word, bits, number);
+    } else {
+      put_word(how, bytes, word, number << how->low);
+    }
+  }
+  if (how->crc == UP_CRC_SENSIRION) {
+    for (i = 0U; i + 3U <= bytes_count; i += 3U) {
+      bytes[i + 2U] = up_crc8(SENSIRION_POLYNOMIAL, SENSIRION_START, &bytes[i], 2U);
+    }
+  }
+  return bytes_count;
+}
