@@ -8,6 +8,8 @@
 /* What is read of a quantity that is switched off, in 20 and in 16 bits. */
 #define SKIPPED 0x80000
 #define SKIPPED_HUMIDITY 0x8000
+/* What a line reads that nobody drives. */
+#define ONES 0xFFFFF
 /* 100 %, in the unit before the last division by 2^12. */
 #define HUMIDITY_FULL 419430400
 
@@ -36,7 +38,7 @@ static bool fine_temperature(const uint8_t *calibration, const uint8_t *raw, int
   const int64_t near = shift_down(adc, 4) - t1;
 
   *fine = shift_down((shift_down(adc, 3) - 2 * t1) * t2, 11) + shift_down(shift_down(near * near, 12) * t3, 14);
-  return adc != SKIPPED && *fine >= FINE_MIN && *fine <= FINE_MAX;
+  return adc != SKIPPED && adc != ONES && *fine >= FINE_MIN && *fine <= FINE_MAX;
 }
 
 /* Pa times 256; false where there is none. */

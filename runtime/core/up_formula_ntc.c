@@ -17,7 +17,7 @@ static int64_t log2_q24(uint64_t number) {
   uint32_t mantissa;
   unsigned bit;
 
-  while ((number >> 63) == 0U) {
+  while ((number >> 63) == 0U && result > 0) {
     number <<= 1;
     result--;
   }

@@ -40,6 +40,13 @@ static bool ends_right(const up_message_t *message, const uint8_t *bytes, size_t
   return message->end_count == 0U || memcmp(&bytes[size - message->end_count], message->end, message->end_count) == 0;
 }
 
+/* Where nothing but `end` bounds a body and nothing sums it, another start means that the end was lost. */
+static bool begins_anew(const up_message_t *message, const uint8_t *bytes, size_t size) {
+  return message->length == 0U && message->checksum == UP_CHECKSUM_NONE && message->start_count > 0U &&
+         size >= 2U * (size_t)message->start_count &&
+         memcmp(&bytes[size - message->start_count], message->start, message->start_count) == 0;
+}
+
 static bool is_nmea_sum(const up_message_t *message, const uint8_t *bytes, size_t at) {
   const up_piece_t digits = {(const char *)&bytes[at + 1U], 2U};
   uint8_t sum = 0U;
@@ -83,7 +90,7 @@ static verdict_t judge(const up_message_t *message, up_message_state_t *state) {
     return BAD;
   }
   if (size < least || (message->length == 0U && !ends_right(message, bytes, size))) {
-    return (size < message->bytes_max) ? MORE : BAD;
+    return (size < message->bytes_max && !begins_anew(message, bytes, size)) ? MORE : BAD;
   }
   if (!ends_right(message, bytes, size)) {
     return BAD;

@@ -3,7 +3,8 @@
  *
  * A message is `start`, the body, a checksum, `end`; the body has `length` bytes, or ends where checksum and `end` do.
  * A candidate that cannot become a message loses its first byte only, and the rest is looked at again: so the first
- * whole message is found wherever it starts, however the stream is cut.
+ * whole message is found wherever it starts, however the stream is cut. A body without length and checksum has no
+ * `start` in it.
  */
 #ifndef UP_MESSAGE_H
 #define UP_MESSAGE_H

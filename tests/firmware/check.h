@@ -12,8 +12,14 @@ void check_that(bool holds, const char *what, const char *file, int line);
 unsigned check_failures(void);
 unsigned check_count(void);
 
-/* The two parts of the suite. */
+/* The parts of the suite. */
 void test_units(void);
+void test_values(void);
+void test_formulas(void);
+void test_chips(void);
+void test_filters(void);
+void test_messages(void);
+void test_outputs(void);
 void test_vectors(const char *path);
 
 #endif

@@ -23,6 +23,12 @@ int main(int argc, char **argv) {
   int i;
 
   test_units();
+  test_values();
+  test_formulas();
+  test_chips();
+  test_filters();
+  test_messages();
+  test_outputs();
   for (i = 1; i < argc; i++) {
     test_vectors(argv[i]);
   }

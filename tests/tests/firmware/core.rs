@@ -13,8 +13,11 @@ fn sources() -> Vec<PathBuf> {
 }
 
 fn tests() -> Vec<PathBuf> {
-    let folder = root().join("tests/firmware");
-    ["main.c", "test_units.c", "test_vectors.c"].map(|name| folder.join(name)).to_vec()
+    let is_test = |path: &PathBuf| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        name == "main.c" || name.starts_with("test_")
+    };
+    files(&root().join("tests/firmware"), "c").into_iter().filter(is_test).collect()
 }
 
 fn vectors() -> Vec<PathBuf> {
@@ -28,7 +31,9 @@ fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
     let mut command = Command::new(compiler);
     command.args(STRICT).args(flags);
     command.args([include("runtime/core"), include("tests/firmware")]);
-    run(command.args(sources).arg("-o").arg(output));
+    command.args(sources).arg("-o").arg(output);
+    // The tests compare with the C library's functions; the core itself has none of them.
+    run(if flags.contains(&"-c") { &mut command } else { command.arg("-lm") });
 }
 
 /// The number of checks of a run whose summary says that none failed.
@@ -53,6 +58,45 @@ fn compiles_for_every_cortex_m() {
             compile("arm-none-eabi-gcc", &flags, &[source], &folder.join("core.o"));
         }
     }
+}
+
+/// What a source file leaves to others, compiled for a core without floating point.
+fn undefined(source: &Path, object: &Path) -> Vec<String> {
+    let flags = ["-mcpu=cortex-m0", "-mthumb", "-ffreestanding", "-c"];
+    compile("arm-none-eabi-gcc", &flags, &[source.to_owned()], object);
+    let output = run(Command::new("arm-none-eabi-nm").arg("-u").arg(object));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.split_whitespace().filter(|word| *word != "U").map(str::to_owned).collect()
+}
+
+/// Emulated doubles cost kilobytes and hundreds of cycles an operation: only a `float64` that is filtered and the
+/// shell's text have any. Of the C library nothing is used but what copies and compares memory.
+#[test]
+fn needs_neither_doubles_nor_a_library() {
+    if !has("arm-none-eabi-gcc") {
+        return;
+    }
+    let object = scratch("undefined").join("core.o");
+    let mut with_doubles = Vec::new();
+    for source in sources() {
+        let words = undefined(&source, &object);
+        let name = source.file_name().unwrap().to_string_lossy().into_owned();
+        let is_double = |word: &String| {
+            let helper = word.strip_prefix("__aeabi_").unwrap_or_default();
+            helper.starts_with('d') || helper.contains("2d")
+        };
+        let is_own = |word: &String| word.starts_with("up_") || word.starts_with("__");
+        let is_memory = |word: &String| {
+            ["memchr", "memcmp", "memcpy", "memmove", "memset", "strlen"].contains(&word.as_str())
+        };
+        let others: Vec<_> =
+            words.iter().filter(|word| !is_own(word) && !is_memory(word)).collect();
+        assert!(others.is_empty(), "{name}: {others:?}");
+        if words.iter().any(is_double) {
+            with_doubles.push(name);
+        }
+    }
+    assert_eq!(with_doubles, ["up_filter_double.c", "up_text.c"]);
 }
 
 fn runs_on_the_host(compiler: &str) {
@@ -121,6 +165,60 @@ fn notices_a_broken_core() {
         ("up_i2c.c", "!is_reached(now_ms, state->ready_ms)", "now_ms < state->ready_ms"),
         ("up_capture.c", "(first_edge_seen ? 1U : 0U)", "0U"),
         ("up_report.c", "memset(store->due, 0, sizeof store->due);", ""),
+        ("up_convert.c", "rest > half", "rest >= half"),
+        (
+            "up_convert.c",
+            "remainder >= denominator - remainder",
+            "remainder > denominator - remainder",
+        ),
+        ("up_checksum.c", "is_carried ? polynomial : 0U", "polynomial"),
+        ("up_value.c", "at + at / 2U", "at"),
+        ("up_value.c", "(how->elements != NULL) ? how->elements[element]", "false ? element"),
+        ("up_value.c", "digit > 9U", "false"),
+        ("up_value.c", "gathered >> (first % 8U)", "gathered >> (first % 4U)"),
+        ("up_value.c", "? greatest + 1U", "? greatest"),
+        ("up_formula.c", "gross * 3125", "gross * 3126"),
+        ("up_formula.c", "* 131072", "* 65536"),
+        ("up_formula.c", "adc != SKIPPED && ", ""),
+        ("up_formula.c", "(calibration[29] & 0xF)", "(calibration[29] >> 4)"),
+        ("up_formula_ntc.c", "level >= FULL", "level > FULL"),
+        ("up_formula_tsl2561.c", "0x02D1U", "0x02C1U"),
+        ("up_chip.c", "now_ms - when_ms", "now_ms > when_ms ? 0U : 0x80000000U"),
+        ("up_chip.c", "  restart(state);\n  return false;", "  return false;"),
+        ("up_chip.c", "state->is_stranger = true;", ""),
+        ("up_chip.c", "& mask) != 0U", ") != 0U"),
+        ("up_chip.c", "state->due_ms += cycle_ms;", "state->due_ms = step->now_ms + cycle_ms;"),
+        ("up_chip.c", "now_ms + early_ms(step)", "now_ms"),
+        ("up_chip.c", "/ cycle_ms + 1U)", "/ cycle_ms)"),
+        ("up_chip.c", "state->in_flight = 0U;\n      if", "if"),
+        ("up_chip.c", "step->state->counts.wrong_crc++;", ""),
+        ("up_filter.c", "(count - 1U) / 2U", "count / 2U"),
+        ("up_filter.c", "now.whole + (now.fraction >> 31)", "now.whole"),
+        ("up_filter.c", "(low >> 32) + (fraction >> 32)", "(low >> 32)"),
+        ("up_filter.c", "interval_ms - interval_ms / 4U", "0U"),
+        ("up_filter.c", "state->has_seen ? up_filter_decay", "true ? up_filter_decay"),
+        ("up_filter.c", "step - (sum - old)", "0.0F"),
+        ("up_filter_double.c", "step - (sum - old)", "0.0"),
+        ("up_parse.c", "times(decimal.digits,", "decimal.digits * ("),
+        ("up_parse.c", "whole % 100U >= 60U", "false"),
+        ("up_parse.c", "angle > (uint64_t)degrees_max * 60U * NANO", "false"),
+        (
+            "up_message.c",
+            "count = (next != NULL) ? (size_t)(next - state->buffer) : state->size",
+            "count = state->size",
+        ),
+        ("up_message.c", "message->checksum_from < at", "false"),
+        ("up_message.c", "IBUS_START - ", "0U - "),
+        ("up_message.c", "size >= 2U * (size_t)message->start_count", "false"),
+        ("up_message.c", "state->is_aligned || ", ""),
+        ("up_ppm.c", "interval_ticks < config->min_ticks", "false"),
+        ("up_ppm.c", "raw->is_inside && raw->building_count > 0U", "raw->building_count > 0U"),
+        ("up_drive.c", "put(writes, &count, 0U, 0U);\n    put", "put"),
+        (
+            "up_drive.c",
+            "put(writes, &count, low, 0U);\n    put(writes, &count, other, (direction == 0) ? 0U : 1U);",
+            "put(writes, &count, other, (direction == 0) ? 0U : 1U);\n    put(writes, &count, low, 0U);",
+        ),
     ];
     let compile = |source: &Path, object: &Path| {
         let mut command = Command::new("gcc");
@@ -148,7 +246,7 @@ fn notices_a_broken_core() {
         let program = folder.join("core");
         let mut command = Command::new("gcc");
         command.arg("-fsanitize=address,undefined").args(objects).arg("-o").arg(&program);
-        run(&mut command);
+        run(command.arg("-lm"));
         let output = Command::new(&program).args(vectors()).output().unwrap();
         assert!(!output.status.success(), "{file}: `{broken}` went unnoticed");
     }

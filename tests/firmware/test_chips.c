@@ -1,0 +1,433 @@
+/* Chips on a bus that is a table of registers: starting, identity, calibration, transfers in their own time, faults. */
+#include <string.h>
+
+#include "check.h"
+#include "up_chip.h"
+
+/* ---- the world ---- */
+
+/* 256 registers; what is written first is the register. Fails when it is told to. */
+typedef struct {
+  uint8_t registers[256];
+  uint8_t log[64]; /* what was written, transfer by transfer, each with its length in front */
+  size_t log_size;
+  size_t transfers; /* so far */
+  size_t fails_at;  /* which one fails, from 1; 0: none */
+  bool is_gone;
+  up_bus_result_t failure;
+} world_t;
+
+static up_bus_result_t happens(world_t *world, uint8_t address, const uint8_t *bytes, size_t count) {
+  world->transfers++;
+  if (world->is_gone || address != 0x68U) {
+    return UP_BUS_NOT_ACKNOWLEDGED;
+  }
+  if (world->transfers == world->fails_at) {
+    return world->failure;
+  }
+  if (count > 0U && world->log_size + count + 1U <= sizeof world->log) {
+    world->log[world->log_size] = (uint8_t)count;
+    memcpy(&world->log[world->log_size + 1U], bytes, count);
+    world->log_size += count + 1U;
+  }
+  return UP_BUS_DONE;
+}
+
+static up_bus_result_t world_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
+  world_t *world = context;
+  const up_bus_result_t result = happens(world, address, bytes, count);
+
+  if (result == UP_BUS_DONE && count == 2U) {
+    world->registers[bytes[0]] = bytes[1];
+  }
+  return result;
+}
+
+static up_bus_result_t world_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
+                                        size_t rx_count) {
+  world_t *world = context;
+  const up_bus_result_t result = happens(world, address, tx, 0U);
+  size_t i;
+
+  for (i = 0U; result == UP_BUS_DONE && i < rx_count; i++) {
+    rx[i] = world->registers[(((tx_count > 0U) ? tx[0] : 0U) + i) % 256U];
+  }
+  return result;
+}
+
+/* MCP3008: start, single-ended channel, and ten bits that come back behind them. */
+static up_bus_result_t world_exchange(void *context, uint8_t address, const uint8_t *tx, uint8_t *rx, size_t count) {
+  const up_bus_result_t result = happens(context, address, tx, count);
+  const unsigned level = 1000U - (tx[1] >> 4);
+
+  if (result == UP_BUS_DONE && count == 3U) {
+    rx[0] = 0xFFU;
+    rx[1] = (uint8_t)(0xF8U | (level >> 8));
+    rx[2] = (uint8_t)level;
+  }
+  return result;
+}
+
+/* What the sink was told last of each field. */
+typedef struct {
+  up_result_t results[4];
+  unsigned told[4];
+  int16_t axes[3];
+  int16_t celsius;
+  int32_t wide[2];
+} heard_t;
+
+static void on_value(void *context, uint16_t field, up_result_t result, void *value) {
+  heard_t *heard = context;
+
+  heard->results[field] = result;
+  heard->told[field]++;
+  CHECK((value != NULL) == (result == UP_FRESH));
+  if (value == NULL) {
+    return;
+  }
+  if (field == 0U) {
+    memcpy(heard->axes, value, sizeof heard->axes);
+  } else if (field == 1U) {
+    memcpy(&heard->celsius, value, sizeof heard->celsius);
+  } else {
+    memcpy(&heard->wide[field - 2U], value, sizeof heard->wide[0]);
+  }
+}
+
+/* ---- an MPU-6050 with a command ---- */
+
+static const up_field_t fields[] = {
+    {"Acceleration", 1U, UP_TYPE_INT16, UP_TO_HOST, true, 3U, 0U},
+    {"Celsius", 2U, UP_TYPE_INT16, UP_TO_HOST, false, 1U, 6U},
+    {"A", 3U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 8U},
+    {"B", 4U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 12U},
+    {"Range", 5U, UP_TYPE_UINT8, UP_TO_BOARD, false, 1U, 16U},
+};
+static const up_schema_t schema = {fields, 5U, false, 0U};
+
+static const uint8_t reset[] = {0x6BU, 0x80U}, wake[] = {0x6BU, 0x00U}, who[] = {0x75U}, is_mpu[] = {0x68U};
+static const uint8_t id_bits[] = {0x7EU}, data[] = {0x3BU}, range[] = {0x1CU};
+static const up_chip_init_t mpu_init[] = {{reset, 2U, 100U}, {wake, 2U, 0U}};
+static const up_chip_identity_t mpu_identity = {who, is_mpu, id_bits, 1U, 1U};
+static const up_chip_transfer_t mpu_transfers[] = {{.select = data, .select_count = 1U, .length = 8U, .cycle_ms = 10U}};
+static const up_chip_reading_t mpu_readings[] = {
+    {.field = 0U, .value = {.word_bytes = 2U, .is_signed = true}},
+    {.field = 1U, .offset = 6U, .value = {.word_bytes = 2U, .is_signed = true}},
+};
+static const up_chip_command_t mpu_commands[] = {
+    {.prefix = range, .prefix_count = 1U, .field = 4U, .value = {.word_bytes = 1U, .low = 3U, .bits = 2U}},
+};
+static const up_chip_t mpu = {
+    .init = mpu_init,         .identity = &mpu_identity, .transfers = mpu_transfers, .readings = mpu_readings,
+    .commands = mpu_commands, .cycle_ms = 10U,           .address = 0x68U,           .init_count = 2U,
+    .transfers_count = 1U,    .readings_count = 2U,      .commands_count = 1U,
+};
+
+typedef struct {
+  world_t world;
+  heard_t heard;
+  up_chip_transfer_state_t transfers[4];
+  uint8_t calibration[32];
+  uint8_t work[48];
+  uint64_t scratch[2];
+  up_chip_state_t state;
+  up_bus_t bus;
+} board_t;
+
+static void set_up(board_t *board, const up_chip_t *chip) {
+  memset(board, 0, sizeof *board);
+  board->state.transfers = board->transfers;
+  board->state.calibration = board->calibration;
+  board->state.work = board->work;
+  board->state.scratch = board->scratch;
+  board->bus.write = world_write;
+  board->bus.write_read = world_write_read;
+  board->bus.context = &board->world;
+  CHECK(up_chip_work_bytes(chip, &schema) <= sizeof board->work);
+}
+
+static void step(board_t *board, const up_chip_t *chip, uint32_t now_ms) {
+  const up_value_sink_t sink = {on_value, &board->heard};
+
+  up_chip_step(chip, &board->state, &board->bus, &schema, now_ms, &sink);
+}
+
+static void set_up_mpu(board_t *board) {
+  static const uint8_t image[] = {0x00U, 0x10U, 0xFFU, 0xF0U, 0x40U, 0x00U, 0xF1U, 0x70U};
+
+  set_up(board, &mpu);
+  board->world.registers[0x75] = 0x68U;
+  memcpy(&board->world.registers[0x3B], image, sizeof image);
+}
+
+static void test_start(void) {
+  static const uint8_t written[] = {2U, 0x6BU, 0x80U, 2U, 0x6BU, 0x00U};
+  const uint32_t t0 = 0xFFFFFFD0U; /* the clock wraps in the pause */
+  board_t board;
+
+  set_up_mpu(&board);
+  step(&board, &mpu, t0);
+  CHECK(up_chip_idle_ms(&mpu, &board.state, t0) == 101U);
+  step(&board, &mpu, t0 + 100U);
+  CHECK(board.world.transfers == 1U && board.heard.told[0] == 0U && !board.state.is_running);
+  step(&board, &mpu, t0 + 101U);
+  CHECK(board.state.is_running && board.state.counts.starts == 1U && board.heard.results[0] == UP_FRESH);
+  CHECK(board.heard.axes[0] == 16 && board.heard.axes[1] == -16 && board.heard.axes[2] == 16384);
+  CHECK(board.heard.results[1] == UP_FRESH && board.heard.celsius == -3728 && board.state.counts.values == 2U);
+  CHECK(board.world.log_size == sizeof written && memcmp(board.world.log, written, sizeof written) == 0);
+  CHECK(board.world.transfers == 4U && up_chip_idle_ms(&mpu, &board.state, t0 + 101U) == 10U);
+  step(&board, &mpu, t0 + 105U);
+  CHECK(board.heard.told[0] == 1U);
+  step(&board, &mpu, t0 + 111U);
+  CHECK(board.heard.told[0] == 2U && board.state.fault == UP_CHIP_WELL);
+  /* 9 ms and 11 ms in turn, as clocks of whole milliseconds round: none is left out, none comes twice. */
+  for (uint32_t i = 2U; i < 100U; i++) {
+    step(&board, &mpu, t0 + 101U + 10U * i - i % 2U);
+    CHECK(board.heard.told[0] == i + 1U);
+  }
+}
+
+static void test_faults(void) {
+  board_t board;
+
+  set_up_mpu(&board);
+  board.world.is_gone = true;
+  step(&board, &mpu, 0U);
+  CHECK(board.heard.results[0] == UP_ERROR && board.heard.results[1] == UP_ERROR && board.heard.told[0] == 1U);
+  CHECK(board.state.counts.not_acknowledged == 1U && board.state.fault == UP_CHIP_NOT_ACKNOWLEDGED);
+  CHECK(up_chip_idle_ms(&mpu, &board.state, 0U) == 10U);
+  board.world.is_gone = false;
+  step(&board, &mpu, 10U);
+  step(&board, &mpu, 111U);
+  CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_CHIP_WELL);
+  /* A transfer fails: error now, then the whole start again, with its pause. */
+  board.world.fails_at = board.world.transfers + 1U;
+  board.world.failure = UP_BUS_FAILED;
+  board.world.log_size = 0U;
+  step(&board, &mpu, 121U);
+  CHECK(board.heard.results[0] == UP_ERROR && board.state.counts.failed == 1U && board.state.fault == UP_CHIP_FAILED);
+  CHECK(board.heard.told[0] == 3U && !board.state.is_running);
+  step(&board, &mpu, 131U);
+  CHECK(board.world.log_size == 3U && board.heard.told[0] == 3U);
+  step(&board, &mpu, 232U);
+  CHECK(board.heard.results[0] == UP_FRESH && board.state.counts.starts == 2U);
+}
+
+static void test_identity(void) {
+  board_t board;
+  size_t before;
+
+  set_up_mpu(&board);
+  board.world.registers[0x75] = 0x70U; /* an MPU-6500 */
+  step(&board, &mpu, 0U);
+  step(&board, &mpu, 101U);
+  CHECK(board.heard.results[0] == UP_ERROR && board.state.fault == UP_CHIP_WRONG_IDENTITY);
+  CHECK(board.state.counts.wrong_identity == 1U && board.state.identity_seen == 0x70U);
+  before = board.world.log_size;
+  for (uint32_t now_ms = 111U; now_ms < 1000U; now_ms += 10U) {
+    step(&board, &mpu, now_ms);
+    CHECK(board.heard.results[0] == UP_ERROR && board.state.fault == UP_CHIP_WRONG_IDENTITY);
+  }
+  /* It was read, and never written to. */
+  CHECK(board.world.log_size == before && board.state.counts.values == 0U && board.state.counts.wrong_identity == 90U);
+  board.world.registers[0x75] = 0xE9U; /* the bits that count are right */
+  step(&board, &mpu, 1000U);
+  CHECK(board.world.log_size == before + 3U);
+  step(&board, &mpu, 1101U);
+  CHECK(board.heard.results[0] == UP_FRESH);
+}
+
+static void test_command(void) {
+  board_t board;
+  uint8_t level = 2U;
+
+  set_up_mpu(&board);
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_NOTHING);
+  step(&board, &mpu, 0U);
+  step(&board, &mpu, 101U);
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_FRESH);
+  CHECK(board.world.registers[0x1C] == 0x10U && board.state.counts.written == 1U);
+  level = 9U;
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_FRESH);
+  CHECK(board.world.registers[0x1C] == 0x18U);
+  board.world.is_gone = true;
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_ERROR);
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_NOTHING);
+}
+
+/* ---- several triggered measurements of one converter, and a free one with a time of its own ---- */
+
+static const uint8_t first_trigger[] = {0x01U, 0xC1U}, second_trigger[] = {0x01U, 0xD1U}, at0[] = {0x00U}, at9[] = {9U};
+static const up_chip_transfer_t ads_transfers[] = {
+    {.trigger = first_trigger, .trigger_count = 2U, .select = at0, .select_count = 1U, .length = 2U, .cycle_ms = 40U,
+     .wait_ms = 9U},
+    {.trigger = second_trigger, .trigger_count = 2U, .select = at0, .select_count = 1U, .length = 2U, .cycle_ms = 40U,
+     .wait_ms = 9U},
+    {.select = at9, .select_count = 1U, .length = 2U, .cycle_ms = 100U, .wait_ms = 25U},
+};
+static const up_chip_reading_t ads_readings[] = {
+    {.field = 2U, .transfer = 0U, .value = {.word_bytes = 2U, .is_signed = true}},
+    {.field = 3U, .transfer = 1U, .value = {.word_bytes = 2U, .is_signed = true}},
+    {.field = 1U, .transfer = 2U, .value = {.word_bytes = 2U, .is_signed = true}},
+};
+static const up_chip_t ads = {
+    .transfers = ads_transfers, .readings = ads_readings, .cycle_ms = 10U,
+    .address = 0x68U,           .transfers_count = 3U,    .readings_count = 3U,
+};
+
+static void test_turns(void) {
+  static const uint8_t written[] = {2U, 0x01U, 0xC1U, 2U, 0x01U, 0xD1U, 2U, 0x01U, 0xC1U, 2U, 0x01U, 0xD1U};
+  board_t board;
+  uint32_t now_ms;
+
+  set_up(&board, &ads);
+  for (now_ms = 0U; now_ms < 80U; now_ms += 10U) {
+    step(&board, &ads, now_ms);
+    if (now_ms == 0U) {
+      CHECK(board.heard.told[2] == 0U && up_chip_idle_ms(&ads, &board.state, now_ms) == 9U);
+    }
+    if (now_ms == 20U) {
+      CHECK(board.heard.told[2] == 1U && board.heard.told[3] == 1U && board.heard.told[1] == 0U);
+      CHECK(up_chip_idle_ms(&ads, &board.state, now_ms) == 5U);
+    }
+  }
+  CHECK(board.heard.told[2] == 2U && board.heard.told[3] == 2U && board.heard.told[1] == 1U);
+  CHECK(board.world.log_size == sizeof written && memcmp(board.world.log, written, sizeof written) == 0);
+  for (; now_ms < 2000U; now_ms += 10U) {
+    step(&board, &ads, now_ms);
+  }
+  CHECK(board.heard.told[2] == 50U && board.heard.told[3] == 50U && board.heard.told[1] == 20U);
+  /* A second without a step: what was missed is left out. */
+  step(&board, &ads, 3000U);
+  step(&board, &ads, 3010U);
+  step(&board, &ads, 3020U);
+  CHECK(board.heard.told[2] == 51U && board.heard.told[3] == 51U && board.heard.told[1] == 21U);
+}
+
+/* Called whenever there is something to do, a chip is as quick and as regular as its tables say. */
+static void test_idle(void) {
+  board_t board;
+  uint32_t now_ms = 0U, steps = 0U;
+
+  set_up(&board, &ads);
+  while (now_ms < 4000U) {
+    uint32_t idle_ms;
+    step(&board, &ads, now_ms);
+    steps++;
+    idle_ms = up_chip_idle_ms(&ads, &board.state, now_ms);
+    now_ms += (idle_ms == 0U) ? 1U : idle_ms;
+  }
+  CHECK(board.heard.told[2] == 100U && board.heard.told[3] == 100U && board.heard.told[1] == 40U);
+  CHECK(steps < 500U);
+}
+
+/* A measurement that needs no time is triggered and read in one step. */
+static void test_no_wait(void) {
+  static const up_chip_transfer_t transfers[] = {{.trigger = first_trigger, .trigger_count = 2U, .length = 2U}};
+  static const up_chip_reading_t readings[] = {{.field = 2U, .value = {.word_bytes = 2U}}};
+  static const up_chip_t chip = {.transfers = transfers, .readings = readings, .cycle_ms = 10U, .address = 0x68U,
+                                 .transfers_count = 1U, .readings_count = 1U};
+  board_t board;
+
+  set_up(&board, &chip);
+  board.world.registers[0] = 1U;
+  step(&board, &chip, 0U);
+  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 0x01C1 && board.heard.told[2] == 1U);
+  step(&board, &chip, 10U);
+  CHECK(board.heard.told[2] == 2U);
+}
+
+/* ---- checksums, SPI, formulas ---- */
+
+static const uint8_t measure[] = {0x24U, 0x00U};
+static const up_chip_transfer_t sht_transfers[] = {
+    {.trigger = measure, .trigger_count = 2U, .length = 6U, .cycle_ms = 100U, .wait_ms = 16U}};
+static const up_chip_reading_t sht_readings[] = {
+    {.field = 2U, .value = {.word_bytes = 2U, .crc = UP_CRC_SENSIRION}},
+    {.field = 3U, .offset = 3U, .value = {.word_bytes = 2U, .crc = UP_CRC_SENSIRION}},
+};
+static const up_chip_t sht = {.transfers = sht_transfers, .readings = sht_readings, .cycle_ms = 100U, .address = 0x68U,
+                              .transfers_count = 1U, .readings_count = 2U};
+
+static void test_crc(void) {
+  static const uint8_t image[] = {0xBEU, 0xEFU, 0x92U, 0x66U, 0x66U, 0x93U};
+  board_t board;
+
+  set_up(&board, &sht);
+  memcpy(board.world.registers, image, sizeof image);
+  step(&board, &sht, 0U);
+  step(&board, &sht, 15U);
+  CHECK(board.heard.told[2] == 0U);
+  step(&board, &sht, 16U);
+  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 0xBEEF && board.heard.wide[1] == 0x6666);
+  board.world.registers[5] ^= 0x10U;
+  step(&board, &sht, 100U);
+  step(&board, &sht, 200U);
+  CHECK(board.heard.results[2] == UP_FRESH && board.heard.results[3] == UP_INVALID);
+  CHECK(board.state.counts.wrong_crc == 1U && board.state.fault == UP_CHIP_WRONG_CRC && board.state.is_running);
+}
+
+static void test_exchange(void) {
+  static const uint8_t channel0[] = {0x01U, 0x80U, 0x00U}, channel3[] = {0x01U, 0xB0U, 0x00U};
+  static const up_chip_transfer_t transfers[] = {
+      {.select = channel0, .exchange = true, .length = 3U},
+      {.select = channel3, .exchange = true, .length = 3U},
+  };
+  static const up_chip_reading_t readings[] = {
+      {.field = 2U, .transfer = 0U, .value = {.word_bytes = 3U, .bits = 10U}},
+      {.field = 3U, .transfer = 1U, .value = {.word_bytes = 3U, .bits = 10U}},
+  };
+  static const up_chip_t mcp3008 = {.transfers = transfers, .readings = readings, .cycle_ms = 10U, .address = 0x68U,
+                                    .transfers_count = 2U, .readings_count = 2U};
+  board_t board;
+
+  set_up(&board, &mcp3008);
+  CHECK(up_chip_work_bytes(&mcp3008, &schema) == 6U);
+  step(&board, &mcp3008, 0U); /* a bus without exchanges */
+  CHECK(board.heard.results[2] == UP_ERROR && board.state.counts.failed == 1U);
+  board.bus.exchange = world_exchange;
+  step(&board, &mcp3008, 10U);
+  CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 992 && board.heard.wide[1] == 989);
+}
+
+static void test_formula(void) {
+  /* The data sheet's example of the BMP280, as it lies in the registers. */
+  static const uint8_t trimming[] = {0x70U, 0x6BU, 0x43U, 0x67U, 0x18U, 0xFCU, 0x7DU, 0x8EU, 0x43U, 0xD6U, 0xD0U, 0x0BU,
+                                     0x27U, 0x0BU, 0x8CU, 0x00U, 0xF9U, 0xFFU, 0x8CU, 0x3CU, 0xF8U, 0xC6U, 0x70U, 0x17U};
+  static const uint8_t image[] = {0x65U, 0x5AU, 0xC0U, 0x7EU, 0xEDU, 0x00U};
+  static const uint8_t at88[] = {0x88U}, atf7[] = {0xF7U};
+  static const up_chip_calibration_t calibration[] = {{at88, 1U, 24U}};
+  static const up_chip_transfer_t transfers[] = {{.select = atf7, .select_count = 1U, .length = 6U}};
+  static const up_chip_reading_t readings[] = {
+      {.field = 2U, .computed = true, .output = 0U},
+      {.field = 3U, .computed = true, .output = 1U},
+  };
+  static const up_chip_t bmp = {.calibration = calibration, .transfers = transfers, .readings = readings,
+                                .formula = &up_formula_bmp280, .cycle_ms = 10U, .address = 0x68U,
+                                .calibration_count = 1U, .transfers_count = 1U, .readings_count = 2U};
+  board_t board;
+
+  set_up(&board, &bmp);
+  memcpy(&board.world.registers[0x88], trimming, sizeof trimming);
+  memcpy(&board.world.registers[0xF7], image, sizeof image);
+  step(&board, &bmp, 0U);
+  CHECK(board.heard.wide[0] == 2508 && board.heard.wide[1] == 25767233);
+  board.world.registers[0xFA] = 0x80U;
+  board.world.registers[0xFB] = 0x00U;
+  step(&board, &bmp, 10U);
+  CHECK(board.heard.results[2] == UP_INVALID && board.state.counts.invalid == 2U && board.state.fault == UP_CHIP_INVALID);
+}
+
+void test_chips(void) {
+  test_start();
+  test_faults();
+  test_identity();
+  test_command();
+  test_turns();
+  test_idle();
+  test_no_wait();
+  test_crc();
+  test_exchange();
+  test_formula();
+}
