@@ -10,6 +10,7 @@ mod command_line;
 mod corpus;
 mod crash;
 mod decoders;
+mod devices;
 mod drivers;
 mod examples;
 mod firmware;
