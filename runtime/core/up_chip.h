@@ -83,7 +83,7 @@ typedef struct {
   uint8_t address;              /* see up_bus_t */
   uint8_t init_count;
   uint8_t calibration_count;
-  uint8_t transfers_count;
+  uint8_t transfers_count; /* 0 to 254 */
   uint8_t readings_count;
   uint8_t commands_count;
 } up_chip_t;

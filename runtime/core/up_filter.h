@@ -71,7 +71,7 @@ typedef struct {
 up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
                             uint32_t now_ms, void *value);
 
-/* exp(-elapsed/constant) times 2^32, at most 2^32 - 1; 0 where the constant is 0. Within 2 of the exact number. */
+/* exp(-elapsed/constant) times 2^32, at most 2^32 - 1; 0 where the constant is 0. Within 6 of the exact number. */
 uint32_t up_filter_decay(uint32_t elapsed_ms, uint32_t constant_ms);
 
 #endif

@@ -3,8 +3,8 @@
 #include "up_formula.h"
 
 /* t_fine is 5120 a degree; the parts measure -40 to 85 degC. */
-#define FINE_MIN (-60 * 5120)
-#define FINE_MAX (110 * 5120)
+#define FINE_MIN (-(int64_t)60 * 5120)
+#define FINE_MAX ((int64_t)110 * 5120)
 /* What is read of a quantity that is switched off, in 20 and in 16 bits. */
 #define SKIPPED 0x80000
 #define SKIPPED_HUMIDITY 0x8000

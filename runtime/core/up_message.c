@@ -86,7 +86,7 @@ static verdict_t judge(const up_message_t *message, up_message_state_t *state) {
   const size_t size = state->size;
   const size_t least = frame_bytes(message) + message->length;
 
-  if (!starts_right(message, bytes, size) || least > message->bytes_max) {
+  if (!starts_right(message, bytes, size)) {
     return BAD;
   }
   if (size < least || (message->length == 0U && !ends_right(message, bytes, size))) {
@@ -261,7 +261,12 @@ void up_message_feed(const up_message_t *message, up_message_state_t *state, con
                      const uint8_t *bytes, size_t count, const up_value_sink_t *sink) {
   size_t i;
 
-  for (i = 0U; i < count && message->bytes_max > 0U; i++) {
+  if (message->bytes_max == 0U || frame_bytes(message) + message->length > message->bytes_max) {
+    /* No message fits into the buffer. */
+    state->dropped_bytes += (uint32_t)count;
+    return;
+  }
+  for (i = 0U; i < count; i++) {
     state->buffer[state->size] = bytes[i];
     state->size++;
     take(message, state, schema, sink);

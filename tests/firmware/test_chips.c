@@ -419,6 +419,42 @@ static void test_formula(void) {
   CHECK(board.heard.results[2] == UP_INVALID && board.state.counts.invalid == 2U && board.state.fault == UP_CHIP_INVALID);
 }
 
+/* A bad wire: transfers fail at random, another part answers now and then, time jumps. A stranger gives no values, a
+ * failure is told, and when the wire is good again the chip is soon back. */
+static void test_bad_wire(void) {
+  board_t board;
+  uint32_t seed = 11U, now_ms = 0xFFFF0000U, i, fresh = 0U;
+
+  set_up_mpu(&board);
+  for (i = 0U; i < 30000U; i++) {
+    const unsigned told = board.heard.told[0];
+    const uint32_t failed = board.state.counts.failed + board.state.counts.not_acknowledged;
+    bool is_good;
+    seed = seed * 1664525U + 1013904223U;
+    is_good = (i / 1000U) % 2U == 1U;
+    board.world.registers[0x75] = (!is_good && (seed >> 16) % 10U == 0U) ? 0xFFU : 0x68U;
+    board.world.is_gone = !is_good && (seed >> 8) % 40U == 0U;
+    board.world.fails_at = (!is_good && (seed >> 20) % 20U == 0U) ? board.world.transfers + 1U + (seed >> 30) : 0U;
+    board.world.failure = UP_BUS_FAILED;
+    board.world.log_size = 0U;
+    step(&board, &mpu, now_ms);
+    if (board.heard.told[0] != told && board.heard.results[0] == UP_FRESH) {
+      fresh++;
+      CHECK(!board.state.is_stranger && board.state.is_running && board.state.fault == UP_CHIP_WELL);
+      CHECK(board.heard.axes[1] == -16 && board.heard.results[1] == UP_FRESH);
+    }
+    if (board.state.counts.failed + board.state.counts.not_acknowledged != failed) {
+      CHECK(board.heard.told[0] != told && board.heard.results[0] == UP_ERROR && !board.state.is_running);
+    }
+    CHECK(board.state.counts.values == 2U * fresh);
+    if (i % 1000U > 30U && is_good) {
+      CHECK(board.state.is_running && board.heard.told[0] != told);
+    }
+    now_ms += 10U + ((!is_good && (seed >> 24) == 7U) ? 100000U : 0U);
+  }
+  CHECK(fresh > 20000U && board.state.counts.starts > 100U && board.state.counts.wrong_identity > 10U);
+}
+
 void test_chips(void) {
   test_start();
   test_faults();
@@ -430,4 +466,5 @@ void test_chips(void) {
   test_crc();
   test_exchange();
   test_formula();
+  test_bad_wire();
 }

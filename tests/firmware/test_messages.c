@@ -246,6 +246,24 @@ static void test_without_start(void) {
   CHECK(port.state.messages == 1U && port.heard.numbers[0] == 0x1234);
 }
 
+/* A buffer that no message fits into is not written to. */
+static void test_too_small(void) {
+  static const uint8_t ends[] = {'a', 'b', 'c', 'd'};
+  static const up_message_t lines = {.end = ends, .end_count = 4U, .bytes_max = 3U};
+  static const up_message_t blocks = {.length = 4U, .bytes_max = 3U};
+  static const up_message_t nothing = {.length = 0U, .bytes_max = 0U};
+  uint8_t buffer[] = {9U, 9U, 9U, 9U};
+  port_t port;
+
+  set_up(&port);
+  port.state.buffer = buffer;
+  feed_text(&port, &lines, "abcdabcdabcd");
+  up_message_gap(&port.state);
+  feed_text(&port, &blocks, "abcdabcd");
+  feed_text(&port, &nothing, "ab");
+  CHECK(port.state.messages == 0U && port.state.dropped_bytes == 22U && buffer[3] == 9U);
+}
+
 /* ---- numbers ---- */
 
 static up_result_t decimal(const char *text, uint8_t decimals, int32_t *number) {
@@ -318,6 +336,7 @@ void test_messages(void) {
   test_nmea();
   test_text();
   test_without_start();
+  test_too_small();
   test_decimals();
   test_degrees();
 }

@@ -57,7 +57,7 @@ impl Case {
             scalar = if random.below(2) == 0 { Scalar::Float32 } else { Scalar::Float64 };
             word_bytes = scalar.bytes();
         }
-        let with_crc = code != PACKED && word_bytes % 2 == 0 && random.below(3) == 0;
+        let with_crc = code != PACKED && word_bytes.is_multiple_of(2) && random.below(3) == 0;
         let word_bits = 8 * u32::try_from(word_bytes).unwrap();
         let (low, bits) = match code {
             FLOAT => (0, word_bits),
