@@ -8,6 +8,8 @@
 #define UNTOUCHED 0xFFU
 /* Clocks of whole milliseconds make a cycle look shorter than it is. */
 #define EARLY_PARTS 8U
+/* A stranger is started all the same after so many looks: a few parts say who they are only when they are set up. */
+#define LOOKS 16U
 
 typedef struct {
   const up_chip_t *chip;
@@ -40,7 +42,8 @@ static void restart(up_chip_state_t *state) {
 static bool went_through(up_chip_state_t *state, up_bus_result_t result) {
   switch (result) {
   case UP_BUS_DONE:
-    if (state->fault == UNTOUCHED) {
+    /* Starting proves nothing before it is done. */
+    if (state->fault == UNTOUCHED && state->is_running) {
       state->fault = UP_CHIP_WELL;
     }
     return true;
@@ -132,7 +135,7 @@ static bool identify(const step_t *step) {
       state->identity_seen = found[i];
       state->counts.wrong_identity++;
       state->fault = UP_CHIP_WRONG_IDENTITY;
-      state->is_stranger = true;
+      state->is_stranger = state->counts.wrong_identity % LOOKS != 0U;
       restart(state);
       return false;
     }
@@ -164,6 +167,7 @@ static void begin_transfers(const step_t *step) {
     step->state->transfers[i].ready_ms = step->now_ms + step->chip->transfers[i].wait_ms;
   }
   step->state->is_running = true;
+  step->state->fault = UP_CHIP_WELL;
   step->state->counts.starts++;
 }
 
@@ -392,7 +396,7 @@ void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t 
   state->fault = UNTOUCHED;
   if (!state->is_running) {
     start(&step);
-    if (!state->is_running && state->fault != UNTOUCHED && state->fault != UP_CHIP_WELL) {
+    if (!state->is_running && state->fault != UNTOUCHED) {
       say_error(&step, chip->transfers_count);
     }
   }

@@ -4,8 +4,8 @@
  *
  * up_chip_step() is called once a cycle and never waits itself: it starts the chip, triggers, and reads what is ready.
  * What it says of each reading goes to a sink. After a failed transfer the chip is started again. A chip that is not
- * the one it should be is asked for nothing but its identity, in every cycle, until it is the right one; then it is
- * started again from the beginning.
+ * the one it should be never gives values. It is asked for nothing but its identity, in every cycle, until it is the
+ * right one; then, and after each 16th look in vain, it is started again from the beginning.
  */
 #ifndef UP_CHIP_H
 #define UP_CHIP_H
@@ -124,7 +124,7 @@ typedef struct {
   uint64_t *scratch;                   /* as large as the largest value of a reading; may be shared likewise */
   up_chip_counts_t counts;
   uint32_t pause_until_ms;
-  uint8_t fault;         /* up_chip_fault_t: of the last step that read or wrote anything */
+  uint8_t fault;         /* up_chip_fault_t: of the last step that read anything; a start counts when it is done */
   uint8_t identity_seen; /* the first byte that was wrong of the identity read last */
   uint8_t init_at;       /* which step of the initialisation is next */
   uint8_t in_flight;     /* 1 + index of the triggered transfer that has not been read; 0 for none */

@@ -2,6 +2,10 @@
  * instead of rounded to lux. */
 #include "up_formula.h"
 
+/* What the constants are for. */
+#define NOMINAL_MS 402
+#define NOMINAL_GAIN 16
+
 /* Up to this ratio of channel 1 to channel 0 (times 2^9), lux = (b * channel 0 - m * channel 1) / 2^14. */
 typedef struct {
   uint16_t ratio;
@@ -52,15 +56,15 @@ static bool compute_tsl2561(const uint8_t *calibration, const int32_t *parameter
                             int64_t *outputs) {
   const uint32_t channel0 = (uint32_t)raw[1] << 8 | raw[0];
   const uint32_t channel1 = (uint32_t)raw[3] << 8 | raw[2];
-  const timing_t *timing = timing_of(parameters[0]);
+  const int32_t gain = (parameters != NULL) ? parameters[1] : NOMINAL_GAIN;
+  const timing_t *timing = timing_of((parameters != NULL) ? parameters[0] : NOMINAL_MS);
   uint64_t scale;
 
   (void)calibration;
-  if (timing == NULL || (parameters[1] != 1 && parameters[1] != 16) || channel0 >= timing->end ||
-      channel1 >= timing->end) {
+  if (timing == NULL || (gain != 1 && gain != NOMINAL_GAIN) || channel0 >= timing->end || channel1 >= timing->end) {
     return false;
   }
-  scale = (uint64_t)timing->scale * (16U / (uint32_t)parameters[1]);
+  scale = (uint64_t)timing->scale * (uint32_t)(NOMINAL_GAIN / gain);
   outputs[0] = millilux((channel0 * scale) >> 10, (channel1 * scale) >> 10);
   return true;
 }

@@ -278,3 +278,26 @@ void up_message_gap(up_message_state_t *state) {
   state->size = 0U;
   state->is_aligned = true;
 }
+
+/* ---- setting up ---- */
+
+const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
+                                          uint32_t now_ms) {
+  const up_message_init_t *step;
+
+  if (state->is_pausing && (uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U) {
+    return NULL;
+  }
+  state->is_pausing = false;
+  if (state->at >= count) {
+    return NULL;
+  }
+  step = &init[state->at];
+  state->at++;
+  if (step->pause_ms > 0U) {
+    /* One more, for the first millisecond is cut short. */
+    state->pause_until_ms = now_ms + step->pause_ms + 1U;
+    state->is_pausing = true;
+  }
+  return step;
+}

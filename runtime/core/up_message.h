@@ -69,12 +69,32 @@ typedef struct {
   uint32_t invalid;        /* values */
 } up_message_state_t;
 
+/* One step of setting a serial device up: bytes, then a pause. */
+typedef struct {
+  const uint8_t *bytes; /* sent one behind the other; NULL where there is only a pause */
+  uint8_t count;        /* of the bytes, 0 to 255 */
+  uint16_t pause_ms;    /* waited at least after them, 0 to 65535 */
+} up_message_init_t;
+
+/* All zero to start from the beginning. */
+typedef struct {
+  uint32_t pause_until_ms;
+  uint8_t at; /* steps that were begun */
+  bool is_pausing;
+} up_message_start_t;
+
+/* The step whose bytes are to be sent now; ask again until it is NULL. Then it pauses (and is asked in the next cycle),
+ * or all `count` steps are done. */
+const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
+                                          uint32_t now_ms);
+
 /* Takes the next bytes of the stream, and says the values of each whole message. UP_NOTHING: the field is empty. */
 void up_message_feed(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
                      const uint8_t *bytes, size_t count, const up_value_sink_t *sink);
 
 /* The line was silent for longer than within a message (an idle interrupt tells): what has begun is dropped, and the
- * next byte is taken for the first of a message. Devices with a weak start and no checksum (SBUS) need it. */
+ * next byte is taken for the first of a message. Devices with a weak start and no checksum need it: with SBUS a byte
+ * of the channels can look like the start, in every message at the same place. */
 void up_message_gap(up_message_state_t *state);
 
 /* The value of one field of a body, also for a frame of CAN; false when it is not in this message. */

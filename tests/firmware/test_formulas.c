@@ -126,6 +126,14 @@ static void test_ntc(void) {
   CHECK(up_formula_ntc.compute(NULL, parameters, raw, &celsius) && celsius > 30000);
 }
 
+/* Without parameters it is 402 ms and a gain of 16. */
+static void test_tsl2561_by_default(void) {
+  static const uint8_t raw[] = {0x10U, 0x27U, 0xD0U, 0x07U};
+  int64_t millilux = 0;
+
+  CHECK(up_formula_tsl2561.compute(NULL, NULL, raw, &millilux) && millilux == 236694);
+}
+
 static int64_t lux(int32_t time_ms, int32_t gain, uint16_t channel0, uint16_t channel1) {
   const int32_t parameters[] = {time_ms, gain};
   const uint8_t raw[] = {(uint8_t)channel0, (uint8_t)(channel0 >> 8), (uint8_t)channel1, (uint8_t)(channel1 >> 8)};
@@ -154,4 +162,5 @@ void test_formulas(void) {
   test_bosch_noise();
   test_ntc();
   test_tsl2561();
+  test_tsl2561_by_default();
 }

@@ -246,6 +246,21 @@ static void test_without_start(void) {
   CHECK(port.state.messages == 1U && port.heard.numbers[0] == 0x1234);
 }
 
+/* u-blox: a pause, two messages one behind the other, a pause, one more. */
+static void test_setting_up(void) {
+  static const uint8_t text[] = {'a', 'b', 'c'};
+  static const up_message_init_t init[] = {{NULL, 0U, 200U}, {text, 3U, 0U}, {text, 2U, 50U}, {text, 1U, 0U}};
+  const uint32_t t0 = 0xFFFFFF80U;
+  up_message_start_t start = {0U, 0U, false};
+
+  CHECK(up_message_start(init, 4U, &start, t0) == &init[0] && up_message_start(init, 4U, &start, t0 + 200U) == NULL);
+  CHECK(up_message_start(init, 4U, &start, t0 + 201U) == &init[1]);
+  CHECK(up_message_start(init, 4U, &start, t0 + 201U) == &init[2]);
+  CHECK(up_message_start(init, 4U, &start, t0 + 251U) == NULL);
+  CHECK(up_message_start(init, 4U, &start, t0 + 252U) == &init[3] && start.at == 4U && !start.is_pausing);
+  CHECK(up_message_start(init, 4U, &start, t0 + 252U) == NULL);
+}
+
 /* A buffer that no message fits into is not written to. */
 static void test_too_small(void) {
   static const uint8_t ends[] = {'a', 'b', 'c', 'd'};
@@ -336,6 +351,7 @@ void test_messages(void) {
   test_nmea();
   test_text();
   test_without_start();
+  test_setting_up();
   test_too_small();
   test_decimals();
   test_degrees();
