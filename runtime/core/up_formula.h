@@ -37,8 +37,8 @@ extern const up_formula_t up_formula_bme280;
 extern const up_formula_t up_formula_ntc;
 
 /* TSL2561 in the T, FN and CL packages. Output: 0 illuminance in mlx. Parameters: integration time in ms (13, 101 or
- * 402), gain (1 or 16); none (NULL): 402 and 16. Raw: both channels from 0x8C, 4 bytes, each least significant first; a channel at its end is
- * not a measurement. */
+ * 402), gain (1 or 16); none (NULL): 402 and 16. Raw: both channels from 0x8C, 4 bytes, each least
+ * significant first; a channel at its end is not a measurement. */
 extern const up_formula_t up_formula_tsl2561;
 
 #endif

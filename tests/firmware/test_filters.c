@@ -20,7 +20,8 @@ static up_result_t pass_u16(const up_filter_t *filter, up_filter_state_t *state,
 
 /* SRF08: 0 is no echo; a thermocouple: everything from 0x7FFC up; an int16 of -32768. */
 static void test_invalid(void) {
-  static const up_range_t srf[] = {{.low = {.u = 0U}, .high = {.u = 0U}}, {.low = {.u = 11000U}, .high = {.u = 65535U}}};
+  static const up_range_t srf[] = {{.low = {.u = 0U}, .high = {.u = 0U}},
+                                   {.low = {.u = 11000U}, .high = {.u = 65535U}}};
   static const up_range_t least[] = {{.low = {.i = -32768}, .high = {.i = -32000}}};
   static const up_range_t real[] = {{.low = {.f = -1000.0F}, .high = {.f = -100.0F}}};
   static const up_range_t wide[] = {{.low = {.u = UINT64_MAX}, .high = {.u = UINT64_MAX}}};

@@ -15,9 +15,9 @@ static void put20(uint8_t *bytes, uint32_t number) {
   bytes[2] = (uint8_t)(number << 4);
 }
 
-/* The example of the BMP280's data sheet, section 3.12, and the humidity trimming of a BME280. The sheet prints 25767236
- * for the pressure, which is what its formula in floating point comes to; the one in 64-bit integers comes to 25767233,
- * 0.01 Pa less. */
+/* The example of the BMP280's data sheet, section 3.12, and the humidity trimming of a BME280. The sheet prints
+ * 25767236 for the pressure, which is what its formula in floating point comes to; the one in 64-bit integers comes to
+ * 25767233, 0.01 Pa less. */
 static void bosch_image(uint8_t *calibration, uint8_t *raw) {
   static const int words[] = {27504, 26435, -1000, 36477, -10685, 3024, 2855, 140, -7, 15500, -14600, 6000};
   static const int h2 = 362, h4 = 315, h5 = 50;
@@ -61,7 +61,7 @@ static void test_bosch(void) {
   CHECK(!up_formula_bmp280.compute(calibration, NULL, raw, outputs));
 }
 
-/* Whatever a broken part or a broken wire says, nothing overflows (a sanitizer watches) and nothing absurd comes out. */
+/* Whatever a broken part or wire says, nothing overflows (a sanitizer watches) and nothing absurd comes out. */
 static void test_bosch_noise(void) {
   uint8_t calibration[32], raw[8];
   int64_t outputs[UP_FORMULA_OUTPUTS_MAX];

@@ -13,8 +13,10 @@ typedef struct {
 } heard_t;
 
 static const up_field_t fields[] = {
-    {"A", 1U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 0U},      {"B", 2U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 4U},
-    {"C", 3U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 8U},      {"Channels", 4U, UP_TYPE_UINT16, UP_TO_HOST, true, 16U, 12U},
+    {"A", 1U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 0U},
+    {"B", 2U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 4U},
+    {"C", 3U, UP_TYPE_INT32, UP_TO_HOST, false, 1U, 8U},
+    {"Channels", 4U, UP_TYPE_UINT16, UP_TO_HOST, true, 16U, 12U},
     {"Servos", 5U, UP_TYPE_UINT16, UP_TO_HOST, true, 14U, 0U},
 };
 static const up_schema_t schema = {fields, 5U, false, 0U};
@@ -98,8 +100,9 @@ static const up_message_t sbus = {.start = sbus_start, .end = sbus_end, .start_c
 
 /* Two published frames with the channels that other decoders found in them. */
 static void test_sbus(void) {
-  static const uint8_t first[] = {0x0FU, 0xE0U, 0x03U, 0x1FU, 0x58U, 0xC0U, 0x07U, 0x16U, 0xB0U, 0x80U, 0x05U, 0x2CU, 0x60U,
-                                  0x01U, 0x0BU, 0xF8U, 0xC0U, 0x07U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U, 0x03U, 0x00U};
+  static const uint8_t first[] = {0x0FU, 0xE0U, 0x03U, 0x1FU, 0x58U, 0xC0U, 0x07U, 0x16U, 0xB0U, 0x80U, 0x05U, 0x2CU,
+                                  0x60U, 0x01U, 0x0BU, 0xF8U, 0xC0U, 0x07U, 0x00U, 0x00U, 0x00U, 0x00U, 0x00U, 0x03U,
+                                  0x00U};
   static const uint16_t first_channels[] = {992U, 992U, 352U, 992U, 352U, 352U, 352U, 352U,
                                             352U, 352U, 992U, 992U, 0U,   0U,   0U,   0U};
   static const uint8_t second[] = {15U,  41U, 107U, 214U, 235U, 44U,  169U, 3U,   33U, 187U, 239U, 95U, 95U,
@@ -150,8 +153,9 @@ static void test_crsf(void) {
                                     .checksum = UP_CHECKSUM_CRC8_DVB_S2, .checksum_from = 2U,
                                     .fields = channels, .fields_count = 1U};
   /* A published frame to a Crossfire transmitter: four sticks, a switch, and eleven channels in the middle. */
-  static const uint8_t frame[] = {0xEEU, 0x18U, 0x16U, 0xE1U, 0xE3U, 0xDEU, 0x09U, 0xC7U, 0xD7U, 0x8AU, 0x56U, 0x80U, 0x0FU,
-                                  0x7CU, 0xE0U, 0x03U, 0x1FU, 0xF8U, 0xC0U, 0x07U, 0x3EU, 0xF0U, 0x81U, 0x0FU, 0x7CU, 0x36U};
+  static const uint8_t frame[] = {0xEEU, 0x18U, 0x16U, 0xE1U, 0xE3U, 0xDEU, 0x09U, 0xC7U, 0xD7U, 0x8AU, 0x56U, 0x80U,
+                                  0x0FU, 0x7CU, 0xE0U, 0x03U, 0x1FU, 0xF8U, 0xC0U, 0x07U, 0x3EU, 0xF0U, 0x81U, 0x0FU,
+                                  0x7CU, 0x36U};
   port_t port;
   size_t i;
 
@@ -193,7 +197,8 @@ static void test_nmea(void) {
   CHECK(port.heard.results[2] == UP_FRESH && port.heard.numbers[2] == 880 && port.state.messages == 5U);
   /* Damaged; without its end; lower-case digits; a sentence of Galileo's talker. */
   feed_text(&port, &gps, "$GPGGA,200000.00,1541.31248595,N,05130.51199976,W,2,06,1.5,9.8,M,-37.6,M,5.0,0138*7D\r\n");
-  feed_text(&port, &gps, "$GPGGA,2000$GPGGA,,,,,,0,00,99.99,,,,,,*48\r\n$GPGLL,,,,,,V,N*64\r\n$GPGGA,,,,,,1,,,-5.006,,,,,*67\r\n");
+  feed_text(&port, &gps, "$GPGGA,2000$GPGGA,,,,,,0,00,99.99,,,,,,*48\r\n$GPGLL,,,,,,V,N*64\r\n"
+                         "$GPGGA,,,,,,1,,,-5.006,,,,,*67\r\n");
   CHECK(port.state.wrong_checksum >= 2U && port.state.messages == 8U && port.heard.numbers[2] == -501);
   CHECK(port.heard.told[2] == 4U);
 }
