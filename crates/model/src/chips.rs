@@ -7,7 +7,9 @@
 mod sockets;
 mod values;
 
-use sensedsl_diagnostics::codes::{e0201_unknown_property, e0229_wrong_driver};
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0217_driver_of_other_kind, e0229_wrong_driver,
+};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 
@@ -17,11 +19,13 @@ use crate::design::{
 };
 use crate::devices::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
 use crate::drivers::Driver;
-use crate::fields::{Fields, span};
+use crate::fields::{Fields, name_or_text, span};
+use crate::ids::ID_MAX;
 use crate::kind::{KindName, Values};
 use crate::parts::ReadPart;
 use crate::protocol::Protocol;
 use crate::rules;
+use crate::value::Evaluator;
 use sockets::Socket;
 use values::Asked;
 
@@ -57,7 +61,13 @@ pub(crate) fn read(
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
     let rest = (known.constants, &mut *diagnostics);
-    let (wishes, allows) = rules::of_device(file, node.rules(), node.range(), rest);
+    let (mut wishes, mut allows) = rules::of_device(file, node.rules(), node.range(), rest);
+    for device in node.devices() {
+        let rest = (known.constants, &mut *diagnostics);
+        let (more, others) = rules::of_device(file, device.rules(), device.range(), rest);
+        wishes.extend(more);
+        allows.extend(others);
+    }
     let said = (known.constants, &mut *diagnostics);
     let owner = format!("the chip `{}`", name.value);
     let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
@@ -77,6 +87,9 @@ pub(crate) fn read(
     let whole = Whole { file, name, block, driver, known, properties, protocol, given };
     sockets::describe(&mut sockets, &whole, node.connections().collect(), diagnostics);
     whole.check_properties(&sockets, CHIP, diagnostics);
+    for device in node.devices() {
+        whole.check_device(&device, &sockets, diagnostics);
+    }
     let asked: Vec<Asked> = if node.devices().next().is_some() {
         let devices = node.devices();
         devices.filter_map(|one| values::stated(&whole, &one, diagnostics)).collect()
@@ -111,6 +124,7 @@ pub(crate) fn of_device(
     let protocol = protocol(file, driver, &properties, known, diagnostics);
     let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
     let whole = Whole { file, name, block, driver, known, properties, protocol, given };
+    whole.check_type(diagnostics);
     let own: Vec<&str> = CHIP.iter().chain(&["type"]).copied().collect();
     whole.check_properties(&sockets, &own, diagnostics);
     let mut asked = values::stated(&whole, node, diagnostics)?;
@@ -255,6 +269,50 @@ impl Whole<'_> {
         }
     }
 
+    /// Reports what a device of the chip says that is not its own.
+    fn check_device(
+        &self,
+        node: &ast::Device,
+        sockets: &[Socket],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let own = || OF_DEVICE.iter().chain(PRESENTATION).chain(FILTER).copied();
+        for property in node.properties() {
+            let Some(name) = property.name().filter(|name| own().all(|one| one != name.text()))
+            else {
+                continue;
+            };
+            let at = span(self.file, name.range());
+            let of_chip = COMMON_PROPERTIES.contains(&name.text())
+                || sockets.iter().any(|one| one.kind.spec().properties.contains(&name.text()));
+            diagnostics.push(if of_chip {
+                let (property, chip) = (name.text(), &self.name.value);
+                e0201_unknown_property::property_of_chip(at, property, chip)
+            } else {
+                let meant = nearest(name.text(), own());
+                let of = "a device of a chip";
+                e0201_unknown_property::unknown_property(at, name.text(), of, meant)
+            });
+        }
+    }
+
+    /// Reports a `type` that is not the driver's.
+    fn check_type(&self, diagnostics: &mut Vec<Diagnostic>) {
+        let is_type = |one: &&Property| one.name().is_some_and(|name| name.text() == "type");
+        let Some(value) = self.properties.iter().find(is_type).and_then(Property::value) else {
+            return;
+        };
+        let (file, constants) = (self.file, self.known.constants);
+        let found = Evaluator { file, constants, diagnostics }.value(&value);
+        let written = name_or_text(&found).unwrap_or_default();
+        let of_driver = self.driver.kind.map(KindName::name);
+        if of_driver != Some(written.as_str()) {
+            let (at, name) = (span(file, value.range()), &self.driver.name.value);
+            let wrong = e0217_driver_of_other_kind::driver_of_other_kind;
+            diagnostics.push(wrong(at, name, &self.driver.what(), &written));
+        }
+    }
+
     /// All values that are wanted. Their connections are marked as used.
     fn devices(
         &self,
@@ -275,7 +333,7 @@ impl Whole<'_> {
         }
         let mut devices = Vec::new();
         for (asked, at) in asked.into_iter().zip(0_u8..) {
-            let id = first_id.and_then(|first| first.checked_add(at));
+            let id = first_id.and_then(|first| first.checked_add(at)).filter(|id| *id <= ID_MAX);
             devices.extend(self.device(&asked, id, sockets, diagnostics));
         }
         devices

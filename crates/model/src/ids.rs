@@ -27,4 +27,4 @@ pub(crate) fn complete(parts: &mut [ReadPart], diagnostics: &mut Vec<Diagnostic>
 }
 
 /// The greatest identifier of a device; 255 is the link's.
-const ID_MAX: u8 = 254;
+pub(crate) const ID_MAX: u8 = 254;

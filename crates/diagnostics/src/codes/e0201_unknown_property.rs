@@ -19,6 +19,15 @@ Way out: correct the spelling, or remove the line.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
+/// A property of the chip in one of its devices.
+#[must_use]
+pub fn property_of_chip(span: Span, name: &str, chip: &str) -> Diagnostic {
+    let message = format!("`{name}` belongs to the chip, not to one of its devices");
+    Diagnostic::new(CODE, span, message)
+        .here("the same for all devices of the chip")
+        .help(format!("move the line into `chip {chip}` itself"))
+}
+
 /// `of` describes the owner ("an analog device"); `known` is the nearest known name.
 #[must_use]
 pub fn unknown_property(span: Span, name: &str, of: &str, known: Option<&str>) -> Diagnostic {
