@@ -2,7 +2,10 @@
 //!
 //! Pins stand on the side the table gives them (`left` or `right` by name, otherwise the first half
 //! of the natural order on the left), in natural order; where the table tells their places at a
-//! connector, in the order of those. Beside its name stands what is printed beside the pin.
+//! connector, in the order of those. Beside its name stands what is printed beside the pin. Below a
+//! board stand its chips, a box each.
+
+mod chips;
 
 use std::cmp::Ordering;
 use std::fmt::Write as _;
@@ -94,7 +97,8 @@ fn board_picture(
             pin_picture(out, y, on_left, pin, &uses);
         }
     }
-    top + height + MARGIN
+    let mine: Vec<&Row> = rows.iter().filter(|row| row.board == *name).collect();
+    chips::boxes(out, top + height + MARGIN, &mine)
 }
 
 /// The pins of the two edges.
