@@ -443,7 +443,9 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         if !told.insert(wires.part) {
             continue;
         }
-        let several = wires.kind.roles(wires.direction).len() > 1 || wires.element.is_some();
+        let several = wires.kind.roles(wires.direction).len() > 1
+            || wires.element.is_some()
+            || design.connections_of(wires.part).nth(1).is_some();
         for wish in &wires.wishes {
             if several && wish.prefer && matches!(wish.what, WishFor::Pin(None, _)) {
                 let roles: Vec<&str> =

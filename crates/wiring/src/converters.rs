@@ -61,26 +61,28 @@ fn classes(design: &Design, board: &Board, wirings: &[ConnectionWiring], wishes:
             continue;
         }
         let fixed = connection.placement.unit.as_ref().map(|unit| unit.value.as_str());
-        let mut units = units(board, wiring, fixed);
-        if wishes {
-            units = wished(board, units, &connection.wishes);
-        }
+        let units = units(board, wiring, fixed);
         let class = (device.delay_ms, device.prio);
         classes.entry(class).or_default().push((wiring.connection, units));
     }
     for class in classes.values_mut() {
-        keep_together(design, class);
+        keep_together(design, board, class);
+        for (connection, units) in class.iter_mut().filter(|_| wishes) {
+            let own = design.connection(*connection).map(|one| one.wishes.as_slice());
+            *units = wished(board, std::mem::take(units), own.unwrap_or_default());
+        }
     }
     classes
 }
 
 /// Leaves the elements of an array that are wanted on one converter those that serve all of them.
-fn keep_together(design: &Design, class: &mut [Input]) {
+fn keep_together(design: &Design, board: &Board, class: &mut [Input]) {
     let tied = |connection: &ConnectionIndex| -> Option<PartIndex> {
         let connection: &Connection = design.connection(*connection)?;
         let hard = connection.placement.together.iter().any(|one| one.value == Together::Unit);
-        let wish = |wish: &Wish| wish.what == WishFor::Together(Together::Unit);
-        (hard || connection.wishes.iter().any(wish)).then_some(connection.part)
+        let mut wishes = connection.wishes.iter().chain(&board.wishes);
+        let mut wished = || wishes.any(|wish| wish.what == WishFor::Together(Together::Unit));
+        (connection.element.is_some() && (hard || wished())).then_some(connection.part)
     };
     let mut common: BTreeMap<PartIndex, BTreeSet<u8>> = BTreeMap::new();
     for (connection, units) in class.iter() {

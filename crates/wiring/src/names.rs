@@ -53,6 +53,7 @@ impl Resource {
                 match tied {
                     Tied::Kept => format!("tie {of}{wish}"),
                     Tied::Same(what) => format!("{} {of}{wish}", what.name()),
+                    Tied::Common(element) => format!("units up to element {element} {of}{wish}"),
                     Tied::Units(one, two) => format!("units {one} or {two} {of}{wish}"),
                     Tied::Place(element, _, header, place) => {
                         format!("place {place} of {header} behind element {element} {of}{wish}")

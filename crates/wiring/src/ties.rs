@@ -6,10 +6,15 @@
 //! of the header: an element takes all places up to its own for those before, the next element
 //! all from its own on for those behind, so that no place is taken for both.
 //!
+//! Where an element has several wires, the header or side is claimed by a whole alternative, for
+//! claims keep devices apart, not the wires of one.
+//!
 //! A wish doubles the alternatives: those that keep it, and loose ones that violate it. The loose
 //! ones take hold as the loose, so all elements of an array are one or the other.
 
-use std::collections::BTreeMap;
+mod common_unit;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::natural;
 use sensedsl_board::table::{Pin, Usage};
@@ -19,6 +24,7 @@ use sensedsl_solve::problem::{self as solver, Alternative, Claim, RuleId};
 use crate::converters::units_of;
 use crate::formulate::{Builder, Chosen, Meaning};
 use crate::names::{Group, Resource};
+use crate::wishes;
 
 /// What is the same for all connections of a part, or in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,6 +42,8 @@ pub(crate) enum Tied {
     Same(Together),
     /// Whether a unit is among these, or among those: no unit is among both.
     Units(String, String),
+    /// The units that serve all elements up to this one.
+    Common(u16),
     /// A place of a header: whether this element is at most there, or the next one at least.
     Place(u16, BoardIndex, String, usize),
 }
@@ -46,20 +54,23 @@ pub(crate) struct Elements<'e> {
     pub(crate) meanings: &'e mut [Vec<Meaning>],
 }
 
-/// Ties the connections of a part. Without `wishes` only what must be.
+/// Ties the connections of a part. Unless `wished`, only as they must be.
 pub(crate) fn tie(
     builder: &mut Builder<'_>,
     part: PartIndex,
     elements: &mut Elements<'_>,
-    wishes: bool,
+    wished: bool,
 ) {
     let design = builder.design;
     let connections: Vec<&Connection> = design.connections_of(part).collect();
-    let Some(first) = connections.first().filter(|_| connections.len() > 1) else { return };
-    if first.board.is_none() && design.boards.len() > 1 {
+    let Some(first) = connections.first() else { return };
+    if first.board.is_none() && design.boards.len() > 1 && connections.len() > 1 {
         on_one_board(builder, part, elements);
     }
     if first.element.is_none() {
+        if connections.len() > 1 {
+            wishes::leave_out_others(builder, part, elements.devices, elements.meanings);
+        }
         return;
     }
     let together = first.placement.together.iter().map(|one| Tie::Together(one.value));
@@ -73,7 +84,7 @@ pub(crate) fn tie(
             WishFor::Sequence => Tie::Sequence,
             WishFor::Pin(..) | WishFor::Unit(_) | WishFor::Side(_) | WishFor::Header(_) => continue,
         };
-        if wishes {
+        if wished {
             let tier = Tier::new(design, part, soft, Some(rule), &connections, elements);
             tier.soft(builder, elements, board);
         }
@@ -89,6 +100,12 @@ fn on_one_board(builder: &mut Builder<'_>, part: PartIndex, elements: &mut Eleme
     }
 }
 
+/// Units by their names.
+type Units = BTreeSet<String>;
+
+/// What an alternative becomes.
+type Tight = Vec<(Alternative, Meaning)>;
+
 /// Makes the claims of one tie.
 struct Tier<'d> {
     design: &'d Design,
@@ -97,7 +114,7 @@ struct Tier<'d> {
     rule: Option<RuleId>,
     connections: Vec<&'d Connection>,
     /// All sets of units that the candidates have.
-    sets: Vec<String>,
+    sets: BTreeMap<BoardIndex, BTreeSet<Units>>,
     /// The places of each header that the candidates have, in order.
     places: BTreeMap<(BoardIndex, String), Vec<String>>,
 }
@@ -111,13 +128,15 @@ impl<'d> Tier<'d> {
         connections: &[&'d Connection],
         elements: &Elements<'_>,
     ) -> Self {
-        let (sets, places) = (Vec::new(), BTreeMap::new());
+        let (sets, places) = (BTreeMap::new(), BTreeMap::new());
         let connections = connections.to_vec();
         let mut tier = Self { design, part, tie, rule, connections, sets, places };
         for meaning in elements.meanings.iter().flatten() {
             let Some(board) = design.board(meaning.board) else { continue };
             for chosen in meaning.roles.iter().flatten() {
-                tier.sets.extend(tier.set(board, chosen));
+                if let Some(set) = tier.set(board, chosen) {
+                    tier.sets.entry(meaning.board).or_default().insert(set);
+                }
                 let place = board.table.pins.get(chosen.pin).and_then(place);
                 if let Some((header, position)) = place {
                     let key = (meaning.board, header.to_ascii_uppercase());
@@ -125,8 +144,6 @@ impl<'d> Tier<'d> {
                 }
             }
         }
-        tier.sets.sort();
-        tier.sets.dedup();
         for positions in tier.places.values_mut() {
             positions.sort_by(|a, b| natural(a, b));
             positions.dedup();
@@ -141,7 +158,7 @@ impl<'d> Tier<'d> {
             let alternatives = std::mem::take(&mut device.alternatives);
             let all = alternatives.into_iter().zip(std::mem::take(meanings));
             for (alternative, meaning) in all {
-                if let Some((tight, meaning)) = self.tight(builder, number, alternative, meaning) {
+                for (tight, meaning) in self.tight(builder, number, alternative, meaning) {
                     device.alternatives.push(tight);
                     meanings.push(meaning);
                 }
@@ -189,42 +206,73 @@ impl<'d> Tier<'d> {
     }
 
     /// The alternative with the claims of the tie, without the candidates that cannot keep it; none
-    /// where a role has none left.
+    /// where a role has none left, several where it can be kept in several ways.
     fn tight(
         &self,
         builder: &mut Builder<'_>,
         number: u16,
         mut alternative: Alternative,
-        mut meaning: Meaning,
-    ) -> Option<(Alternative, Meaning)> {
-        let board = self.design.board(meaning.board)?;
+        meaning: Meaning,
+    ) -> Tight {
+        let Some(board) = self.design.board(meaning.board) else { return Vec::new() };
         if self.rule.is_some() {
             let resource = self.resource(Tied::Kept);
             let group = Group::Tie(meaning.board, "tied".to_owned());
             alternative.claims.push(builder.names.shared(resource, group));
         }
-        if let (Tie::Together(Together::Unit), Some(unit)) = (self.tie, &meaning.unit) {
-            let resource = self.resource(Tied::Same(Together::Unit));
-            let group = Group::Tie(meaning.board, unit.clone());
-            alternative.claims.push(builder.names.shared(resource, group));
-            return Some((alternative, meaning));
-        }
-        for (role, chosen) in alternative.roles.iter_mut().zip(&mut meaning.roles) {
-            let all = std::mem::take(&mut role.candidates).into_iter();
-            let all = all.zip(std::mem::take(chosen));
-            for (mut candidate, at) in all {
-                let claims = self.claims(builder, number, (meaning.board, board), &at);
-                if let Some(claims) = claims {
-                    candidate.claims.extend(claims);
-                    role.candidates.push(candidate);
-                    chosen.push(at);
-                }
+        let all = match (self.tie, &meaning.unit) {
+            (Tie::Together(Together::Unit), Some(unit)) => {
+                let resource = self.resource(Tied::Same(Together::Unit));
+                let group = Group::Tie(meaning.board, unit.clone());
+                alternative.claims.push(builder.names.shared(resource, group));
+                return vec![(alternative, meaning)];
             }
-            if role.candidates.is_empty() {
-                return None;
+            (Tie::Together(Together::Unit), None) if !self.is_told_by_pairs(meaning.board) => {
+                return self.by_common_unit(builder, number, board, (alternative, meaning));
             }
+            (Tie::Together(Together::Unit), None) => vec![(alternative, meaning)],
+            (Tie::Together(Together::Side), _) => {
+                self.by_place(builder, Together::Side, board, (alternative, meaning))
+            }
+            (Tie::Together(Together::Header) | Tie::Sequence, _) => {
+                self.by_place(builder, Together::Header, board, (alternative, meaning))
+            }
+        };
+        let claimed = all.into_iter().filter_map(|(alternative, meaning)| {
+            let at = meaning.board;
+            let one_wire = alternative.roles.len() == 1;
+            only(alternative, meaning, |chosen| {
+                self.claims(builder, number, (at, board, one_wire), chosen)
+            })
+        });
+        claimed.collect()
+    }
+
+    /// The alternative for each header or side that all its wires can be at; as it is where it has
+    /// one wire.
+    fn by_place(
+        &self,
+        builder: &mut Builder<'_>,
+        what: Together,
+        board: &Board,
+        (alternative, meaning): (Alternative, Meaning),
+    ) -> Tight {
+        if alternative.roles.len() == 1 {
+            return vec![(alternative, meaning)];
         }
-        Some((alternative, meaning))
+        let named = |at: &Chosen| {
+            let pin = board.table.pins.get(at.pin)?;
+            let name = if what == Together::Side { &pin.side } else { &pin.header };
+            Some(name.as_ref()?.to_ascii_uppercase())
+        };
+        let names: BTreeSet<String> =
+            meaning.roles.iter().take(1).flatten().filter_map(named).collect();
+        let there = names.into_iter().filter_map(|name| {
+            let mut one = alternative.clone();
+            one.claims.push(self.same(builder, what, meaning.board, &name));
+            only(one, meaning.clone(), |at| (named(at)? == name).then(Vec::new))
+        });
+        there.collect()
     }
 
     /// What a candidate takes; none where it cannot keep the tie.
@@ -232,12 +280,13 @@ impl<'d> Tier<'d> {
         &self,
         builder: &mut Builder<'_>,
         number: u16,
-        (index, board): (BoardIndex, &Board),
+        (index, board, one_wire): (BoardIndex, &Board, bool),
         at: &Chosen,
     ) -> Option<Vec<Claim>> {
         let pin = board.table.pins.get(at.pin)?;
         match self.tie {
             Tie::Together(Together::Unit) => Some(self.units(builder, index, board, at)),
+            Tie::Together(Together::Header | Together::Side) if !one_wire => Some(Vec::new()),
             Tie::Together(Together::Header) => {
                 let header = pin.header.as_ref()?;
                 Some(vec![self.same(builder, Together::Header, index, header)])
@@ -246,7 +295,7 @@ impl<'d> Tier<'d> {
                 let side = pin.side.as_ref()?;
                 Some(vec![self.same(builder, Together::Side, index, side)])
             }
-            Tie::Sequence => self.order(builder, number, index, pin),
+            Tie::Sequence => self.order(builder, number, (index, one_wire), pin),
         }
     }
 
@@ -271,39 +320,44 @@ impl<'d> Tier<'d> {
         at: &Chosen,
     ) -> Vec<Claim> {
         let Some(own) = self.set(board, at) else { return Vec::new() };
-        let apart = self.sets.iter().filter(|other| {
-            let has = |unit: &str| own.split(' ').any(|one| one == unit);
-            !other.split(' ').any(has)
-        });
+        let apart = self.sets_on(index).filter(|other| own.is_disjoint(other));
         let claims = apart.map(|other| {
-            let (one, two) = (own.clone().min(other.clone()), own.clone().max(other.clone()));
+            let [own, other] = [&own, other].map(words);
+            let (one, two) = (own.clone().min(other.clone()), own.clone().max(other));
             let resource = self.resource(Tied::Units(one, two));
-            builder.names.shared(resource, Group::Tie(index, own.clone()))
+            builder.names.shared(resource, Group::Tie(index, own))
         });
         claims.collect()
     }
 
-    /// The units that can serve a candidate, as words.
-    fn set(&self, board: &Board, at: &Chosen) -> Option<String> {
+    fn sets_on(&self, board: BoardIndex) -> impl Iterator<Item = &Units> {
+        self.sets.get(&board).into_iter().flatten()
+    }
+
+    /// The units that can serve a candidate.
+    fn set(&self, board: &Board, at: &Chosen) -> Option<Units> {
         let usage: &Usage = board.table.pins.get(at.pin)?.usages.get(at.usage?)?;
         let placement = &self.connections.first()?.placement;
         let fixed = placement.unit.as_ref().map(|unit| unit.value.as_str());
-        let units = units_of(board, usage, fixed);
-        (!units.is_empty()).then(|| units.join(" "))
+        let units: Units = units_of(board, usage, fixed).into_iter().collect();
+        (!units.is_empty()).then_some(units)
     }
 
     fn order(
         &self,
         builder: &mut Builder<'_>,
         number: u16,
-        index: BoardIndex,
+        (index, one_wire): (BoardIndex, bool),
         pin: &Pin,
     ) -> Option<Vec<Claim>> {
         let (header, position) = place(pin)?;
         let header = header.to_ascii_uppercase();
         let places = self.places.get(&(index, header.clone()))?;
         let own = places.iter().position(|place| place == position)?;
-        let mut claims = vec![self.same(builder, Together::Header, index, &header)];
+        let mut claims = Vec::new();
+        if one_wire {
+            claims.push(self.same(builder, Together::Header, index, &header));
+        }
         let mut claim = |element: u16, place: usize, word: &str| {
             let resource = self.resource(Tied::Place(element, index, header.clone(), place));
             claims.push(builder.names.shared(resource, Group::Tie(index, word.to_owned())));
@@ -320,6 +374,35 @@ impl<'d> Tier<'d> {
     fn resource(&self, what: Tied) -> Resource {
         Resource::Tie(self.part, self.rule.map(|rule| rule.0), what)
     }
+}
+
+/// The alternative with what its candidates claim beside; without those that get nothing, and none
+/// where a role has none left.
+fn only(
+    mut alternative: Alternative,
+    mut meaning: Meaning,
+    mut claims: impl FnMut(&Chosen) -> Option<Vec<Claim>>,
+) -> Option<(Alternative, Meaning)> {
+    for (role, chosen) in alternative.roles.iter_mut().zip(&mut meaning.roles) {
+        let all = std::mem::take(&mut role.candidates).into_iter();
+        for (mut candidate, at) in all.zip(std::mem::take(chosen)) {
+            if let Some(claims) = claims(&at) {
+                candidate.claims.extend(claims);
+                role.candidates.push(candidate);
+                chosen.push(at);
+            }
+        }
+        if role.candidates.is_empty() {
+            return None;
+        }
+    }
+    Some((alternative, meaning))
+}
+
+/// Units as words.
+fn words(units: &Units) -> String {
+    let units: Vec<&str> = units.iter().map(String::as_str).collect();
+    units.join(" ")
 }
 
 /// Header and position of a pin.

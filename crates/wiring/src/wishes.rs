@@ -3,14 +3,16 @@
 //! A rule counts once for each device it is violated by; a board's rule is read as if it stood in
 //! each device on that board.
 
+use std::collections::BTreeSet;
+
 use sensedsl_board::signal::{Function, UnitName};
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{BoardIndex, Wish, WishFor};
+use sensedsl_model::design::{BoardIndex, Design, PartIndex, Wish, WishFor};
 use sensedsl_model::kind::Role;
-use sensedsl_solve::problem::RuleId;
+use sensedsl_solve::problem::{Device, RuleId};
 
 use crate::alternatives::Wanted;
-use crate::formulate::Builder;
+use crate::formulate::{Builder, Meaning};
 use crate::offer::Offer;
 
 /// A soft rule, with the board that it is bound to where it stands in one.
@@ -32,7 +34,10 @@ pub(crate) fn rules<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Rules
     if let Some(part) = wanted.part {
         builder.remember_rules(part, &rules);
     }
-    let single = wanted.kind.roles(wanted.direction).len() == 1 && !wanted.is_element;
+    let of_chip =
+        wanted.part.is_some_and(|part| builder.design.connections_of(part).nth(1).is_some());
+    let one_wire = wanted.kind.roles(wanted.direction).len() == 1;
+    let single = one_wire && !wanted.is_element && !of_chip;
     Rules { rules, single, unit: wanted.unit }
 }
 
@@ -49,6 +54,50 @@ fn number<'a>(builder: &mut Builder<'a>, wanted: &Wanted<'a>) -> Vec<Rule<'a>> {
         }
     }
     rules
+}
+
+/// Of a chip with several connections a `prefer unit` speaks of those that could have the unit on the
+/// board in question; where none could, of all.
+pub(crate) fn leave_out_others(
+    builder: &Builder<'_>,
+    part: PartIndex,
+    devices: &mut [Device],
+    meanings: &[Vec<Meaning>],
+) {
+    let design = builder.design;
+    for (rule, _, wish) in builder.rules_of(part) {
+        let WishFor::Unit(wanted) = &wish.what else { continue };
+        let mut could: Vec<BTreeSet<BoardIndex>> = Vec::new();
+        for ways in meanings {
+            let with = ways.iter().filter(|meaning| has_unit(design, meaning, wanted));
+            could.push(with.map(|meaning| meaning.board).collect());
+        }
+        let any: BTreeSet<BoardIndex> = could.iter().flatten().copied().collect();
+        for ((device, ways), could) in devices.iter_mut().zip(meanings).zip(&could) {
+            for (alternative, meaning) in device.alternatives.iter_mut().zip(ways) {
+                if any.contains(&meaning.board) && !could.contains(&meaning.board) {
+                    alternative.violates.retain(|one| *one != rule);
+                    let roles = alternative.roles.iter_mut();
+                    let candidates = roles.flat_map(|role| &mut role.candidates);
+                    candidates.for_each(|one| one.violates.retain(|one| *one != rule));
+                }
+            }
+        }
+    }
+}
+
+/// Whether the unit could serve a connection that is connected so.
+fn has_unit(design: &Design, meaning: &Meaning, wanted: &str) -> bool {
+    let Some(board) = design.board(meaning.board) else { return false };
+    if let Some(unit) = &meaning.unit {
+        return board.same_unit(wanted, unit);
+    }
+    meaning.roles.iter().flatten().any(|at| {
+        let usage = board.table.pins.get(at.pin).zip(at.usage);
+        let usage = usage.and_then(|(pin, usage)| pin.usages.get(usage));
+        let units = usage.map(|usage| usage.signal.function().units()).unwrap_or_default();
+        units.iter().any(|unit| board.same_unit(wanted, unit.as_str()))
+    })
 }
 
 impl Rules<'_> {

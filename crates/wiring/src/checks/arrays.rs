@@ -95,8 +95,12 @@ fn places(
             let usage = at.usage.and_then(|usage| pin.usages.get(usage));
             let names: Vec<String> = match tie {
                 None => vec![String::new()],
-                Some(Together::Header) => pin.header.iter().cloned().collect(),
-                Some(Together::Side) => pin.side.iter().cloned().collect(),
+                Some(Together::Header) => {
+                    pin.header.iter().map(|name| name.to_ascii_uppercase()).collect()
+                }
+                Some(Together::Side) => {
+                    pin.side.iter().map(|name| name.to_ascii_uppercase()).collect()
+                }
                 Some(Together::Unit) => match (&meaning.unit, usage) {
                     (Some(unit), _) => vec![unit.clone()],
                     (None, Some(usage)) => units_of(board, usage, fixed),
