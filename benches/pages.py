@@ -2,13 +2,13 @@
 """Checks our answers against a model of its own, written from the pages.
 
     python3 -m venv build/venv && build/venv/bin/pip install ortools
-    build/venv/bin/python3 benches/pages.py target/release/sensedsl [NUMBER [FIRST [chibios|none|units]]]
+    build/venv/bin/python3 benches/pages.py target/release/sensedsl [NUMBER [FIRST [chibios|none|units|parts|parts_none]]]
 
 The model knows what docs/language.md and docs/board-tables.md say, reads the tables that `sensedsl boards` and
 `sensedsl parts --table` print, and the files of `silicon/` and `targets/`; it shares no code and no problem with the
 program. Seeded designs with devices of every kind go to both: they must agree whether there is a wiring, and on the
-unmet wishes, the shared pins and the cost of the best. `units` draws soft rules for units, for the pins alone. Ends
-with status 1 on a disagreement.
+unmet wishes, the shared pins and the cost of the best. `units` draws soft rules for units, for the pins alone; `parts`
+and `parts_none` draw chips of `drivers/` and arrays with what ties them. Ends with status 1 on a disagreement.
 """
 
 import csv
@@ -29,6 +29,8 @@ PLACES = [
     ("STM32H743VIT6", 0), ("STM32L432KCU6", 0), ("STM32L476RGT6", 0), ("RASPBERRYPI_PICO", 1), ("ARDUINO_UNO_R3", 1),
     ("ARDUINO_MEGA_2560", 1), ("ARDUINO_NANO", 1), ("RASPBERRYPI_PICO_2", 1),
 ]
+# Boards whose pins have headers and positions, for arrays.
+MORE_PLACES = [("NUCLEO_F446RE", 1), ("NUCLEO_L476RG", 1), ("NUCLEO_F091RC", 1), ("NUCLEO_F303RE", 1), ("NUCLEO_F429ZI", 1)]
 DESCRIBING = {"pin", "position", "side", "header", "label", "voltage", "onboard", "note", "af"}
 WIRES = {"i2c": ["SCL", "SDA"], "spi": ["SCK", "MISO", "MOSI"], "uart": ["TX", "RX"], "can": ["RX", "TX"]}
 # What data sheets of other makers call what STM32 calls otherwise; an OC pin of AVR is an output alone.
@@ -118,7 +120,9 @@ class Board:
             if how == "taken" or role in ("debug", "reset", "boot"):
                 withheld.add(name)
             shared = bool(onboard) or (bare and role == "oscillator")
-            self.pins[name] = {"usages": usages, "cost": len(usages), "shared": shared, "bus": how == "bus", "analog": name in analog, "place": place}
+            header, side = ((row.get(column) or "").strip() for column in ("Header", "Side"))
+            where = {"header": header.upper().strip("-"), "side": side.upper().strip("-"), "position": place and place[1]}
+            self.pins[name] = where | {"usages": usages, "cost": len(usages), "shared": shared, "bus": how == "bus", "analog": name in analog, "place": place}
             if place:
                 places.setdefault(place, []).append(name)
         self.pads = {place: names for place, names in places.items() if len(names) > 1}
@@ -143,18 +147,28 @@ class Board:
 
 
 class Model:
-    """One board and its devices as constraints."""
+    """One board and its parts as constraints: a part is a device, a chip of several connections, or an array."""
 
-    def __init__(self, board, devices, rules):
+    def __init__(self, board, parts, rules):
         from ortools.sat.python import cp_model
 
         self.board, self.cp, self.sat = board, cp_model.CpModel(), cp_model
         # Pin and signal to {holder: its variables}; claims of other things to the same.
-        self.held, self.units, self.blocks, self.broken = {}, {}, {}, {}
+        self.held, self.units, self.blocks, self.broken, self.loose = {}, {}, {}, {}, []
         self.signal_list = list(board.signals())
         self.possible = True
-        for number, device in enumerate(devices):
-            self.device(number, device, [r for r in rules if r[0] in (None, number)])
+        number = 0
+        for index, part in enumerate(parts):
+            own, made = [r for r in rules if r[0] in (None, index)], []
+            for device in part["wires"]:
+                # What it takes: its wires with their options, and the units that could serve it, each with its variables.
+                self.taken, self.served, self.violating = [], {}, {}
+                self.device(number, device, own)
+                made.append((self.taken, self.served, self.violating))
+                number += 1
+            self.count_broken(index, part, own, made)
+            for tie, soft in part["ties"]:
+                self.tie(tie, soft, made)
         self.finish()
 
     def new(self):
@@ -182,6 +196,7 @@ class Model:
                 unit = signal.split("_")[0]
                 self.blocks.setdefault(unit, []).append((blocks, var))
         self.cp.add(sum(v for *_, v in taken) == unit_var)
+        self.taken.append(taken)
         return taken
 
     def fitting(self, pattern):
@@ -193,13 +208,59 @@ class Model:
     def free(self, options):
         return [o for o in options if not self.board.pins[o[0]]["bus"]]
 
-    def violate(self, number, rules, unit, var):
+    def violate(self, rules, unit, var):
         """`unit` is the set of units that can serve; the wire violates by what all or none of them is."""
+        units = unit if isinstance(unit, set) else {unit}
+        for one in units:
+            self.served.setdefault(one, []).append(var)
         for index, (_, kind, wanted) in enumerate(rules):
-            units = unit if isinstance(unit, set) else {unit}
             hit = wanted not in units if kind == "prefer" else units == {wanted}
             if hit:
-                self.broken.setdefault((number, index), []).append(var)
+                self.violating.setdefault(index, []).append(var)
+
+    def count_broken(self, number, part, rules, made):
+        """Each rule counts once for a part; of a chip those connections count that could have the unit, if any could."""
+        for index, (_, _, wanted) in enumerate(rules):
+            could = [served for _, served, _ in made if wanted in served]
+            for _, served, violating in made:
+                if part["array"] or not could or wanted in served:
+                    self.broken.setdefault((number, index), []).extend(violating.get(index, []))
+
+    def tie(self, tie, soft, made):
+        """All elements on one unit, header or side, or each behind the one before it along a header."""
+        kept = self.new() if soft else self.cp.new_constant(1)
+        if soft:
+            self.loose.append(kept)
+        what = {"sequence": "header"}.get(tie, tie)
+        if what == "unit":
+            chosen = {unit: self.new() for _, served, _ in made for unit in served}
+            for _, served, _ in made:
+                each = {}
+                for unit, lits in served.items():
+                    for lit in lits:
+                        each.setdefault(lit.index, (lit, []))[1].append(chosen[unit])
+                for lit, units in each.values():
+                    self.cp.add(lit <= 1 - kept + sum(units))
+        else:
+            facts = self.board.pins
+            chosen = {facts[pin][what]: self.new() for wires, _, _ in made for wire in wires for pin, *_ in wire}
+            chosen.pop("", None)
+            for wires, _, _ in made:
+                for pin, _, var in (option for wire in wires for option in wire):
+                    self.cp.add(var <= 1 - kept + chosen.get(facts[pin][what], 0))
+        self.cp.add(sum(chosen.values()) <= 1)
+        if tie == "sequence":
+            facts = self.board.pins
+            order = sorted({facts[p]["position"] for p in facts if facts[p]["position"]}, key=natural)
+            for wires, _, _ in made:
+                for pin, _, var in (option for wire in wires for option in wire):
+                    if not facts[pin]["position"]:
+                        self.cp.add(var <= 1 - kept)
+            ranks = [[sum(order.index(facts[p]["position"]) * var for p, _, var in wire if facts[p]["position"]) for wire in wires] for wires, _, _ in made]
+            for before, behind in zip(ranks, ranks[1:]):
+                for one in before:
+                    for other in behind:
+                        self.cp.add(one + 1 <= other).only_enforce_if(kept)
 
     def device(self, number, device, rules):
         kind, profile = device["kind"], self.board.profile
@@ -229,7 +290,7 @@ class Model:
                 if kind == "i2c":
                     self.hold(("address", unit, device["address"]), number, var)
                 self.use(group, unit, var)
-                self.violate(number, rules, unit, var)
+                self.violate(rules, unit, var)
         elif kind in ("icu", "pwm", "encoder"):
             choices = self.timer(number, kind, device, rules)
         elif kind == "digital":
@@ -247,9 +308,12 @@ class Model:
                     options.append((pin, signal, blocks, units, serving))
             taken = self.wire(number, "IN", [o[:3] for o in options], one)
             for (_, _, var), (*_, units, serving) in zip(taken, options):
-                self.violate(number, rules, units, var)
+                self.violate(rules, units, var)
                 if profile:
-                    self.convert(var, serving)
+                    # It is the converter that elements have in common.
+                    chosen = self.convert(var, serving)
+                    for unit in units:
+                        self.served[unit] = [lit for lit in self.served[unit] if lit.index != var.index] + [v for u, v in chosen if u == unit]
             choices = [one]
         else:
             options = []
@@ -258,7 +322,7 @@ class Model:
                 if not profile or unit and int(match[2]) <= unit["outputs"]:
                     options.append((pin, signal, blocks))
             for (_, signal, var) in self.wire(number, "OUT", self.free(options), one):
-                self.violate(number, rules, signal.split("_")[0], var)
+                self.violate(rules, signal.split("_")[0], var)
             choices = [one]
         self.cp.add(sum(choices) == 1)
 
@@ -272,10 +336,10 @@ class Model:
     def convert(self, var, serving):
         chosen = []
         for unit in sorted(serving):
-            one = self.new()
-            chosen.append(one)
-            self.use("adcs", unit, one)
-        self.cp.add(sum(chosen) == var)
+            chosen.append((unit, self.new()))
+            self.use("adcs", *chosen[-1])
+        self.cp.add(sum(one for _, one in chosen) == var)
+        return chosen
 
     def channels(self, kind, unit):
         """The channels that serve the kind, and whether the timer is there."""
@@ -315,7 +379,7 @@ class Model:
             if self.board.profile:
                 holder = ("frequency", device["frequency"]) if kind == "pwm" else number
                 self.hold(("unit", unit), holder, var)
-            self.violate(number, rules, unit, var)
+            self.violate(rules, unit, var)
         return choices
 
     def use(self, group, unit, var):
@@ -361,7 +425,8 @@ class Model:
         rule = shared * (1 + len(facts))
         self.factors = (rule, shared)
         weight = sum(u * (facts[p]["cost"] + shared * facts[p]["shared"]) for p, u in pins.items())
-        self.cp.minimize(weight + rule * sum(self.any_of(lits) for lits in self.broken.values()))
+        broken = sum(self.any_of(lits) for lits in self.broken.values()) + sum(1 - kept for kept in self.loose)
+        self.cp.minimize(weight + rule * broken)
 
     def solve(self):
         solver = self.sat.CpSolver()
@@ -385,17 +450,116 @@ KINDS = {
 }
 
 
-def design(rng, place, board, units):
-    """Text, devices and rules (device or none for the board, kind, unit)."""
-    served = [k for k in KINDS if rng.random() < 0.75]
-    devices, rules, text = [], [], f"board Bench on {place} {{\n    link {{ transport = none; }}\n"
+def natural(text):
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", text)]
+
+
+def library():
+    """The chips of `drivers/` that are drawn: their connections, and for each value which of them it uses."""
+    text = "\n".join(re.sub(r"//.*", "", open(os.path.join(ROOT, "drivers", name), encoding="utf-8").read())
+                     for name in sorted(os.listdir(os.path.join(ROOT, "drivers"))) if name.endswith(".sense"))
+    found = {}
+    for name in CHIPS:
+        kind, body = re.search(rf"^driver {name}(?: for (\w+))? {{\n(.*?)^}}", text, re.M | re.S).groups()
+        hertz = lambda block: int(match[1]) * 1000 if (match := re.search(r"frequency = (\d+) kHz", block)) else 0
+        connections = {n: (k, hertz(block)) for n, k, block in re.findall(r"connection (\w+) for (\w+) {(.*?)}", body, re.S)}
+        values = []
+        for direction, value, type_, block in re.findall(r"(reading|command) (\w+) \w+ ([\w\[\]]+) {(.*?)}", body, re.S):
+            via = re.search(r"via = \[?([\w, ]+)\]?;", block)
+            values.append((direction, value, type_, via[1].split(", ") if via else [None]))
+        found[name] = (connections or {None: (kind, 0)}, values)
+    return found
+
+
+CHIPS = ["mpu6050", "bme280", "mcp3008", "nmea_gps", "tb6612", "gearmotor_tb6612", "drv8833", "l298n"]
+ARRAYS = {"analog": ("sensor", "uint16"), "digital": ("actuator", "bool"), "edges": ("sensor", "bool"), "pwm": ("actuator", "uint16"),
+          "icu": ("sensor", "uint32"), "encoder": ("sensor", "int32"), "dac": ("actuator", "uint16")}
+
+
+def chip(rng, number, first, library):
+    """Text, part and how many identifiers it takes."""
+    name = rng.choice(CHIPS)
+    connections, values = library[name]
+    whole = rng.random() < 0.5
+    wanted = values if whole else rng.sample(values, rng.randint(1, min(2, len(values))))
+    inner, own = "", ""
+    if not whole:
+        for at, (direction, value, type_, _) in enumerate(wanted):
+            head = f"sensor Of{number}_{at} returns" if direction == "reading" else f"actuator Of{number}_{at} accepts"
+            inner += f" {head} {type_} {{ id = {first + at}; reading = {value}; }}"
+    device = {"address": rng.choice([0x68, 0x69]), "edge": False, "frame": 0}
+    if [kind for kind, _ in connections.values()] == ["i2c"]:
+        own = f" address = {device['address']};"
+    # A connection that no value uses is wired whatever is wanted.
+    used = {via for *_, vias in values for via in vias}
+    now = {via for *_, vias in wanted for via in vias}
+    wires = [device | {"kind": k, "frequency": hertz} for n, (k, hertz) in connections.items() if n in now or n not in used]
+    id_ = f" id = {first};" if whole else ""
+    return f"    chip Chip{number} {{ driver = {name};{id_}{own} RULES{inner} }}\n", wires, len(wanted)
+
+
+def array(rng, number, first):
+    """Text with ties, wires and ties."""
+    kind = rng.choice(list(ARRAYS))
+    direction, value = ARRAYS[kind]
+    length = rng.randint(1, {"encoder": 2, "icu": 3, "dac": 2}.get(kind, 6))
+    edge, kind = kind == "edges", "digital" if kind == "edges" else kind
+    hertz = rng.choice([50, 1000])
+    more = " edge = both;" if edge else f" frequency = {hertz} Hz;" if kind == "pwm" else ""
+    ties = []
+    for tie in rng.sample(["unit", "header", "side", "sequence"], rng.choice([0, 1, 1, 2])):
+        if tie == "unit" and kind == "digital":
+            continue
+        soft = rng.random() < 0.6
+        if not soft and tie != "sequence" and any(not s and t != "sequence" for t, s in ties):
+            continue
+        ties.append((tie, soft))
+        more += (" prefer" if soft else "") + (" sequence = header;" if tie == "sequence" else f" together = {tie};")
+    takes = "returns" if direction == "sensor" else "accepts"
+    wires = [{"kind": kind, "edge": edge, "frequency": hertz, "address": 0, "frame": 0} for _ in range(length)]
+    return f"    {direction} Array{number} {takes} {value}[{length}] {{ id = {first}; type = {kind};{more} RULES }}\n", wires, ties
+
+
+def parts_design(rng, place, board, with_rules):
+    """Chips and arrays beside plain devices."""
+    text, parts, rules = f"board Bench on {place} {{\n    link {{ transport = none; }}\n", [], []
+    names, known, first = units_of(board), library(), 1
+    for number in range(rng.randint(1, 5 if len(board.pins) > 30 else 3)):
+        draw, ties, is_array = rng.random(), [], False
+        if draw < 0.4:
+            one, wires, ids = chip(rng, number, first, known)
+        elif draw < 0.85:
+            (one, wires, ties), ids, is_array = array(rng, number, first), 1, True
+        else:
+            kind = rng.choice(["icu", "digital", "analog", "spi", "uart"])
+            wires, ids = [{"kind": kind, "edge": False, "address": 0, "frequency": 0, "frame": 0}], 1
+            one = f"    sensor Dev{number} returns {KINDS[kind][1]} {{ id = {first}; type = {kind}; RULES }}\n"
+        own = ""
+        if with_rules and names and rng.random() < 0.5:
+            rules.append((number, rng.choice(["prefer", "avoid"]), rng.choice(names)))
+            own = f"{rules[-1][1]} unit = {rules[-1][2]};"
+        text += one.replace("RULES", own)
+        parts.append({"wires": wires, "ties": ties, "array": is_array})
+        first += ids
+    return text + "}\n", parts, rules
+
+
+def units_of(board):
+    """The units that the board's pins name."""
     names = set()
     for _, signal, _ in board.signals():
         if match := re.fullmatch(r"ADC(\d+)_IN\d+", signal):
             names |= {f"ADC{digit}" for digit in match[1]}
         elif match := re.fullmatch(r"((?:I2C|SPI|USART|UART|LPUART|FDCAN|CAN|TIM|DAC|PWM|TC)\d+|TWI|SPI)_(?:SCL|SDA|SCK|MISO|MOSI|TX|RX|CH\d|IN\d|OUT\d)", signal):
             names.add(match[1])
-    names = sorted(names)
+    return sorted(names)
+
+
+def design(rng, place, board, units):
+    """Text, devices and rules (device or none for the board, kind, unit)."""
+    served = [k for k in KINDS if rng.random() < 0.75]
+    devices, rules, text = [], [], f"board Bench on {place} {{\n    link {{ transport = none; }}\n"
+    names = units_of(board)
     if units and names and rng.random() < 0.5:
         rules.append((None, rng.choice(["prefer", "avoid"]), rng.choice(names)))
         text += f"    {rules[-1][1]} unit = {rules[-1][2]};\n"
@@ -412,7 +576,7 @@ def design(rng, place, board, units):
             more += f" {rules[-1][1]} unit = {rules[-1][2]};"
         takes = "returns" if direction == "sensor" else "accepts"
         text += f"    {direction} Dev{number} {takes} {value} {{ id = {number + 1}; type = {kind}; {more} }}\n"
-        devices.append(device)
+        devices.append({"wires": [device], "ties": [], "array": False})
     return text + "}\n", devices, rules
 
 
@@ -433,17 +597,21 @@ def main():
     binary = os.path.abspath(sys.argv[1])
     number, first = (int(sys.argv[i]) if len(sys.argv) > i else d for i, d in ((2, 300), (3, 0)))
     what = sys.argv[4] if len(sys.argv) > 4 else "chibios"
-    target = "none" if what == "units" else what
+    target = "none" if what in ("units", "parts_none") else "chibios" if what == "parts" else what
+    places = PLACES + MORE_PLACES if what.startswith("parts") else PLACES
     boards, wrong, none, stopped, families = {}, [], 0, 0, set()
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(first, first + number):
             rng = random.Random(seed)
-            place, built_in = PLACES[seed % len(PLACES)]
+            place, built_in = places[seed % len(places)]
             if place not in boards:
                 boards[place] = Board(binary, place, built_in, target)
             board = boards[place]
             families.add(board.mcu[:9])
-            text, devices, rules = design(rng, place, board, what == "units")
+            if what.startswith("parts"):
+                text, devices, rules = parts_design(rng, place, board, what == "parts_none")
+            else:
+                text, devices, rules = design(rng, place, board, what == "units")
             answer, errors = ours(binary, text, target, folder)
             theirs = Model(board, devices, rules).solve()
             none += theirs is None

@@ -6,8 +6,8 @@
 //! of the header: an element takes all places up to its own for those before, the next element
 //! all from its own on for those behind, so that no place is taken for both.
 //!
-//! Where an element has several wires, the header or side is claimed by a whole alternative, for
-//! claims keep devices apart, not the wires of one.
+//! The header or side is claimed by a whole alternative: claims keep devices apart, not the wires of
+//! one, and what many devices choose in common the solver decides before it looks at single pins.
 //!
 //! A wish doubles the alternatives: those that keep it, and loose ones that violate it. The loose
 //! ones take hold as the loose, so all elements of an array are one or the other.
@@ -240,16 +240,12 @@ impl<'d> Tier<'d> {
         };
         let claimed = all.into_iter().filter_map(|(alternative, meaning)| {
             let at = meaning.board;
-            let one_wire = alternative.roles.len() == 1;
-            only(alternative, meaning, |chosen| {
-                self.claims(builder, number, (at, board, one_wire), chosen)
-            })
+            only(alternative, meaning, |chosen| self.claims(builder, number, (at, board), chosen))
         });
         claimed.collect()
     }
 
-    /// The alternative for each header or side that all its wires can be at; as it is where it has
-    /// one wire.
+    /// The alternative for each header or side that all its wires can be at.
     fn by_place(
         &self,
         builder: &mut Builder<'_>,
@@ -257,9 +253,6 @@ impl<'d> Tier<'d> {
         board: &Board,
         (alternative, meaning): (Alternative, Meaning),
     ) -> Tight {
-        if alternative.roles.len() == 1 {
-            return vec![(alternative, meaning)];
-        }
         let named = |at: &Chosen| {
             let pin = board.table.pins.get(at.pin)?;
             let name = if what == Together::Side { &pin.side } else { &pin.header };
@@ -280,22 +273,14 @@ impl<'d> Tier<'d> {
         &self,
         builder: &mut Builder<'_>,
         number: u16,
-        (index, board, one_wire): (BoardIndex, &Board, bool),
+        (index, board): (BoardIndex, &Board),
         at: &Chosen,
     ) -> Option<Vec<Claim>> {
         let pin = board.table.pins.get(at.pin)?;
         match self.tie {
             Tie::Together(Together::Unit) => Some(self.units(builder, index, board, at)),
-            Tie::Together(Together::Header | Together::Side) if !one_wire => Some(Vec::new()),
-            Tie::Together(Together::Header) => {
-                let header = pin.header.as_ref()?;
-                Some(vec![self.same(builder, Together::Header, index, header)])
-            }
-            Tie::Together(Together::Side) => {
-                let side = pin.side.as_ref()?;
-                Some(vec![self.same(builder, Together::Side, index, side)])
-            }
-            Tie::Sequence => self.order(builder, number, (index, one_wire), pin),
+            Tie::Together(Together::Header | Together::Side) => Some(Vec::new()),
+            Tie::Sequence => self.order(builder, number, index, pin),
         }
     }
 
@@ -347,7 +332,7 @@ impl<'d> Tier<'d> {
         &self,
         builder: &mut Builder<'_>,
         number: u16,
-        (index, one_wire): (BoardIndex, bool),
+        index: BoardIndex,
         pin: &Pin,
     ) -> Option<Vec<Claim>> {
         let (header, position) = place(pin)?;
@@ -355,9 +340,6 @@ impl<'d> Tier<'d> {
         let places = self.places.get(&(index, header.clone()))?;
         let own = places.iter().position(|place| place == position)?;
         let mut claims = Vec::new();
-        if one_wire {
-            claims.push(self.same(builder, Together::Header, index, &header));
-        }
         let mut claim = |element: u16, place: usize, word: &str| {
             let resource = self.resource(Tied::Place(element, index, header.clone(), place));
             claims.push(builder.names.shared(resource, Group::Tie(index, word.to_owned())));
