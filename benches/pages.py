@@ -162,9 +162,9 @@ class Model:
             own, made = [r for r in rules if r[0] in (None, index)], []
             for device in part["wires"]:
                 # What it takes: its wires with their options, and the units that could serve it, each with its variables.
-                self.taken, self.served, self.violating = [], {}, {}
+                self.taken, self.served, self.violating = {}, {}, {}
                 self.device(number, device, own)
-                made.append((self.taken, self.served, self.violating))
+                made.append((list(self.taken.values()), self.served, self.violating))
                 number += 1
             self.count_broken(index, part, own, made)
             for tie, soft in part["ties"]:
@@ -196,7 +196,7 @@ class Model:
                 unit = signal.split("_")[0]
                 self.blocks.setdefault(unit, []).append((blocks, var))
         self.cp.add(sum(v for *_, v in taken) == unit_var)
-        self.taken.append(taken)
+        self.taken.setdefault(role, []).extend(taken)
         return taken
 
     def fitting(self, pattern):
@@ -584,13 +584,15 @@ def ours(binary, text, target, folder):
     path = os.path.join(folder, "bench.sense")
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
-    call = [binary, "solve", path, "--format", "json", *(["--target", "none"] if target == "none" else [])]
+    call = [binary, "solve", path, "--format", "json", "--timeout", "20", *(["--target", "none"] if target == "none" else [])]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     errors = re.findall(r"error\[(E\d+)\]", done.stderr)
     if done.returncode == 0:
         answer = json.loads(done.stdout)
+        if answer["status"] != "optimal":
+            return "stopped", errors
         return [answer["violated"], answer["shared"], answer["cost"]], errors
-    return None, errors
+    return "stopped" if "E0404" in errors else None, errors
 
 
 def main():
@@ -615,8 +617,8 @@ def main():
             answer, errors = ours(binary, text, target, folder)
             theirs = Model(board, devices, rules).solve()
             none += theirs is None
-            stopped += theirs == "stopped"
-            if theirs != "stopped" and answer != theirs:
+            stopped += "stopped" in (answer, theirs)
+            if "stopped" not in (answer, theirs) and answer != theirs:
                 wrong.append(f"{seed} {place}: we {answer} {errors}, the pages {theirs}\n{text}")
     print(f"{number} designs ({what}) on {len(families)} MCUs, {none} without a wiring, {stopped} stopped, {len(wrong)} disagreements")
     for mistake in wrong:
