@@ -460,6 +460,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
                 diagnostics.push(w0604_unused_rule::unused_rule(wish.span, &text, why));
             }
         }
+        diagnostics.extend(arrays::without_unit(wires));
     }
     diagnostics
 }

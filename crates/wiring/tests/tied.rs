@@ -1,12 +1,7 @@
 //! Arrays, chips and what ties their wires: all that is asked of a wiring, against every way there is.
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(dead_code, unreachable_pub, reason = "the support code serves several programs")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::indexing_slicing,
-    reason = "only tests"
-)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "only tests")]
 
 mod support {
     pub(crate) mod meaning;
@@ -170,7 +165,8 @@ fn kept(case: &Case, found: &[Found], design: &Design, what: &dyn Fn() -> String
     }
     let best = wired(Wiring::new(design, Some(&keep)).solve(&Search::default()), what);
     assert_eq!(best.moved, 0, "{}", what());
-    let pins = |wires: Wires| -> Vec<_> { wires.into_iter().map(|(at, pin, _)| (at, pin)).collect() };
+    let pins =
+        |wires: Wires| -> Vec<_> { wires.into_iter().map(|(at, pin, _)| (at, pin)).collect() };
     assert_eq!(pins(wires(design, &best)), pins(before), "{}", what());
 }
 
@@ -267,5 +263,4 @@ fn agrees_with_every_way_there_is() {
     if std::env::var("TIED").is_ok() {
         eprintln!("{counts}");
     }
-
 }

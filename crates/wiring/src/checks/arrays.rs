@@ -3,9 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0322_array_too_long;
-use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together};
+use sensedsl_diagnostics::codes::{e0322_array_too_long, w0604_unused_rule};
+use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together, WishFor};
+use sensedsl_model::kind::Kind;
 
 use super::relaxed;
 use crate::converters::units_of;
@@ -16,6 +17,20 @@ pub(super) fn too_long(design: &Design, formulation: &Formulation<'_>) -> Vec<Di
     let all = || (0..).map(ConnectionIndex).zip(&design.connections);
     let first = all().filter(|(_, one)| one.element == Some(0));
     first.filter_map(|(_, one)| array(design, formulation, one)).collect()
+}
+
+/// Reports that wires of no peripheral are to be on one.
+pub(super) fn without_unit(wires: &Connection) -> Vec<Diagnostic> {
+    if wires.element.is_none() || !matches!(wires.kind, Kind::Digital(_)) {
+        return Vec::new();
+    }
+    let hard = wires.placement.together.iter().filter(|one| one.value == Together::Unit);
+    let soft = wires.wishes.iter().filter(|one| one.what == WishFor::Together(Together::Unit));
+    let report = |span: Span, rule: &str| {
+        w0604_unused_rule::unused_rule(span, rule, "digital wires are of no peripheral")
+    };
+    let hard = hard.map(|one| report(one.span, "together = unit"));
+    hard.chain(soft.map(|one| report(one.span, "prefer together = unit"))).collect()
 }
 
 /// Where pins are that are wanted in one place.

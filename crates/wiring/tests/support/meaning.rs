@@ -192,7 +192,11 @@ impl<'c> World<'c> {
             let ways: Vec<&Way> = range.map(|at| self.way(chosen, at)).collect();
             let boards: BTreeSet<usize> = ways.iter().map(|way| way.wires[0].board).collect();
             boards.len() == 1
-                && part.rules.iter().filter(|rule| rule.is_tie()).all(|rule| self.ties(part, rule, &ways))
+                && part
+                    .rules
+                    .iter()
+                    .filter(|rule| rule.is_tie())
+                    .all(|rule| self.ties(part, rule, &ways))
         })
     }
 
@@ -268,7 +272,8 @@ impl<'c> World<'c> {
                 let mut all = self::ways(self.case, part, number).into_iter();
                 let _ = kind;
                 all.any(|way| {
-                    way.wires[0].board == board && self.units(part, &way, way.wires[0]).contains(unit)
+                    way.wires[0].board == board
+                        && self.units(part, &way, way.wires[0]).contains(unit)
                 })
             }
             _ => true,
@@ -276,11 +281,20 @@ impl<'c> World<'c> {
         let any_could = kinds().enumerate().any(|(number, kind)| could(kind, number));
         ways.iter().zip(kinds()).enumerate().any(|(number, (way, kind))| {
             (!any_could || could(kind, number))
-                && way.wires.iter().any(|wire| self.wire_violates(part, (*prefer, rule), way, *wire))
+                && way
+                    .wires
+                    .iter()
+                    .any(|wire| self.wire_violates(part, (*prefer, rule), way, *wire))
         })
     }
 
-    fn wire_violates(&self, part: &Part, (prefer, rule): (bool, &Rule), way: &Way, wire: Wire) -> bool {
+    fn wire_violates(
+        &self,
+        part: &Part,
+        (prefer, rule): (bool, &Rule),
+        way: &Way,
+        wire: Wire,
+    ) -> bool {
         let row = &self.case.boards[wire.board][wire.pin];
         match rule {
             Rule::Side(side) => (row.side == Some(side)) != prefer,
@@ -291,13 +305,11 @@ impl<'c> World<'c> {
                 if units.is_empty() {
                     return false;
                 }
-                if prefer {
-                    !units.contains(unit)
-                } else {
-                    units.iter().all(|one| one == unit)
-                }
+                if prefer { !units.contains(unit) } else { units.iter().all(|one| one == unit) }
             }
-            Rule::TogetherUnit | Rule::TogetherHeader | Rule::TogetherSide | Rule::Sequence => false,
+            Rule::TogetherUnit | Rule::TogetherHeader | Rule::TogetherSide | Rule::Sequence => {
+                false
+            }
         }
     }
 
@@ -358,13 +370,16 @@ fn ways(case: &Case, part: &Part, number: usize) -> Vec<Way> {
             .iter()
             .flat_map(|pin| {
                 let usages = rows[*pin].usages.iter().enumerate();
-                usages.map(|(usage, name)| (Wire { board, pin: *pin, usage: Some(usage) }, name.as_str()))
+                usages.map(|(usage, name)| {
+                    (Wire { board, pin: *pin, usage: Some(usage) }, name.as_str())
+                })
             })
             .collect();
         let pairs = |one: &str, two: &str| {
             let mut pairs = Vec::new();
             for (first, name) in &usages {
-                let Some((unit, _)) = name.split_once(one).filter(|(_, rest)| rest.is_empty()) else {
+                let Some((unit, _)) = name.split_once(one).filter(|(_, rest)| rest.is_empty())
+                else {
                     continue;
                 };
                 let other = format!("{unit}{two}");
@@ -389,7 +404,8 @@ fn ways(case: &Case, part: &Part, number: usize) -> Vec<Way> {
                         _ => true,
                     })
                 };
-                let inputs = usages.iter().filter(|(_, name)| name.starts_with("ADC") && fixed(name));
+                let inputs =
+                    usages.iter().filter(|(_, name)| name.starts_with("ADC") && fixed(name));
                 found.extend(inputs.map(|(wire, _)| Way { wires: vec![*wire], unit: None }));
             }
             Kind::Pwm(_) | Kind::Icu => {

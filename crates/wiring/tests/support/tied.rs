@@ -110,8 +110,18 @@ pub struct Case {
 
 /// Chips with their connections, by the names in the text below.
 const CHIPS: &[(&str, &[(Kind, &str)])] = &[
-    ("bridge", &[(Kind::Pwm(1_000), "speed"), (Kind::Digital(false), "one"), (Kind::Digital(false), "two")]),
-    ("wheel", &[(Kind::Pwm(1_000), "forward"), (Kind::Pwm(1_000), "back"), (Kind::Encoder, "turns")]),
+    (
+        "bridge",
+        &[
+            (Kind::Pwm(1_000), "speed"),
+            (Kind::Digital(false), "one"),
+            (Kind::Digital(false), "two"),
+        ],
+    ),
+    (
+        "wheel",
+        &[(Kind::Pwm(1_000), "forward"), (Kind::Pwm(1_000), "back"), (Kind::Encoder, "turns")],
+    ),
     ("eye", &[(Kind::I2c(0x29), "bus"), (Kind::Digital(false), "standby")]),
     ("probe", &[(Kind::Analog, "hot"), (Kind::Analog, "cold")]),
 ];
@@ -186,7 +196,8 @@ fn table(rng: &mut Rng, pins: usize) -> Vec<Row> {
         let place = match rng.below(8) {
             0 => None,
             at => {
-                let position = if rng.one_in(12) { 12 } else { positions.remove(rng.below(positions.len())) };
+                let position =
+                    if rng.one_in(12) { 12 } else { positions.remove(rng.below(positions.len())) };
                 Some((if at < 5 { "P1" } else { "P2" }, position))
             }
         };
@@ -235,7 +246,8 @@ fn part(rng: &mut Rng, number: usize, boards: usize) -> Part {
         let (name, connections) = rng.of(CHIPS);
         let connections = connections.iter().map(|(kind, _)| (own_kind(*kind, number), None));
         let rules = if rng.one_in(8) { vec![Rule::Header("P1")] } else { Vec::new() };
-        let wishes = if rng.one_in(2) { wish(rng, false, false).into_iter().collect() } else { Vec::new() };
+        let wishes =
+            if rng.one_in(2) { wish(rng, false, false).into_iter().collect() } else { Vec::new() };
         let connections = connections.collect();
         return Part { board, connections, is_array: false, chip: Some(name), rules, wishes };
     }
@@ -268,7 +280,8 @@ fn part(rng: &mut Rng, number: usize, boards: usize) -> Part {
     }
     let single = length == 1 && !is_array && !matches!(kind, Kind::Encoder | Kind::I2c(_));
     let wishes = (0..rng.below(3)).filter_map(|_| wish(rng, is_array, single)).collect();
-    let fixed = rng.one_in(6) && kind != Kind::Encoder && !matches!(kind, Kind::I2c(_)) && board == Some(0);
+    let fixed =
+        rng.one_in(6) && kind != Kind::Encoder && !matches!(kind, Kind::I2c(_)) && board == Some(0);
     let mut names = NAMES.to_vec();
     let connections = (0..length).map(|_| {
         let pin = fixed.then(|| names.remove(rng.below(names.len())).to_owned());
@@ -329,7 +342,8 @@ impl Text {
             }
             sense.push_str("}\n");
         }
-        for (number, part) in case.parts.iter().enumerate().filter(|(_, part)| part.board.is_none()) {
+        for (number, part) in case.parts.iter().enumerate().filter(|(_, part)| part.board.is_none())
+        {
             floating.push_str(&part_text(number, part));
         }
         sense.push_str(&floating);
@@ -352,7 +366,12 @@ impl Text {
     /// Everything, to be shown.
     pub fn all(&self) -> String {
         let tables = self.tables.iter().map(|(name, text)| format!("{name}\n{text}"));
-        format!("target {}\n{}\n{}", self.target, tables.collect::<String>(), self.sense.replace(DRIVERS, ""))
+        format!(
+            "target {}\n{}\n{}",
+            self.target,
+            tables.collect::<String>(),
+            self.sense.replace(DRIVERS, "")
+        )
     }
 }
 
@@ -362,7 +381,12 @@ fn csv(rows: &[Row]) -> String {
         let (header, position) = row.place.map_or(("", String::new()), |(h, p)| (h, p.to_string()));
         let care = if row.care { "LED:care" } else { "" };
         let side = row.side.unwrap_or_default();
-        let _ = writeln!(csv, "{},{header},{position},{side},{care},{}", row.name, row.usages.join(" "));
+        let _ = writeln!(
+            csv,
+            "{},{header},{position},{side},{care},{}",
+            row.name,
+            row.usages.join(" ")
+        );
     }
     csv
 }
@@ -380,20 +404,29 @@ fn part_text(number: usize, part: &Part) -> String {
         if let Some((Kind::I2c(address), _)) = part.connections.first() {
             inner.push(format!("address = {address};"));
         }
-        return format!("chip Dev{number} {{ driver = {driver}; id = {id}; {} }}\n", inner.join(" "));
+        return format!(
+            "chip Dev{number} {{ driver = {driver}; id = {id}; {} }}\n",
+            inner.join(" ")
+        );
     }
     let (kind, _) = part.connections[0];
     let length = part.connections.len();
     let array = if part.is_array { format!("[{length}]") } else { String::new() };
     if !pins.is_empty() {
         let list = pins.join(", ");
-        inner.push(if part.is_array { format!("pin = [{list}];") } else { format!("pin = {list};") });
+        inner.push(if part.is_array {
+            format!("pin = [{list}];")
+        } else {
+            format!("pin = {list};")
+        });
     }
     let (head, own) = match kind {
         Kind::Analog => ("sensor NAME returns uint16", "type = analog;".to_owned()),
         Kind::Digital(true) => ("sensor NAME returns bool", "type = digital; edge = both;".into()),
         Kind::Digital(false) => ("actuator NAME accepts bool", "type = digital;".into()),
-        Kind::Pwm(hz) => ("actuator NAME accepts uint16", format!("type = pwm; frequency = {hz} Hz;")),
+        Kind::Pwm(hz) => {
+            ("actuator NAME accepts uint16", format!("type = pwm; frequency = {hz} Hz;"))
+        }
         Kind::Icu => ("sensor NAME returns uint32", "type = icu;".into()),
         Kind::Encoder => ("sensor NAME returns int32", "type = encoder;".into()),
         Kind::I2c(at) => {
