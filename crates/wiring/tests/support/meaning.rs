@@ -164,10 +164,10 @@ impl<'c> World<'c> {
                 }
             }
             let kind = part.connections[*number].0;
-            if let (Kind::I2c(address), Some(unit)) = (kind, &way.unit) {
-                if !addresses.insert((board, unit.clone(), address)) {
-                    return false;
-                }
+            if let (Kind::I2c(address), Some(unit)) = (kind, &way.unit)
+                && !addresses.insert((board, unit.clone(), address))
+            {
+                return false;
             }
             if !self.case.chibios {
                 continue;
@@ -178,10 +178,10 @@ impl<'c> World<'c> {
                 Kind::Icu | Kind::Encoder => Some((connection, 0)),
                 Kind::Analog | Kind::Digital(_) | Kind::I2c(_) => None,
             };
-            if let (Some(used), Some(unit)) = (used, &way.unit) {
-                if timers.insert((board, unit.as_str()), used).is_some_and(|other| other != used) {
-                    return false;
-                }
+            if let (Some(used), Some(unit)) = (used, &way.unit)
+                && timers.insert((board, unit.as_str()), used).is_some_and(|other| other != used)
+            {
+                return false;
             }
             let pin = &self.case.boards[board][way.wires[0].pin].name;
             if kind == Kind::Digital(true) && !lines.insert((board, &pin[2..])) {
@@ -375,23 +375,6 @@ fn ways(case: &Case, part: &Part, number: usize) -> Vec<Way> {
                 })
             })
             .collect();
-        let pairs = |one: &str, two: &str| {
-            let mut pairs = Vec::new();
-            for (first, name) in &usages {
-                let Some((unit, _)) = name.split_once(one).filter(|(_, rest)| rest.is_empty())
-                else {
-                    continue;
-                };
-                let other = format!("{unit}{two}");
-                let others = usages.iter().filter(|(_, name)| *name == other);
-                let others = others.filter(|(second, _)| second.pin != first.pin);
-                pairs.extend(others.map(|(second, _)| Way {
-                    wires: vec![*first, *second],
-                    unit: Some(unit.to_owned()),
-                }));
-            }
-            pairs
-        };
         match kind {
             Kind::Digital(_) => found.extend(pins.iter().map(|pin| Way {
                 wires: vec![Wire { board, pin: *pin, usage: None }],
@@ -417,9 +400,29 @@ fn ways(case: &Case, part: &Part, number: usize) -> Vec<Way> {
                     }
                 }
             }
-            Kind::Encoder => found.extend(pairs("_CH1", "_CH2")),
-            Kind::I2c(_) => found.extend(pairs("_SCL", "_SDA")),
+            Kind::Encoder => found.extend(pairs(&usages, "_CH1", "_CH2")),
+            Kind::I2c(_) => found.extend(pairs(&usages, "_SCL", "_SDA")),
         }
     }
     found
+}
+
+/// The ways to have two signals of one unit on two pins.
+fn pairs(usages: &[(Wire, &str)], one: &str, two: &str) -> Vec<Way> {
+    let mut pairs = Vec::new();
+    for (first, name) in usages {
+        let Some((unit, _)) = name.split_once(one).filter(|(_, rest)| rest.is_empty()) else {
+            continue;
+        };
+        let other = format!("{unit}{two}");
+        let others =
+            usages.iter().filter(|(second, name)| *name == other && second.pin != first.pin);
+        pairs.extend(
+            others.map(|(second, _)| Way {
+                wires: vec![*first, *second],
+                unit: Some(unit.to_owned()),
+            }),
+        );
+    }
+    pairs
 }
