@@ -25,7 +25,7 @@ use sensedsl_wiring::{Keep, NoWiring, Proved, Repair, Search, Solved, Wiring};
 use support::meaning::{Found, all, combinations};
 use support::tied::{Case, Kind, Text, case, sound};
 
-/// Cases that are tried; 6,000 take some minutes of an optimised build.
+/// Cases that are tried.
 const CASES: u64 = 300;
 
 /// Combinations that one case may have.
