@@ -21,6 +21,9 @@ pub(crate) const DEFAULT_RANGER: &str = "srf08";
 /// The 8-bit addresses such a device can have.
 pub(crate) const RANGER_ADDRESSES: std::ops::RangeInclusive<i64> = 0xE0..=0xFE;
 
+/// Fewest letters that tell a part by the beginning of its name.
+const BEGINNING_MIN: usize = 3;
+
 /// A driver that devices and chips can name.
 #[derive(Clone, Debug)]
 pub(crate) struct Driver {
@@ -56,6 +59,7 @@ impl Driver {
 /// A file of the library, read when something of it is asked for.
 #[derive(Debug)]
 struct Volume {
+    name: &'static str,
     file: FileId,
     text: &'static str,
     drivers: OnceCell<Vec<Driver>>,
@@ -86,6 +90,7 @@ impl Drivers {
     ) -> Self {
         let own = own.iter().filter_map(|(file, node)| read(*file, node, diagnostics)).collect();
         let volume = |(name, text): &(&'static str, &'static str)| Volume {
+            name,
             file: sources.add(*name, *text),
             text,
             drivers: OnceCell::new(),
@@ -117,9 +122,8 @@ impl Drivers {
     ) -> Option<&Driver> {
         let found = self.look_up(&wanted.value);
         if found.is_none() {
-            let names = || self.all().map(|driver| driver.name.value.as_str());
-            let meant = nearest(&wanted.value, names()).or_else(|| self.begins(&wanted.value));
             let (span, name) = (wanted.span, &wanted.value);
+            let meant = self.meant(name);
             diagnostics.push(e0216_unknown_driver::unknown_driver(span, name, meant));
         }
         found
@@ -152,12 +156,44 @@ impl Drivers {
         })
     }
 
-    /// The only driver whose name begins so.
+    /// The driver that a name which is none's may stand for: the one with the nearest name, the first
+    /// that is called something that begins so or that the name begins with, the one with the nearest
+    /// other name.
+    pub(crate) fn meant(&self, name: &str) -> Option<&str> {
+        let near_name = || nearest(name, self.all().map(|one| one.name.value.as_str()));
+        let near_alias = || {
+            let near = nearest(name, self.all().flat_map(|one| one.aliases.iter().map(|a| &**a)))?;
+            self.look_up(near).map(|one| one.name.value.as_str())
+        };
+        near_name().or_else(|| self.begins(name)).or_else(near_alias)
+    }
+
+    /// The first driver of which a name begins so; otherwise the one whose name is the longest
+    /// beginning of this one (`mpu6050_gyro`).
     fn begins(&self, name: &str) -> Option<&str> {
-        let folded_name = folded(name);
-        let mut found = self.all().filter(|one| folded(&one.name.value).starts_with(&folded_name));
-        let first = found.next().filter(|_| folded_name.len() >= 3)?;
-        Some(&first.name.value)
+        let wanted = folded(name);
+        let names = || {
+            let of = |one: &'_ Driver| {
+                let aliases = one.aliases.iter().map(|alias| folded(alias));
+                std::iter::once(folded(&one.name.value)).chain(aliases).collect::<Vec<_>>()
+            };
+            self.all().flat_map(move |one| of(one).into_iter().map(move |name| (name, one)))
+        };
+        let is_long = wanted.len() >= BEGINNING_MIN;
+        let longer = names().find(|(name, _)| is_long && name.starts_with(&wanted));
+        let is_beginning =
+            |(name, _): &(String, _)| name.len() >= BEGINNING_MIN && wanted.starts_with(name);
+        let shorter = || names().filter(is_beginning).max_by_key(|(name, _)| name.len());
+        longer.or_else(shorter).map(|(_, driver)| driver.name.value.as_str())
+    }
+
+    /// The drivers of the library, each with the name of its file without folder and ending.
+    pub(crate) fn of_library(&self) -> impl Iterator<Item = (&'static str, &Driver)> {
+        self.library.iter().flat_map(|volume| {
+            let name = volume.name.strip_prefix("drivers/").unwrap_or(volume.name);
+            let field = name.strip_suffix(".sense").unwrap_or(name);
+            volume.drivers().iter().map(move |driver| (field, driver))
+        })
     }
 
     fn all(&self) -> impl Iterator<Item = &Driver> {

@@ -12,12 +12,14 @@ mod constants;
 pub mod design;
 mod devices;
 mod drivers;
+pub mod facts;
 mod fields;
 mod files;
 mod ids;
 pub mod kind;
 mod library;
 mod names;
+mod numbered;
 mod other_types;
 mod parts;
 pub mod pins;
@@ -34,8 +36,10 @@ mod value;
 
 pub mod volts;
 
+pub use facts::all as part_facts;
 pub use files::{Files, Unread, Wanted, What, stays_inside};
 pub use library::LIBRARY;
+pub use numbered::with_ids;
 pub use resolve::{Request, Resolved, resolve, sort};
 pub use rules::apply_allows;
 pub use sensedsl_syntax::Parse as SyntaxTree;

@@ -1,14 +1,14 @@
-//! `docs/language.md` lists the kinds, properties and drivers that there are, and the library that is
-//! part of the binary is the folder `drivers/`.
+//! `docs/language.md` lists the kinds and properties that there are, and the library of drivers that is
+//! part of the binary is the folder `drivers/` and can be used.
 #![expect(clippy::disallowed_methods, reason = "a test of files reads files")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_diagnostics::Severity;
 use sensedsl_model::kind::{KindName, KindSpec, Role};
-use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
+use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, facts, resolve};
 use sensedsl_syntax::parse;
 use sensedsl_wire::Direction;
 
@@ -99,30 +99,12 @@ fn every_kind_is_described_with_its_properties() {
 }
 
 #[test]
-fn every_driver_is_listed_under_its_kind() {
-    let mut by_kind: BTreeMap<String, String> = BTreeMap::new();
-    for (_, text) in LIBRARY {
-        for driver in parse(text).ast().drivers() {
-            let (name, kind) = (driver.name().unwrap(), driver.kind().unwrap());
-            by_kind.insert(name.text().to_owned(), kind.text().to_owned());
-        }
-    }
-    let page = page();
-    let listed = first_column(&page, "Drivers and use");
-    assert_eq!(listed, by_kind.keys().cloned().collect());
-    for (name, kind) in by_kind {
-        let row = page.lines().find(|line| line.starts_with("| `") && line.contains(&name));
-        assert!(row.is_some_and(|row| row.contains(&format!("| {kind} |"))), "{name}: {row:?}");
-    }
-}
-
-#[test]
 fn the_library_is_the_folder() {
     let entries = std::fs::read_dir(root().join("drivers")).unwrap();
     let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
     let names: BTreeSet<String> = names.map(|name| format!("drivers/{name}")).collect();
     let embedded: BTreeSet<String> = LIBRARY.iter().map(|(name, _)| (*name).to_owned()).collect();
-    assert_eq!(names, embedded, "LIBRARY in crates/model/src/drivers.rs");
+    assert_eq!(names, embedded, "LIBRARY in crates/model/src/library.rs");
 }
 
 struct NoFiles;
@@ -133,26 +115,86 @@ impl Files for NoFiles {
     }
 }
 
-/// A device with each driver of the library: no property of a driver is unknown or wrong.
+/// Each driver is read as a part that uses all of it: a chip with all values, or a device.
 #[test]
-fn every_driver_serves_a_device() {
-    for (file, text) in LIBRARY {
-        for driver in parse(text).ast().drivers() {
-            let (name, kind) = (driver.name().unwrap(), driver.kind().unwrap());
-            let head = match kind.text() {
-                "pwm" | "dac" => "actuator A accepts uint16",
-                _ => "sensor A returns int32",
-            };
-            let address = if kind.text() == "i2c" { "address = 0x40;" } else { "" };
-            let (name, kind) = (name.text(), kind.text());
-            let design = format!(
-                "board STM32F407G_DISC1 {{ {head} {{ id = 1; type = {kind}; driver = {name}; {address} }} }}"
-            );
-            let request = Request { path: "test.sense", text: &design, ..Request::default() };
-            let resolved = resolve(&request, &NoFiles);
-            // How wide the value should be is another question: a warning at most.
-            let errors = resolved.diagnostics.iter().filter(|one| one.severity == Severity::Error);
-            assert_eq!(errors.collect::<Vec<_>>(), [] as [&Diagnostic; 0], "{file}: {name}");
+fn every_driver_serves_a_part() {
+    let mistakes = facts::mistakes();
+    let said = mistakes.iter().filter(|(_, one)| one.severity != Severity::Hint);
+    let said: Vec<String> = said.map(|(name, one)| format!("{name}: {}", one.message)).collect();
+    assert_eq!(said, [] as [&str; 0]);
+    let written = LIBRARY.iter().flat_map(|(_, text)| parse(text).ast().drivers());
+    let written: Vec<String> = written.map(|one| one.name().unwrap().text().to_owned()).collect();
+    let read: Vec<String> = facts::all().into_iter().map(|part| part.name).collect();
+    assert_eq!(read, written);
+}
+
+/// What the page of a part needs.
+#[test]
+fn every_driver_describes_its_part() {
+    for part in facts::all() {
+        let name = &part.name;
+        assert!(!part.part.is_empty() && part.part != *name, "{name} lacks `part`");
+        assert!(part.about.ends_with('.'), "{name}: `about` is not a sentence");
+        assert!(part.sheet.is_some(), "{name} lacks `sheet`");
+        assert!(!part.values.is_empty() && !part.connections.is_empty(), "{name}");
+        let is_bus = part.kinds.contains(&KindName::I2c);
+        assert!(!is_bus || !part.addresses.is_empty(), "{name} lacks `addresses`");
+        let own = part.address.is_none_or(|one| part.addresses.contains(&one));
+        assert!(own, "{name}: its address is not among its addresses");
+        for value in &part.values {
+            assert!(value.range().is_none_or(|(min, max)| min < max), "{name}: {value:?}");
         }
     }
+}
+
+/// Every name by which a part is known finds it, and no two parts have one.
+#[test]
+fn every_name_is_that_of_one_part() {
+    let mut owners: BTreeMap<String, String> = BTreeMap::new();
+    for part in facts::all() {
+        let plain = |name: &String| name.to_lowercase().replace(['-', '_'], "");
+        let mut names: Vec<String> = part.aliases.iter().map(plain).collect();
+        names.push(plain(&part.name));
+        names.sort();
+        names.dedup();
+        for name in names {
+            let other = owners.insert(name.clone(), part.name.clone());
+            assert_eq!(other, None, "`{name}` is also {}", part.name);
+        }
+    }
+    for (name, owner) in owners {
+        assert_eq!(facts::find(&name).unwrap().name, owner, "{name}");
+    }
+}
+
+#[test]
+fn misspelled_names_are_understood() {
+    for (typed, meant) in [
+        ("mpu605", "mpu6050"),
+        ("hc_sr4", "hcsr04"),
+        ("gy_52l", "mpu6050"),
+        ("bme", "bme280"),
+        ("vl53", "vl53l0x"),
+        ("mpu6050_gyroscope", "mpu6050"),
+        ("thermoter", ""),
+    ] {
+        assert_eq!(facts::nearest_name(typed).unwrap_or_default(), meant, "{typed}");
+    }
+}
+
+/// The example of each part is in the canonical layout, short, and resolves.
+#[test]
+fn every_example_resolves() {
+    let mut said = Vec::new();
+    for part in facts::all() {
+        let text = facts::example(&part);
+        let name = &part.name;
+        assert_eq!(sensedsl_syntax::format(&text).as_ref(), Ok(&text), "{name}");
+        assert!(text.lines().count() <= 10, "{name}: {text}");
+        let request = Request { path: "example.sense", text: &text, ..Request::default() };
+        let resolved = resolve(&request, &NoFiles);
+        let beyond = resolved.diagnostics.iter().filter(|one| one.severity != Severity::Hint);
+        said.extend(beyond.map(|one| format!("{}: {}", part.name, one.message)));
+    }
+    assert_eq!(said, [] as [&str; 0]);
 }

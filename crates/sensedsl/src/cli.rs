@@ -3,8 +3,9 @@
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sensedsl_model::kind::KindName;
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///
@@ -43,6 +44,8 @@ pub(crate) enum Command {
     Parts(PartsArgs),
     /// List the built-in boards, or print one's table
     Boards(BoardsArgs),
+    /// List the library of drivers, or tell all about one: wires, values, notes, an example
+    Drivers(DriversArgs),
     /// Make a board table, or a file, of what other tools know about pins
     Import(ImportArgs),
     /// Lay files out canonically, comments kept
@@ -345,6 +348,22 @@ pub(crate) struct BoardsArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct DriversArgs {
+    /// A driver, or what else its part is called: mpu6050, GY-521
+    #[arg(value_parser = DriverName, hide_possible_values = true)]
+    pub(crate) name: Option<String>,
+    /// Only drivers of this kind: i2c, uart, pwm
+    #[arg(long, value_parser = kind(), conflicts_with = "name", hide_possible_values = true)]
+    pub(crate) kind: Option<KindName>,
+    /// Only drivers with these words in what is known of their part
+    #[arg(long, value_name = "TEXT", conflicts_with = "name")]
+    pub(crate) search: Option<String>,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
     /// A spreadsheet (CSV, XLSX, ODS), an MCU (XML) or project (.ioc) of CubeMX, an hwdef.dat of
     /// ArduPilot, alternate functions of MicroPython; - is the standard input
@@ -394,9 +413,14 @@ pub(crate) struct FmtArgs {
     /// The files, changed in place; - reads the standard input and prints
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Change nothing; exit 1 if a file is not laid out canonically
+    /// Change nothing; exit 1 if a file is not laid out canonically, or with --ids lacks identifiers
     #[arg(long)]
     pub(crate) check: bool,
+    /// Write the identifiers that the tool gives by itself into files without mistakes
+    #[arg(long)]
+    pub(crate) ids: bool,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
 }
 
 #[derive(Debug, Args)]
@@ -433,6 +457,33 @@ impl TypedValueParser for BoardName {
             sensedsl_board::catalog::all().iter().map(|entry| PossibleValue::new(entry.name)),
         ))
     }
+}
+
+/// The name of a driver: any text, of which shells complete what is in the library.
+#[derive(Clone)]
+struct DriverName;
+
+impl TypedValueParser for DriverName {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(sensedsl_model::facts::names().map(PossibleValue::new)))
+    }
+}
+
+/// The word of a kind.
+fn kind() -> impl TypedValueParser<Value = KindName> {
+    PossibleValuesParser::new(KindName::ALL.map(KindName::name))
+        .try_map(|word| KindName::from_name(&word).ok_or("not a kind"))
 }
 
 /// A time that a clock can be set to.

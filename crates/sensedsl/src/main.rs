@@ -97,6 +97,7 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Diff(args) => commands::diff::run(&args, terminal),
         Command::Parts(args) => commands::parts::run(&args, terminal),
         Command::Boards(args) => commands::boards::run(&args, terminal),
+        Command::Drivers(args) => commands::drivers::run(&args, terminal),
         Command::Import(args) => commands::import::run(&args, terminal),
         Command::Fmt(args) => commands::fmt::run(&args, terminal),
         Command::Completions(args) => commands::help::completions(&args, terminal),

@@ -10,9 +10,9 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "no such driver",
     explanation: r#"`driver = NAME;` takes over a protocol: a `driver NAME for KIND { … }` of this file, of a file brought in
-by `use`, or of the library that ships with the tool.
+by `use`, or of the library that ships with the tool. A part may also be called what else people call it (`GY_521`).
 
-Way out: correct the spelling, or write the driver.
+Way out: correct the spelling, look for the part with `sensedsl drivers --search WORD`, or write the driver.
 "#,
 };
 
@@ -26,8 +26,11 @@ pub fn unknown_driver(span: Span, name: &str, meant: Option<&str>) -> Diagnostic
     match meant {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))
-            .help(format!("write `{meant}`"))
+            .help(format!("write `{meant}` (`sensedsl drivers {meant}` shows it; `sensedsl drivers` lists all)"))
             .replace(format!("change to `{meant}`"), span, meant),
-        None => diagnostic.help("define it with `driver NAME for KIND { … }`, or bring it in with `use`"),
+        None => diagnostic.help(
+            "`sensedsl drivers` lists those of the library; define another with `driver NAME for KIND { … }`, or \
+             bring it in with `use`",
+        ),
     }
 }

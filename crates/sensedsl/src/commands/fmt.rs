@@ -1,13 +1,15 @@
-//! `sensedsl fmt`: the canonical layout.
+//! `sensedsl fmt`: the canonical layout, and the identifiers that a file leaves out.
 
 use std::path::Path;
 
 use anyhow::Result;
 use sensedsl_diagnostics::{SourceMap, visible};
-use sensedsl_model::{What, syntax_diagnostic};
+use sensedsl_model::{What, syntax_diagnostic, with_ids};
+use sensedsl_session::Snapshot;
 
+use super::input;
 use crate::Status;
-use crate::cli::FmtArgs;
+use crate::cli::{FmtArgs, On};
 use crate::files::{read_text, shown, write_whole};
 use crate::terminal::Terminal;
 
@@ -15,29 +17,89 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
     let mut status = Status::Done;
     for path in &args.files {
         let text = read_text(path, What::Sense)?;
-        let formatted = match sensedsl_syntax::format(&text) {
-            Ok(formatted) => formatted,
-            Err(errors) => {
-                let mut sources = SourceMap::default();
-                let file = sources.add(shown(path), text);
-                let reports: Vec<_> =
-                    errors.iter().map(|error| syntax_diagnostic(error, file)).collect();
-                terminal.diagnostics(&reports, &sources)?;
+        let Some(formatted) = laid_out(path, &text, terminal)? else {
+            status = Status::Wrong;
+            continue;
+        };
+        let wanted = if args.ids {
+            let Some(numbered) = numbered(path, &text, &formatted, args, terminal)? else {
                 status = Status::Wrong;
                 continue;
-            }
+            };
+            numbered
+        } else {
+            formatted.clone()
         };
         if args.check {
-            if formatted != text {
-                terminal.note(&format!("{}: not laid out canonically\n", visible(&shown(path))))?;
-                status = Status::Wrong;
-            }
+            let lacks = if formatted != text {
+                "not laid out canonically"
+            } else if wanted != text {
+                "identifiers are not written"
+            } else {
+                continue;
+            };
+            terminal.note(&format!("{}: {lacks}\n", visible(&shown(path))))?;
+            status = Status::Wrong;
         } else if path == Path::new("-") {
-            terminal.result(&formatted)?;
-        } else if formatted != text {
-            write_whole(path, formatted.as_bytes())?;
-            terminal.note(&format!("{}: laid out\n", visible(&shown(path))))?;
+            terminal.result(&wanted)?;
+        } else if wanted != text {
+            write_whole(path, wanted.as_bytes())?;
+            let done = if wanted == formatted { "laid out" } else { "identifiers written" };
+            terminal.note(&format!("{}: {done}\n", visible(&shown(path))))?;
         }
     }
     Ok(status)
+}
+
+/// The text in its canonical layout; none where it has mistakes, which are said.
+fn laid_out(path: &Path, text: &str, terminal: &Terminal) -> Result<Option<String>> {
+    let errors = match sensedsl_syntax::format(text) {
+        Ok(formatted) => return Ok(Some(formatted)),
+        Err(errors) => errors,
+    };
+    let mut sources = SourceMap::default();
+    let file = sources.add(shown(path), text);
+    let reports: Vec<_> = errors.iter().map(|error| syntax_diagnostic(error, file)).collect();
+    terminal.diagnostics(&reports, &sources)?;
+    Ok(None)
+}
+
+/// The text with all identifiers, laid out; none where the design has mistakes, which are said.
+fn numbered(
+    path: &Path,
+    text: &str,
+    formatted: &str,
+    args: &FmtArgs,
+    terminal: &Terminal,
+) -> Result<Option<String>> {
+    // What a system can do says nothing about identifiers.
+    let on = On { board: None, target: Some("none".to_owned()), reach: args.reach.clone() };
+    let before = input::of_text(path, text.to_owned(), &on);
+    let Some(design) = before.design() else {
+        terminal.diagnostics(before.diagnostics(), before.sources())?;
+        let name = shown(path);
+        terminal.aside(&format!("{name}: no identifiers are written into a file with errors"))?;
+        return Ok(None);
+    };
+    let tree = before.trees().iter().find(|(file, _)| *file == design.file);
+    let with = tree.and_then(|(_, tree)| with_ids(design, &tree.ast(), text));
+    let Some(with) = with else { return Ok(Some(formatted.to_owned())) };
+    let Some(numbered) = laid_out(path, &with, terminal)? else { return Ok(None) };
+    let moved = moved(&before, &input::of_text(path, numbered.clone(), &on));
+    if !moved.is_empty() {
+        terminal.aside(&format!(
+            "{}: write an `id` into the devices of used files, too, which have other numbers now: {}",
+            shown(path),
+            moved.join(", ")
+        ))?;
+    }
+    Ok(Some(numbered))
+}
+
+/// The devices whose identifier has changed.
+fn moved(before: &Snapshot, after: &Snapshot) -> Vec<String> {
+    let (Some(before), Some(after)) = (before.design(), after.design()) else { return Vec::new() };
+    let devices = before.devices.iter().zip(&after.devices);
+    let moved = devices.filter(|(old, new)| old.id.value != new.id.value);
+    moved.map(|(_, new)| format!("{} {}", new.name.value, new.id.value)).collect()
 }

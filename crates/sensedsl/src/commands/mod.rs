@@ -5,6 +5,7 @@ pub(crate) mod capacity;
 pub(crate) mod check;
 mod deadline;
 pub(crate) mod diff;
+pub(crate) mod drivers;
 pub(crate) mod explain;
 mod facts;
 pub(crate) mod fmt;

@@ -1,0 +1,398 @@
+//! What is known of the parts of the library: its drivers in, plain data about each out, for tables,
+//! pages and programs.
+//!
+//! Wires and values are those that a design gets: each driver is read as a part that uses all of it.
+
+mod example;
+
+use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap};
+use sensedsl_syntax::ast::{self, AstNode as _};
+use sensedsl_syntax::parse;
+use sensedsl_wire::{Direction, ValueType};
+
+use crate::chips;
+use crate::constants::Constants;
+use crate::design::{Level, Presentation};
+use crate::devices::{self, Known};
+use crate::drivers::{Driver, Drivers};
+use crate::fields::{Fields, name_or_text, plain_integer, span};
+use crate::kind::{Kind, KindName, Role};
+use crate::parts::ReadPart;
+use crate::protocol::{Coding, Filter, Protocol};
+use crate::value::{Dimension, Measure, Value};
+
+pub use example::{EXAMPLE_BOARD, example, example_on};
+
+/// A part of the library.
+#[derive(Clone, Debug)]
+pub struct PartFacts {
+    /// What `driver = …;` calls it.
+    pub name: String,
+    /// The field that it belongs to: the name of the library's file (`motion`).
+    pub field: &'static str,
+    /// What it is connected to, each kind once.
+    pub kinds: Vec<KindName>,
+    /// Its full name.
+    pub part: String,
+    /// What it does, in a sentence.
+    pub about: String,
+    /// What else people call it.
+    pub aliases: Vec<String>,
+    /// Where its figures are from.
+    pub sheet: Option<String>,
+    /// What they were compared with; none where they were not.
+    pub checked: Option<String>,
+    /// The least and the greatest supply, in millivolts.
+    pub supply_mv: Option<(u32, u32)>,
+    /// Whether its bus or its wire needs resistors to the supply.
+    pub needs_pull_up: bool,
+    /// The addresses that it can have.
+    pub addresses: Vec<u8>,
+    /// The one that it has unless a design says otherwise; none where a design has to say it.
+    pub address: Option<u8>,
+    /// The names at the connector of the usual module, in their order.
+    pub connector: Vec<String>,
+    /// What whoever wires it must know.
+    pub notes: Vec<String>,
+    /// How it is started and recognised; none of a part with one value that has no name.
+    pub protocol: Option<Protocol>,
+    /// Its wires.
+    pub connections: Vec<ConnectionFacts>,
+    /// Its values.
+    pub values: Vec<ValueFacts>,
+}
+
+/// Wires of a part.
+#[derive(Clone, Debug)]
+pub struct ConnectionFacts {
+    /// What the driver calls them; none where it is for one kind.
+    pub name: Option<String>,
+    /// What they are, with the properties of that kind.
+    pub kind: Kind,
+    /// Each of them.
+    pub roles: Vec<Role>,
+    /// The voltage on them, where the driver says it.
+    pub level: Option<Level>,
+}
+
+/// A value of a part.
+#[derive(Clone, Debug)]
+pub struct ValueFacts {
+    /// The driver's reading or command; none where there is one value, which has no name.
+    pub name: Option<String>,
+    /// Which way it goes.
+    pub direction: Direction,
+    /// Its type.
+    pub value: ValueType,
+    /// What it is connected to, with its own register, length and order.
+    pub kind: Kind,
+    /// How a host shows it.
+    pub shown: Presentation,
+    /// How it is coded.
+    pub coding: Coding,
+    /// What becomes of it on the board.
+    pub filter: Filter,
+    /// The connections that it goes over; empty where the driver is for one kind.
+    pub via: Vec<String>,
+}
+
+impl ValueFacts {
+    /// The least and the greatest value as a host shows it, where the part bounds them more than the
+    /// type does.
+    #[must_use]
+    pub fn range(&self) -> Option<(f64, f64)> {
+        if let (Some(min), Some(max)) = (self.shown.min, self.shown.max) {
+            return Some((min, max));
+        }
+        if let (Some(first), Some(last)) = (self.shown.curve.first(), self.shown.curve.last()) {
+            return Some((first.1.min(last.1), first.1.max(last.1)));
+        }
+        let (least, most) = self.raw_range()?;
+        let (scale, offset) = (self.shown.scale.unwrap_or(1.0), self.shown.offset.unwrap_or(0.0));
+        let (one, other) = (least * scale + offset, most * scale + offset);
+        Some((one.min(other), one.max(other)))
+    }
+
+    /// The least and the greatest value on the wire.
+    fn raw_range(&self) -> Option<(f64, f64)> {
+        let computed = self.coding.output.is_some() || self.coding.text.is_some();
+        if computed || self.coding.bcd {
+            return None;
+        }
+        if self.coding.drive.is_some() {
+            return Some((-FULL, FULL));
+        }
+        match self.kind {
+            Kind::Analog(_) => return Some((0.0, CONVERTED_MAX)),
+            Kind::Pwm(_) => return Some((0.0, FULL)),
+            _ => {}
+        }
+        let (least, most) = self.value.scalar.integer_range()?;
+        let bits = self.coding.bits.map(|(high, low)| high - low + 1);
+        let signed = self.coding.signed.unwrap_or(least < 0);
+        match bits.or(self.coding.packed_bits) {
+            Some(1) => None,
+            Some(bits) if bits <= 32 && signed => {
+                let half = 2_f64.powi(i32::from(bits) - 1);
+                Some((-half, half - 1.0))
+            }
+            Some(bits) if bits <= 32 => Some((0.0, 2_f64.powi(i32::from(bits)) - 1.0)),
+            // A wide word says little about the part, and neither does one that is counted.
+            None if self.shown.scale.is_some() && self.value.scalar.size_bytes() <= 2 =>
+            {
+                #[expect(clippy::cast_precision_loss, reason = "of at most 16 bits")]
+                Some((least as f64, most as f64))
+            }
+            Some(_) | None => None,
+        }
+    }
+}
+
+/// What outputs that are driven take at most.
+const FULL: f64 = 10_000.0;
+/// What a converter gives at its reference voltage.
+const CONVERTED_MAX: f64 = 4_095.0;
+
+/// All parts of the library, field by field, in the order of its files.
+#[must_use]
+pub fn all() -> Vec<PartFacts> {
+    let library = Library::open();
+    let all = library.drivers.of_library();
+    all.filter_map(|(field, driver)| library.facts(field, driver, &mut Vec::new())).collect()
+}
+
+/// The names of all drivers of the library.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    crate::library::LIBRARY.iter().flat_map(|(_, text)| {
+        let ranges = parse(text).ast().drivers().filter_map(|one| Some(one.name()?.range()));
+        let ranges: Vec<_> = ranges.map(|at| at.start().into()..at.end().into()).collect();
+        ranges.into_iter().filter_map(|at: std::ops::Range<usize>| text.get(at))
+    })
+}
+
+/// The part that a driver's name or one of its other names stands for.
+#[must_use]
+pub fn find(name: &str) -> Option<PartFacts> {
+    let library = Library::open();
+    let wanted = &library.drivers.look_up(name)?.name;
+    let found = library.drivers.of_library().find(|(_, one)| one.name == *wanted);
+    found.and_then(|(field, driver)| library.facts(field, driver, &mut Vec::new()))
+}
+
+/// The name that a misspelled one may stand for.
+#[must_use]
+pub fn nearest_name(name: &str) -> Option<String> {
+    Library::open().drivers.meant(name).map(str::to_owned)
+}
+
+/// What is wrong with the library: each driver is read as a part that uses all of it.
+#[must_use]
+pub fn mistakes() -> Vec<(String, Diagnostic)> {
+    let library = Library::open();
+    let mut found = Vec::new();
+    for (field, driver) in library.drivers.of_library() {
+        let mut said = Vec::new();
+        let facts = library.facts(field, driver, &mut said);
+        debug_assert!(facts.is_some() || !said.is_empty(), "{}", driver.name.value);
+        found.extend(said.into_iter().map(|one| (driver.name.value.clone(), one)));
+    }
+    found
+}
+
+/// The drivers, and where the texts of those who ask for them would stand.
+struct Library {
+    constants: Constants,
+    drivers: Drivers,
+    file: FileId,
+}
+
+impl Library {
+    fn open() -> Self {
+        let mut sources = SourceMap::default();
+        let drivers = Drivers::new(&[], &mut sources, &mut Vec::new());
+        let file = sources.add("", "");
+        Self { constants: Constants::default(), drivers, file }
+    }
+
+    /// Reads one of them; none where it cannot be used, which is reported.
+    fn facts(
+        &self,
+        field: &'static str,
+        driver: &Driver,
+        said: &mut Vec<Diagnostic>,
+    ) -> Option<PartFacts> {
+        let mut fields = self.fields(driver, said);
+        let mut text = |name: &str| fields.text(name).map(|text| text.value);
+        let (part, about) = (text("part"), text("about"));
+        let (sheet, checked) = (text("sheet"), text("checked"));
+        let supply_mv = supply(&mut fields);
+        let [aliases, connector, notes] =
+            ["aliases", "connector", "note"].map(|name| texts(&mut fields, name));
+        let addresses = addresses(&mut fields);
+        let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
+        let pull = fields.peek_name("pull");
+        drop(fields);
+        let first = addresses.first().filter(|_| address.is_none()).copied();
+        let read = self.whole(driver, first, said)?;
+        let kinds = kinds(&read);
+        // Of a GPIO and an input `pull` is the resistor inside the MCU.
+        let is_outside = kinds.iter().any(|kind| !kind.spec().properties.contains(&"pull"));
+        Some(PartFacts {
+            name: driver.name.value.clone(),
+            field,
+            kinds,
+            part: part.unwrap_or_else(|| driver.name.value.clone()),
+            about: about.unwrap_or_default(),
+            aliases,
+            sheet,
+            checked,
+            supply_mv,
+            needs_pull_up: is_outside && pull.as_deref() == Some("up"),
+            addresses,
+            address,
+            connector,
+            notes,
+            protocol: read.part.chip.clone(),
+            values: values(&read),
+            connections: connections(&read),
+        })
+    }
+
+    /// The properties of the driver's head.
+    fn fields<'a>(&'a self, driver: &Driver, said: &'a mut Vec<Diagnostic>) -> Fields<'a> {
+        let at = span(driver.file, driver.node.range());
+        let own = driver.node.properties();
+        Fields::new(own, driver.file, "a driver", at, (&self.constants, said))
+    }
+
+    /// A part that uses all that the driver has.
+    fn whole(
+        &self,
+        driver: &Driver,
+        address: Option<u8>,
+        said: &mut Vec<Diagnostic>,
+    ) -> Option<ReadPart> {
+        let name = &driver.name.value;
+        let address = address.map(|one| format!("address = {one:#04X};")).unwrap_or_default();
+        let known = Known { constants: &self.constants, drivers: &self.drivers };
+        let head = if driver.has_values() {
+            "chip Part".to_owned()
+        } else {
+            let (direction, value) = self.plain_value(driver)?;
+            head_of_device("Part", direction, value)
+        };
+        let tree = parse(&format!("{head} {{ driver = {name}; {address} }}")).ast();
+        match tree.parts().next()? {
+            ast::Item::Chip(node) => chips::read(self.file, &node, None, known, said),
+            ast::Item::Device(node) => devices::read(self.file, &node, None, known, said),
+        }
+    }
+
+    /// Direction and type of the only value of a driver that does not name it.
+    fn plain_value(&self, driver: &Driver) -> Option<(Direction, ValueType)> {
+        let mut said = Vec::new();
+        let fields = self.fields(driver, &mut said);
+        let kind = driver.kind?;
+        let only_read = ["pull", "edge", "debounce"].iter().any(|name| fields.has(name));
+        let direction = match kind.spec().directions {
+            [only] => *only,
+            _ if kind == KindName::Digital && !only_read => Direction::Actuator,
+            _ => Direction::Sensor,
+        };
+        let signed = fields.peek_name("quantity").is_some_and(|unit| SIGNED.contains(&&*unit));
+        let length = fields.peek_integer("length").and_then(|n| u16::try_from(n).ok());
+        Some((direction, example::natural_type(kind, length, signed)))
+    }
+}
+
+/// Units of what goes below zero.
+const SIGNED: &[&str] = &["degC", "g", "deg/s", "m/s^2", "uT"];
+
+/// `sensor NAME returns TYPE`, or an actuator.
+fn head_of_device(name: &str, direction: Direction, value: ValueType) -> String {
+    match direction {
+        Direction::Sensor => format!("sensor {name} returns {value}"),
+        Direction::Actuator => format!("actuator {name} accepts {value}"),
+    }
+}
+
+fn kinds(read: &ReadPart) -> Vec<KindName> {
+    let mut kinds: Vec<KindName> = read.connections.iter().map(|one| one.kind.name()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds
+}
+
+fn values(read: &ReadPart) -> Vec<ValueFacts> {
+    let via =
+        |number: &crate::design::ConnectionIndex| read.connections.get(number.0)?.name.clone();
+    let values = read.devices.iter().map(|device| ValueFacts {
+        name: device.coding.reading.clone().filter(|name| !name.is_empty()),
+        direction: device.direction,
+        value: device.value.value,
+        kind: device.kind.clone(),
+        shown: device.shown.clone(),
+        coding: device.coding.clone(),
+        filter: device.filter.clone(),
+        via: device.connections.iter().filter_map(via).collect(),
+    });
+    values.collect()
+}
+
+fn connections(read: &ReadPart) -> Vec<ConnectionFacts> {
+    let connections = read.connections.iter().map(|one| ConnectionFacts {
+        name: one.name.clone(),
+        roles: one.kind.roles(one.direction),
+        kind: one.kind.clone(),
+        level: one.level,
+    });
+    connections.collect()
+}
+
+/// A voltage, or a range of them.
+fn supply(fields: &mut Fields<'_>) -> Option<(u32, u32)> {
+    let field = fields.take("supply")?;
+    let mv = |value: &Value| {
+        let number = value.number()?;
+        let is_volts = number.measure == Measure::Bare || number.dimension() == Dimension::VOLTAGE;
+        let mv = (number.in_base_units() * 1e3).round();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "compared with a range just before"
+        )]
+        (is_volts && (0.0..=1e9).contains(&mv)).then_some(mv as u32)
+    };
+    let found = match field.value.range() {
+        Some([first, last]) => mv(&first.value).zip(mv(&last.value)),
+        None => mv(&field.value).map(|one| (one, one)),
+    };
+    if found.is_none() {
+        fields.wrong(&field, "a voltage such as 5 V, or a range such as 2.4 V..3.6 V");
+    }
+    found
+}
+
+/// A text, or a list of them.
+fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
+    let Some(field) = fields.take(name) else { return Vec::new() };
+    let found = match field.value.list() {
+        Some(list) => list.iter().map(|one| name_or_text(&one.value)).collect(),
+        None => name_or_text(&field.value).map(|one| vec![one]),
+    };
+    if found.is_none() {
+        fields.wrong(&field, "a text, or a list of texts");
+    }
+    found.unwrap_or_default()
+}
+
+fn addresses(fields: &mut Fields<'_>) -> Vec<u8> {
+    let Some(field) = fields.take("addresses") else { return Vec::new() };
+    let one = |value: &Value| u8::try_from(plain_integer(value)?).ok();
+    let found: Option<Vec<u8>> =
+        field.value.list().and_then(|list| list.iter().map(|item| one(&item.value)).collect());
+    if found.is_none() {
+        fields.wrong(&field, "a list of addresses such as [0x68, 0x69]");
+    }
+    found.unwrap_or_default()
+}

@@ -1,0 +1,120 @@
+//! A part in a design: what is known of it in, a few lines that use it the natural way out.
+
+use sensedsl_wire::{Direction, ScalarType, ValueType};
+
+use super::{PartFacts, ValueFacts, head_of_device};
+use crate::kind::{Kind, KindName, Sharing};
+
+/// The board of examples: one that many have.
+pub const EXAMPLE_BOARD: &str = "NUCLEO_F446RE";
+/// Most lines of an example.
+const LINES_MAX: usize = 10;
+/// Cycle time of the sensors in examples, and of those that take longer to measure.
+const DELAYS_MS: [u32; 3] = [100, 200, 1_000];
+
+/// A board with the part, in the canonical layout and at most ten lines: a chip with its first values, or a
+/// device where there is one.
+#[must_use]
+pub fn example(part: &PartFacts) -> String {
+    example_on(part, EXAMPLE_BOARD)
+}
+
+/// As [`example`], on another board.
+#[must_use]
+pub fn example_on(part: &PartFacts, board: &str) -> String {
+    let mut lines = vec![format!("board Robot on {board} {{")];
+    let mut own = vec![format!("driver = {};", part.name)];
+    if let (None, Some(first)) = (part.address, part.addresses.first()) {
+        own.push(format!("address = {first:#04X};"));
+    }
+    own.extend(delay_ms(part).map(|ms| format!("delay = {ms} ms;")));
+    let own = own.iter().map(|line| format!("        {line}"));
+    let name = camel(&part.name);
+    match part.values.as_slice() {
+        [only] if only.name.is_none() => {
+            lines.push(format!("    {} {{", head_of_device(&name, only.direction, only.value)));
+            lines.extend(own);
+        }
+        values => {
+            lines.push(format!("    chip {name} {{"));
+            lines.extend(own);
+            let room = LINES_MAX.saturating_sub(lines.len() + 2);
+            lines.extend(shown(values, room).iter().map(|one| {
+                let name = camel(one.name.as_deref().unwrap_or_default());
+                format!("        {} {{}}", head_of_device(&name, one.direction, one.value))
+            }));
+        }
+    }
+    lines.extend(["    }".to_owned(), "}".to_owned(), String::new()]);
+    lines.join("\n")
+}
+
+/// The first values, without those that are part of another one.
+fn shown(values: &[ValueFacts], room: usize) -> Vec<&ValueFacts> {
+    let mut shown: Vec<&ValueFacts> = Vec::new();
+    for value in values {
+        if shown.len() < room && !shown.iter().any(|other| holds(other, value)) {
+            shown.push(value);
+        }
+    }
+    shown
+}
+
+/// Whether the registers of a value are among those of another, longer one.
+fn holds(whole: &ValueFacts, part: &ValueFacts) -> bool {
+    let place = |one: &ValueFacts| {
+        let i2c = one.kind.i2c()?;
+        let first = u32::from(i2c.register?);
+        Some((first, first + u32::from(i2c.length_bytes)))
+    };
+    let (Some(outer), Some(inner)) = (place(whole), place(part)) else { return false };
+    let same_way = whole.direction == part.direction;
+    let longer = outer.1 - outer.0 > inner.1 - inner.0;
+    same_way && longer && outer.0 <= inner.0 && inner.1 <= outer.1
+}
+
+/// The cycle time that suits the part; none where it sends by itself, or is sent to.
+fn delay_ms(part: &PartFacts) -> Option<u32> {
+    let asked = |one: &&ValueFacts| {
+        one.direction == Direction::Sensor && !matches!(one.kind, Kind::Uart(_))
+    };
+    let asked: Vec<&ValueFacts> = part.values.iter().filter(asked).collect();
+    if asked.iter().any(|one| one.kind.name().spec().triggers_itself) {
+        return None;
+    }
+    // All values on one bus are measured one after the other.
+    let times = || asked.iter().map(|one| one.kind.measuring_us().div_ceil(1_000));
+    let is_bus = asked.first()?.kind.name().spec().sharing != Sharing::Own;
+    let takes: u32 = if is_bus { times().sum() } else { times().max().unwrap_or(0) };
+    DELAYS_MS.into_iter().find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
+}
+
+/// `magnetic_field` as `MagneticField`.
+fn camel(name: &str) -> String {
+    let words = name.split('_').map(|word| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect::<String>()
+    });
+    words.collect()
+}
+
+/// The type that suits the only value of a part: of so many bytes where they are counted.
+pub(super) fn natural_type(kind: KindName, length: Option<u16>, signed: bool) -> ValueType {
+    let scalar = match kind {
+        KindName::Digital => ScalarType::Bool,
+        KindName::Encoder => ScalarType::Int32,
+        KindName::Analog | KindName::Icu | KindName::Pwm | KindName::Dac => ScalarType::Uint16,
+        KindName::I2c | KindName::Spi | KindName::Uart | KindName::Can => {
+            let word = if signed { ScalarType::Int16 } else { ScalarType::Uint16 };
+            return match length {
+                None | Some(2) => ValueType::scalar(word),
+                Some(1) => ValueType::scalar(ScalarType::Uint8),
+                Some(4) => ValueType::scalar(ScalarType::Uint32),
+                Some(even) if even % 2 == 0 => ValueType { scalar: word, length: Some(even / 2) },
+                Some(bytes) => ValueType { scalar: ScalarType::Uint8, length: Some(bytes) },
+            };
+        }
+    };
+    ValueType::scalar(scalar)
+}

@@ -1,0 +1,82 @@
+//! Identifiers written into a file: its text with those of its design in, the text that states them out.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use sensedsl_syntax::ast::{self, AstNode as _};
+use sensedsl_syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
+
+use crate::design::Design;
+
+/// The text of the design's own file with an `id` in each device, and in each chip without devices, that
+/// states none; none where all do. It is not in the canonical layout.
+#[must_use]
+pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<String> {
+    let of_file = design.devices.iter().filter(|device| device.name.span.file == design.file);
+    let mut ids: BTreeMap<usize, u8> = BTreeMap::new();
+    for device in of_file {
+        // All values of a chip that names no devices stand where the chip's name does: the first counts.
+        ids.entry(device.name.span.range().start).or_insert(device.id.value);
+    }
+    let mut missing: Vec<(Range<usize>, u8)> = Vec::new();
+    let boards = tree.boards().flat_map(|board| board.parts().collect::<Vec<_>>());
+    for part in tree.parts().chain(boards) {
+        for (name, block) in blocks_without(&part) {
+            let at: usize = name.range().start().into();
+            let id = ids.get(&at).copied();
+            missing.extend(id.and_then(|id| Some((place(&block)?, id))));
+        }
+    }
+    missing.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+    if missing.is_empty() {
+        return None;
+    }
+    let mut text = text.to_owned();
+    for (range, id) in missing {
+        text.replace_range(range, &format!("\nid = {id};\n"));
+    }
+    Some(text)
+}
+
+/// The blocks of a part that lack an `id`, each with its name.
+fn blocks_without(part: &ast::Item) -> Vec<(ast::Name, SyntaxNode)> {
+    let states = |mut properties: Box<dyn Iterator<Item = ast::Property>>| {
+        properties.any(|one| one.name().is_some_and(|name| name.text() == "id"))
+    };
+    let of_device = |one: &ast::Device| {
+        let is_stated = states(Box::new(one.properties()));
+        one.name().filter(|_| !is_stated).map(|name| (name, one.syntax().clone()))
+    };
+    match part {
+        ast::Item::Device(device) => of_device(device).into_iter().collect(),
+        // The chip's number is that of its first value; the others follow.
+        ast::Item::Chip(chip) if states(Box::new(chip.properties())) => Vec::new(),
+        ast::Item::Chip(chip) if chip.devices().next().is_none() => {
+            chip.name().map(|name| (name, chip.syntax().clone())).into_iter().collect()
+        }
+        ast::Item::Chip(chip) => chip.devices().filter_map(|one| of_device(&one)).collect(),
+    }
+}
+
+/// The first line of a block: what is between its brace, with the comments behind it on the line, and
+/// what follows.
+fn place(block: &SyntaxNode) -> Option<Range<usize>> {
+    let is_brace = |one: &SyntaxElement| one.kind() == SyntaxKind::LBrace;
+    let brace = block.children_with_tokens().find(is_brace)?.into_token()?;
+    let mut end = brace.text_range().end();
+    let mut next = brace.next_token();
+    while let Some(token) = next {
+        let is_space = token.kind() == SyntaxKind::Whitespace;
+        if is_space && token.text().contains(['\n', '\r']) {
+            return Some(end.into()..token.text_range().end().into());
+        }
+        if !is_space && !token.kind().is_comment() {
+            break;
+        }
+        if !is_space {
+            end = token.text_range().end();
+        }
+        next = token.next_token();
+    }
+    Some(end.into()..end.into())
+}

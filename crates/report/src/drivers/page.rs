@@ -1,0 +1,167 @@
+//! A page for each part, and one that lists them: Markdown.
+
+use std::fmt::Write as _;
+
+use sensedsl_model::facts::{PartFacts, ValueFacts, example};
+use sensedsl_wire::Direction;
+
+use super::words::{self, wrapped};
+
+/// Letters of a line.
+const WIDTH: usize = 120;
+
+/// The page that lists all parts, with links to their pages. `intro` stands above the tables.
+#[must_use]
+pub fn index(parts: &[PartFacts], intro: &str) -> String {
+    let mut out = intro.to_owned();
+    for (field, parts) in super::by_field(parts) {
+        let _ = write!(
+            out,
+            "\n## {field}\n\n| driver | kind | part | values |\n| --- | --- | --- | --- |\n"
+        );
+        for part in parts {
+            let _ = writeln!(
+                out,
+                "| [`{0}`]({0}.md) | {1} | {2} | {3} |",
+                part.name,
+                words::kinds(part),
+                cell(&part.part),
+                cell(&words::values(part)),
+            );
+        }
+    }
+    out
+}
+
+/// The page of one part.
+#[must_use]
+pub fn page(part: &PartFacts) -> String {
+    let mut out = format!("# {}\n\n", part.part);
+    out.push_str(&wrapped(&part.about, WIDTH, "", ""));
+    let also = match part.aliases.as_slice() {
+        [] => String::new(),
+        aliases => {
+            let aliases: Vec<String> = aliases.iter().map(|one| format!("`{one}`")).collect();
+            format!(" Other names that find it: {}.", aliases.join(", "))
+        }
+    };
+    let names = format!("`driver = {};`{also}", part.name);
+    let _ = write!(out, "\n{}", wrapped(&names, WIDTH, "", ""));
+    out.push_str("\n[All parts](README.md) · [the language](../language.md)\n");
+    wiring(&mut out, part);
+    if !part.notes.is_empty() {
+        out.push_str("\n## Notes\n\n");
+        for note in &part.notes {
+            out.push_str(&wrapped(note, WIDTH, "- ", "  "));
+        }
+    }
+    let _ = write!(out, "\n## Example\n\n```\n{}```\n", example(part));
+    values(&mut out, part);
+    sources(&mut out, part);
+    out
+}
+
+fn wiring(out: &mut String, part: &PartFacts) {
+    out.push_str(
+        "\n## Wiring\n\n| wire | kind | at the part | settings |\n| --- | --- | --- | --- |\n",
+    );
+    for connection in &part.connections {
+        for (at, role) in connection.roles.iter().enumerate() {
+            let first = at == 0;
+            let kind = if first { connection.kind.name().name() } else { "" };
+            let settings = if first { words::settings(&connection.kind) } else { String::new() };
+            let _ = writeln!(
+                out,
+                "| `{}` | {kind} | {} | {settings} |",
+                words::wire(connection, *role),
+                cell(words::contact(part, connection, *role).unwrap_or_default()),
+            );
+        }
+    }
+    let connector = part.connector.join(" · ");
+    let pull =
+        "The lines need resistors to the supply, 2.2 kOhm to 10 kOhm; most modules have them.";
+    let facts = [
+        words::supply(part).map(|text| format!("**Supply**: {text}.")),
+        words::levels(part).map(|text| format!("**Signals**: {text}.")),
+        part.needs_pull_up.then(|| format!("**Pull-up**: {pull}")),
+        words::addresses(part).map(|text| format!("**Address**: {text}.")),
+        (!part.connector.is_empty())
+            .then(|| format!("**Connector** of the usual module, in order: {connector}.")),
+        words::identity(part).map(|text| {
+            format!("**Identity**: the board looks for {text}, and reports another part.")
+        }),
+    ];
+    let mut facts = facts.into_iter().flatten().peekable();
+    if facts.peek().is_some() {
+        out.push('\n');
+    }
+    for fact in facts {
+        out.push_str(&wrapped(&fact, WIDTH, "- ", "  "));
+    }
+}
+
+fn values(out: &mut String, part: &PartFacts) {
+    out.push_str(
+        "\n## Values\n\n| value | | type | unit | scale | range | invalid |\n\
+         | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for one in &part.values {
+        let way = match one.direction {
+            Direction::Sensor => "sensor",
+            Direction::Actuator => "actuator",
+        };
+        let name = match &one.name {
+            Some(name) => format!("`{name}`"),
+            None => "the only one".to_owned(),
+        };
+        let _ = writeln!(
+            out,
+            "| {name} | {way} | `{}` | {} | {} | {} | {} |",
+            one.value,
+            cell(words::unit(one)),
+            words::scale(one),
+            words::range(one),
+            words::invalid(one),
+        );
+    }
+    let has = |of: fn(&ValueFacts) -> bool| part.values.iter().any(of);
+    let mut told = Vec::new();
+    if has(|one| one.shown.scale.is_some() || one.shown.offset.is_some()) {
+        told.push("A host shows the raw value times the scale.");
+    }
+    if has(|one| !one.filter.invalid.is_empty()) {
+        told.push("An invalid raw value is no measurement and is not reported.");
+    }
+    if !told.is_empty() {
+        let _ = write!(out, "\n{}", wrapped(&told.join(" "), WIDTH, "", ""));
+    }
+    for curve in part.values.iter().map(|one| &one.shown.curve).filter(|curve| !curve.is_empty()) {
+        let points = curve.iter().map(|(x, y)| format!("{x}: {y}")).collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "The curve goes straight from point to point and ends at the outer ones: {points}."
+        );
+        let _ = write!(out, "\n{}", wrapped(&text, WIDTH, "", ""));
+    }
+}
+
+fn sources(out: &mut String, part: &PartFacts) {
+    out.push_str("\n## Sources\n\n");
+    if let Some(sheet) = &part.sheet {
+        let text = match sheet.strip_prefix("none") {
+            Some(why) => format!("Data sheet: none{why}."),
+            None => format!("Data sheet: {sheet}."),
+        };
+        out.push_str(&wrapped(&text, WIDTH, "- ", "  "));
+    }
+    let text = match &part.checked {
+        Some(checked) => format!("Compared with a second text: {checked}."),
+        None => "The figures were not compared with a second text.".to_owned(),
+    };
+    out.push_str(&wrapped(&text, WIDTH, "- ", "  "));
+}
+
+/// Text that does not end its cell.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
