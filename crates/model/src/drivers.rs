@@ -161,8 +161,12 @@ impl Drivers {
     /// other name.
     pub(crate) fn meant(&self, name: &str) -> Option<&str> {
         let near_name = || nearest(name, self.all().map(|one| one.name.value.as_str()));
+        // A word that begins otherwise is another word (barometer, tachometer).
+        let first = name.chars().next().map(|letter| letter.to_ascii_lowercase());
+        let begins_so = |alias: &&str| alias.chars().next() == first;
         let near_alias = || {
-            let near = nearest(name, self.all().flat_map(|one| one.aliases.iter().map(|a| &**a)))?;
+            let aliases = self.all().flat_map(|one| one.aliases.iter().map(String::as_str));
+            let near = nearest(name, aliases.filter(begins_so))?;
             self.look_up(near).map(|one| one.name.value.as_str())
         };
         near_name().or_else(|| self.begins(name)).or_else(near_alias)

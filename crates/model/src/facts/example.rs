@@ -79,7 +79,7 @@ fn delay_ms(part: &PartFacts) -> Option<u32> {
         one.direction == Direction::Sensor && !matches!(one.kind, Kind::Uart(_))
     };
     let asked: Vec<&ValueFacts> = part.values.iter().filter(asked).collect();
-    if asked.iter().any(|one| one.kind.name().spec().triggers_itself) {
+    if asked.iter().any(|one| measures_itself(&one.kind)) {
         return None;
     }
     // All values on one bus are measured one after the other.
@@ -87,6 +87,12 @@ fn delay_ms(part: &PartFacts) -> Option<u32> {
     let is_bus = asked.first()?.kind.name().spec().sharing != Sharing::Own;
     let takes: u32 = if is_bus { times().sum() } else { times().max().unwrap_or(0) };
     DELAYS_MS.into_iter().find(|delay| takes.saturating_mul(5) <= delay.saturating_mul(4))
+}
+
+/// Whether the cycle time says nothing about it: the hardware measures whenever there is something.
+fn measures_itself(kind: &Kind) -> bool {
+    let is_asked = kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
+    kind.name().spec().triggers_itself && !is_asked
 }
 
 /// `magnetic_field` as `MagneticField`.

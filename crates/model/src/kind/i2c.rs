@@ -43,6 +43,9 @@ const SPEED_DEFAULT_HZ: u32 = 100_000;
 /// 7-bit addresses that devices have: the specification reserves 0x78 to 0x7F as well, and
 /// Devantech rangers use them all the same.
 const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x7F;
+/// Reserved addresses that a driver may say its part has all the same (MT6701): they are for high-speed
+/// mode, which no bus here is in.
+const OF_PARTS: std::ops::RangeInclusive<u8> = 0x04..=0x07;
 
 /// Order of the bytes of one number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,6 +126,7 @@ impl Properties for I2c {
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
+    let is_own = fields.own_span("address").is_some();
     let written = fields.required_integer("address", 0..=255, "address = 0x73;")?;
     let Spanned { value, span } = written;
     let byte = u8::try_from(value).ok()?;
@@ -133,7 +137,8 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
         fields.say(e0215_bad_address::bad_address(span, &text, why));
         return None;
     }
-    if !ADDRESSES.contains(&seven_bit) {
+    let is_of_its_part = !is_own && OF_PARTS.contains(&seven_bit);
+    if !ADDRESSES.contains(&seven_bit) && !is_of_its_part {
         let why = format!("0x{seven_bit:02X} is reserved by the I2C specification");
         fields.say(e0215_bad_address::bad_address(span, &text, &why));
         return None;

@@ -10,9 +10,9 @@ use super::words::{self, wrapped};
 /// Letters of a line.
 const WIDTH: usize = 80;
 /// Widest columns of the list: name, kinds, full name; the values take the rest.
-const NAME_MAX: usize = 21;
+const NAME_MAX: usize = 22;
 const KIND_MAX: usize = 7;
-const PART_MAX: usize = 24;
+const PART_MAX: usize = 23;
 /// Width of the labels in front of facts.
 const LABEL: usize = 12;
 
@@ -112,7 +112,7 @@ fn wires(part: &PartFacts) -> String {
             [words::wire(connection, *role), kind.to_owned(), contact.to_owned(), settings]
         })
     });
-    columns(["Wire", "Kind", "At the part", ""], &rows.collect::<Vec<_>>())
+    columns(["Wire", "Kind", "At the part", "Settings"], &rows.collect::<Vec<_>>())
 }
 
 fn values(part: &PartFacts) -> String {
