@@ -71,10 +71,12 @@ fn every_example_is_wired() {
         let text = facts::example(&part);
         let on = sensedsl_session::On::default();
         let mut workspace = sensedsl_session::Workspace::default();
-        workspace.open("example.sense", text.clone());
+        workspace.open("example.sense", text);
         let snapshot = workspace.snapshot("example.sense", on, &NoFiles);
         let answer = snapshot.solve(&sensedsl_session::Ask::default());
-        assert!(answer.wired().is_some(), "{EXAMPLE_BOARD} does not carry\n{text}");
+        if answer.wired().is_none() {
+            said.push(format!("{EXAMPLE_BOARD} does not carry {}", part.name));
+        }
         let beyond = answer.diagnostics.iter().filter(|one| one.severity != Severity::Hint);
         said.extend(beyond.map(|one| format!("{}: {} {}", part.name, one.code, one.message)));
     }

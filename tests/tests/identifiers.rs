@@ -1,5 +1,9 @@
 //! `fmt --ids`: the identifiers that the tool gives by itself, written into the file.
-#![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
+#![expect(
+    clippy::indexing_slicing,
+    clippy::unwrap_used,
+    reason = "a test reads its data, and a panic is its failure"
+)]
 
 use sensedsl_tests::{Ran, Scratch, sensedsl};
 
@@ -15,7 +19,7 @@ board Robot on NUCLEO_F446RE {
     sensor Temperature returns int32 {}
     sensor Pressure returns uint32 { id = 40; delay = 1 s; }
   }
-  chip Power { driver = ina219; id = 60; sensor Bus returns uint16 { reading = bus_voltage; } }
+  chip Power { driver = ina219; id = 60; sensor Bus returns uint16 { reading = voltage; } }
   sensor Line returns uint16[2] {
     // from the left
     type = analog;
@@ -29,11 +33,11 @@ fn ids(folder: &Scratch, file: &str) -> Vec<(String, u64)> {
     let ran = sensedsl(["solve", "--format", "json", file]).within(folder.path()).run();
     let value = ran.exits(0).json();
     let boards = value["boards"].as_array().unwrap().clone();
-    let wires = boards.iter().flat_map(|board| board["wires"].as_array().unwrap().clone());
-    let id = |wire: &serde_json::Value| {
-        Some((wire["device"].as_str()?.to_owned(), wire["id"].as_u64()?))
+    let devices = boards.iter().flat_map(|board| board["devices"].as_array().unwrap().clone());
+    let id = |device: &serde_json::Value| {
+        Some((device["name"].as_str()?.to_owned(), device["id"].as_u64()?))
     };
-    let mut all: Vec<_> = wires.filter_map(|wire| id(&wire)).collect();
+    let mut all: Vec<_> = devices.filter_map(|device| id(&device)).collect();
     all.sort();
     all.dedup();
     all
@@ -74,7 +78,7 @@ board Robot on NUCLEO_F446RE {
         driver = ina219;
         id = 60;
         sensor Bus returns uint16 {
-            reading = bus_voltage;
+            reading = voltage;
         }
     }
     sensor Line returns uint16[2] {

@@ -85,6 +85,8 @@ fn prose_is_wrapped() {
         .collect();
     let docs = std::fs::read_dir(root().join("docs")).unwrap();
     pages.extend(docs.map(|entry| entry.unwrap().path()));
+    let drivers = std::fs::read_dir(root().join("docs/drivers")).unwrap();
+    pages.extend(drivers.map(|entry| entry.unwrap().path()));
     // This one is made of texts in the code, which are indented there.
     pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
     pages.retain(|path| !path.ends_with("diagnostics.md"));

@@ -122,10 +122,11 @@ impl ValueFacts {
         if self.coding.drive.is_some() {
             return Some((-FULL, FULL));
         }
-        match self.kind {
-            Kind::Analog(_) => return Some((0.0, CONVERTED_MAX)),
-            Kind::Pwm(_) => return Some((0.0, FULL)),
-            _ => {}
+        if self.kind.analog().is_some() {
+            return Some((0.0, CONVERTED_MAX));
+        }
+        if self.kind.pwm().is_some() {
+            return Some((0.0, FULL));
         }
         let (least, most) = self.value.scalar.integer_range()?;
         let bits = self.coding.bits.map(|(high, low)| high - low + 1);

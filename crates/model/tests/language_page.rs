@@ -176,7 +176,6 @@ fn misspelled_names_are_understood() {
         ("bme", "bme280"),
         ("vl53", "vl53l0x"),
         ("mpu6050_gyroscope", "mpu6050"),
-        ("thermometr", "ntc"),
         ("barometer", ""),
     ] {
         assert_eq!(facts::nearest_name(typed).unwrap_or_default(), meant, "{typed}");

@@ -48,7 +48,7 @@ pub(crate) enum Command {
     Drivers(DriversArgs),
     /// Make a board table, or a file, of what other tools know about pins
     Import(ImportArgs),
-    /// Lay files out canonically, comments kept
+    /// Lay files out canonically, comments kept; write identifiers into them
     Fmt(FmtArgs),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),

@@ -59,7 +59,7 @@ fn row<const N: usize>(out: &mut String, cells: &[String; N], widths: [usize; N]
 /// Everything about one part.
 #[must_use]
 pub fn one(part: &PartFacts) -> String {
-    let mut out = format!("{}: {}\n", part.name, part.part);
+    let mut out = wrapped(&format!("{}: {}", part.name, part.part), WIDTH, "", "  ");
     out.push_str(&wrapped(&part.about, WIDTH, "", ""));
     out.push('\n');
     for (label, text) in facts(part) {

@@ -87,7 +87,7 @@ fn wiring(out: &mut String, part: &PartFacts) {
         part.needs_pull_up.then(|| format!("**Pull-up**: {pull}")),
         words::addresses(part).map(|text| format!("**Address**: {text}.")),
         (!part.connector.is_empty())
-            .then(|| format!("**Connector** of the usual module, in order: {connector}.")),
+            .then(|| format!("**Connector**, in the order of the usual module: {connector}.")),
         words::identity(part).map(|text| {
             format!("**Identity**: the board looks for {text}, and reports another part.")
         }),
@@ -127,8 +127,12 @@ fn values(out: &mut String, part: &PartFacts) {
     }
     let has = |of: fn(&ValueFacts) -> bool| part.values.iter().any(of);
     let mut told = Vec::new();
-    if has(|one| one.shown.scale.is_some() || one.shown.offset.is_some()) {
-        told.push("A host shows the raw value times the scale.");
+    if has(|one| one.shown.offset.is_some()) {
+        told.push(
+            "A host multiplies the raw value by the scale, then adds what stands behind the sign.",
+        );
+    } else if has(|one| one.shown.scale.is_some()) {
+        told.push("A host multiplies the raw value by the scale.");
     }
     if has(|one| !one.filter.invalid.is_empty()) {
         told.push("An invalid raw value is no measurement and is not reported.");
@@ -137,9 +141,10 @@ fn values(out: &mut String, part: &PartFacts) {
         let _ = write!(out, "\n{}", wrapped(&told.join(" "), WIDTH, "", ""));
     }
     for curve in part.values.iter().map(|one| &one.shown.curve).filter(|curve| !curve.is_empty()) {
-        let points = curve.iter().map(|(x, y)| format!("{x}: {y}")).collect::<Vec<_>>().join(", ");
+        let points =
+            curve.iter().map(|(x, y)| format!("{x} is {y}")).collect::<Vec<_>>().join(", ");
         let text = format!(
-            "The curve goes straight from point to point and ends at the outer ones: {points}."
+            "The curve goes straight from point to point and is level beyond the outer ones: {points}."
         );
         let _ = write!(out, "\n{}", wrapped(&text, WIDTH, "", ""));
     }
@@ -148,8 +153,8 @@ fn values(out: &mut String, part: &PartFacts) {
 fn sources(out: &mut String, part: &PartFacts) {
     out.push_str("\n## Sources\n\n");
     if let Some(sheet) = &part.sheet {
-        let text = match sheet.strip_prefix("none") {
-            Some(why) => format!("Data sheet: none{why}."),
+        let text = match sheet.strip_prefix("none: ") {
+            Some(why) => format!("No data sheet: {why}."),
             None => format!("Data sheet: {sheet}."),
         };
         out.push_str(&wrapped(&text, WIDTH, "- ", "  "));

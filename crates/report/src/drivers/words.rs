@@ -77,9 +77,9 @@ pub(super) fn scale(value: &ValueFacts) -> String {
         words.push(format!("{sign} {}", digits(offset.abs(), 6)));
     }
     if !value.shown.curve.is_empty() {
-        words.push(format!("curve of {} points", value.shown.curve.len()));
+        words.push("then a curve".to_owned());
     }
-    words.join(" ")
+    words.join(" ").replace(" then", ", then")
 }
 
 /// The unit of a value.
@@ -151,9 +151,9 @@ pub(super) fn levels(part: &PartFacts) -> Option<String> {
 
 /// The addresses; the one that it has by itself first.
 pub(super) fn addresses(part: &PartFacts) -> Option<String> {
-    let shown = |one: &u8| format!("{one:#04x}").replace('x', "X").replace("0X", "0x");
-    let list = part.addresses.iter().filter(|one| part.address != Some(**one)).map(shown);
-    let others = list.collect::<Vec<_>>().join(", ");
+    let shown = |one: &u8| format!("0x{one:02X}");
+    let list = part.addresses.iter().filter(|one| part.address != Some(**one));
+    let others = runs(&list.copied().collect::<Vec<_>>());
     match (part.address, others.is_empty()) {
         (None, true) => None,
         (None, false) if part.addresses.len() == 1 => {
@@ -165,6 +165,16 @@ pub(super) fn addresses(part: &PartFacts) -> Option<String> {
             Some(format!("{} unless a design says another: {others}", shown(&own)))
         }
     }
+}
+
+/// Addresses; of four and more that follow one another the first and the last.
+fn runs(addresses: &[u8]) -> String {
+    let follows = |one: &u8, next: &u8| one.checked_add(1) == Some(*next);
+    let runs = addresses.chunk_by(follows).map(|run| match run {
+        [first, _, _, .., last] => format!("0x{first:02X} to 0x{last:02X}"),
+        few => few.iter().map(|one| format!("0x{one:02X}")).collect::<Vec<_>>().join(", "),
+    });
+    runs.collect::<Vec<_>>().join(", ")
 }
 
 /// What tells the part from others.
@@ -252,9 +262,9 @@ pub(super) fn contact<'a>(
     role: Role,
 ) -> Option<&'a str> {
     let own = connection.name.as_deref().filter(|_| connection.roles.len() == 1);
-    let own = own.map(|name| name.replace('_', "").to_uppercase());
-    let known = names_of(connection.kind.name(), role).iter().filter(|_| own.is_none());
-    let names = own.as_deref().into_iter().chain(known.copied());
+    let own = own.map(spelled).unwrap_or_default();
+    let known = names_of(connection.kind.name(), role).iter().filter(|_| own.is_empty());
+    let names = own.iter().map(String::as_str).chain(known.copied());
     names.into_iter().find_map(|wanted| {
         let is_called = |entry: &&String| {
             let mut words = entry.split(|letter: char| !letter.is_ascii_alphanumeric());
@@ -264,6 +274,16 @@ pub(super) fn contact<'a>(
         let first = found.next()?;
         found.next().is_none().then_some(first.as_str())
     })
+}
+
+/// How modules print the name of a connection: `in1_a` as `IN1A` or `AIN1`, `standby` as `STBY`.
+fn spelled(name: &str) -> Vec<String> {
+    let name = name.to_uppercase().replace("STANDBY", "STBY").replace("ENABLE", "EN");
+    let moved = match name.rsplit_once('_') {
+        Some((rest, side)) if side.len() == 1 => Some(format!("{side}{rest}").replace('_', "")),
+        Some(_) | None => None,
+    };
+    std::iter::once(name.replace('_', "")).chain(moved).collect()
 }
 
 /// What modules print beside the contact of a wire, the surest first.
@@ -302,6 +322,19 @@ mod tests {
             [1.0 / 16_384.0, 0.01, 1.0 / 3.0, 0.087_890_625].map(factor),
             ["1/16384", "0.01", "1/3", "0.0878906"]
         );
+    }
+
+    #[test]
+    fn connections_are_spelled_as_on_modules() {
+        assert_eq!(spelled("in1_a"), ["IN1A", "AIN1"]);
+        assert_eq!(spelled("standby"), ["STBY"]);
+        assert_eq!(spelled("enable_forward"), ["ENFORWARD"]);
+    }
+
+    #[test]
+    fn runs_of_addresses_are_short() {
+        assert_eq!(runs(&[0x1D, 0x53]), "0x1D, 0x53");
+        assert_eq!(runs(&[0x41, 0x42, 0x43, 0x44, 0x70]), "0x41 to 0x44, 0x70");
     }
 
     #[test]
