@@ -66,20 +66,13 @@ board Robot on NUCLEO_F446RE {
     chip Weather {
         /* on the roof */
         driver = bme280;
-        sensor Temperature returns int32 {
-            id = 64;
-        }
-        sensor Pressure returns uint32 {
-            id = 40;
-            delay = 1 s;
-        }
+        sensor Temperature returns int32 { id = 64; }
+        sensor Pressure returns uint32 { id = 40; delay = 1 s; }
     }
     chip Power {
         driver = ina219;
         id = 60;
-        sensor Bus returns uint16 {
-            reading = voltage;
-        }
+        sensor Bus returns uint16 { reading = voltage; }
     }
     sensor Line returns uint16[2] {
         id = 65;
@@ -138,5 +131,5 @@ fn used_files_are_left_alone_and_what_moves_there_is_told() {
 fn the_standard_input_is_printed() {
     let text = "board Robot on NUCLEO_F446RE { sensor A returns uint16 { type = analog; } }";
     let told = sensedsl(["fmt", "--ids", "-"]).stdin(text).run().exits(0);
-    assert!(told.stdout.contains("        id = 1;\n        type = analog;\n"), "{}", told.stdout);
+    assert!(told.stdout.contains("A returns uint16 { id = 1; type = analog; }"), "{}", told.stdout);
 }

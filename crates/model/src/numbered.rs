@@ -18,13 +18,16 @@ pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<S
         // All values of a chip that names no devices stand where the chip's name does: the first counts.
         ids.entry(device.name.span.range().start).or_insert(device.id.value);
     }
-    let mut missing: Vec<(Range<usize>, u8)> = Vec::new();
+    let mut missing: Vec<(Range<usize>, String)> = Vec::new();
     let boards = tree.boards().flat_map(|board| board.parts().collect::<Vec<_>>());
     for part in tree.parts().chain(boards) {
         for (name, block) in blocks_without(&part) {
             let at: usize = name.range().start().into();
-            let id = ids.get(&at).copied();
-            missing.extend(id.and_then(|id| Some((place(&block)?, id))));
+            let Some(id) = ids.get(&at) else { continue };
+            // A block that is on one line stays there.
+            let is_line = !block.text().contains_char('\n') && !block.text().contains_char('\r');
+            let written = if is_line { format!(" id = {id};") } else { format!("\nid = {id};\n") };
+            missing.extend(place(&block).map(|place| (place, written)));
         }
     }
     missing.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
@@ -32,8 +35,8 @@ pub fn with_ids(design: &Design, tree: &ast::SourceFile, text: &str) -> Option<S
         return None;
     }
     let mut text = text.to_owned();
-    for (range, id) in missing {
-        text.replace_range(range, &format!("\nid = {id};\n"));
+    for (range, written) in missing {
+        text.replace_range(range, &written);
     }
     Some(text)
 }
