@@ -11,8 +11,8 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "not an I2C address",
     explanation: r#"Up to 0x7F an address is the 7-bit form. From 0x80 on it is the 8-bit form of data sheets, the write
 address, and then it is even: `0xE6` is 7-bit 0x73. The 7-bit addresses 0x00 to 0x07 are reserved by
-the I2C specification (so are 0x78 to 0x7F, which devices use all the same). Only a driver may state one
-of 0x04 to 0x07, for a part that has it all the same (MT6701).
+the I2C specification (so are 0x78 to 0x7F, which devices use all the same). Only a driver may state one,
+for a part that has it all the same (MT6701).
 
 Way out: look the address up in the data sheet; where it lists a read and a write address, take the
 write address.

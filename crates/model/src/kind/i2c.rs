@@ -43,9 +43,6 @@ const SPEED_DEFAULT_HZ: u32 = 100_000;
 /// 7-bit addresses that devices have: the specification reserves 0x78 to 0x7F as well, and
 /// Devantech rangers use them all the same.
 const ADDRESSES: std::ops::RangeInclusive<u8> = 0x08..=0x7F;
-/// Reserved addresses that a driver may say its part has all the same (MT6701): they are for high-speed
-/// mode, which no bus here is in.
-const OF_PARTS: std::ops::RangeInclusive<u8> = 0x04..=0x07;
 
 /// Order of the bytes of one number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -126,6 +123,7 @@ impl Properties for I2c {
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
+    // A driver knows its part: some have an address that the specification reserves (MT6701).
     let is_own = fields.own_span("address").is_some();
     let written = fields.required_integer("address", 0..=255, "address = 0x73;")?;
     let Spanned { value, span } = written;
@@ -137,8 +135,7 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
         fields.say(e0215_bad_address::bad_address(span, &text, why));
         return None;
     }
-    let is_of_its_part = !is_own && OF_PARTS.contains(&seven_bit);
-    if !ADDRESSES.contains(&seven_bit) && !is_of_its_part {
+    if is_own && !ADDRESSES.contains(&seven_bit) {
         let why = format!("0x{seven_bit:02X} is reserved by the I2C specification");
         fields.say(e0215_bad_address::bad_address(span, &text, &why));
         return None;
