@@ -52,6 +52,8 @@ pub(crate) struct Fields<'a> {
     own_layers: u8,
     /// The driver's reading or command that the block is.
     reading: String,
+    /// Bytes of a register's number.
+    register_bytes: u8,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
@@ -78,6 +80,7 @@ impl<'a> Fields<'a> {
             layers: 0,
             own_layers: 1,
             reading: String::new(),
+            register_bytes: 1,
             owner,
             owner_span,
             diagnostics,
@@ -142,6 +145,21 @@ impl<'a> Fields<'a> {
     /// The driver's reading or command that the block is.
     pub(crate) fn set_reading(&mut self, name: &str) {
         name.clone_into(&mut self.reading);
+    }
+
+    /// Whether the block is a driver's reading or command.
+    pub(crate) const fn is_of_reading(&self) -> bool {
+        !self.reading.is_empty()
+    }
+
+    /// Tells how many bytes the number of a register has.
+    pub(crate) const fn set_register_bytes(&mut self, bytes: u8) {
+        self.register_bytes = bytes;
+    }
+
+    /// See [`Self::set_register_bytes`].
+    pub(crate) const fn register_bytes(&self) -> u8 {
+        self.register_bytes
     }
 
     /// See [`Self::set_reading`].

@@ -33,6 +33,7 @@ mod types;
 mod value;
 
 pub mod volts;
+pub mod words;
 
 pub use files::{Files, Unread, Wanted, What, stays_inside};
 pub use library::LIBRARY;
