@@ -75,6 +75,10 @@ pub(crate) fn check(
     protocol: &Protocol,
 ) -> Result<(), String> {
     let Some(length) = length_bytes(kind, coding) else { return Ok(()) };
+    // E0506 tells of those.
+    if kind.i2c().is_some() && coding.is_plain() {
+        return Ok(());
+    }
     if let (Some(formula), Some(_)) = (protocol.formula, coding.output) {
         let (_, raw, _) = formula.needs();
         let found = length;

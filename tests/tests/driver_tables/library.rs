@@ -19,7 +19,7 @@ pub struct Unit {
     pub cases: Vec<Case>,
 }
 
-struct NoFiles;
+pub struct NoFiles;
 
 impl Files for NoFiles {
     fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
@@ -71,10 +71,53 @@ pub fn units() -> Vec<Unit> {
     units
 }
 
+/// What no driver of the library does, so that its tables are compiled too: filters over numbers of all kinds, a bus of
+/// registers of two bytes, floats, packed numbers, words out of order, hostile texts.
+pub fn others() -> Vec<Unit> {
+    const TEXTS: [&str; 3] = [
+        r#"driver every_filter for i2c {
+            address = 0x20; register = 0x00; length = 8;
+            reading d returns float64 {}
+            reading i returns int64 {}
+            reading u returns uint64 {}
+            reading f returns float32 { register = 0x10; length = 4; }
+            reading b returns bool { register = 0x20; length = 1; }
+        }
+        board STM32F407G_DISC1 { chip Filters {
+            driver = every_filter; id = 1;
+            sensor FilterD returns float64 { reading = d; invalid = [-1e300..-1, 5.5]; median = 5; smooth = 1 s; change = 0.1; heartbeat = 2 s; }
+            sensor FilterI returns int64 { reading = i; invalid = [-9223372036854775808, 7..9]; smooth = 10 ms; change = 2.5; }
+            sensor FilterU returns uint64 { reading = u; invalid = [-5..3, 18446744073709551615]; median = 15; }
+            sensor FilterF returns float32 { reading = f; invalid = 1e40; median = 3; smooth = 5 ms; change = 1; }
+            sensor FilterB returns bool { reading = b; invalid = [true_is, 1]; change = 1; }
+        } }
+        const true_is = 2;"#,
+        r#"driver wide_registers for spi {
+            register_size = 2; read_mask = 0x80; order = little; trigger = [1, 2, 3]; wait = 5 ms;
+            reading near returns uint16[2] { register = 0x0100; elements = [3, 1]; length = 8; }
+            reading far returns int32[2] { register = 0x7FF0; packed = 17; length = 5; }
+            command gain accepts uint8 { register = 0x1234; bits = 6..2; }
+        }
+        board STM32F407G_DISC1 { chip Wide { driver = wide_registers; id = 1; } }"#,
+        r#"driver hostile for uart {
+            start = "\"*/"; end = "??/\\"; init = ["a", 10 ms];
+            reading text returns int32 { sentence = "\"%s\\"; field = 63; format = decimal; separator = "'"; }
+            reading hex returns uint64 { field = 0; format = hex; }
+        }
+        board STM32F407G_DISC1 { chip Hostile { driver = hostile; id = 1; } }"#,
+    ];
+    let unit = |text: &&str| Unit {
+        driver: (*text).to_owned(),
+        design: design(text).unwrap(),
+        cases: Vec::new(),
+    };
+    TEXTS.iter().map(unit).collect()
+}
+
 /// A board with a part that has all values of a driver. `number` tells several of one driver apart.
 pub fn example(driver: &ast::Driver, board: &str, number: usize, ty: Option<&str>) -> String {
     let name = driver.name().unwrap().text().to_owned();
-    let mut part = name.split('_').map(capital).collect::<String>();
+    let mut part = capital(&name);
     if number > 0 {
         part.push_str(&format!("Type{number}"));
     }

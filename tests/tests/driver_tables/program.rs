@@ -100,34 +100,29 @@ pub fn tables(unit: &Unit) -> String {
 /// What each device has in the tables.
 fn unit_fields(unit: &Unit) -> String {
     let part = &unit.part().name.value;
-    let mut text = format!("static const unit_field_t unit_fields_{part}[] = {{\n");
     let plan = plan(unit);
-    for device in unit.devices() {
-        let name = &device.name.value;
-        text.push_str("  {.bridge = NULL");
-        let Some(plan) = &plan else {
-            text.push_str("},\n");
-            continue;
-        };
-        if let Some(filter) = plan.filters.iter().find(|one| one.field == *name) {
-            let words = filter.memory_words;
-            write!(text, ", .filter = &filter_{name}, .filter_state = &filter_state_{name}, .filter_words = {words}U").unwrap();
-        }
-        if let Some(formula) = plan.formulas.iter().find(|one| one.field == *name) {
-            let (symbol, prefix) = (formula.formula, &formula.prefix);
-            write!(text, ", .formula = &{symbol}, .parameters = {prefix}_parameters").unwrap();
-            write!(text, ", .output = {}U", formula.output).unwrap();
-        }
-        if plan.trains.iter().any(|one| one.field == *name) {
-            write!(text, ", .train = &train_{name}").unwrap();
-        }
-        if plan.bridges.iter().any(|one| one.field == *name) {
-            write!(text, ", .bridge = &bridge_{name}").unwrap();
-        }
-        text.push_str("},\n");
-    }
-    text.push_str("};\n");
-    text
+    let one = |device: &Device| match &plan {
+        Some(plan) => format!("  {{{}}},\n", unit_field(plan, &device.name.value)),
+        None => "  {NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL},\n".to_owned(),
+    };
+    let all: String = unit.devices().map(one).collect();
+    format!("static const unit_field_t unit_fields_{part}[] = {{\n{all}}};\n")
+}
+
+fn unit_field(plan: &PartPlan, name: &str) -> String {
+    let filter = plan.filters.iter().find(|one| one.field == name);
+    let filter = filter.map_or("NULL, NULL, 0U".to_owned(), |one| {
+        format!("&filter_{name}, &filter_state_{name}, {}U", one.memory_words)
+    });
+    let formula = plan.formulas.iter().find(|one| one.field == name);
+    let formula = formula.map_or("NULL, NULL, 0U".to_owned(), |one| {
+        format!("&{}, {}_parameters, {}U", one.formula, one.prefix, one.output)
+    });
+    let named =
+        |is: bool, kind: &str| if is { format!("&{kind}_{name}") } else { "NULL".to_owned() };
+    let train = named(plan.trains.iter().any(|one| one.field == name), "train");
+    let bridge = named(plan.bridges.iter().any(|one| one.field == name), "bridge");
+    format!("{filter}, {formula}, {train}, {bridge}")
 }
 
 fn entry(unit: &Unit) -> String {
