@@ -182,11 +182,8 @@ fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
 
 fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
     let words = Words::of(device)?;
-    let number = match &device.kind {
-        Kind::I2c(i2c) => i2c.register,
-        Kind::Spi(spi) => spi.register,
-        _ => None,
-    };
+    let of_i2c = device.kind.i2c().and_then(|i2c| i2c.register);
+    let number = of_i2c.or_else(|| device.kind.spi()?.register);
     let prefix = number.map(|number| register(u32::from(number), protocol)).unwrap_or_default();
     Some(CommandPlan {
         field: device.name.value.clone(),

@@ -73,10 +73,7 @@ fn member(scalar: ScalarType) -> &'static str {
 
 /// The numbers of the type that are in a range; none where there are none.
 fn range(scalar: ScalarType, (low, high): (f64, f64)) -> Option<(String, String)> {
-    let whole = match scalar {
-        ScalarType::Bool => Some((0, 1)),
-        _ => scalar.integer_range(),
-    };
+    let whole = if scalar == ScalarType::Bool { Some((0, 1)) } else { scalar.integer_range() };
     let Some((least, greatest)) = whole else {
         return Some((real(scalar, low), real(scalar, high)));
     };

@@ -4,7 +4,8 @@
 //! several, and their values are of one moment; where a measurement is started for them, they must be.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::i2c::I2c;
+use sensedsl_model::kind::spi::Spi;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_model::words::Words;
 
@@ -71,6 +72,15 @@ struct Wanted {
     byte: u16,
 }
 
+/// What a device on either bus says of its reading.
+struct Asked {
+    trigger: Vec<u8>,
+    wait_us: u32,
+    register: Option<u16>,
+    read: Vec<u8>,
+    length: u16,
+}
+
 /// Bytes that are read together.
 struct Together {
     key: Key,
@@ -91,7 +101,7 @@ pub(super) fn plan(
         match all.last_mut().filter(|last| last.takes(one, protocol)) {
             Some(last) => last.end = last.end.max(one.end),
             None => {
-                all.push(Together { key: one.key.clone(), register: one.register, end: one.end })
+                all.push(Together { key: one.key.clone(), register: one.register, end: one.end });
             }
         }
     }
@@ -110,24 +120,34 @@ pub(super) fn plan(
 /// What a reading wants; none where it is on no register bus.
 fn wanted(device: &Device) -> Option<Wanted> {
     let coding = &device.coding;
-    let (trigger, wait_us, register, read, length) = match &device.kind {
-        Kind::I2c(one) => (&one.trigger, one.wait_us, one.register, &[][..], one.length_bytes),
-        Kind::Spi(one) => {
-            (&one.trigger, one.wait_us, one.register, one.read.as_slice(), one.length_bytes)
-        }
-        _ => return None,
+    let of_i2c = |i2c: &I2c| Asked {
+        trigger: i2c.trigger.clone(),
+        wait_us: i2c.wait_us,
+        register: i2c.register,
+        read: Vec::new(),
+        length: i2c.length_bytes,
     };
+    let of_spi = |spi: &Spi| Asked {
+        trigger: spi.trigger.clone(),
+        wait_us: spi.wait_us,
+        register: spi.register,
+        read: spi.read.clone(),
+        length: spi.length_bytes,
+    };
+    let asked = device.kind.i2c().map(of_i2c);
+    let asked = asked.or_else(|| device.kind.spi().map(of_spi))?;
+    let Asked { trigger, wait_us, register, read, length } = asked;
     let words = Words::of(device).filter(|_| coding.output.is_none());
     let length = words.as_ref().map_or(length, |words| words.data_bytes);
     let select = match register {
         _ if !coding.exchange.is_empty() => Select::Exchange(coding.exchange.clone()),
         Some(_) if read.is_empty() => Select::Register,
-        Some(_) | None => Select::Bytes(read.to_vec()),
+        Some(_) | None => Select::Bytes(read),
     };
     let first = if select == Select::Register { u32::from(register.unwrap_or(0)) } else { 0 };
     let byte = if matches!(select, Select::Exchange(_)) { 0 } else { coding.byte };
     let key = Key {
-        trigger: trigger.clone(),
+        trigger,
         wait_ms: wait_us.div_ceil(1_000),
         cycle_ms: device.delay_ms,
         has_crc: words.is_some_and(|words| words.crc.is_some()),
