@@ -11,6 +11,7 @@ mod corpus;
 mod crash;
 mod decoders;
 mod devices;
+mod driver_tables;
 mod drivers;
 mod drivers_pages;
 mod examples;

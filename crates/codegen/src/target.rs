@@ -8,8 +8,9 @@ use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
-use sensedsl_model::design::Design;
+use sensedsl_model::design::{Design, Device};
 use sensedsl_model::kind::KindName;
+use sensedsl_model::protocol::Filter;
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
@@ -69,7 +70,34 @@ pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
     if let Some(target) = job.profile.and_then(of) {
         gaps.extend(missing_kinds(target, job));
     }
+    gaps.extend(job.devices.iter().filter_map(|one| unmade(job.design, one.device)));
     gaps
+}
+
+/// What a device needs and no system's firmware does yet: without it the values would be wrong, or none.
+fn unmade(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let part = design.part(device.part)?;
+    let coding = &device.coding;
+    let (at, what) = if part.chip.is_some() {
+        (part.name.span, "chips")
+    } else if device.connections.len() > 1 {
+        (device.value.span, "arrays with a wire for each element")
+    } else if !coding.is_plain() {
+        (device.name.span, "values that are part of a word, packed, in a text or with checksums")
+    } else if is_filtered(device) {
+        (device.name.span, "`invalid`, `median`, `smooth`, `change` and `heartbeat`")
+    } else {
+        return None;
+    };
+    Some(e0501_no_generator::not_made_yet(at, &device.name.value, what))
+}
+
+/// Whether the board is to hold values back or to change them. What only a driver of a plain device calls invalid
+/// is reported as it is measured, as it was before drivers could say so.
+fn is_filtered(device: &Device) -> bool {
+    let filter = &device.filter;
+    let others = Filter { invalid: Vec::new(), invalid_span: None, ..filter.clone() };
+    filter.invalid_span.is_some() || !others.is_empty()
 }
 
 fn missing_kinds(target: &dyn Target, job: &BoardJob<'_>) -> Vec<Diagnostic> {

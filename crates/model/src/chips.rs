@@ -8,10 +8,11 @@ mod sockets;
 mod values;
 
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0217_driver_of_other_kind, e0229_wrong_driver,
+    e0201_unknown_property, e0217_driver_of_other_kind, e0220_impossible_type, e0229_wrong_driver,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
+use sensedsl_wire::ValueType;
 
 use crate::coding::{self, CODING, FILTER, PROTOCOL};
 use crate::design::{
@@ -21,11 +22,14 @@ use crate::devices::{self, ABOUT_PART, COMMON_PROPERTIES, Known, PRESENTATION};
 use crate::drivers::Driver;
 use crate::fields::{Fields, name_or_text, span};
 use crate::ids::ID_MAX;
-use crate::kind::{KindName, Values};
+use crate::kind::icu::Mode;
+use crate::kind::uart::Uart;
+use crate::kind::{Kind, KindName, Values};
 use crate::parts::ReadPart;
 use crate::protocol::Protocol;
 use crate::rules;
 use crate::value::Evaluator;
+use crate::words;
 use sockets::Socket;
 use values::Asked;
 
@@ -359,7 +363,11 @@ impl Whole<'_> {
             let name = one.name().map(|name| name.text().to_owned()).unwrap_or_default();
             main.kind.spec().properties.contains(&name.as_str())
         };
-        let of_value = |one: &Property| is_bus || !of_wires(one);
+        // The bytes of a message are not those of a value in it.
+        let of_message = |one: &Property| {
+            main.kind == KindName::Uart && one.name().is_some_and(|name| name.text() == "length")
+        };
+        let of_value = |one: &Property| if is_bus { !of_message(one) } else { !of_wires(one) };
         fields.inherit(self.properties_for(main.kind).filter(of_value), self.file);
         fields.inherit(main.block_properties().filter(of_value), self.file);
         fields.drivers_follow();
@@ -367,6 +375,7 @@ impl Whole<'_> {
         fields.inherit(main.driver_properties().filter(of_value), self.driver.file);
         fields.inherit(values::shared(self.driver).filter(of_value), self.driver.file);
         fields.set_reading(&given.name);
+        fields.set_register_bytes(self.protocol.register_bytes);
         let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
         let own = devices::own(&mut fields);
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
@@ -375,6 +384,12 @@ impl Whole<'_> {
         let level = devices::level(&mut fields);
         drop(fields);
         let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);
+        if let Err(message) = words::check(&kind, &coding, value.value, &self.protocol) {
+            let driver = &self.driver.name.value;
+            let message = format!("`{}` of `{driver}`: {message}", given.name);
+            diagnostics.push(e0229_wrong_driver::wrong_driver(name.span, &message));
+        }
+        self.accept(&kind, value, given, diagnostics);
         let id = own.id.or(id.map(|value| Spanned { value, span: name.span }));
         // Those that are not used are not among the part's connections.
         let place =
@@ -401,6 +416,25 @@ impl Whole<'_> {
         })
     }
 
+    /// Reports an array that has only the wires of one number.
+    fn accept(
+        &self,
+        kind: &Kind,
+        value: &Spanned<ValueType>,
+        given: &Given,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let is_train = kind.icu().is_some_and(|icu| icu.mode == Mode::Ppm);
+        let has_wires = kind.name().spec().values.wires(value.value).is_some();
+        if has_wires && !is_train && given.via.len() == 1 {
+            let what = format!("a value of `{}`", self.driver.name.value);
+            let can = "one number: an array of wires is a sensor or an actuator by itself";
+            let found = value.value.to_string();
+            let report = e0220_impossible_type::impossible_type(value.span, &what, &found, can);
+            diagnostics.push(report);
+        }
+    }
+
     /// The wires of the connections that are used, in the driver's order.
     fn connections(
         &self,
@@ -416,6 +450,11 @@ impl Whole<'_> {
         let used = sockets.iter().filter(|socket| socket.is_used);
         used.map(|socket| {
             let (kind, placement, level) = socket.read(self, diagnostics);
+            if !self.given.is_empty() && kind.uart().is_some_and(Uart::is_endless) {
+                let message = "a message needs a `length`, or an `end`";
+                let at = self.driver.name.span;
+                diagnostics.push(e0229_wrong_driver::wrong_driver(at, message));
+            }
             Connection {
                 part: PartIndex(0),
                 name: socket.name.clone(),

@@ -39,6 +39,7 @@ pub(crate) const PROTOCOL: &[&str] = &[
     "identity_mask",
     "register_size",
     "read_mask",
+    "burst",
     "calibration",
     "compensate",
     "parameters",
@@ -129,6 +130,7 @@ fn output(fields: &mut Fields<'_>, formula: Option<Formula>) -> Option<u8> {
 
 /// Reads what becomes of the value on the board.
 pub(crate) fn filter(fields: &mut Fields<'_>) -> Filter {
+    let invalid_span = fields.own_span("invalid");
     let invalid = invalid(fields);
     let median = fields.integer("median", 3..=15);
     if let Some(Spanned { value, span }) = median
@@ -152,6 +154,7 @@ pub(crate) fn filter(fields: &mut Fields<'_>) -> Filter {
     }
     Filter {
         invalid,
+        invalid_span,
         median: median.and_then(|n| u8::try_from(n.value).ok()).unwrap_or(0),
         smooth_ms: smooth.map_or(0, |time| time.value),
         change: change.map(|number| number.value),
@@ -214,6 +217,7 @@ pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
     let formula = fields.word("compensate", &formulas);
     let register_bytes = fields.integer("register_size", 1..=2).map_or(1, |n| n.value);
     let read_mask = fields.integer("read_mask", 0..=255).map_or(0, |n| n.value);
+    let is_burst = fields.boolean("burst").is_none_or(|word| word.value);
     let calibration = calibration(fields);
     let parameters = parameters(fields);
     if let Some(Spanned { value: formula, span }) = formula {
@@ -239,6 +243,7 @@ pub(crate) fn protocol(fields: &mut Fields<'_>) -> Protocol {
         identity: identity(fields),
         register_bytes: u8::try_from(register_bytes).unwrap_or(1),
         read_mask: u8::try_from(read_mask).unwrap_or(0),
+        is_one_by_one: !is_burst,
         calibration,
         formula: formula.map(|word| word.value),
         parameters,

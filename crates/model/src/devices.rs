@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0207_unknown_kind, e0211_out_of_range, e0213_property_of_other_kind,
-    e0214_wrong_direction, e0220_impossible_type, h0703_default_protocol,
+    e0214_wrong_direction, e0220_impossible_type, e0229_wrong_driver, h0703_default_protocol,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
@@ -20,9 +20,10 @@ use crate::fields::{Field, Fields, name_or_text, span};
 use crate::kind::{KindName, i2c};
 use crate::parts::ReadPart;
 use crate::placement;
-use crate::protocol::Filter;
+use crate::protocol::{Filter, Protocol};
 use crate::rules;
 use crate::types;
+use crate::words;
 
 /// The properties of every device, but for those that show its value.
 pub(crate) const COMMON_PROPERTIES: &[&str] = &[
@@ -81,6 +82,9 @@ pub(crate) fn read(
     let coding = coding::coding(&mut fields, value.value, None);
     let level = level(&mut fields);
     let shown = divided(own.shown, level.as_ref());
+    if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
+        fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));
+    }
     leftovers(&mut fields, kind_name.value);
     let block = span(file, node.range());
     let is_array = kind_name.value.spec().values.wires(value.value).is_some();

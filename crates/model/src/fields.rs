@@ -3,6 +3,7 @@
 //! A [`Fields`] is filled from a block (and from the driver it names), read by the kind and by the
 //! parts that every device has, and asked at the end which were not taken.
 
+mod plain;
 mod quantities;
 
 use std::collections::BTreeMap;
@@ -19,7 +20,9 @@ use sensedsl_wire::Direction;
 
 use crate::constants::Constants;
 use crate::design::Spanned;
-use crate::value::{Evaluator, Measure, Value};
+use crate::value::{Evaluator, Value};
+use plain::{byte_list, describe};
+pub(crate) use plain::{name_or_text, plain_integer, plain_number};
 
 /// The span of a syntax range.
 pub(crate) fn span(file: FileId, range: TextRange) -> Span {
@@ -52,6 +55,8 @@ pub(crate) struct Fields<'a> {
     own_layers: u8,
     /// The driver's reading or command that the block is.
     reading: String,
+    /// Bytes of a register's number.
+    register_bytes: u8,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
@@ -78,6 +83,7 @@ impl<'a> Fields<'a> {
             layers: 0,
             own_layers: 1,
             reading: String::new(),
+            register_bytes: 1,
             owner,
             owner_span,
             diagnostics,
@@ -142,6 +148,21 @@ impl<'a> Fields<'a> {
     /// The driver's reading or command that the block is.
     pub(crate) fn set_reading(&mut self, name: &str) {
         name.clone_into(&mut self.reading);
+    }
+
+    /// Whether the block is a driver's reading or command.
+    pub(crate) const fn is_of_reading(&self) -> bool {
+        !self.reading.is_empty()
+    }
+
+    /// Tells how many bytes the number of a register has.
+    pub(crate) const fn set_register_bytes(&mut self, bytes: u8) {
+        self.register_bytes = bytes;
+    }
+
+    /// See [`Self::set_register_bytes`].
+    pub(crate) const fn register_bytes(&self) -> u8 {
+        self.register_bytes
     }
 
     /// See [`Self::set_reading`].
@@ -442,60 +463,5 @@ impl<'a> Fields<'a> {
             "this device is none",
             "remove the line",
         ));
-    }
-}
-
-/// A number without a unit.
-pub(crate) fn plain_number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Number(number) if number.measure == Measure::Bare => Some(number.value),
-        Value::Number(_)
-        | Value::Name(_)
-        | Value::Text(_)
-        | Value::List(_)
-        | Value::Range(_)
-        | Value::Unknown => None,
-    }
-}
-
-/// A whole number without a unit.
-pub(crate) fn plain_integer(value: &Value) -> Option<i128> {
-    match value {
-        Value::Number(number) => number.integer,
-        Value::Name(_) | Value::Text(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
-    }
-}
-
-/// The text of a name or a string.
-pub(crate) fn name_or_text(value: &Value) -> Option<String> {
-    match value {
-        Value::Name(text) | Value::Text(text) => Some(text.clone()),
-        Value::Number(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
-    }
-}
-
-fn byte_list(value: &Value) -> Option<Vec<i128>> {
-    match value {
-        Value::List(list) => list.iter().map(|one| plain_integer(&one.value)).collect(),
-        Value::Text(text) => Some(text.bytes().map(i128::from).collect()),
-        Value::Number(_) => Some(vec![plain_integer(value)?]),
-        Value::Name(_) | Value::Range(_) | Value::Unknown => None,
-    }
-}
-
-/// What a value is, for messages.
-fn describe(value: &Value) -> &'static str {
-    match value {
-        Value::Number(number) if number.measure != Measure::Bare => "a number with a unit",
-        Value::Number(number) if number.integer.is_none() => "a number with a fraction",
-        Value::Number(_) => "a number",
-        Value::Name(_) => "a name",
-        Value::Text(_) => "a text",
-        Value::List(list) if list.iter().any(|one| plain_integer(&one.value).is_none()) => {
-            "a list of something else"
-        }
-        Value::List(_) => "a list",
-        Value::Range(_) => "a range",
-        Value::Unknown => "an expression",
     }
 }

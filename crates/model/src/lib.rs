@@ -35,6 +35,7 @@ mod types;
 mod value;
 
 pub mod volts;
+pub mod words;
 
 pub use facts::all as part_facts;
 pub use files::{Files, Unread, Wanted, What, stays_inside};

@@ -14,6 +14,8 @@ pub struct Protocol {
     pub register_bytes: u8,
     /// On SPI, or-ed to the register when it is read.
     pub read_mask: u8,
+    /// Each register is a number by itself: what lies behind it cannot be read with it.
+    pub is_one_by_one: bool,
     /// Registers and counts of bytes, read once for the formula.
     pub calibration: Vec<(u16, u16)>,
     /// The formula of its readings.
@@ -184,6 +186,8 @@ pub enum Drive {
 pub struct Filter {
     /// Raw values that mean that nothing was measured: from, to.
     pub invalid: Vec<(f64, f64)>,
+    /// Where the file itself says so; none where only its driver does.
+    pub invalid_span: Option<sensedsl_diagnostics::Span>,
     /// The median of so many values; 0 for none.
     pub median: u8,
     /// Time constant of a low-pass; 0 for none.

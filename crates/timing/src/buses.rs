@@ -55,7 +55,8 @@ pub(crate) fn i2c_script(context: &Context<'_>, wired: &Wired<'_>, i2c: &I2c) ->
     let device = wired.device;
     let least = context.board.profile().map_or(1, |profile| profile.i2c.read_bytes_min);
     let length = u64::from(i2c.length_bytes);
-    let register = u64::from(i2c.register.is_some());
+    // Only a part whose registers have two bytes can have one beyond 0xFF; others of it count a byte less.
+    let register = i2c.register.map_or(0, |register| 1 + u64::from(register > 0xFF));
     let mut transfers = Transfers::of_value(device, length);
     match device.direction {
         Direction::Actuator => transfers.bytes = 1 + register + length,

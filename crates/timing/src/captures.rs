@@ -44,7 +44,7 @@ fn edges(device: &Device, icu: &Icu) -> Option<u64> {
         // The shortest period comes most often.
         Mode::Period => u64::from(icu.tick_hz).checked_div(raw(device.shown.min?)?),
         // How often they come is not in the value.
-        Mode::Count | Mode::Width | Mode::Duty => None,
+        Mode::Count | Mode::Width | Mode::Duty | Mode::Ppm => None,
     }
 }
 

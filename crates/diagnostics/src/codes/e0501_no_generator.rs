@@ -1,4 +1,4 @@
-//! E0501: this kind cannot be generated yet.
+//! E0501: this kind, or what a part asks for, cannot be generated yet.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,17 +8,26 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0501",
     severity: Severity::Error,
-    title: "this kind cannot be generated yet",
-    explanation: r#"The wiring of every kind is solved, but firmware is generated for some kinds only. Nothing was written, so
-that a firmware which reads only some of the devices never looks complete.
+    title: "this kind or part cannot be generated yet",
+    explanation: r#"The wiring of everything is solved, but firmware is generated for some kinds only, and not yet for chips,
+arrays with a wire for each element, values that are not plain numbers, and filters. Nothing was written, so that a
+firmware which reads only some of the devices, or reads them wrongly, never looks complete.
 
 Way out: `sensedsl generate --without firmware` writes everything else, the host applications among
-it; for firmware, leave the device out of the file.
+it; for firmware, leave the device or the part out of the file.
 "#,
 };
 
 /// The code.
 pub const CODE: Code = Code(&INFO);
+
+/// What a device needs that no firmware does: `the start of a chip`.
+#[must_use]
+pub fn not_made_yet(span: Span, device: &str, what: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("no firmware can be generated for {what} yet"))
+        .here(format!("`{device}` needs it"))
+        .help("`generate --without firmware` writes the rest; or leave this out")
+}
 
 /// The device's kind, and the kinds that can be generated.
 #[must_use]

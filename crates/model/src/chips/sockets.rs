@@ -146,6 +146,10 @@ impl Socket {
         fields.drivers_follow();
         fields.inherit(self.driver_properties(), whole.driver.file);
         fields.inherit(super::values::shared(whole.driver), whole.driver.file);
+        if !whole.given.is_empty() {
+            fields.set_reading("value");
+        }
+        fields.set_register_bytes(whole.protocol.register_bytes);
         let kind = self.kind.read(&mut fields, self.direction, self.value);
         let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
         let level = devices::level(&mut fields);

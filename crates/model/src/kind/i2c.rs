@@ -74,7 +74,7 @@ pub struct I2c {
     /// Where the waiting time is given.
     pub wait_span: Option<sensedsl_diagnostics::Span>,
     /// Register written before reading; none to read at once.
-    pub register: Option<u8>,
+    pub register: Option<u16>,
     /// Bytes read (sensor) or written after the register (actuator).
     pub length_bytes: u16,
     /// Order of the bytes of each number.
@@ -88,12 +88,11 @@ impl Properties for I2c {
         let exclusive = fields.boolean("exclusive").is_some_and(|flag| flag.value);
         let trigger = fields.bytes("trigger", 0..=32);
         let wait = fields.time_us("wait", 0..=60_000_000);
-        let register = fields.integer("register", 0..=255).and_then(|n| u8::try_from(n.value).ok());
+        let register = register(fields);
         let size_bytes = u64::try_from(value.size_bytes()).unwrap_or(u64::MAX);
         let length =
             fields.integer("length", 1..=2048).map_or(size_bytes, |n| n.value.unsigned_abs());
-        let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
-        let order = fields.word("order", &orders).map(|word| word.value);
+        let order = order(fields);
         Self {
             address: address.as_ref().map_or(0, |address| address.value),
             address_span: address.map(|address| address.span),
@@ -105,7 +104,7 @@ impl Properties for I2c {
             wait_span: wait.map(|wait| wait.span),
             register,
             length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
-            order: order.unwrap_or_default(),
+            order,
         }
     }
 
@@ -120,6 +119,19 @@ impl Properties for I2c {
     fn measuring_us(&self) -> u32 {
         self.wait_us
     }
+}
+
+/// The register of a value: one byte, or as many as the driver's registers have.
+pub(super) fn register(fields: &mut Fields<'_>) -> Option<u16> {
+    let greatest = (1_i64 << (8 * fields.register_bytes())) - 1;
+    let register = fields.integer("register", 0..=greatest)?;
+    u16::try_from(register.value).ok()
+}
+
+/// The order of the bytes of a number.
+pub(super) fn order(fields: &mut Fields<'_>) -> ByteOrder {
+    let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
+    fields.word("order", &orders).map(|word| word.value).unwrap_or_default()
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {

@@ -36,6 +36,8 @@ pub enum Mode {
     Frequency,
     /// Active part of a period in ten-thousandths.
     Duty,
+    /// The channels of a model receiver, one after the other on one wire, in microseconds.
+    Ppm,
 }
 
 impl Mode {
@@ -48,6 +50,7 @@ impl Mode {
             Self::Period => "period",
             Self::Frequency => "frequency",
             Self::Duty => "duty",
+            Self::Ppm => "ppm",
         }
     }
 }
@@ -86,15 +89,13 @@ pub struct Icu {
 const fn tick_default_hz(mode: Mode) -> u32 {
     match mode {
         Mode::Count => 10_000,
-        Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty => 1_000_000,
+        Mode::Width | Mode::Period | Mode::Frequency | Mode::Duty | Mode::Ppm => 1_000_000,
     }
 }
 
 impl Properties for Icu {
     fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
-        let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty];
-        let modes = modes.map(|mode| (mode.name(), mode));
-        let mode = fields.word("mode", &modes).map(|word| word.value).unwrap_or_default();
+        let mode = mode(fields);
         let edges = [("rising", Edge::Rising), ("falling", Edge::Falling), ("both", Edge::Both)];
         let edge = fields.word("edge", &edges);
         if let Some(edge) = edge
@@ -130,6 +131,20 @@ impl Properties for Icu {
     fn measuring_us(&self) -> u32 {
         self.wait_us
     }
+}
+
+fn mode(fields: &mut Fields<'_>) -> Mode {
+    let modes = [Mode::Count, Mode::Width, Mode::Period, Mode::Frequency, Mode::Duty, Mode::Ppm];
+    let modes = modes.map(|mode| (mode.name(), mode));
+    let Some(mode) = fields.word("mode", &modes) else { return Mode::default() };
+    // Its value has many numbers on one wire, which only a reading of a driver says.
+    if mode.value == Mode::Ppm && !fields.is_of_reading() {
+        let why = "`mode = ppm` is for a driver that says how many channels there are: \
+                   `driver = ppm;`";
+        fields.contradiction(mode.span, "type", why);
+        return Mode::default();
+    }
+    mode.value
 }
 
 impl Default for Icu {

@@ -1,5 +1,6 @@
 //! `spi`: a device on an SPI bus, with a chip select of its own.
 
+use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
@@ -11,7 +12,10 @@ pub const SPEC: KindSpec = KindSpec {
     article: "an",
     directions: &[Direction::Sensor, Direction::Actuator],
     values: Values::Any,
-    properties: &["clock", "mode", "read", "length", "sck", "miso", "mosi", "cs"],
+    properties: &[
+        "clock", "mode", "trigger", "wait", "register", "read", "length", "order", "sck", "miso",
+        "mosi", "cs",
+    ],
     sharing: Sharing::BusAndSelect,
     triggers_itself: false,
     wires: "SCK, MISO and MOSI of one unit, shared; a GPIO as chip select of its own",
@@ -32,16 +36,27 @@ pub struct Spi {
     pub clock_span: Option<sensedsl_diagnostics::Span>,
     /// 0 to 3: clock polarity and phase.
     pub mode: u8,
+    /// Bytes sent to start a measurement; may be empty.
+    pub trigger: Vec<u8>,
+    /// From the trigger until the measurement can be read.
+    pub wait_us: u32,
+    /// Register sent before the value is read or written; none where there is none.
+    pub register: Option<u16>,
     /// Bytes sent before the value is read; may be empty.
     pub read: Vec<u8>,
     /// Bytes of the value.
     pub length_bytes: u16,
+    /// Order of the bytes of each number.
+    pub order: ByteOrder,
 }
 
 impl Properties for Spi {
     fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
         let clock = fields.frequency_hz("clock", 1_000..=100_000_000);
         let mode = fields.integer("mode", 0..=3).and_then(|n| u8::try_from(n.value).ok());
+        let trigger = fields.bytes("trigger", 0..=32).map(|bytes| bytes.value);
+        let wait = fields.time_us("wait", 0..=60_000_000);
+        let register = i2c::register(fields);
         let read = fields.bytes("read", 0..=32).map(|bytes| bytes.value).unwrap_or_default();
         let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
         let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
@@ -49,8 +64,12 @@ impl Properties for Spi {
             clock_hz: clock.map_or(CLOCK_DEFAULT_HZ, |clock| clock.value),
             clock_span: clock.map(|clock| clock.span),
             mode: mode.unwrap_or(0),
+            trigger: trigger.unwrap_or_default(),
+            wait_us: wait.map_or(0, |wait| wait.value),
+            register,
             read,
             length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+            order: i2c::order(fields),
         }
     }
 
@@ -61,6 +80,10 @@ impl Properties for Spi {
     fn roles(&self, _: Direction) -> Vec<Role> {
         vec![Role::Sck, Role::Miso, Role::Mosi, Role::Cs]
     }
+
+    fn measuring_us(&self) -> u32 {
+        self.wait_us
+    }
 }
 
 impl Default for Spi {
@@ -69,8 +92,12 @@ impl Default for Spi {
             clock_hz: CLOCK_DEFAULT_HZ,
             clock_span: None,
             mode: 0,
+            trigger: Vec::new(),
+            wait_us: 0,
+            register: None,
             read: Vec::new(),
             length_bytes: 1,
+            order: ByteOrder::Big,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `uart`: bytes on a serial port, cut into messages by delimiters or by length. A sensor with
 //! `tx = none` takes only the receiving wire.
 
+use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
 use crate::fields::Fields;
@@ -12,7 +13,19 @@ pub const SPEC: KindSpec = KindSpec {
     article: "a",
     directions: &[Direction::Sensor, Direction::Actuator],
     values: Values::Any,
-    properties: &["baud", "frame", "start", "end", "length", "tx", "rx"],
+    properties: &[
+        "baud",
+        "frame",
+        "invert",
+        "start",
+        "end",
+        "length",
+        "checksum",
+        "checksum_from",
+        "order",
+        "tx",
+        "rx",
+    ],
     sharing: Sharing::Own,
     triggers_itself: false,
     wires: "TX and RX of one unit; RX alone for a sensor with `tx = none;`",
@@ -36,6 +49,24 @@ pub enum Parity {
     Odd,
 }
 
+/// What a message ends with, so that a damaged one is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MessageChecksum {
+    /// Nothing.
+    #[default]
+    None,
+    /// The low byte of the sum.
+    Sum8,
+    /// All bytes, exclusive or.
+    Xor8,
+    /// 0xFFFF minus the sum of all bytes; two bytes, the low one first.
+    Ibus,
+    /// A CRC-8: polynomial 0xD5, start 0.
+    Crc8DvbS2,
+    /// `*` and two hexadecimal digits: the bytes between start and `*`, exclusive or.
+    Nmea,
+}
+
 /// A serial port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Uart {
@@ -49,12 +80,22 @@ pub struct Uart {
     pub parity: Parity,
     /// 1 or 2.
     pub stop_bits: u8,
+    /// Its wires are at rest low.
+    pub is_inverted: bool,
     /// Bytes a message begins with; may be empty.
     pub start: Vec<u8>,
     /// Bytes a message ends with; may be empty.
     pub end: Vec<u8>,
     /// Bytes of a message between the delimiters.
     pub length_bytes: u16,
+    /// The file gives that length, not the size of the value.
+    pub is_length_given: bool,
+    /// What a message ends with.
+    pub checksum: MessageChecksum,
+    /// The first byte that the checksum is of, counted from the first byte of the message.
+    pub checksum_from: u8,
+    /// Order of the bytes of each number.
+    pub order: ByteOrder,
     /// Nothing is sent: the device needs only RX.
     pub receive_only: bool,
 }
@@ -67,7 +108,9 @@ impl Properties for Uart {
             ("8N1", (8, Parity::None, 1)),
             ("8N2", (8, Parity::None, 2)),
             ("8E1", (8, Parity::Even, 1)),
+            ("8E2", (8, Parity::Even, 2)),
             ("8O1", (8, Parity::Odd, 1)),
+            ("8O2", (8, Parity::Odd, 2)),
             ("7E1", (7, Parity::Even, 1)),
             ("7O1", (7, Parity::Odd, 1)),
         ];
@@ -76,7 +119,9 @@ impl Properties for Uart {
         let start = fields.bytes("start", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
         let end = fields.bytes("end", 0..=8).map(|bytes| bytes.value).unwrap_or_default();
         let size_bytes = i64::try_from(value.size_bytes()).unwrap_or(i64::MAX);
-        let length = fields.integer("length", 1..=1024).map_or(size_bytes, |n| n.value);
+        let length = fields.integer("length", 1..=1024).map(|n| n.value);
+        let is_inverted = fields.boolean("invert").is_some_and(|word| word.value);
+        let (checksum, checksum_from) = checksum(fields, start.len());
         let receive_only = direction == Direction::Sensor && fields.take_word_if("tx", "none");
         Self {
             baud: baud.unwrap_or(BAUD_DEFAULT),
@@ -84,9 +129,14 @@ impl Properties for Uart {
             data_bits,
             parity,
             stop_bits,
+            is_inverted,
             start,
             end,
-            length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
+            length_bytes: u16::try_from(length.unwrap_or(size_bytes)).unwrap_or(u16::MAX),
+            is_length_given: length.is_some(),
+            checksum,
+            checksum_from,
+            order: i2c::order(fields),
             receive_only,
         }
     }
@@ -100,7 +150,36 @@ impl Properties for Uart {
     }
 }
 
+/// What a message ends with, and from where it counts.
+fn checksum(fields: &mut Fields<'_>, start_bytes: usize) -> (MessageChecksum, u8) {
+    let checksums = [
+        ("none", MessageChecksum::None),
+        ("sum8", MessageChecksum::Sum8),
+        ("xor8", MessageChecksum::Xor8),
+        ("ibus", MessageChecksum::Ibus),
+        ("crc8_dvb_s2", MessageChecksum::Crc8DvbS2),
+        ("nmea", MessageChecksum::Nmea),
+    ];
+    let checksum = fields.word("checksum", &checksums).map(|word| word.value).unwrap_or_default();
+    // What it is of begins in the start, or right behind it.
+    let most = i64::try_from(start_bytes).unwrap_or(0);
+    let from = fields.integer("checksum_from", 0..=most);
+    if let Some(from) = from
+        && matches!(checksum, MessageChecksum::None | MessageChecksum::Nmea)
+    {
+        let why = "`checksum_from` is for `sum8`, `xor8`, `ibus` and `crc8_dvb_s2` only";
+        fields.contradiction(from.span, "checksum", why);
+    }
+    (checksum, from.and_then(|n| u8::try_from(n.value).ok()).unwrap_or(0))
+}
+
 impl Uart {
+    /// Whether nothing tells where a message ends.
+    #[must_use]
+    pub fn is_endless(&self) -> bool {
+        !self.is_length_given && self.end.is_empty()
+    }
+
     /// The serial port of a link: 8N1, both ways.
     #[must_use]
     pub fn link(baud: u32) -> Self {
@@ -110,9 +189,14 @@ impl Uart {
             data_bits: 8,
             parity: Parity::None,
             stop_bits: 1,
+            is_inverted: false,
             start: Vec::new(),
             end: Vec::new(),
             length_bytes: 1,
+            is_length_given: false,
+            checksum: MessageChecksum::None,
+            checksum_from: 0,
+            order: ByteOrder::Big,
             receive_only: false,
         }
     }

@@ -254,7 +254,7 @@ impl Script {
             address: byte(i2c.address),
             trigger: i2c.trigger.iter().map(|&value| byte(value)).collect(),
             wait_ms: i2c.wait_us.div_ceil(1_000),
-            register: i2c.register.map(byte),
+            register: i2c.register.map(|register| format!("0x{register:02x}U")),
             length: i2c.length_bytes,
             is_little_endian: i2c.order == ByteOrder::Little,
             value_bytes: wired.device.value.value.size_bytes(),

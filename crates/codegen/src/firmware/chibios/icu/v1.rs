@@ -93,6 +93,7 @@ impl Capture {
                 Mode::Period => "UP_CAPTURE_PERIOD",
                 Mode::Frequency => "UP_CAPTURE_FREQUENCY",
                 Mode::Duty => "UP_CAPTURE_DUTY",
+                Mode::Ppm => return None,
             },
             input: match icu.edge {
                 Edge::Rising | Edge::Both => "ICU_INPUT_ACTIVE_HIGH",

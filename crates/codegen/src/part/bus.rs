@@ -1,0 +1,212 @@
+//! A part on a register bus: `up_chip_t` and what it points to.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use super::transfers::{self, Place, TransferPlan, register, register_to_read};
+use super::{Source, ValuePlan, literal};
+
+/// An `up_chip_t`.
+#[derive(Clone, Debug)]
+pub struct BusPlan {
+    /// What the names of its tables begin with.
+    pub prefix: String,
+    /// The 7-bit address as a C literal; 0 on SPI, where the target numbers the chip selects.
+    pub address: String,
+    /// How it is started.
+    pub init: Vec<InitPlan>,
+    /// What must be read where.
+    pub identity: Option<IdentityPlan>,
+    /// What the formula is told of the part.
+    pub calibration: Vec<CalibrationPlan>,
+    /// What is read together.
+    pub transfers: Vec<TransferPlan>,
+    /// The values in it.
+    pub readings: Vec<ReadingPlan>,
+    /// The values that are written.
+    pub commands: Vec<CommandPlan>,
+    /// The runtime's formula.
+    pub formula: Option<&'static str>,
+    /// Its constants.
+    pub parameters: Vec<i32>,
+    /// How often the part is looked after.
+    pub cycle_ms: u32,
+    /// Bytes of all calibration blocks.
+    pub calibration_bytes: u16,
+    /// The most that any transfer writes and reads together.
+    pub work_bytes: usize,
+    /// 64-bit words that hold the largest value of a reading.
+    pub scratch_words: usize,
+}
+
+/// An `up_chip_init_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InitPlan {
+    /// Bytes as C literals; empty where there is only a pause.
+    pub bytes: Vec<String>,
+    /// Waited after them.
+    pub pause_ms: u16,
+}
+
+/// An `up_chip_identity_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IdentityPlan {
+    /// The register.
+    pub select: Vec<String>,
+    /// What must be there.
+    pub expected: Vec<String>,
+    /// The bits that count; empty for all.
+    pub mask: Vec<String>,
+}
+
+/// An `up_chip_calibration_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CalibrationPlan {
+    /// The register.
+    pub select: Vec<String>,
+    /// Bytes from there on.
+    pub count: u16,
+}
+
+/// An `up_chip_reading_t`.
+#[derive(Clone, Debug)]
+pub struct ReadingPlan {
+    /// The device.
+    pub field: String,
+    /// Index of the transfer.
+    pub transfer: usize,
+    /// Where it begins there, with checksums.
+    pub offset: u16,
+    /// Which output of the formula it is.
+    pub output: Option<u8>,
+    /// How it is coded; none where the formula makes it.
+    pub value: Option<ValuePlan>,
+}
+
+/// An `up_chip_command_t`.
+#[derive(Clone, Debug)]
+pub struct CommandPlan {
+    /// The device.
+    pub field: String,
+    /// Written in front of the value.
+    pub prefix: Vec<String>,
+    /// How it is coded.
+    pub value: ValuePlan,
+    /// Bytes of the value.
+    bytes: u16,
+}
+
+/// The part's table; none where it is on no register bus.
+pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
+    let protocol = source.protocol;
+    let all: Vec<&Device> =
+        source.devices(|kind| matches!(kind, Kind::I2c(_) | Kind::Spi(_))).collect();
+    let address = all.first()?.kind.i2c().map_or(0, |i2c| i2c.address);
+    let of = |direction| all.iter().copied().filter(move |one| one.direction == direction);
+    let sensors: Vec<&Device> = of(Direction::Sensor).collect();
+    let (transfers, places) = transfers::plan(&sensors, protocol);
+    let readings = sensors.iter().zip(places);
+    let sizes = sensors.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
+    let calibration = protocol.calibration.iter().map(|&(number, count)| CalibrationPlan {
+        select: literal::bytes(&register_to_read(u32::from(number), protocol)),
+        count,
+    });
+    let plan = BusPlan {
+        prefix: prefix.to_owned(),
+        address: literal::byte(&address),
+        init: init(&protocol.init),
+        identity: protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol)),
+        calibration: calibration.collect(),
+        transfers,
+        readings: readings.filter_map(|(device, place)| reading(device, place?)).collect(),
+        commands: of(Direction::Actuator).filter_map(|one| command(one, protocol)).collect(),
+        formula: protocol.formula.map(symbol),
+        parameters: protocol.parameters.clone(),
+        cycle_ms: all.iter().map(|device| device.delay_ms).min().unwrap_or(0),
+        calibration_bytes: protocol.calibration.iter().map(|(_, count)| count).sum(),
+        work_bytes: 0,
+        scratch_words: sizes.max().unwrap_or(1),
+    };
+    Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
+}
+
+/// What the runtime calls a formula.
+pub(super) const fn symbol(formula: Formula) -> &'static str {
+    match formula {
+        Formula::Bmp280 => "up_formula_bmp280",
+        Formula::Bme280 => "up_formula_bme280",
+        Formula::Ntc => "up_formula_ntc",
+        Formula::Tsl2561 => "up_formula_tsl2561",
+    }
+}
+
+/// Bytes and the pause behind them are one step.
+pub(super) fn init(steps: &[InitStep]) -> Vec<InitPlan> {
+    let mut all: Vec<InitPlan> = Vec::new();
+    for step in steps {
+        match step {
+            InitStep::Write(bytes) => {
+                all.push(InitPlan { bytes: literal::bytes(bytes), pause_ms: 0 });
+            }
+            InitStep::Wait { ms } => match all.last_mut().filter(|last| last.pause_ms == 0) {
+                Some(last) => last.pause_ms = *ms,
+                None => all.push(InitPlan { bytes: Vec::new(), pause_ms: *ms }),
+            },
+        }
+    }
+    all
+}
+
+impl IdentityPlan {
+    fn new(identity: &Identity, protocol: &Protocol) -> Self {
+        Self {
+            select: literal::bytes(&register_to_read(u32::from(identity.register), protocol)),
+            expected: literal::bytes(&identity.expected),
+            mask: literal::bytes(&identity.mask),
+        }
+    }
+}
+
+fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
+    let output = device.coding.output;
+    let value = match output {
+        Some(_) => None,
+        None => Some(ValuePlan::of(device)?),
+    };
+    let field = device.name.value.clone();
+    Some(ReadingPlan { field, transfer: place.transfer, offset: place.offset, output, value })
+}
+
+fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
+    let words = Words::of(device)?;
+    let of_i2c = device.kind.i2c().and_then(|i2c| i2c.register);
+    let number = of_i2c.or_else(|| device.kind.spi()?.register);
+    let prefix = number.map(|number| register(u32::from(number), protocol)).unwrap_or_default();
+    Some(CommandPlan {
+        field: device.name.value.clone(),
+        prefix: literal::bytes(&prefix),
+        value: ValuePlan::new(&words),
+        bytes: words.wire_bytes(),
+    })
+}
+
+impl BusPlan {
+    /// As `up_chip_work_bytes()` counts.
+    fn work_bytes(&self) -> usize {
+        let init = self.init.iter().map(|step| step.bytes.len());
+        let identity = self.identity.iter().map(|one| one.select.len() + one.expected.len());
+        let calibration =
+            self.calibration.iter().map(|one| one.select.len() + usize::from(one.count));
+        let transfers = self.transfers.iter().map(|one| {
+            let length = usize::from(one.length);
+            let select = if one.is_exchange { length } else { one.select.len() };
+            one.trigger.len().max(select + length)
+        });
+        let commands = self.commands.iter().map(|one| one.prefix.len() + usize::from(one.bytes));
+        let all = init.chain(identity).chain(calibration).chain(transfers).chain(commands);
+        all.max().unwrap_or(0).max(1)
+    }
+}

@@ -1,0 +1,104 @@
+//! Values that no bus carries: formulas over analog ones, pulse trains, bridges.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::Mode;
+use sensedsl_model::protocol::Drive;
+
+use super::{Source, bus};
+
+/// A longer interval than this starts a pulse train.
+const TRAIN_GAP_US: u64 = 2_700;
+/// A shorter one is a disturbance.
+const TRAIN_MIN_US: u64 = 500;
+/// The value of an output that is always on.
+const FULL: u32 = 10_000;
+
+/// A value that a formula makes of an analog one.
+#[derive(Clone, Debug)]
+pub struct FormulaPlan {
+    /// What the name of its table begins with.
+    pub prefix: String,
+    /// The device.
+    pub field: String,
+    /// The runtime's formula.
+    pub formula: &'static str,
+    /// Which output it is.
+    pub output: u8,
+    /// Its constants.
+    pub parameters: Vec<i32>,
+}
+
+/// An `up_ppm_config_t`.
+#[derive(Clone, Debug)]
+pub struct TrainPlan {
+    /// The device.
+    pub field: String,
+    /// Of the timer.
+    pub tick_hz: u32,
+    /// A longer interval starts a train.
+    pub gap_ticks: u64,
+    /// A shorter one is a disturbance.
+    pub min_ticks: u64,
+}
+
+/// An `up_drive_t`.
+#[derive(Clone, Debug)]
+pub struct BridgePlan {
+    /// The device.
+    pub field: String,
+    /// The runtime's name for how the outputs are driven.
+    pub mode: &'static str,
+    /// The greatest magnitude.
+    pub full: u32,
+    /// The part's connections, in the order of the runtime's outputs.
+    pub outputs: Vec<String>,
+}
+
+pub(super) fn formulas(source: Source<'_>, prefix: &str) -> Vec<FormulaPlan> {
+    let devices = source.devices(|kind| matches!(kind, Kind::Analog(_)));
+    let plan = |device: &Device| {
+        Some(FormulaPlan {
+            prefix: format!("{prefix}_{}", device.name.value),
+            field: device.name.value.clone(),
+            formula: bus::symbol(source.protocol.formula?),
+            output: device.coding.output?,
+            parameters: source.protocol.parameters.clone(),
+        })
+    };
+    devices.filter_map(plan).collect()
+}
+
+pub(super) fn trains(source: Source<'_>) -> Vec<TrainPlan> {
+    let devices = source.devices(|kind| kind.icu().is_some_and(|icu| icu.mode == Mode::Ppm));
+    let plan = |device: &Device| {
+        let tick_hz = device.kind.icu()?.tick_hz;
+        let ticks = |us: u64| u64::from(tick_hz) * us / 1_000_000;
+        Some(TrainPlan {
+            field: device.name.value.clone(),
+            tick_hz,
+            gap_ticks: ticks(TRAIN_GAP_US),
+            min_ticks: ticks(TRAIN_MIN_US),
+        })
+    };
+    devices.filter_map(plan).collect()
+}
+
+pub(super) fn bridges(source: Source<'_>) -> Vec<BridgePlan> {
+    let plan = |device: &Device| {
+        let names = device.connections.iter().filter_map(|index| {
+            let connection = source.design.connection(*index)?;
+            connection.name.clone()
+        });
+        Some(BridgePlan {
+            field: device.name.value.clone(),
+            mode: match device.coding.drive? {
+                Drive::DirectionPins => "UP_DRIVE_DIRECTION_PINS",
+                Drive::TwoPwm => "UP_DRIVE_TWO_PWM",
+            },
+            full: FULL,
+            outputs: names.collect(),
+        })
+    };
+    source.devices(|_| true).filter_map(plan).collect()
+}

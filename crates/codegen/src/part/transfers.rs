@@ -1,0 +1,217 @@
+//! Which bytes of a chip are read together.
+//!
+//! Each reading wants bytes from a register on. Neighbours are read in one go, which costs one address instead of
+//! several, and their values are of one moment; where a measurement is started for them, they must be.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::i2c::I2c;
+use sensedsl_model::kind::spi::Spi;
+use sensedsl_model::protocol::Protocol;
+use sensedsl_model::words::Words;
+
+use super::literal;
+
+/// Registers between two readings that are read and dropped: about what a transfer of its own would cost.
+const GAP_BYTES: u32 = 4;
+/// The same where the readings are of one started measurement: to start another one costs more than any gap.
+const GAP_OF_MEASUREMENT_BYTES: u32 = 16;
+/// The most bytes that are read together because they are neighbours.
+const TOGETHER_BYTES_MAX: u32 = 128;
+
+/// An `up_chip_transfer_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TransferPlan {
+    /// Written to start a measurement, as C literals; empty for none.
+    pub trigger: Vec<String>,
+    /// Written before reading, or sent in an exchange.
+    pub select: Vec<String>,
+    /// From one measurement to the next.
+    pub cycle_ms: u32,
+    /// From the trigger to the reading.
+    pub wait_ms: u32,
+    /// Bytes read, with checksums.
+    pub length: u16,
+    /// What is received while `select` is sent is what is read.
+    pub is_exchange: bool,
+}
+
+/// Where a reading stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub(super) transfer: usize,
+    pub(super) offset: u16,
+}
+
+/// What is written so that bytes can be read.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Select {
+    /// The number of the first register.
+    Register,
+    /// These bytes, which may be none.
+    Bytes(Vec<u8>),
+    /// While these bytes are sent, as many are received.
+    Exchange(Vec<u8>),
+}
+
+/// What readings of one transfer have in common.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    trigger: Vec<u8>,
+    wait_ms: u32,
+    cycle_ms: u32,
+    has_crc: bool,
+    select: Select,
+}
+
+/// The bytes that a reading wants, without checksums.
+struct Wanted {
+    key: Key,
+    register: u32,
+    end: u32,
+    /// Where its own bytes begin behind the register.
+    byte: u16,
+}
+
+/// What a device on either bus says of its reading.
+struct Asked {
+    trigger: Vec<u8>,
+    wait_us: u32,
+    register: Option<u16>,
+    read: Vec<u8>,
+    length: u16,
+}
+
+/// Bytes that are read together.
+struct Together {
+    key: Key,
+    register: u32,
+    end: u32,
+}
+
+/// The transfers of a chip, and for each of its readings where it stands.
+pub(super) fn plan(
+    readings: &[&Device],
+    protocol: &Protocol,
+) -> (Vec<TransferPlan>, Vec<Option<Place>>) {
+    let wanted: Vec<Option<Wanted>> = readings.iter().map(|device| wanted(device)).collect();
+    let mut sorted: Vec<&Wanted> = wanted.iter().flatten().collect();
+    sorted.sort_by_key(|one| (&one.key, one.register, one.end));
+    let mut all: Vec<Together> = Vec::new();
+    for one in sorted {
+        match all.last_mut().filter(|last| last.takes(one, protocol)) {
+            Some(last) => last.end = last.end.max(one.end),
+            None => {
+                all.push(Together { key: one.key.clone(), register: one.register, end: one.end });
+            }
+        }
+    }
+    // In the order in which the file has the first value of each.
+    let first = |together: &Together| wanted.iter().flatten().position(|one| together.has(one));
+    all.sort_by_key(first);
+    let places = wanted.iter().map(|one| {
+        let one = one.as_ref()?;
+        let transfer = all.iter().position(|together| together.has(one))?;
+        Some(Place { transfer, offset: all.get(transfer)?.offset(one) })
+    });
+    let places = places.collect();
+    (all.iter().map(|together| together.plan(protocol)).collect(), places)
+}
+
+/// What a reading wants; none where it is on no register bus.
+fn wanted(device: &Device) -> Option<Wanted> {
+    let coding = &device.coding;
+    let of_i2c = |i2c: &I2c| Asked {
+        trigger: i2c.trigger.clone(),
+        wait_us: i2c.wait_us,
+        register: i2c.register,
+        read: Vec::new(),
+        length: i2c.length_bytes,
+    };
+    let of_spi = |spi: &Spi| Asked {
+        trigger: spi.trigger.clone(),
+        wait_us: spi.wait_us,
+        register: spi.register,
+        read: spi.read.clone(),
+        length: spi.length_bytes,
+    };
+    let asked = device.kind.i2c().map(of_i2c);
+    let asked = asked.or_else(|| device.kind.spi().map(of_spi))?;
+    let Asked { trigger, wait_us, register, read, length } = asked;
+    let words = Words::of(device).filter(|_| coding.output.is_none());
+    let length = words.as_ref().map_or(length, |words| words.data_bytes);
+    let select = match register {
+        _ if !coding.exchange.is_empty() => Select::Exchange(coding.exchange.clone()),
+        Some(_) if read.is_empty() => Select::Register,
+        Some(_) | None => Select::Bytes(read),
+    };
+    let first = if select == Select::Register { u32::from(register.unwrap_or(0)) } else { 0 };
+    let byte = if matches!(select, Select::Exchange(_)) { 0 } else { coding.byte };
+    let key = Key {
+        trigger,
+        wait_ms: wait_us.div_ceil(1_000),
+        cycle_ms: device.delay_ms,
+        has_crc: words.is_some_and(|words| words.crc.is_some()),
+        select,
+    };
+    Some(Wanted { key, register: first, end: first + u32::from(byte) + u32::from(length), byte })
+}
+
+impl Together {
+    /// Whether the reading, which begins no earlier, is read with it.
+    fn takes(&self, one: &Wanted, protocol: &Protocol) -> bool {
+        if self.key != one.key {
+            return false;
+        }
+        // Where registers do not run on, or checksums stand between them, only the same one is the same.
+        if one.register == self.register {
+            return true;
+        }
+        let gap = if self.key.trigger.is_empty() { GAP_BYTES } else { GAP_OF_MEASUREMENT_BYTES };
+        let runs_on = !protocol.is_one_by_one && !self.key.has_crc;
+        let is_short = one.end.max(self.end) - self.register <= TOGETHER_BYTES_MAX;
+        runs_on && one.register <= self.end.saturating_add(gap) && is_short
+    }
+
+    fn has(&self, one: &Wanted) -> bool {
+        self.key == one.key && self.register <= one.register && one.end <= self.end
+    }
+
+    fn on_wire(&self, byte: u32) -> u16 {
+        let bytes = if self.key.has_crc { byte + byte / 2 } else { byte };
+        u16::try_from(bytes).unwrap_or(u16::MAX)
+    }
+
+    fn offset(&self, one: &Wanted) -> u16 {
+        self.on_wire(one.register - self.register + u32::from(one.byte))
+    }
+
+    fn plan(&self, protocol: &Protocol) -> TransferPlan {
+        let select = match &self.key.select {
+            Select::Register => register_to_read(self.register, protocol),
+            Select::Bytes(bytes) | Select::Exchange(bytes) => bytes.clone(),
+        };
+        TransferPlan {
+            trigger: literal::bytes(&self.key.trigger),
+            select: literal::bytes(&select),
+            cycle_ms: self.key.cycle_ms,
+            wait_ms: self.key.wait_ms,
+            length: self.on_wire(self.end - self.register),
+            is_exchange: matches!(self.key.select, Select::Exchange(_)),
+        }
+    }
+}
+
+/// The bytes of a register's number, the most significant first.
+pub(super) fn register(number: u32, protocol: &Protocol) -> Vec<u8> {
+    let [.., high, low] = number.to_be_bytes();
+    if protocol.register_bytes == 2 { vec![high, low] } else { vec![low] }
+}
+
+/// The same for reading: on some buses a bit of it says so.
+pub(super) fn register_to_read(number: u32, protocol: &Protocol) -> Vec<u8> {
+    let mut bytes = register(number, protocol);
+    if let Some(first) = bytes.first_mut() {
+        *first |= protocol.read_mask;
+    }
+    bytes
+}

@@ -1,0 +1,58 @@
+//! What a value is when it is no quantity: numbers without a unit, names, texts, bytes.
+
+use crate::value::{Measure, Value};
+
+/// A number without a unit.
+pub(crate) fn plain_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) if number.measure == Measure::Bare => Some(number.value),
+        Value::Number(_)
+        | Value::Name(_)
+        | Value::Text(_)
+        | Value::List(_)
+        | Value::Range(_)
+        | Value::Unknown => None,
+    }
+}
+
+/// A whole number without a unit.
+pub(crate) fn plain_integer(value: &Value) -> Option<i128> {
+    match value {
+        Value::Number(number) => number.integer,
+        Value::Name(_) | Value::Text(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
+    }
+}
+
+/// The text of a name or a string.
+pub(crate) fn name_or_text(value: &Value) -> Option<String> {
+    match value {
+        Value::Name(text) | Value::Text(text) => Some(text.clone()),
+        Value::Number(_) | Value::List(_) | Value::Range(_) | Value::Unknown => None,
+    }
+}
+
+pub(super) fn byte_list(value: &Value) -> Option<Vec<i128>> {
+    match value {
+        Value::List(list) => list.iter().map(|one| plain_integer(&one.value)).collect(),
+        Value::Text(text) => Some(text.bytes().map(i128::from).collect()),
+        Value::Number(_) => Some(vec![plain_integer(value)?]),
+        Value::Name(_) | Value::Range(_) | Value::Unknown => None,
+    }
+}
+
+/// What a value is, for messages.
+pub(super) fn describe(value: &Value) -> &'static str {
+    match value {
+        Value::Number(number) if number.measure != Measure::Bare => "a number with a unit",
+        Value::Number(number) if number.integer.is_none() => "a number with a fraction",
+        Value::Number(_) => "a number",
+        Value::Name(_) => "a name",
+        Value::Text(_) => "a text",
+        Value::List(list) if list.iter().any(|one| plain_integer(&one.value).is_none()) => {
+            "a list of something else"
+        }
+        Value::List(_) => "a list",
+        Value::Range(_) => "a range",
+        Value::Unknown => "an expression",
+    }
+}

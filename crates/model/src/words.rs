@@ -1,0 +1,223 @@
+//! Where a value stands in the bytes of its part: from its coding and the length of its bytes to words and bits, or
+//! why it cannot stand there. Reading a file asks it for the mistakes, whoever makes tables for the words.
+
+use sensedsl_wire::{ScalarType, ValueType};
+
+use crate::design::Device;
+use crate::kind::Kind;
+use crate::kind::i2c::ByteOrder;
+use crate::protocol::{Coding, Crc, Protocol};
+
+/// How the bytes of a value are to be read or written; one word is one element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// What a word is.
+    pub code: Code,
+    /// Bytes of a word; 0 where words are packed.
+    pub word_bytes: u8,
+    /// Words there are.
+    pub count: u16,
+    /// For each element where its word stands; empty for one after the other.
+    pub elements: Vec<u8>,
+    /// The lowest bit that counts.
+    pub low: u8,
+    /// Bits that count.
+    pub bits: u8,
+    /// The highest of them is a sign.
+    pub is_signed: bool,
+    /// Whether the low byte of a word comes first.
+    pub order: ByteOrder,
+    /// Checksums between the words.
+    pub crc: Option<Crc>,
+    /// Bytes of all words, without checksums.
+    pub data_bytes: u16,
+}
+
+/// What a word is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Code {
+    /// A binary number.
+    Integer,
+    /// An IEEE 754 number.
+    Float,
+    /// Two decimal digits a byte.
+    Bcd,
+    /// A binary number, behind the one before without a gap.
+    Packed,
+}
+
+impl Words {
+    /// The words of a device; none where its kind sends no bytes, or a text.
+    #[must_use]
+    pub fn of(device: &Device) -> Option<Self> {
+        let length = length_bytes(&device.kind, &device.coding)?;
+        words(&device.kind, &device.coding, device.value.value, length).ok()
+    }
+
+    /// Bytes on the wire: with the checksums.
+    #[must_use]
+    pub const fn wire_bytes(&self) -> u16 {
+        self.on_wire(self.data_bytes)
+    }
+
+    /// Where a byte of the words stands on the wire.
+    #[must_use]
+    pub const fn on_wire(&self, byte: u16) -> u16 {
+        if self.crc.is_some() { byte + byte / 2 } else { byte }
+    }
+}
+
+/// Whether the value can stand in its bytes, and whether the formula gets as many as it takes.
+pub(crate) fn check(
+    kind: &Kind,
+    coding: &Coding,
+    value: ValueType,
+    protocol: &Protocol,
+) -> Result<(), String> {
+    let Some(length) = length_bytes(kind, coding) else { return Ok(()) };
+    // E0506 tells of those.
+    if kind.i2c().is_some() && coding.is_plain() {
+        return Ok(());
+    }
+    if let (Some(formula), Some(_)) = (protocol.formula, coding.output) {
+        let (_, raw, _) = formula.needs();
+        let found = length;
+        return if found == raw {
+            Ok(())
+        } else {
+            Err(format!("{} is computed from {raw} bytes, and there are {found}", formula.name()))
+        };
+    }
+    words(kind, coding, value, length).map(|_| ())
+}
+
+/// Bytes of the value; none where its kind sends no bytes, or a text.
+fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
+    if coding.text.is_some() {
+        return None;
+    }
+    if !coding.exchange.is_empty() {
+        return u16::try_from(coding.exchange.len()).ok();
+    }
+    match kind {
+        Kind::I2c(i2c) => Some(i2c.length_bytes),
+        Kind::Spi(spi) => Some(spi.length_bytes),
+        Kind::Uart(uart) => Some(uart.length_bytes),
+        Kind::Can(_) => coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok()),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => None,
+    }
+}
+
+fn order(kind: &Kind) -> ByteOrder {
+    let of_bus = kind.i2c().map(|i2c| i2c.order).or_else(|| kind.spi().map(|spi| spi.order));
+    of_bus.or_else(|| kind.uart().map(|uart| uart.order)).unwrap_or_default()
+}
+
+fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<Words, String> {
+    let of = coding.of.unwrap_or(value);
+    let elements = u16::try_from(of.count()).unwrap_or(u16::MAX).max(1);
+    if let Some(bits) = coding.packed_bits {
+        return packed(coding, of, (elements, bits), length);
+    }
+    let size = u16::try_from(of.scalar.size_bytes()).unwrap_or(8);
+    let count = match coding.elements.iter().max() {
+        Some(_) => length / size.max(1),
+        None => elements,
+    };
+    let word_bytes = if coding.elements.is_empty() { length / count.max(1) } else { size };
+    if word_bytes * count != length && coding.elements.is_empty() {
+        return Err(format!("{length} bytes are not {elements} words of the same size"));
+    }
+    if let Some(last) = coding.elements.iter().max()
+        && u16::from(*last) >= count
+    {
+        return Err(format!("`elements` names word {last}, and {length} bytes are {count} words"));
+    }
+    let is_word = (1..=8).contains(&word_bytes);
+    let word_bytes = u8::try_from(word_bytes).ok().filter(|_| is_word).ok_or_else(|| {
+        format!("a word has 1 to 8 bytes, and {length} bytes are {count} of {word_bytes}")
+    })?;
+    let width = 8 * word_bytes;
+    let (high, low) = coding.bits.unwrap_or((width - 1, 0));
+    if high >= width {
+        return Err(format!("a word of {word_bytes} bytes has no bit {high}"));
+    }
+    let code = code(coding, of.scalar, value.scalar, word_bytes)?;
+    if coding.crc.is_some() && length % 2 == 1 {
+        return Err(format!("a checksum follows every two bytes, and there are {length}"));
+    }
+    Ok(Words {
+        code,
+        word_bytes,
+        count,
+        elements: coding.elements.clone(),
+        low,
+        bits: high - low + 1,
+        is_signed: coding.signed.unwrap_or_else(|| is_signed(of.scalar)),
+        order: order(kind),
+        crc: coding.crc,
+        data_bytes: length,
+    })
+}
+
+fn packed(
+    coding: &Coding,
+    of: ValueType,
+    (count, bits): (u16, u8),
+    length: u16,
+) -> Result<Words, String> {
+    let needed = (u32::from(count) * u32::from(bits)).div_ceil(8);
+    if needed > u32::from(length) {
+        return Err(format!("{count} numbers of {bits} bits are {needed} bytes, not {length}"));
+    }
+    if coding.crc.is_some() || coding.bcd || coding.bits.is_some() {
+        return Err("`packed` goes with none of `bits`, `crc` and `format`".to_owned());
+    }
+    Ok(Words {
+        code: Code::Packed,
+        word_bytes: 0,
+        count,
+        elements: coding.elements.clone(),
+        low: 0,
+        bits,
+        is_signed: coding.signed.unwrap_or_else(|| is_signed(of.scalar)),
+        order: ByteOrder::Little,
+        crc: None,
+        data_bytes: length,
+    })
+}
+
+fn code(
+    coding: &Coding,
+    of: ScalarType,
+    value: ScalarType,
+    word_bytes: u8,
+) -> Result<Code, String> {
+    if coding.bcd {
+        return Ok(Code::Bcd);
+    }
+    // Fewer bytes than a float has are a whole number.
+    let is_whole = usize::from(word_bytes) != of.size_bytes() || coding.bits.is_some();
+    if !is_float(of) || is_whole {
+        return Ok(Code::Integer);
+    }
+    if of != value {
+        return Err(format!("the part has a {of}, so the device must be one"));
+    }
+    Ok(Code::Float)
+}
+
+const fn is_float(scalar: ScalarType) -> bool {
+    matches!(scalar, ScalarType::Float32 | ScalarType::Float64)
+}
+
+/// Whether numbers of that type have a sign.
+#[must_use]
+pub fn is_signed(scalar: ScalarType) -> bool {
+    scalar.integer_range().is_some_and(|(least, _)| least < 0)
+}

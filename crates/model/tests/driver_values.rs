@@ -1,0 +1,76 @@
+//! What a driver says of its values: mistakes are told where they are made, and none is made of what is right.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Why(format!("{} is not there", wanted.path)))
+    }
+}
+
+/// The codes and messages of a file with a driver and a chip of it.
+fn said(driver: &str) -> String {
+    let text = format!(
+        "driver own {driver}\nboard STM32F407G_DISC1 {{ chip Chip {{ driver = own; id = 1; }} }}"
+    );
+    let request = Request { path: "x.sense", text: &text, ..Request::default() };
+    let resolved = resolve(&request, &NoFiles);
+    let lines = resolved.diagnostics.iter().map(|one| format!("{} {}\n", one.code, one.message));
+    lines.collect()
+}
+
+#[track_caller]
+fn tells(driver: &str, wanted: &str) {
+    let said = said(driver);
+    assert!(said.contains(wanted), "{driver}\n{said}");
+    assert_eq!(said.lines().count(), 1, "one mistake, one message\n{said}");
+}
+
+#[test]
+fn values_that_cannot_stand_in_their_bytes() {
+    let i2c = |properties: &str, ty: &str| {
+        format!(
+            "for i2c {{ address = 0x20; reading a returns {ty} {{ register = 0; {properties} }} }}"
+        )
+    };
+    tells(&i2c("bits = 16..3;", "uint16"), "a word of 2 bytes has no bit 16");
+    tells(&i2c("length = 5; bits = 3..0;", "uint16[2]"), "5 bytes are not 2 words");
+    tells(&i2c("length = 9; bits = 3..0;", "uint16"), "a word has 1 to 8 bytes");
+    tells(&i2c("elements = [0, 1, 5]; length = 8;", "int16[3]"), "`elements` names word 5");
+    tells(&i2c("packed = 11; length = 2;", "uint16[2]"), "2 numbers of 11 bits are 3 bytes");
+    tells(&i2c("crc = sensirion;", "uint8"), "a checksum follows every two bytes");
+    tells(&i2c("register = 256;", "uint8").replace("register = 0; ", ""), "256");
+    assert_eq!(said(&i2c("bits = 15..4; elements = [0, 2, 1];", "int16[3]")), "");
+    let wide = i2c("", "uint8").replace("address", "register_size = 2; address");
+    assert_eq!(said(&wide.replace("register = 0;", "register = 0x0100;")), "");
+}
+
+#[test]
+fn messages_that_never_end() {
+    let uart = |properties: &str| {
+        format!("for uart {{ {properties} reading a returns uint8 {{ byte = 0; }} }}")
+    };
+    tells(&uart("start = [1];"), "a message needs a `length`, or an `end`");
+    tells(&uart("start = [1]; length = 3; checksum_from = 1;"), "`checksum_from`");
+    tells(&uart("start = [1]; length = 3; checksum = sum8; checksum_from = 2;"), "checksum_from");
+    assert_eq!(
+        said(&uart("start = [1]; length = 3; checksum = xor8; checksum_from = 1; invert = true;")),
+        ""
+    );
+    assert_eq!(said(&uart("end = \"\\n\";")), "");
+}
+
+/// Only a driver's reading says how many channels a pulse train has.
+#[test]
+fn pulse_trains_are_readings() {
+    assert_eq!(said("for icu { mode = ppm; reading channels returns uint16[6] {} }"), "");
+    tells("for icu { mode = width; reading channels returns uint16[6] {} }", "E0220");
+    let text =
+        "board STM32F407G_DISC1 { sensor A returns uint16 { id = 1; type = icu; mode = ppm; } }";
+    let resolved = resolve(&Request { path: "x.sense", text, ..Request::default() }, &NoFiles);
+    assert!(resolved.design.is_none());
+    assert!(resolved.diagnostics[0].message.contains("driver = ppm"), "{:?}", resolved.diagnostics);
+}

@@ -1,0 +1,509 @@
+/*
+ * The tables of all drivers of the library with the core, as a program: a request a line on stdin. `tables.c` is
+ * printed by the generator, and at its end the test lists the parts in it.
+ *
+ *   unit INDEX                        begins a case with a part that was never started
+ *   registers SIZE MASK ALONE         bytes of a register's number, its read bit, whether registers do not run on
+ *   register AT BYTES                 what stands in the part from there on
+ *   after TRIGGER AT BYTES            the same, once TRIGGER was the last that was written
+ *   answer TRIGGER BYTES              what is read without a register after TRIGGER; `-` for after anything
+ *   exchange SENT RECEIVED
+ *   run                               as many cycles as every reading needs
+ *   feed BYTES                        comes on the serial port
+ *   raw FIELD NUMBER                  what the hardware has measured
+ *   edges COUNT US...                 from one edge to the next
+ *   command FIELD COUNT NUMBERS...    prints `written BYTES`, or `output NUMBER VALUE` for each
+ *                                     write and `commanded`
+ *   end                               prints what became of each field, the fault, and `end`
+ *
+ * Bytes are hexadecimal, all other numbers decimal.
+ */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "up_chip.h"
+#include "up_convert.h"
+#include "up_drive.h"
+#include "up_filter.h"
+#include "up_message.h"
+#include "up_ppm.h"
+
+/* What a device has beside the tables of its part; NULL where it has none. */
+typedef struct {
+  const up_filter_t *filter;
+  up_filter_state_t *filter_state;
+  size_t filter_words;
+  const up_formula_t *formula;
+  const int32_t *parameters;
+  uint8_t output;
+  const up_ppm_config_t *train;
+  const up_drive_t *bridge;
+} unit_field_t;
+
+typedef struct {
+  const up_schema_t *schema;
+  const unit_field_t *fields;
+  const up_chip_t *chip;
+  up_chip_state_t *chip_state;
+  size_t work_bytes;
+  const up_message_t *message;
+  up_message_state_t *message_state;
+  const up_chip_init_t *message_init;
+} unit_t;
+
+#include "tables.c"
+
+#define BYTES_MAX 512U
+#define ENTRIES_MAX 64U
+#define VALUE_BYTES_MAX 2048U
+#define STEPS_MAX 2000U
+#define FILL 0xA5U
+
+typedef struct {
+  uint8_t bytes[BYTES_MAX];
+  size_t count;
+} block_t;
+
+typedef enum { REGISTER, ANSWER, EXCHANGE } entry_kind_t;
+
+typedef struct {
+  entry_kind_t kind;
+  block_t trigger; /* or what is sent in an exchange */
+  uint32_t at;
+  block_t block;
+} entry_t;
+
+static struct {
+  const unit_t *unit;
+  size_t register_bytes;
+  uint8_t read_mask;
+  bool alone;
+  entry_t entries[ENTRIES_MAX];
+  size_t entries_count;
+  block_t written;
+  bool prints;
+  uint32_t now_ms;
+  up_result_t results[UP_FIELDS_MAX];
+  uint64_t values[UP_FIELDS_MAX][VALUE_BYTES_MAX / 8U];
+  up_drive_state_t bridges[UP_FIELDS_MAX];
+} test;
+
+static void fail(const char *why) {
+  fprintf(stderr, "%s\n", why);
+  exit(2);
+}
+
+static void check(bool holds, const char *what) {
+  if (!holds) {
+    fail(what);
+  }
+}
+
+static uint32_t ask(void) {
+  uint32_t number = 0U;
+
+  check(scanf("%" SCNu32, &number) == 1, "a number is missing");
+  return number;
+}
+
+static int64_t ask_signed(void) {
+  int64_t number = 0;
+
+  check(scanf("%" SCNd64, &number) == 1, "a number is missing");
+  return number;
+}
+
+static void ask_bytes(block_t *block) {
+  static char text[2U * BYTES_MAX + 2U];
+  unsigned byte;
+  size_t i;
+
+  check(scanf("%1025s", text) == 1, "bytes are missing");
+  block->count = (text[0] == '-') ? 0U : strlen(text) / 2U;
+  for (i = 0U; i < block->count; i++) {
+    check(sscanf(&text[2U * i], "%2x", &byte) == 1, "a byte is none");
+    block->bytes[i] = (uint8_t)byte;
+  }
+}
+
+static bool is_same(const block_t *block, const uint8_t *bytes, size_t count) {
+  return block->count == count && memcmp(block->bytes, bytes, count) == 0;
+}
+
+/* ---- the part on its bus ---- */
+
+static entry_t *add(entry_kind_t kind) {
+  entry_t *entry = &test.entries[test.entries_count];
+
+  check(test.entries_count < ENTRIES_MAX, "too many entries");
+  test.entries_count++;
+  memset(entry, 0, sizeof *entry);
+  entry->kind = kind;
+  return entry;
+}
+
+/* Whether the entry holds now: what was written last is what it waits for. */
+static bool holds(const entry_t *entry) {
+  return entry->trigger.count == 0U || is_same(&entry->trigger, test.written.bytes, test.written.count);
+}
+
+static up_bus_result_t bus_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
+  size_t i;
+
+  (void)context;
+  check(address == test.unit->chip->address, "another address");
+  check(count > 0U && count <= BYTES_MAX, "nothing is written, or too much");
+  memcpy(test.written.bytes, bytes, count);
+  test.written.count = count;
+  if (test.prints) {
+    printf("written ");
+    for (i = 0U; i < count; i++) {
+      printf("%02X", (unsigned)bytes[i]);
+    }
+    printf("\n");
+  }
+  return UP_BUS_DONE;
+}
+
+static void read_registers(uint32_t at, uint8_t *rx, size_t count) {
+  size_t i, byte;
+
+  for (i = 0U; i < test.entries_count; i++) {
+    const entry_t *entry = &test.entries[i];
+    if (entry->kind != REGISTER || !holds(entry) || (test.alone && entry->at != at)) {
+      continue;
+    }
+    check(!test.alone || count <= entry->block.count, "read on behind a register that stands alone");
+    for (byte = 0U; byte < entry->block.count; byte++) {
+      const uint32_t place = entry->at + (uint32_t)byte;
+      if (place >= at && place - at < count) {
+        rx[place - at] = entry->block.bytes[byte];
+      }
+    }
+  }
+}
+
+static void read_answer(uint8_t *rx, size_t count) {
+  size_t i;
+
+  for (i = 0U; i < test.entries_count; i++) {
+    const entry_t *entry = &test.entries[i];
+    if (entry->kind == ANSWER && holds(entry)) {
+      memcpy(rx, entry->block.bytes, (count < entry->block.count) ? count : entry->block.count);
+    }
+  }
+}
+
+static up_bus_result_t bus_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
+                                      size_t rx_count) {
+  uint32_t at = 0U;
+  size_t i;
+
+  (void)context;
+  check(address == test.unit->chip->address, "another address");
+  check(rx_count > 0U, "nothing is read");
+  memset(rx, (int)FILL, rx_count);
+  if (tx_count == 0U) {
+    read_answer(rx, rx_count);
+    return UP_BUS_DONE;
+  }
+  check(tx_count == test.register_bytes, "the register has another size");
+  check((tx[0] & test.read_mask) == test.read_mask, "the register is not for reading");
+  for (i = 0U; i < tx_count; i++) {
+    at = (at << 8) | ((i == 0U) ? (uint32_t)(tx[i] & (uint8_t)~test.read_mask) : tx[i]);
+  }
+  read_registers(at, rx, rx_count);
+  return UP_BUS_DONE;
+}
+
+static up_bus_result_t bus_exchange(void *context, uint8_t address, const uint8_t *tx, uint8_t *rx, size_t count) {
+  size_t i;
+
+  (void)context;
+  check(address == test.unit->chip->address, "another address");
+  memset(rx, (int)FILL, count);
+  for (i = 0U; i < test.entries_count; i++) {
+    const entry_t *entry = &test.entries[i];
+    if (entry->kind == EXCHANGE && is_same(&entry->trigger, tx, count)) {
+      memcpy(rx, entry->block.bytes, (count < entry->block.count) ? count : entry->block.count);
+    }
+  }
+  return UP_BUS_DONE;
+}
+
+static const up_bus_t bus = {bus_write, bus_write_read, bus_exchange, NULL};
+
+/* ---- values ---- */
+
+static void on_value(void *context, uint16_t index, up_result_t result, void *value) {
+  const unit_field_t *field = &test.unit->fields[index];
+
+  (void)context;
+  if (result == UP_FRESH && field->filter != NULL) {
+    result = up_filter_apply(field->filter, field->filter_state, &test.unit->schema->fields[index], test.now_ms, value);
+  }
+  if (result == UP_FRESH) {
+    memcpy(test.values[index], value, up_field_bytes(&test.unit->schema->fields[index]));
+  }
+  if (result != UP_NOTHING) {
+    test.results[index] = result;
+  }
+}
+
+static const up_value_sink_t sink = {on_value, NULL};
+
+static bool is_signed(uint8_t type) {
+  return type == UP_TYPE_INT8 || type == UP_TYPE_INT16 || type == UP_TYPE_INT32 || type == UP_TYPE_INT64;
+}
+
+static void print_value(const up_field_t *field, const uint8_t *value) {
+  const size_t size = up_type_bytes(field->type);
+  size_t i;
+
+  check(field->type != UP_TYPE_FLOAT32 && field->type != UP_TYPE_FLOAT64, "a float");
+  for (i = 0U; i < field->count; i++) {
+    uint64_t bits = up_element_load(field->type, &value[i * size]);
+    if (is_signed(field->type)) {
+      const uint64_t sign = (uint64_t)1U << (8U * size - 1U);
+      printf(" %" PRId64, (int64_t)((bits ^ sign) - sign));
+    } else {
+      printf(" %" PRIu64, bits);
+    }
+  }
+}
+
+static const up_field_t *ask_field(uint16_t *index) {
+  *index = (uint16_t)ask();
+  check(*index < test.unit->schema->fields_count, "no such field");
+  return &test.unit->schema->fields[*index];
+}
+
+static void store(const up_field_t *field, size_t element, int64_t number, uint64_t *value) {
+  uint8_t *memory = (uint8_t *)value;
+
+  up_store_signed(field->type, number, &memory[element * up_type_bytes(field->type)]);
+}
+
+/* ---- requests ---- */
+
+static void begin(void) {
+  const uint32_t index = ask();
+  const unit_t *unit;
+  size_t i;
+
+  check(index < sizeof units / sizeof units[0], "no such unit");
+  memset(&test, 0, sizeof test);
+  unit = &units[index];
+  test.unit = unit;
+  test.register_bytes = 1U;
+  if (unit->chip != NULL) {
+    up_chip_state_t state = {.transfers = unit->chip_state->transfers,
+                             .calibration = unit->chip_state->calibration,
+                             .work = unit->chip_state->work,
+                             .scratch = unit->chip_state->scratch};
+    *unit->chip_state = state;
+    for (i = 0U; i < unit->chip->transfers_count; i++) {
+      memset(&state.transfers[i], 0, sizeof state.transfers[i]);
+    }
+    check(up_chip_work_bytes(unit->chip, unit->schema) == unit->work_bytes, "the work buffer has another size");
+  }
+  if (unit->message != NULL) {
+    up_message_state_t state = {.buffer = unit->message_state->buffer, .scratch = unit->message_state->scratch};
+    *unit->message_state = state;
+    up_message_gap(unit->message_state);
+  }
+  for (i = 0U; i < unit->schema->fields_count; i++) {
+    const up_filter_t *filter = unit->fields[i].filter;
+    const up_field_t *field = &unit->schema->fields[i];
+    if (filter != NULL) {
+      up_filter_state_t state = {.memory = unit->fields[i].filter_state->memory};
+      *unit->fields[i].filter_state = state;
+      check(UP_FILTER_WORDS(field->count, up_type_bytes(field->type), filter->median, filter->smooth_ms > 0U,
+                            filter->has_change) == unit->fields[i].filter_words,
+            "the filter's memory has another size");
+    }
+  }
+}
+
+static bool is_finished(void) {
+  const up_chip_t *chip = test.unit->chip;
+  size_t i;
+
+  for (i = 0U; i < chip->readings_count; i++) {
+    if (test.results[chip->readings[i].field] == UP_NOTHING) {
+      return false;
+    }
+  }
+  return test.unit->chip_state->is_running || test.unit->chip_state->fault != UP_CHIP_WELL;
+}
+
+static void run(void) {
+  unsigned steps;
+
+  check(test.unit->chip != NULL, "it is on no bus");
+  for (steps = 0U; !is_finished(); steps++) {
+    uint32_t idle_ms;
+    check(steps < STEPS_MAX, "it gives no end of it");
+    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, test.now_ms, &sink);
+    idle_ms = up_chip_idle_ms(test.unit->chip, test.unit->chip_state, test.now_ms);
+    test.now_ms += (idle_ms > 0U) ? idle_ms : 1U;
+  }
+}
+
+static void feed(void) {
+  block_t block;
+
+  check(test.unit->message != NULL, "it is on no port");
+  ask_bytes(&block);
+  up_message_feed(test.unit->message, test.unit->message_state, test.unit->schema, block.bytes, block.count, &sink);
+}
+
+static void raw(void) {
+  uint64_t value[VALUE_BYTES_MAX / 8U];
+  uint16_t index;
+  const up_field_t *field = ask_field(&index);
+  const unit_field_t *how = &test.unit->fields[index];
+  const int64_t number = ask_signed();
+  up_result_t result = UP_FRESH;
+
+  memset(value, 0, sizeof value);
+  if (how->formula != NULL) {
+    const uint8_t bytes[2] = {(uint8_t)((uint64_t)number >> 8), (uint8_t)number};
+    int64_t outputs[UP_FORMULA_OUTPUTS_MAX] = {0};
+    check(how->formula->raw_bytes == sizeof bytes, "the formula takes another block");
+    result = how->formula->compute(NULL, how->parameters, bytes, outputs) ? UP_FRESH : UP_INVALID;
+    store(field, 0U, outputs[how->output], value);
+  } else {
+    store(field, 0U, number, value);
+  }
+  on_value(NULL, index, result, value);
+}
+
+static void edges(void) {
+  up_ppm_raw_t train;
+  uint64_t value[VALUE_BYTES_MAX / 8U];
+  const uint32_t count = ask();
+  uint32_t time_us = 0U, seen = 0U, i;
+  uint16_t index = 0U;
+
+  while (test.unit->fields[index].train == NULL) {
+    index++;
+    check(index < test.unit->schema->fields_count, "it has no pulse train");
+  }
+  memset(&train, 0, sizeof train);
+  for (i = 0U; i <= count; i++) {
+    const up_ppm_config_t *config = test.unit->fields[index].train;
+    up_ppm_on_edge(config, &train, (uint32_t)((uint64_t)time_us * config->tick_hz / 1000000U));
+    time_us += (i < count) ? ask() : 0U;
+  }
+  on_value(NULL, index,
+           up_ppm_read(test.unit->fields[index].train, &train, &seen, &test.unit->schema->fields[index], value), value);
+}
+
+static void command(void) {
+  uint64_t value[VALUE_BYTES_MAX / 8U];
+  up_drive_write_t writes[UP_DRIVE_WRITES_MAX];
+  uint16_t index;
+  const up_field_t *field = ask_field(&index);
+  const up_chip_t *chip = test.unit->chip;
+  size_t i, count = ask();
+
+  check(count == field->count, "a value has another number of elements");
+  memset(value, 0, sizeof value);
+  for (i = 0U; i < count; i++) {
+    store(field, i, ask_signed(), value);
+  }
+  if (test.unit->fields[index].bridge != NULL) {
+    count = up_drive(test.unit->fields[index].bridge, &test.bridges[index], field->type, value, writes);
+    for (i = 0U; i < count; i++) {
+      printf("output %u %" PRIu32 "\n", (unsigned)writes[i].output, writes[i].value);
+    }
+    printf("commanded\n");
+    return;
+  }
+  check(chip != NULL, "nothing takes the command");
+  for (i = 0U; i < chip->commands_count; i++) {
+    if (chip->commands[i].field == index) {
+      test.prints = true;
+      check(up_chip_write(chip, test.unit->chip_state, &bus, test.unit->schema, &chip->commands[i], value) == UP_FRESH,
+            "the command was not written");
+      test.prints = false;
+    }
+  }
+}
+
+static void end(void) {
+  uint16_t i;
+
+  for (i = 0U; i < test.unit->schema->fields_count; i++) {
+    const up_field_t *field = &test.unit->schema->fields[i];
+    switch (test.results[i]) {
+      case UP_FRESH:
+        printf("value %u", (unsigned)i);
+        print_value(field, (const uint8_t *)test.values[i]);
+        printf("\n");
+        break;
+      case UP_INVALID:
+        printf("invalid %u\n", (unsigned)i);
+        break;
+      case UP_ERROR:
+        printf("error %u\n", (unsigned)i);
+        break;
+      case UP_NOTHING:
+        break;
+    }
+  }
+  if (test.unit->chip != NULL) {
+    printf("identity %s\n", (test.unit->chip_state->counts.wrong_identity > 0U) ? "wrong" : "right");
+  }
+  printf("end\n");
+}
+
+int main(void) {
+  char word[16];
+  entry_t *entry;
+
+  while (scanf("%15s", word) == 1) {
+    if (strcmp(word, "unit") == 0) {
+      begin();
+    } else if (strcmp(word, "registers") == 0) {
+      test.register_bytes = ask();
+      test.read_mask = (uint8_t)ask();
+      test.alone = ask() != 0U;
+    } else if (strcmp(word, "register") == 0) {
+      entry = add(REGISTER);
+      entry->at = ask();
+      ask_bytes(&entry->block);
+    } else if (strcmp(word, "after") == 0) {
+      entry = add(REGISTER);
+      ask_bytes(&entry->trigger);
+      entry->at = ask();
+      ask_bytes(&entry->block);
+    } else if (strcmp(word, "answer") == 0) {
+      entry = add(ANSWER);
+      ask_bytes(&entry->trigger);
+      ask_bytes(&entry->block);
+    } else if (strcmp(word, "exchange") == 0) {
+      entry = add(EXCHANGE);
+      ask_bytes(&entry->trigger);
+      ask_bytes(&entry->block);
+    } else if (strcmp(word, "run") == 0) {
+      run();
+    } else if (strcmp(word, "feed") == 0) {
+      feed();
+    } else if (strcmp(word, "raw") == 0) {
+      raw();
+    } else if (strcmp(word, "edges") == 0) {
+      edges();
+    } else if (strcmp(word, "command") == 0) {
+      command();
+    } else if (strcmp(word, "end") == 0) {
+      end();
+    } else {
+      fail("unknown request");
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,58 @@
+//! Every driver on boards of several families: a file that uses all its values is wired, or it is known why not.
+
+use sensedsl_model::{Request, resolve};
+use sensedsl_wiring::{Solved, Wiring};
+
+use super::library::{NoFiles, examples};
+
+/// Boards of different families, and the drivers that they cannot carry, with the reason's code: an RP2040 decodes no
+/// quadrature, and its pins stand no 5 V (the message names the resistors that help).
+const BOARDS: [(&str, &[(&str, &str)]); 4] = [
+    ("NUCLEO_F446RE", &[]),
+    ("NUCLEO_G474RE", &[]),
+    ("BLUEPILL_F103C8", &[]),
+    (
+        "RASPBERRYPI_PICO",
+        &[
+            ("gearmotor_tb6612", "E0320"),
+            ("quadrature_encoder", "E0320"),
+            ("n20_encoder", "E0320"),
+            ("hcsr04", "E0321"),
+            ("maxsonar_pw", "E0321"),
+            ("maxsonar_serial", "E0321"),
+            ("hrxl_maxsonar_serial", "E0321"),
+        ],
+    ),
+];
+
+#[test]
+fn every_driver_is_wired_on_boards_of_several_families() {
+    let mut wrong = Vec::new();
+    for (board, refused) in BOARDS {
+        for (name, text) in examples(board) {
+            let found = refusal(&text);
+            let expected =
+                refused.iter().find(|(driver, _)| *driver == name).map(|(_, code)| *code);
+            if found.as_deref() != expected {
+                wrong.push(format!("{name} on {board}: {found:?}, not {expected:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The codes of why a file is not wired; none where it is.
+fn refusal(text: &str) -> Option<String> {
+    let request = Request { path: "example.sense", text, ..Request::default() };
+    let resolved = resolve(&request, &NoFiles);
+    let codes = |all: &[sensedsl_diagnostics::Diagnostic]| {
+        let codes: Vec<String> = all.iter().map(|one| one.code.to_string()).collect();
+        Some(codes.join(" "))
+    };
+    let Some(design) = resolved.design else { return codes(&resolved.diagnostics) };
+    let wiring = Wiring::new(&design, None);
+    match wiring.solve_only(true) {
+        Solved::Wired(_) => None,
+        _ => codes(&wiring.check()),
+    }
+}

@@ -1,0 +1,45 @@
+//! What no firmware does yet is refused, never left out in silence; everything else is still written.
+
+use sensedsl_tests::{Ran, Scratch, sensedsl};
+
+fn generate(body: &str, arguments: &[&str]) -> Ran {
+    let scratch = Scratch::new("gaps");
+    let text = format!("board STM32F4DiscoveryBoard {{ {body} }}\n");
+    let file = scratch.write("gap.sense", text);
+    let out = scratch.join("out");
+    let call = sensedsl(["generate", "-q"]).arg(file).arg("-o").arg(&out);
+    let ran = call.args(arguments).run();
+    assert_eq!(out.exists(), ran.status == 0, "there is all or nothing\n{}", ran.stderr);
+    ran
+}
+
+#[test]
+fn what_firmware_would_ignore_is_an_error() {
+    for (body, what) in [
+        ("chip Imu { driver = mpu6050; id = 1; }", "chips"),
+        ("sensor Imu returns int16[3] { driver = mpu6050; id = 1; reading = rate; }", "chips"),
+        ("sensor Line returns uint16[3] { id = 1; type = analog; }", "arrays"),
+        (
+            "sensor A returns uint16 { id = 1; type = i2c; address = 0x20; register = 0; bits = 7..0; }",
+            "part of a word",
+        ),
+        ("sensor A returns uint16 { id = 1; type = analog; invalid = 4095; }", "`invalid`"),
+        ("sensor A returns uint16 { id = 1; type = analog; median = 5; }", "`median`"),
+        ("sensor A returns uint16 { id = 1; type = analog; change = 3; }", "`change`"),
+    ] {
+        let ran = generate(body, &[]).exits(1);
+        assert!(ran.stderr.contains("E0501"), "{body}\n{}", ran.stderr);
+        assert!(ran.stderr.contains(what), "{body}\n{}", ran.stderr);
+        assert!(ran.stderr.contains("--without firmware"), "{body}\n{}", ran.stderr);
+        let _ = generate(body, &["--without", "firmware"]).exits(0);
+    }
+}
+
+/// What a driver of the first edition says is served as before, and so is a curve, which is the host's.
+#[test]
+fn plain_devices_are_served() {
+    let ranger = "sensor A returns uint16 { id = 1; driver = srf08; address = 0xE0; }";
+    let _ = generate(ranger, &[]).exits(0);
+    let curve = "sensor A returns uint16 { id = 1; driver = gp2y0a21; }";
+    let _ = generate(curve, &[]).exits(0);
+}

@@ -1,0 +1,204 @@
+//! The C program: the tables of all units printed and compiled once, and asked a case for a case.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+
+use sensedsl_codegen::part::PartPlan;
+use sensedsl_model::design::{Device, PartIndex};
+use sensedsl_tests::{files, has, root};
+use sensedsl_wire::{Direction, ScalarType};
+
+use super::library::Unit;
+use super::vectors::Expected;
+
+/// What became of a case.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// What each field came to, in the words of the vectors.
+    pub fields: BTreeMap<usize, Expected>,
+    /// What each command wrote: bytes with spaces, or outputs and their values.
+    pub written: Vec<Vec<String>>,
+    /// Of a part on a bus.
+    pub is_wrong_identity: Option<bool>,
+}
+
+/// `-` for none.
+pub fn hex(bytes: &[u8]) -> String {
+    if bytes.is_empty() {
+        return "-".to_owned();
+    }
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The program, or nothing where there is no compiler.
+pub fn program(units: &[Unit]) -> Option<&'static Path> {
+    static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
+    PROGRAM.get_or_init(|| has("gcc").then(|| build(units))).as_deref()
+}
+
+fn build(units: &[Unit]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drivers");
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut text: String = units.iter().map(tables).collect();
+    text.push_str("static const unit_t units[] = {\n");
+    units.iter().for_each(|unit| text.push_str(&entry(unit)));
+    text.push_str("};\n");
+    std::fs::write(folder.join("tables.c"), text).unwrap();
+    let (core, program) = (root().join("runtime/core"), folder.join("drivers"));
+    let mut command = Command::new("gcc");
+    command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
+    command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
+    command.arg("-I").arg(&core).arg("-I").arg(&folder);
+    command.arg(root().join("tests/drivers/main.c")).args(files(&core, "c"));
+    let output = command.arg("-o").arg(&program).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+fn plan(unit: &Unit) -> Option<PartPlan> {
+    PartPlan::new(&unit.design, PartIndex(0))
+}
+
+fn type_macro(scalar: ScalarType) -> String {
+    format!("UP_TYPE_{}", scalar.name().to_uppercase())
+}
+
+/// The schema of a unit, and its part's tables.
+pub fn tables(unit: &Unit) -> String {
+    let (part, mut text) = (&unit.part().name.value, String::new());
+    let names = unit.devices().map(|device| format!("SENSE_FIELD_{}", device.name.value));
+    writeln!(text, "enum {{ {} }};", names.collect::<Vec<_>>().join(", ")).unwrap();
+    writeln!(text, "static const up_field_t fields_{part}[] = {{").unwrap();
+    for Device { name, id, value, direction, .. } in unit.devices() {
+        let direction = match direction {
+            Direction::Sensor => "UP_TO_HOST",
+            Direction::Actuator => "UP_TO_BOARD",
+        };
+        let (ty, is_array) = (type_macro(value.value.scalar), value.value.length.is_some());
+        let (name, id, count) = (&name.value, id.value, value.value.count());
+        writeln!(text, "  {{\"{name}\", {id}U, {ty}, {direction}, {is_array}, {count}U, 0U}},")
+            .unwrap();
+    }
+    let count = unit.devices().count();
+    writeln!(
+        text,
+        "}};\nstatic const up_schema_t schema_{part} = {{fields_{part}, {count}U, false, 0U}};"
+    )
+    .unwrap();
+    if let Some(plan) = plan(unit) {
+        text.push_str(&plan.c());
+        text.push('\n');
+    }
+    text.push_str(&unit_fields(unit));
+    text
+}
+
+/// What each device has in the tables.
+fn unit_fields(unit: &Unit) -> String {
+    let part = &unit.part().name.value;
+    let plan = plan(unit);
+    let one = |device: &Device| match &plan {
+        Some(plan) => format!("  {{{}}},\n", unit_field(plan, &device.name.value)),
+        None => "  {NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL},\n".to_owned(),
+    };
+    let all: String = unit.devices().map(one).collect();
+    format!("static const unit_field_t unit_fields_{part}[] = {{\n{all}}};\n")
+}
+
+fn unit_field(plan: &PartPlan, name: &str) -> String {
+    let filter = plan.filters.iter().find(|one| one.field == name);
+    let filter = filter.map_or("NULL, NULL, 0U".to_owned(), |one| {
+        format!("&filter_{name}, &filter_state_{name}, {}U", one.memory_words)
+    });
+    let formula = plan.formulas.iter().find(|one| one.field == name);
+    let formula = formula.map_or("NULL, NULL, 0U".to_owned(), |one| {
+        format!("&{}, {}_parameters, {}U", one.formula, one.prefix, one.output)
+    });
+    let named =
+        |is: bool, kind: &str| if is { format!("&{kind}_{name}") } else { "NULL".to_owned() };
+    let train = named(plan.trains.iter().any(|one| one.field == name), "train");
+    let bridge = named(plan.bridges.iter().any(|one| one.field == name), "bridge");
+    format!("{filter}, {formula}, {train}, {bridge}")
+}
+
+fn entry(unit: &Unit) -> String {
+    let part = &unit.part().name.value;
+    let mut text = format!("  {{.schema = &schema_{part}, .fields = unit_fields_{part}");
+    let plan = plan(unit);
+    if let Some(bus) = plan.as_ref().and_then(|plan| plan.bus.as_ref()) {
+        let prefix = &bus.prefix;
+        write!(text, ", .chip = &{prefix}_chip, .chip_state = &{prefix}_state, .work_bytes = sizeof {prefix}_work").unwrap();
+    }
+    if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
+        let prefix = &message.prefix;
+        write!(text, ", .message = &{prefix}_message, .message_state = &{prefix}_message_state")
+            .unwrap();
+        if !message.init.is_empty() {
+            write!(text, ", .message_init = {prefix}_init").unwrap();
+        }
+    }
+    text.push_str("},\n");
+    text
+}
+
+/// An outcome for each request, in their order.
+pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
+    let mut child = Command::new(program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let text = requests.join("\n") + "\n";
+    let writer = std::thread::spawn(move || {
+        // A program that a sanitizer ends reads no more; its status says so below.
+        let _ = stdin.write_all(text.as_bytes());
+    });
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    let answers = String::from_utf8(output.stdout).unwrap();
+    let all: Vec<Outcome> = answers.split_inclusive("end\n").map(read).collect();
+    let said = String::from_utf8_lossy(&output.stderr);
+    let at = requests.get(all.len().saturating_sub(1)).cloned().unwrap_or_default();
+    assert!(output.status.success(), "{said}\nin or behind:\n{at}\n{answers:.0}");
+    assert_eq!(all.len(), requests.len());
+    all
+}
+
+fn read(answer: &str) -> Outcome {
+    let mut outcome = Outcome::default();
+    let mut outputs: Vec<String> = Vec::new();
+    for line in answer.lines() {
+        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+        match word {
+            "written" => outcome.written.push(vec![spaced(rest)]),
+            "output" => outputs.push(rest.to_owned()),
+            "commanded" => outcome.written.push(std::mem::take(&mut outputs)),
+            "identity" => outcome.is_wrong_identity = Some(rest == "wrong"),
+            "end" => {}
+            _ => {
+                let mut numbers = rest.split(' ').map(|number| number.parse::<i64>().unwrap());
+                let field = usize::try_from(numbers.next().unwrap()).unwrap();
+                let what = match word {
+                    "value" => Expected::Values(numbers.collect(), 0),
+                    "invalid" => Expected::Invalid,
+                    "error" => Expected::WrongIdentity,
+                    _ => panic!("{line}"),
+                };
+                outcome.fields.insert(field, what);
+            }
+        }
+    }
+    outcome
+}
+
+/// `407FF0` as `40 7F F0`.
+fn spaced(digits: &str) -> String {
+    let pairs = digits.as_bytes().chunks(2).map(|pair| String::from_utf8_lossy(pair).into_owned());
+    pairs.collect::<Vec<_>>().join(" ")
+}
