@@ -16,6 +16,9 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <vector>
+
+#include "sensedsl/scaling.hpp"
 
 namespace sensedsl {
 
@@ -58,6 +61,19 @@ template <typename T> inline void print_all(std::ostream &out, const T *values, 
         print(out, values[i]);
     }
     out << ']';
+}
+
+/// ` (28 cm)` behind raw values: what they mean.
+template <typename T>
+inline void print_scaled(std::ostream &out, const T *raw, size_t count, const Scaling &scaling,
+                         const std::string &quantity) {
+    std::vector<double> values;
+    for (size_t i = 0; i < count; ++i) {
+        values.push_back(scaling.of(static_cast<double>(raw[i])));
+    }
+    out << " (";
+    print_all(out, &values[0], count);
+    out << quantity << ')';
 }
 
 /// What is wrong with typed text as a `T`; empty when nothing is, and then `value` is it. Integers are
@@ -140,15 +156,15 @@ inline std::string outside(const Limits &limits, double value, const std::string
            real_text(is_below ? limits.min : limits.max, 6, false) + quantity + ")";
 }
 
-/// The same for the first of `count` raw scalars whose `scale * raw + offset` is outside.
+/// The same for the first of `count` raw scalars whose shown value is outside.
 template <typename T>
-inline std::string outside_of(const Limits &limits, const T *raw, size_t count, double scale,
-                              double offset, const std::string &quantity) {
+inline std::string outside_of(const Limits &limits, const T *raw, size_t count,
+                              const Scaling &scaling, const std::string &quantity) {
     const double infinity = std::numeric_limits<double>::infinity();
     const bool has_limits = limits.min > -infinity || limits.max < infinity;
     std::string text;
     for (size_t i = 0; i < count && text.empty() && has_limits; ++i) {
-        text = outside(limits, scale * static_cast<double>(raw[i]) + offset, quantity);
+        text = outside(limits, scaling.of(static_cast<double>(raw[i])), quantity);
     }
     return text;
 }
