@@ -86,6 +86,8 @@ static void scaled_values() {
     print_scaled(text, raw, 3, bent, " cm");
     print_scaled(text, raw + 1, 1, bent, "");
     CHECK(text.str() == " ([10, 20, -1] cm) (20)");
+    CHECK(shown_text(4294967295.0) == "4294967295" && shown_text(-0.1) == "-0.1");
+    CHECK(shown_text(2.0 / 3.0) == "0.666666667" && shown_text(1e300) == "1e+300");
 }
 
 static void folder(const std::string &path) {

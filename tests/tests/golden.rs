@@ -62,6 +62,6 @@ fn miniature_car() {
 }
 
 #[test]
-fn rover() {
-    agrees("tests/hosts", "rover", &["--without", "firmware"]);
+fn curves() {
+    agrees("tests/hosts", "curves", &["--without", "firmware"]);
 }

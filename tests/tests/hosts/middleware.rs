@@ -217,15 +217,15 @@ fn libcluon_shows_values_through_curves() {
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
             .arg(&cid)
             .arg(folder.join("sense.odvd"))
-            .arg("21020:sense_rover_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535")
-            .arg("21022:sense_rover_Winch:raw=3001")
-            .arg("21021:sense_rover_Lamps:raw0=True,raw2=True")
-            .arg("21022:sense_rover_Winch:raw=3000"),
+            .arg("21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535")
+            .arg("21022:sense_curves_Winch:raw=3001")
+            .arg("21021:sense_curves_Lamps:raw0=True,raw2=True")
+            .arg("21022:sense_curves_Winch:raw=3000"),
         &folder,
     );
     peer.wait_for("ready");
     let service = Background::start(
-        Command::new(build.join("rover_Rover"))
+        Command::new(build.join("curves_Rover"))
             .arg(format!("--cid={cid}"))
             .arg(format!("--device={}", line.device.display()))
             .arg("--verbose"),
@@ -237,8 +237,9 @@ fn libcluon_shows_values_through_curves() {
     service.wait_for("Position = -11520");
     shown::BY_HAND.iter().for_each(|text| service.wait_for(text));
     shown::check(&service.output(), &schema);
-    peer.wait_for("21014 14 raw=165 value=5.5\n");
+    peer.wait_for("21014 14 raw=65535 value=3.0\n");
     peer.wait_for("21012 12 raw0=True raw1=False raw2=True\n");
+    shown::check_messages(&peer.output(), &schema);
     hear_commands(&mut line, board, &shown::commands());
     service.wait_for(&format!("Winch: not sent: {}\n", shown::REFUSED));
 }
@@ -358,12 +359,12 @@ impl OpenDavinci {
             return;
         }
         let (folder, schema) = shown::generate(self.host, "run");
-        let application = self.build(&folder, &folder.join("src/Rover.cpp"), "rover_Rover");
-        let printer = self.build(&folder, &folder.join("src/print.cpp"), "rover_print");
+        let application = self.build(&folder, &folder.join("src/Rover.cpp"), "curves_Rover");
+        let printer = self.build(&folder, &folder.join("src/print.cpp"), "curves_print");
         let commander = self.commander(&folder, shown::COMMANDS);
         let mut line = Line::new();
         let configuration = folder.join("configuration");
-        std::fs::write(&configuration, "rover.nothing = 1\n").unwrap();
+        std::fs::write(&configuration, "curves.nothing = 1\n").unwrap();
         let configured = format!("--configuration={}", configuration.display());
         let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
         std::thread::sleep(Duration::from_secs(1));

@@ -119,7 +119,7 @@ fn vector_files() -> Vec<PathBuf> {
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "txt"));
     files.sort();
-    assert!(files.len() >= 3, "{files:?}");
+    assert!(files.len() >= 6, "{files:?}");
     files
 }
 
@@ -201,7 +201,7 @@ fn damaged_streams_are_read_as_by_the_reference() {
     if !tools::have("g++") {
         return;
     }
-    for name in ["fig2", "checksum"] {
+    for name in ["fig2", "checksum", "arrays", "arrays_checksum"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
         let (schema, vectors) = read(&path);
         let frames: Vec<Vec<u8>> = vectors

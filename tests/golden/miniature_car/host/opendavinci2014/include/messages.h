@@ -15,8 +15,8 @@
 #include "core/data/Container.h"
 #include "core/data/SerializableData.h"
 
-#include "sensedsl/link.hpp"
 #include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/link.hpp"
 #include "sensedsl/text.hpp"
 
 namespace sense {

@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -16,7 +17,6 @@
 #include <ostream>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "sensedsl/scaling.hpp"
 
@@ -63,17 +63,24 @@ template <typename T> inline void print_all(std::ostream &out, const T *values, 
     out << ']';
 }
 
+/// A shown value for people: whole numbers in full, others to nine significant digits. The raw value
+/// stands beside it.
+inline std::string shown_text(double value) {
+    const bool is_whole = !(value < floor(value)) && !(value > floor(value));
+    char text[40];
+    snprintf(text, sizeof text, "%.*g", is_whole ? 15 : 9, value);
+    return text;
+}
+
 /// ` (28 cm)` behind raw values: what they mean.
 template <typename T>
 inline void print_scaled(std::ostream &out, const T *raw, size_t count, const Scaling &scaling,
                          const std::string &quantity) {
-    std::vector<double> values;
+    out << (count == 1 ? " (" : " ([");
     for (size_t i = 0; i < count; ++i) {
-        values.push_back(scaling.of(static_cast<double>(raw[i])));
+        out << (i == 0 ? "" : ", ") << shown_text(scaling.of(static_cast<double>(raw[i])));
     }
-    out << " (";
-    print_all(out, &values[0], count);
-    out << quantity << ')';
+    out << (count == 1 ? "" : "]") << quantity << ')';
 }
 
 /// What is wrong with typed text as a `T`; empty when nothing is, and then `value` is it. Integers are
