@@ -1,6 +1,8 @@
-// Sends two commands of design `all-types` again and again: an OpenDaVINCI application that a user would write.
-// Compiled against the messages.h of either OpenDaVINCI host.
+// Sends commands again and again: an OpenDaVINCI application that a user would write. Compiled against the
+// messages.h of either OpenDaVINCI host; commands.h, made by the test, defines COMMANDS in terms of
+// SEND(type, message).
 #include "messages.h"
+#include "commands.h"
 
 #include <iostream>
 
@@ -27,26 +29,25 @@ private:
     virtual void tearDown() {}
 
     virtual ExitCode body() {
-        sense::robot::T7 big;
-        big.setRaw(0x0123456789ABCDEFU);
-        sense::robot::B4 pair;
-        pair.setRaw(0, -300);
-        pair.setRaw(1, 32767);
 #ifdef OPENDAVINCI2014
+#define SEND(TYPE, MESSAGE)                                                                        \
+    {                                                                                              \
+        core::data::Container container(TYPE::ID(), MESSAGE);                                      \
+        getConference().send(container);                                                           \
+    }
         while (getModuleState() == core::base::ModuleState::RUNNING) {
-            core::data::Container first(sense::robot::T7::ID(), big);
-            core::data::Container second(sense::robot::B4::ID(), pair);
-            getConference().send(first);
-            getConference().send(second);
+            COMMANDS
         }
         return core::base::ModuleState::OKAY;
 #else
+#define SEND(TYPE, MESSAGE)                                                                        \
+    {                                                                                              \
+        odcore::data::Container container(MESSAGE);                                                \
+        getConference().send(container);                                                           \
+    }
         while (getModuleStateAndWaitForRemainingTimeInTimeslice() ==
                odcore::data::dmcp::ModuleStateMessage::RUNNING) {
-            odcore::data::Container first(big);
-            odcore::data::Container second(pair);
-            getConference().send(first);
-            getConference().send(second);
+            COMMANDS
         }
         return odcore::data::dmcp::ModuleExitCodeMessage::OKAY;
 #endif

@@ -1,4 +1,4 @@
-// What the shared files of the C++ hosts do without a board: typed values, USB identities in a made-up
+// What the shared files of the C++ hosts do without a board: typed and scaled values, USB identities in a made-up
 // /sys, differences of schemas, sessions with a made-up clock, options, any baud rate on a real
 // pseudo-terminal. Argument: an empty folder. Prints `ok`, or each check that failed.
 #include <stdio.h>
@@ -58,6 +58,36 @@ static void typed_values() {
     CHECK(outside(limits, 30.0, " deg").empty());
     CHECK(outside(limits, 31.0, " deg") == " (above the maximum of 30 deg)");
     CHECK(outside(limits, -31.0, "") == " (below the minimum of -30)");
+}
+
+static bool shows(const Scaling &scaling, double raw, double expected) {
+    const double found = scaling.of(raw);
+    return !(found < expected) && !(found > expected) && !(found != found);
+}
+
+static void scaled_values() {
+    static const Point points[] = {{0.0, 10.0}, {4.0, 30.0}, {5.0, -1.0}};
+    static const Point one[] = {{2.0, 7.0}};
+    const Scaling straight(0.5, -1.0), bent(1.0, 0.0, points), half(0.5, 1.0, points), flat(1.0, 0.0, one);
+    CHECK(shows(straight, 6.0, 2.0) && shows(straight, -6.0, -4.0));
+    CHECK(shows(bent, 0.0, 10.0) && shows(bent, 4.0, 30.0) && shows(bent, 5.0, -1.0));
+    CHECK(shows(bent, 1.0, 15.0) && shows(bent, 4.5, 14.5));
+    CHECK(shows(bent, -1e300, 10.0) && shows(bent, 5.25, -1.0));
+    CHECK(shows(half, -2.0, 10.0) && shows(half, 0.0, 15.0) && shows(half, 8.0, -1.0));
+    CHECK(shows(flat, 1.0, 7.0) && shows(flat, 2.0, 7.0) && shows(flat, 3.0, 7.0));
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(shows(bent, infinity, -1.0) && shows(bent, -infinity, 10.0));
+    CHECK(bent.of(infinity - infinity) != bent.of(infinity - infinity));
+    const uint16_t raw[] = {0, 2, 5};
+    const Limits limits = {0.0, 25.0};
+    CHECK(outside_of(limits, raw, 2, bent, " cm").empty());
+    CHECK(outside_of(limits, raw, 3, bent, " cm") == " (below the minimum of 0 cm)");
+    std::ostringstream text;
+    print_scaled(text, raw, 3, bent, " cm");
+    print_scaled(text, raw + 1, 1, bent, "");
+    CHECK(text.str() == " ([10, 20, -1] cm) (20)");
+    CHECK(shown_text(4294967295.0) == "4294967295" && shown_text(-0.1) == "-0.1");
+    CHECK(shown_text(2.0 / 3.0) == "0.666666667" && shown_text(1e300) == "1e+300");
 }
 
 static void folder(const std::string &path) {
@@ -237,6 +267,7 @@ static void rates() {
 int main(int argc, char **argv) {
     const std::string root = argc > 1 ? argv[1] : ".";
     typed_values();
+    scaled_values();
     usb_identities(real_path(root));
     schemas();
     sessions();

@@ -1,4 +1,4 @@
-//! Everything that `generate` writes for two designs, byte for byte, as it was read and agreed to.
+//! Everything that `generate` writes for a few designs, byte for byte, as it was read and agreed to.
 //!
 //! The runtime's own files are copied from `runtime/` and left out here. After a change that is
 //! meant: `cargo xtask bless`, and read the difference.
@@ -13,19 +13,19 @@ fn is_runtime(path: &str) -> bool {
     path.contains("/uproxy/") || path.contains("/include/sensedsl/")
 }
 
-fn generated(example: &str) -> BTreeMap<String, Vec<u8>> {
+fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let scratch = Scratch::new("golden");
-    let file = format!("examples/{example}.sense");
-    let call = sensedsl(["generate", &file, "-q", "-o"]).arg(scratch.join("out"));
+    let call = sensedsl(["generate", file, "-q", "-o"]).arg(scratch.join("out")).args(arguments);
     let _ = call.run().exits(0);
     let mut files = tree(&scratch.join("out"));
     files.retain(|path, _| !is_runtime(path));
     files
 }
 
-fn agrees(example: &str) {
+/// Holds what is generated for `folder/example.sense` to the tree of that name.
+fn agrees(folder: &str, example: &str, arguments: &[&str]) {
+    let files = generated(&format!("{folder}/{example}.sense"), arguments);
     let folder = root().join("tests/golden").join(example);
-    let files = generated(example);
     if std::env::var_os("SENSEDSL_BLESS").is_some() {
         if folder.exists() {
             fs::remove_dir_all(&folder).unwrap();
@@ -53,10 +53,15 @@ fn agrees(example: &str) {
 
 #[test]
 fn fig2() {
-    agrees("fig2");
+    agrees("examples", "fig2", &[]);
 }
 
 #[test]
 fn miniature_car() {
-    agrees("miniature_car");
+    agrees("examples", "miniature_car", &[]);
+}
+
+#[test]
+fn curves() {
+    agrees("tests/hosts", "curves", &["--without", "firmware"]);
 }

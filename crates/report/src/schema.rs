@@ -1,12 +1,12 @@
 //! `schema.json`: the wire, for programs that decode it without generated code.
 
 use sensedsl_model::design::{Board, Design, Device, DeviceIndex};
-use sensedsl_wire::{Direction, Schema};
+use sensedsl_wire::{Direction, ScalarType, Schema};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 use serde_json::{Map, Value, json};
 
 /// Version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The links of all boards that carry a device.
 #[must_use]
@@ -20,11 +20,12 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     let devices: Vec<DeviceIndex> = on.devices.iter().map(|wiring| wiring.device).collect();
     let schema: Schema = design.schema(on.board, &devices);
     let items: Vec<Value> =
-        devices.iter().filter_map(|index| design.device(*index)).map(item).collect();
+        devices.iter().filter_map(|index| item(design, design.device(*index)?)).collect();
     json!({
         "name": board.name.value,
         "hash": format!("0x{:08x}", schema.hash()),
         "checksum": schema.checksum.name(),
+        "stamp": false,
         "frame_bytes_max": {
             "sensors": schema.frame_bytes_max(Direction::Sensor),
             "actuators": schema.frame_bytes_max(Direction::Actuator),
@@ -33,14 +34,19 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
     })
 }
 
-fn item(device: &Device) -> Value {
+fn item(design: &Design, device: &Device) -> Option<Value> {
+    let part = design.part(device.part)?;
+    let scalar = device.value.value.scalar;
     let mut object = Map::new();
     object.insert("id".into(), device.id.value.into());
     object.insert("name".into(), device.name.value.as_str().into());
     object.insert("direction".into(), device.direction.name().into());
-    object.insert("type".into(), device.value.value.scalar.name().into());
+    object.insert("type".into(), scalar.name().into());
     object.insert("length".into(), device.value.value.length.map_or(Value::Null, Value::from));
     object.insert("kind".into(), device.kind.name().name().into());
+    let chip = part.chip.is_some();
+    let chip = chip.then(|| json!({ "name": part.name.value, "driver": part.driver }));
+    object.insert("chip".into(), chip.unwrap_or_default());
     let shown = &device.shown;
     for (name, text) in [("label", &shown.label), ("quantity", &shown.quantity)] {
         object.insert(name.into(), text.as_deref().map_or(Value::Null, Value::from));
@@ -50,5 +56,25 @@ fn item(device: &Device) -> Value {
     for (name, number) in numbers {
         object.insert(name.into(), number.map_or(Value::Null, Value::from));
     }
-    Value::Object(object)
+    object.insert("curve".into(), shown.curve.iter().map(|(x, y)| json!([x, y])).collect());
+    let ranges = device.filter.invalid.iter();
+    let invalid = ranges.map(|(from, to)| json!([raw(scalar, *from), raw(scalar, *to)]));
+    object.insert("invalid".into(), invalid.collect());
+    Some(Value::Object(object))
+}
+
+/// A raw value as JSON writes it: without a fraction where the type has none.
+fn raw(scalar: ScalarType, number: f64) -> Value {
+    /// Every whole number up to it is a double.
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    let is_real = matches!(scalar, ScalarType::Float32 | ScalarType::Float64);
+    if is_real || number.fract() != 0.0 || number.abs() > EXACT {
+        return number.into();
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "whole, and within what a double holds exactly"
+    )]
+    let whole = number as i64;
+    whole.into()
 }

@@ -25,7 +25,7 @@ fn tests() -> Vec<PathBuf> {
 
 fn vectors() -> Vec<PathBuf> {
     let vectors = files(&root().join("tests/vectors"), "txt");
-    assert!(vectors.len() >= 3, "the shared vectors are missing");
+    assert!(vectors.len() >= 6, "the shared vectors are missing");
     vectors
 }
 

@@ -62,6 +62,11 @@ pub(crate) fn all_types() -> Vec<HostBoard> {
             offset: (index % 4 == 1).then_some(-3.0),
             min: (index % 5 == 4 && sensor).then_some(-1e9),
             max: (index % 5 == 3 && sensor).then_some(1e9),
+            curve: if index % 7 == 6 {
+                vec![(-1e18, -4.5), (0.0, 0.0), (1e18, 5e-3)]
+            } else {
+                Vec::new()
+            },
             ..Presentation::default()
         };
         board.presentations.insert(item.id, shown);
@@ -80,7 +85,7 @@ pub(crate) fn hostile() -> Vec<HostBoard> {
                  Commands Hello ID ShortName LongName getRaw setRaw accept toString m_raw \
                  _leading __double default_ size_t uint8_t string Handler Message Board Publisher \
                  Item Serial Report decoder handler call publish command send print text entry \
-                 message bytes out begin WIRE_ID COUNT scaled latest board Größe µ";
+                 message bytes out begin WIRE_ID COUNT scaled scaling curve latest board Größe µ";
     let mut lines = String::new();
     for (index, name) in names.split_whitespace().enumerate() {
         let direction = if index % 2 == 0 { "sensor" } else { "actuator" };
@@ -95,6 +100,11 @@ pub(crate) fn hostile() -> Vec<HostBoard> {
             label: Some(text.clone()),
             quantity: Some(text),
             scale: Some([0.1, 1e-300, -1e300, 3.0][index % 4]),
+            curve: if index % 2 == 0 {
+                vec![(-1e300, 1e-300), (1e-300, -1e300)]
+            } else {
+                Vec::new()
+            },
             ..Presentation::default()
         };
         board.presentations.insert(item.id, shown);

@@ -14,11 +14,11 @@ use sensedsl_wire::{
 use super::compile::compile;
 use super::terminal::Line;
 use super::tools::{self, Background};
-use super::{designs, files, link};
+use super::{designs, files, link, shown};
 
 /// A session of its own for each test and run.
 fn session(test: u32) -> String {
-    (10 + 6 * (std::process::id() % 40) + test).to_string()
+    (10 + 9 * (std::process::id() % 27) + test).to_string()
 }
 
 /// How the host says that its sources are compiled.
@@ -127,8 +127,7 @@ fn libcluon_compiles() {
 }
 
 /// As its README says.
-fn build_libcluon(tree: &Path, test: &str, boards: &[HostBoard]) -> (PathBuf, PathBuf) {
-    let folder = files::generate("libcluon", test, boards);
+fn build_libcluon(tree: &Path, folder: PathBuf) -> (PathBuf, PathBuf) {
     let build = folder.join("build");
     let mut configure = Command::new("cmake");
     configure.arg("-S").arg(&folder).arg("-B").arg(&build);
@@ -143,7 +142,8 @@ fn libcluon_comes_back() {
     if !have_pycluon() || !tools::have("cmake") {
         return;
     }
-    let (folder, build) = build_libcluon(&tree, "link", &link::design());
+    let (folder, build) =
+        build_libcluon(&tree, files::generate("libcluon", "link", &link::design()));
     let cid = session(5);
     let start = |device: &Path| {
         let mut command = Command::new(build.join("robot_STM32F4DiscoveryBoard"));
@@ -161,7 +161,7 @@ fn libcluon_speaks_with_an_independent_peer() {
         return;
     }
     let boards = designs::all_types();
-    let (folder, build) = build_libcluon(&tree, "peer", &boards);
+    let (folder, build) = build_libcluon(&tree, files::generate("libcluon", "peer", &boards));
     let cid = session(0);
     let mut line = Line::new();
     let peer = Background::start(
@@ -201,6 +201,53 @@ fn libcluon_speaks_with_an_independent_peer() {
     ];
     hear_commands(&mut line, &boards[0], &expected);
 }
+
+#[test]
+fn libcluon_shows_values_through_curves() {
+    let Some(tree) = tools::tree("LIBCLUON") else { return };
+    if !have_pycluon() || !tools::have("cmake") {
+        return;
+    }
+    let (folder, schema) = shown::generate("libcluon", "run");
+    let (folder, build) = build_libcluon(&tree, folder);
+    let cid = session(8);
+    let mut line = Line::new();
+    let peer = Background::start(
+        Command::new("python3")
+            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
+            .arg(&cid)
+            .arg(folder.join("sense.odvd"))
+            .arg("21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535")
+            .arg("21022:sense_curves_Winch:raw=3001")
+            .arg("21021:sense_curves_Lamps:raw0=True,raw2=True")
+            .arg("21022:sense_curves_Winch:raw=3000"),
+        &folder,
+    );
+    peer.wait_for("ready");
+    let service = Background::start(
+        Command::new(build.join("curves_Rover"))
+            .arg(format!("--cid={cid}"))
+            .arg(format!("--device={}", line.device.display()))
+            .arg("--verbose"),
+        &folder,
+    );
+    let board = &shown::boards()[0];
+    greet(&mut line, board);
+    line.say(&shown::stream());
+    service.wait_for("Position = -11520");
+    shown::BY_HAND.iter().for_each(|text| service.wait_for(text));
+    shown::check(&service.output(), &schema);
+    peer.wait_for("21014 14 raw=65535 value=3.0\n");
+    peer.wait_for("21012 12 raw0=True raw1=False raw2=True\n");
+    shown::check_messages(&peer.output(), &schema);
+    hear_commands(&mut line, board, &shown::commands());
+    service.wait_for(&format!("Winch: not sent: {}\n", shown::REFUSED));
+}
+
+/// Two commands of design `all-types` for `commander.cpp`.
+const BIG_AND_PAIR: &str = "sense::robot::T7 big; big.setRaw(0x0123456789ABCDEFU); \
+    SEND(sense::robot::T7, big) sense::robot::B4 pair; pair.setRaw(0, -300); pair.setRaw(1, 32767); \
+    SEND(sense::robot::B4, pair)";
 
 /// One of the two OpenDaVINCI hosts and where its tree has what.
 struct OpenDavinci {
@@ -263,6 +310,14 @@ impl OpenDavinci {
         program
     }
 
+    /// A program that sends these commands again and again.
+    fn commander(&self, folder: &Path, commands: &str) -> PathBuf {
+        let header = folder.join("include/commands.h");
+        std::fs::write(header, format!("#define COMMANDS {commands}\n")).unwrap();
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/commander.cpp");
+        self.build(folder, &source, "commander")
+    }
+
     fn start(&self, program: &Path, cid: &str, folder: &Path, more: &[&str]) -> Background {
         let mut command = Command::new(program);
         command.current_dir(folder).arg(format!("--cid={cid}")).arg("--freq=20").args(more);
@@ -298,6 +353,38 @@ impl OpenDavinci {
         link::scenes(&link::Application { name: self.host, program: "robot_Board", start: &start });
     }
 
+    /// Values through curves, and arrays, both ways, as the design's file has them.
+    fn shows(&self, cid: &str) {
+        if !self.can_run() {
+            return;
+        }
+        let (folder, schema) = shown::generate(self.host, "run");
+        let application = self.build(&folder, &folder.join("src/Rover.cpp"), "curves_Rover");
+        let printer = self.build(&folder, &folder.join("src/print.cpp"), "curves_print");
+        let commander = self.commander(&folder, shown::COMMANDS);
+        let mut line = Line::new();
+        let configuration = folder.join("configuration");
+        std::fs::write(&configuration, "curves.nothing = 1\n").unwrap();
+        let configured = format!("--configuration={}", configuration.display());
+        let _supercomponent = self.start(&self.supercomponent, cid, &folder, &[&configured]);
+        std::thread::sleep(Duration::from_secs(1));
+        let printer = self.start(&printer, cid, &folder, &[]);
+        let device = format!("--device={}", line.device.display());
+        let application = self.start(&application, cid, &folder, &[&device, "--verbose=1"]);
+        let board = &shown::boards()[0];
+        greet(&mut line, board);
+        std::thread::sleep(Duration::from_secs(1));
+        line.say(&shown::stream());
+        for output in [&printer, &application] {
+            output.wait_for("Position = -11520");
+            shown::BY_HAND.iter().for_each(|text| output.wait_for(text));
+            shown::check(&output.output(), &schema);
+        }
+        let _commander = self.start(&commander, cid, &folder, &[]);
+        hear_commands(&mut line, board, &shown::commands());
+        application.wait_for(&format!("Winch: not sent: {}\n", shown::REFUSED));
+    }
+
     /// The board's values reach another application as Containers, another application's Containers
     /// reach the board.
     fn run(&self, cid: &str) {
@@ -309,8 +396,7 @@ impl OpenDavinci {
         let application =
             self.build(&folder, &folder.join("src/Everything.cpp"), "robot_Everything");
         let printer = self.build(&folder, &folder.join("src/print.cpp"), "robot_print");
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/commander.cpp");
-        let commander = self.build(&folder, &source, "commander");
+        let commander = self.commander(&folder, BIG_AND_PAIR);
         let mut line = Line::new();
         let device = format!("robot_Everything.device = {}\n", line.device.display());
         let configuration = folder.join("configuration");
@@ -354,6 +440,20 @@ fn opendavinci2014_compiles() {
 fn opendavinci2014_runs() {
     if let Some(tree) = opendavinci2014() {
         tree.run(&session(1));
+    }
+}
+
+#[test]
+fn opendavinci2014_shows_values_through_curves() {
+    if let Some(tree) = opendavinci2014() {
+        tree.shows(&session(6));
+    }
+}
+
+#[test]
+fn opendavinci_shows_values_through_curves() {
+    if let Some(tree) = opendavinci() {
+        tree.shows(&session(7));
     }
 }
 

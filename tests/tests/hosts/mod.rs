@@ -13,6 +13,7 @@ mod files;
 mod link;
 mod middleware;
 mod page;
+mod shown;
 mod terminal;
 mod tools;
 mod units;

@@ -94,13 +94,23 @@ pub struct Limits {
     pub max: Option<f64>,
 }
 
-/// `scale * raw + offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How a raw value becomes the shown one: `scale * raw + offset`, and through the curve where there is
+/// one, linear between its points, its ends held beyond them.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scaling {
     /// Factor, finite.
     pub scale: f64,
     /// Summand, finite.
     pub offset: f64,
+    /// Points, finite, the first numbers ascending; empty for none.
+    pub curve: Vec<(f64, f64)>,
+}
+
+impl Default for Scaling {
+    /// The raw value itself.
+    fn default() -> Self {
+        Self { scale: 1.0, offset: 0.0, curve: Vec::new() }
+    }
 }
 
 impl HostPlan {
@@ -161,9 +171,11 @@ impl DirectionPlan {
 impl Scaling {
     /// A quantity alone says that the raw value is in it already.
     fn of(shown: &Presentation) -> Option<Self> {
-        let asked = shown.scale.is_some() || shown.offset.is_some() || shown.quantity.is_some();
-        let scaling =
-            Self { scale: shown.scale.unwrap_or(1.0), offset: shown.offset.unwrap_or(0.0) };
-        (asked && scaling.scale.is_finite() && scaling.offset.is_finite()).then_some(scaling)
+        let Presentation { quantity, scale, offset, curve, .. } = shown;
+        let asked = scale.is_some() || offset.is_some() || quantity.is_some() || !curve.is_empty();
+        let (scale, offset) = (scale.unwrap_or(1.0), offset.unwrap_or(0.0));
+        let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+        let is_finite = finite(&(scale, offset)) && curve.iter().all(finite);
+        (asked && is_finite).then(|| Self { scale, offset, curve: curve.clone() })
     }
 }

@@ -10,7 +10,7 @@ macro_rules! shared {
 }
 
 /// From C++98 on: what every host is made of.
-const EVERY_HOST: [(&str, &str); 13] = [
+const EVERY_HOST: [(&str, &str); 14] = [
     shared!("cause.hpp"),
     shared!("connection.hpp"),
     shared!("decode.hpp"),
@@ -18,6 +18,7 @@ const EVERY_HOST: [(&str, &str); 13] = [
     shared!("link.hpp"),
     shared!("memo.hpp"),
     shared!("options.hpp"),
+    shared!("scaling.hpp"),
     shared!("serial.hpp"),
     shared!("session.hpp"),
     shared!("text.hpp"),

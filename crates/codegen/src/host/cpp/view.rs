@@ -68,9 +68,13 @@ pub(super) struct MessageView {
     pub(super) is_bool: bool,
     pub(super) count: usize,
     pub(super) is_array: bool,
+    /// The function that says how values are shown: `::sense::fig2::scaling::IRFront`.
+    pub(super) scaling: String,
     /// C++ literals.
     pub(super) scale: String,
     pub(super) offset: String,
+    /// Points as C++ initialisers: `{80.0, 8.0}`.
+    pub(super) curve: Vec<String>,
     pub(super) has_value: bool,
     /// C++ expressions of type double.
     pub(super) min: String,
@@ -160,11 +164,12 @@ impl MessageView {
         let scalar = message.value.scalar;
         let count = message.value.count();
         let types = CppTypes::of(scalar);
-        let (scale, offset) = message.scaling.map_or((1.0, 0.0), |it| (it.scale, it.offset));
+        let scaling = message.scaling.clone().unwrap_or_default();
         let label = message.label.as_deref().map(|label| format!(": {label}")).unwrap_or_default();
         Self {
             name: string_literal(&message.name),
             path: format!("::sense::{design}::{ident}"),
+            scaling: format!("::sense::{design}::scaling::{ident}"),
             odvd_name: format!("sense.{design}.{ident}"),
             ident,
             id: message.id,
@@ -183,8 +188,9 @@ impl MessageView {
             is_bool: scalar == ScalarType::Bool,
             count,
             is_array: message.value.length.is_some(),
-            scale: real_literal(scale),
-            offset: real_literal(offset),
+            scale: real_literal(scaling.scale),
+            offset: real_literal(scaling.offset),
+            curve: scaling.curve.iter().map(point).collect(),
             has_value: message.scaling.is_some(),
             min: limit_literal("-", message.limits.min),
             max: limit_literal("", message.limits.max),
@@ -265,6 +271,11 @@ impl CppTypes {
 /// A finite number as a C++ literal of type double.
 fn real_literal(number: f64) -> String {
     format!("{number:?}")
+}
+
+/// A point of a curve as a C++ initialiser.
+fn point((x, y): &(f64, f64)) -> String {
+    format!("{{{}, {}}}", real_literal(*x), real_literal(*y))
 }
 
 /// A limit as a C++ expression; one that is not there is infinite.

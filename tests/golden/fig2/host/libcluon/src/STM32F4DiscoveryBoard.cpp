@@ -89,7 +89,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::IRFront message;
             message.raw(raw[0]);
-            tell("IRFront", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            tell("IRFront", raw, 1, false, ::sense::fig2::scaling::IRFront(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -98,7 +98,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::IRFrontRight message;
             message.raw(raw[0]);
-            tell("IRFrontRight", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            tell("IRFrontRight", raw, 1, false, ::sense::fig2::scaling::IRFrontRight(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -107,8 +107,8 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::USRear message;
             message.raw(raw[0]);
-            message.value(1.0 * static_cast<double>(raw[0]) + 0.0);
-            tell("USRear", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
+            message.value(::sense::fig2::scaling::USRear().of(static_cast<double>(raw[0])));
+            tell("USRear", raw, 1, true, ::sense::fig2::scaling::USRear(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " cm");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -117,7 +117,7 @@ private:
             sensedsl::load_all(bytes, raw, 1);
             ::sense::fig2::WheelEncoder message;
             message.raw(raw[0]);
-            tell("WheelEncoder", raw, 1, 1.0, 0.0, {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            tell("WheelEncoder", raw, 1, false, ::sense::fig2::scaling::WheelEncoder(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
             od4_.send(message, sampled, stamp);
             break;
         }
@@ -127,12 +127,16 @@ private:
     }
 
     template <typename T>
-    void tell(const char *name, const T *raw, std::size_t count, double scale, double offset,
-              const sensedsl::Limits &limits, const char *quantity) const {
+    void tell(const char *name, const T *raw, std::size_t count, bool has_value,
+              const sensedsl::Scaling &scaling, const sensedsl::Limits &limits,
+              const char *quantity) const {
         if (settings_.is_verbose) {
             std::cout << name << " = ";
             sensedsl::print_all(std::cout, raw, count);
-            std::cout << sensedsl::outside_of(limits, raw, count, scale, offset, quantity) << std::endl;
+            if (has_value) {
+                sensedsl::print_scaled(std::cout, raw, count, scaling, quantity);
+            }
+            std::cout << sensedsl::outside_of(limits, raw, count, scaling, quantity) << std::endl;
         }
     }
 

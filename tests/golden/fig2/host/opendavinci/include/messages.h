@@ -18,6 +18,7 @@
 #include "opendavinci/odcore/serialization/SerializationFactory.h"
 #include "opendavinci/odcore/serialization/Serializer.h"
 
+#include "sense/fig2/STM32F4DiscoveryBoard_schema.hpp"
 #include "sensedsl/text.hpp"
 
 namespace sense {
@@ -54,7 +55,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::fig2::scaling::IRFront(), "");
     }
 
     const std::string toString() const override {
@@ -112,7 +113,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::fig2::scaling::IRFrontRight(), "");
     }
 
     const std::string toString() const override {
@@ -175,20 +176,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::fig2::scaling::USRear(), " cm");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::fig2::scaling::USRear(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -208,7 +203,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::fig2::scaling::USRear().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint8_t, 1> m_raw{};
 };
@@ -244,7 +239,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::fig2::scaling::WheelEncoder(), "");
     }
 
     const std::string toString() const override {

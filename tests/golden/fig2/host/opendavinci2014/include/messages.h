@@ -15,6 +15,7 @@
 #include "core/data/Container.h"
 #include "core/data/SerializableData.h"
 
+#include "sense/fig2/STM32F4DiscoveryBoard_schema.hpp"
 #include "sensedsl/link.hpp"
 #include "sensedsl/text.hpp"
 
@@ -46,7 +47,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::fig2::scaling::IRFront(), "");
     }
 
     virtual const std::string toString() const {
@@ -107,7 +108,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::fig2::scaling::IRFrontRight(), "");
     }
 
     virtual const std::string toString() const {
@@ -166,25 +167,19 @@ public:
     uint8_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "cm"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::fig2::scaling::USRear().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::fig2::scaling::USRear(), " cm");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::fig2::scaling::USRear(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -239,7 +234,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::fig2::scaling::WheelEncoder(), "");
     }
 
     virtual const std::string toString() const {

@@ -18,6 +18,7 @@
 #include "opendavinci/odcore/serialization/SerializationFactory.h"
 #include "opendavinci/odcore/serialization/Serializer.h"
 
+#include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
 #include "sensedsl/text.hpp"
 
 namespace sense {
@@ -54,7 +55,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::IRFrontRight(), "");
     }
 
     const std::string toString() const override {
@@ -112,7 +113,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::IRRearRight(), "");
     }
 
     const std::string toString() const override {
@@ -170,7 +171,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::IRRear(), "");
     }
 
     const std::string toString() const override {
@@ -233,20 +234,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USFront(), " cm");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USFront(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -266,7 +261,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::USFront().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };
@@ -307,20 +302,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USFrontRight(), " cm");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USFrontRight(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -340,7 +329,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::USFrontRight().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };
@@ -381,20 +370,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USRear(), " cm");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::USRear(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -414,7 +397,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::USRear().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };
@@ -450,7 +433,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::WheelLeftA(), "");
     }
 
     const std::string toString() const override {
@@ -508,7 +491,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::WheelLeftB(), "");
     }
 
     const std::string toString() const override {
@@ -566,7 +549,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::WheelRightA(), "");
     }
 
     const std::string toString() const override {
@@ -624,7 +607,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::WheelRightB(), "");
     }
 
     const std::string toString() const override {
@@ -687,20 +670,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCSteering(), " us");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCSteering(), " us");
         text << outsideLimits();
         return text.str();
     }
@@ -720,7 +697,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::RCSteering().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };
@@ -761,20 +738,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCThrottle(), " us");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCThrottle(), " us");
         text << outsideLimits();
         return text.str();
     }
@@ -794,7 +765,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::RCThrottle().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };
@@ -835,20 +806,14 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw.data(), COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCSwitch(), " us");
     }
 
     const std::string toString() const override {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw.data(), COUNT);
-        double values[COUNT];
-        for (std::size_t i = 0; i < COUNT; ++i) {
-            values[i] = scaled(i);
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw.data(), COUNT, ::sense::miniature_car::scaling::RCSwitch(), " us");
         text << outsideLimits();
         return text.str();
     }
@@ -868,7 +833,7 @@ public:
 
 private:
     double scaled(std::size_t element) const {
-        return 1.0 * static_cast<double>(m_raw[element]) + 0.0;
+        return ::sense::miniature_car::scaling::RCSwitch().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
 };

@@ -15,6 +15,7 @@
 #include "core/data/Container.h"
 #include "core/data/SerializableData.h"
 
+#include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
 #include "sensedsl/link.hpp"
 #include "sensedsl/text.hpp"
 
@@ -46,7 +47,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::IRFrontRight(), "");
     }
 
     virtual const std::string toString() const {
@@ -107,7 +108,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::IRRearRight(), "");
     }
 
     virtual const std::string toString() const {
@@ -168,7 +169,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::IRRear(), "");
     }
 
     virtual const std::string toString() const {
@@ -227,25 +228,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "cm"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::USFront().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::USFront(), " cm");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::USFront(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -298,25 +293,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "cm"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::USFrontRight().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::USFrontRight(), " cm");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::USFrontRight(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -369,25 +358,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "cm"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::USRear().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " cm");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::USRear(), " cm");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " cm" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::USRear(), " cm");
         text << outsideLimits();
         return text.str();
     }
@@ -442,7 +425,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::WheelLeftA(), "");
     }
 
     virtual const std::string toString() const {
@@ -503,7 +486,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::WheelLeftB(), "");
     }
 
     virtual const std::string toString() const {
@@ -564,7 +547,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::WheelRightA(), "");
     }
 
     virtual const std::string toString() const {
@@ -625,7 +608,7 @@ public:
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, "");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::WheelRightB(), "");
     }
 
     virtual const std::string toString() const {
@@ -684,25 +667,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "us"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::RCSteering().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::RCSteering(), " us");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::RCSteering(), " us");
         text << outsideLimits();
         return text.str();
     }
@@ -755,25 +732,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "us"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::RCThrottle().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::RCThrottle(), " us");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::RCThrottle(), " us");
         text << outsideLimits();
         return text.str();
     }
@@ -826,25 +797,19 @@ public:
     uint16_t *begin() { return m_raw; }
 
     static std::string Quantity() { return "us"; }
-    double getValue() const { return 1.0 * static_cast<double>(m_raw[0]) + 0.0; }
+    double getValue() const { return ::sense::miniature_car::scaling::RCSwitch().of(static_cast<double>(m_raw[0])); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {1000.0, 2000.0};
-        return sensedsl::outside_of(limits, m_raw, COUNT, 1.0, 0.0, " us");
+        return sensedsl::outside_of(limits, m_raw, COUNT, ::sense::miniature_car::scaling::RCSwitch(), " us");
     }
 
     virtual const std::string toString() const {
         std::ostringstream text;
         text << ShortName() << " = ";
         sensedsl::print_all(text, m_raw, COUNT);
-        double values[COUNT];
-        for (size_t i = 0; i < COUNT; ++i) {
-            values[i] = 1.0 * static_cast<double>(m_raw[i]) + 0.0;
-        }
-        text << " (";
-        sensedsl::print_all(text, values, COUNT);
-        text << " us" << ')';
+        sensedsl::print_scaled(text, m_raw, COUNT, ::sense::miniature_car::scaling::RCSwitch(), " us");
         text << outsideLimits();
         return text.str();
     }

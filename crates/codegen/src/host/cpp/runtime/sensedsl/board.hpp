@@ -27,7 +27,7 @@ template <typename... Message> struct Messages {};
 
 /// The value of one element as the design shows it.
 template <typename Message> double shown(const Message &message, std::size_t element) {
-    return Message::scale * static_cast<double>(message.data()[element]) + Message::offset;
+    return Message::scaling().of(static_cast<double>(message.data()[element]));
 }
 
 /// ` cm`, or nothing where the design gives no quantity.
@@ -37,8 +37,8 @@ template <typename Message> std::string quantity_suffix() {
 
 /// What of a message is outside the limits that the design gives; empty when nothing is.
 template <typename Message> std::string outside_limits(const Message &message) {
-    return outside_of(Message::limits, message.data(), Message::count, Message::scale,
-                      Message::offset, quantity_suffix<Message>());
+    return outside_of(Message::limits, message.data(), Message::count, Message::scaling(),
+                      quantity_suffix<Message>());
 }
 
 /// `USRear = 14 (28 cm)`, and what is outside the design's limits.
@@ -46,13 +46,8 @@ template <typename Message> std::ostream &print_message(std::ostream &out, const
     out << Message::name << " = ";
     print_all(out, message.data(), Message::count);
     if constexpr (Message::is_scaled) {
-        double values[Message::count];
-        for (std::size_t i = 0; i < Message::count; ++i) {
-            values[i] = shown(message, i);
-        }
-        out << " (";
-        print_all(out, values, Message::count);
-        out << quantity_suffix<Message>() << ')';
+        print_scaled(out, message.data(), Message::count, Message::scaling(),
+                     quantity_suffix<Message>());
     }
     return out << outside_limits(message);
 }

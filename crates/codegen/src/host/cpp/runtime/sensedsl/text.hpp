@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -16,6 +17,8 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+
+#include "sensedsl/scaling.hpp"
 
 namespace sensedsl {
 
@@ -58,6 +61,26 @@ template <typename T> inline void print_all(std::ostream &out, const T *values, 
         print(out, values[i]);
     }
     out << ']';
+}
+
+/// A shown value for people: whole numbers in full, others to nine significant digits. The raw value
+/// stands beside it.
+inline std::string shown_text(double value) {
+    const bool is_whole = !(value < floor(value)) && !(value > floor(value));
+    char text[40];
+    snprintf(text, sizeof text, "%.*g", is_whole ? 15 : 9, value);
+    return text;
+}
+
+/// ` (28 cm)` behind raw values: what they mean.
+template <typename T>
+inline void print_scaled(std::ostream &out, const T *raw, size_t count, const Scaling &scaling,
+                         const std::string &quantity) {
+    out << (count == 1 ? " (" : " ([");
+    for (size_t i = 0; i < count; ++i) {
+        out << (i == 0 ? "" : ", ") << shown_text(scaling.of(static_cast<double>(raw[i])));
+    }
+    out << (count == 1 ? "" : "]") << quantity << ')';
 }
 
 /// What is wrong with typed text as a `T`; empty when nothing is, and then `value` is it. Integers are
@@ -140,15 +163,15 @@ inline std::string outside(const Limits &limits, double value, const std::string
            real_text(is_below ? limits.min : limits.max, 6, false) + quantity + ")";
 }
 
-/// The same for the first of `count` raw scalars whose `scale * raw + offset` is outside.
+/// The same for the first of `count` raw scalars whose shown value is outside.
 template <typename T>
-inline std::string outside_of(const Limits &limits, const T *raw, size_t count, double scale,
-                              double offset, const std::string &quantity) {
+inline std::string outside_of(const Limits &limits, const T *raw, size_t count,
+                              const Scaling &scaling, const std::string &quantity) {
     const double infinity = std::numeric_limits<double>::infinity();
     const bool has_limits = limits.min > -infinity || limits.max < infinity;
     std::string text;
     for (size_t i = 0; i < count && text.empty() && has_limits; ++i) {
-        text = outside(limits, scale * static_cast<double>(raw[i]) + offset, quantity);
+        text = outside(limits, scaling.of(static_cast<double>(raw[i])), quantity);
     }
     return text;
 }

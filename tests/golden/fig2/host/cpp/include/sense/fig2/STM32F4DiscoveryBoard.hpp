@@ -24,9 +24,8 @@ struct IRFront {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::fig2::scaling::IRFront(); }
 
     uint16_t raw{};
 
@@ -46,9 +45,8 @@ struct IRFrontRight {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::fig2::scaling::IRFrontRight(); }
 
     uint16_t raw{};
 
@@ -68,9 +66,8 @@ struct USRear {
     static constexpr const char *quantity = "cm";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::fig2::scaling::USRear(); }
 
     uint8_t raw{};
 
@@ -92,9 +89,8 @@ struct WheelEncoder {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::fig2::scaling::WheelEncoder(); }
 
     uint32_t raw{};
 

@@ -3,6 +3,7 @@
 #define SENSE_fig2_STM32F4DiscoveryBoard_SCHEMA_HPP
 
 #include "sensedsl/link.hpp"
+#include "sensedsl/scaling.hpp"
 #include "sensedsl/session.hpp"
 
 namespace sense {
@@ -41,6 +42,16 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
 }
 
 } // namespace facts
+
+/// How the values of each message are shown.
+namespace scaling {
+
+inline ::sensedsl::Scaling IRFront() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling IRFrontRight() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling USRear() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling WheelEncoder() { return ::sensedsl::Scaling(1.0, 0.0); }
+
+} // namespace scaling
 } // namespace fig2
 } // namespace sense
 

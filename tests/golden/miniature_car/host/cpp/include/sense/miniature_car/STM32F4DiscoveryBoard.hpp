@@ -24,9 +24,8 @@ struct IRFrontRight {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::IRFrontRight(); }
 
     uint16_t raw{};
 
@@ -46,9 +45,8 @@ struct IRRearRight {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::IRRearRight(); }
 
     uint16_t raw{};
 
@@ -68,9 +66,8 @@ struct IRRear {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::IRRear(); }
 
     uint16_t raw{};
 
@@ -90,9 +87,8 @@ struct USFront {
     static constexpr const char *quantity = "cm";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::USFront(); }
 
     uint16_t raw{};
 
@@ -114,9 +110,8 @@ struct USFrontRight {
     static constexpr const char *quantity = "cm";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::USFrontRight(); }
 
     uint16_t raw{};
 
@@ -138,9 +133,8 @@ struct USRear {
     static constexpr const char *quantity = "cm";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::USRear(); }
 
     uint16_t raw{};
 
@@ -162,9 +156,8 @@ struct WheelLeftA {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::WheelLeftA(); }
 
     uint32_t raw{};
 
@@ -184,9 +177,8 @@ struct WheelLeftB {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::WheelLeftB(); }
 
     uint32_t raw{};
 
@@ -206,9 +198,8 @@ struct WheelRightA {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::WheelRightA(); }
 
     uint32_t raw{};
 
@@ -228,9 +219,8 @@ struct WheelRightB {
     static constexpr const char *quantity = "";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = false;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::WheelRightB(); }
 
     uint32_t raw{};
 
@@ -250,9 +240,8 @@ struct RCSteering {
     static constexpr const char *quantity = "us";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{1000.0, 2000.0};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::RCSteering(); }
 
     uint16_t raw{};
 
@@ -274,9 +263,8 @@ struct RCThrottle {
     static constexpr const char *quantity = "us";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{1000.0, 2000.0};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::RCThrottle(); }
 
     uint16_t raw{};
 
@@ -298,9 +286,8 @@ struct RCSwitch {
     static constexpr const char *quantity = "us";
     static constexpr std::size_t count = 1;
     static constexpr bool is_scaled = true;
-    static constexpr double scale = 1.0;
-    static constexpr double offset = 0.0;
     static constexpr sensedsl::Limits limits{1000.0, 2000.0};
+    static sensedsl::Scaling scaling() { return ::sense::miniature_car::scaling::RCSwitch(); }
 
     uint16_t raw{};
 

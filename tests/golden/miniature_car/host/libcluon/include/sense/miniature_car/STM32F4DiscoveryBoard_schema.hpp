@@ -3,6 +3,7 @@
 #define SENSE_miniature_car_STM32F4DiscoveryBoard_SCHEMA_HPP
 
 #include "sensedsl/link.hpp"
+#include "sensedsl/scaling.hpp"
 #include "sensedsl/session.hpp"
 
 namespace sense {
@@ -68,6 +69,25 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
 }
 
 } // namespace facts
+
+/// How the values of each message are shown.
+namespace scaling {
+
+inline ::sensedsl::Scaling IRFrontRight() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling IRRearRight() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling IRRear() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling USFront() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling USFrontRight() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling USRear() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling WheelLeftA() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling WheelLeftB() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling WheelRightA() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling WheelRightB() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling RCSteering() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling RCThrottle() { return ::sensedsl::Scaling(1.0, 0.0); }
+inline ::sensedsl::Scaling RCSwitch() { return ::sensedsl::Scaling(1.0, 0.0); }
+
+} // namespace scaling
 } // namespace miniature_car
 } // namespace sense
 

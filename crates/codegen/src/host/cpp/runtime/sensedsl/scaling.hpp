@@ -1,0 +1,56 @@
+// How a design shows raw values.
+//
+// In: what the design says of one message. Out: the one place where a raw value becomes the shown one.
+// C++98.
+#ifndef SENSEDSL_SCALING_HPP
+#define SENSEDSL_SCALING_HPP
+
+#include <stddef.h>
+
+namespace sensedsl {
+
+/// A point of a curve.
+struct Point {
+    double x;
+    double y;
+};
+
+/// `scale * raw + offset`, and through a curve where there is one: linear between its points, its ends
+/// held beyond them. The points stay the caller's; their `x` ascends.
+struct Scaling {
+    Scaling(double factor, double summand)
+        : scale(factor), offset(summand), curve(NULL), point_count(0) {}
+    template <size_t count>
+    Scaling(double factor, double summand, const Point (&points)[count])
+        : scale(factor), offset(summand), curve(points), point_count(count) {}
+
+    /// The shown value of a raw one. What is not a number stays so.
+    double of(double raw) const {
+        const double x = scale * raw + offset;
+        if (point_count == 0) {
+            return x;
+        }
+        if (!(x >= curve[0].x)) {
+            return x < curve[0].x ? curve[0].y : x;
+        }
+        size_t last = 0;
+        while (last + 1 < point_count && curve[last + 1].x <= x) {
+            ++last;
+        }
+        const Point &from = curve[last];
+        if (last + 1 == point_count) {
+            return from.y;
+        }
+        const Point &to = curve[last + 1];
+        return from.y + (x - from.x) * (to.y - from.y) / (to.x - from.x);
+    }
+
+    double scale;
+    double offset;
+    const Point *curve;
+    size_t point_count;
+};
+
+} // namespace sensedsl
+
+#endif

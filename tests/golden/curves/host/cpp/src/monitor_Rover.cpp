@@ -1,0 +1,102 @@
+// Prints what board Rover says and sends it what is typed. Written by SenseDSL; do not edit: copy it
+// to start a program of your own.
+#include "sense/curves/Rover.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "sensedsl/options.hpp"
+
+namespace {
+
+using Board = ::sense::curves::Rover;
+
+std::atomic<bool> stopped{false};
+
+extern "C" void stop(int) { stopped = true; }
+
+const sensedsl::Option known[] = {
+    {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
+    {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
+    {"version", nullptr, "the design and its schema hash"},
+    {"help", nullptr, "this text"},
+};
+
+/// Sends the lines typed since the last time. False when there will be no more.
+bool send_typed_lines(Board &board, sensedsl::Serial &input, std::string &typed) {
+    sensedsl::Bytes bytes;
+    const auto state = input.read(bytes, 0);
+    typed.append(bytes.begin(), bytes.end());
+    for (auto end = typed.find('\n'); end != std::string::npos; end = typed.find('\n')) {
+        const std::string line = typed.substr(0, end);
+        const std::string problem = board.send_line(line);
+        if (!line.empty() && !problem.empty()) {
+            std::cerr << "not sent: " << line << ": " << problem << std::endl;
+        }
+        typed.erase(0, end + 1);
+    }
+    return state != sensedsl::Serial::ended;
+}
+
+int run(const std::string &device, unsigned baud, bool reconnect) {
+    Board board(sensedsl::Handlers{
+        [](const auto &message) { std::cout << message << "\n"; },
+        [](const sensedsl::Note &note) { std::cerr << note.text << std::endl; },
+    });
+    board.reconnect(reconnect);
+    board.open(device, baud);
+    sensedsl::Serial input("-", 0);
+    std::string typed;
+    bool is_typing = device != "-";
+    while (!stopped && board.poll(50)) {
+        std::cout.flush();
+        is_typing = is_typing && send_typed_lines(board, input, typed);
+    }
+    std::cout.flush();
+    std::cerr << board.summary() << std::endl;
+    return board.exit_status();
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    sensedsl::Options options(known, std::size(known));
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " [OPTIONS] DEVICE|FILE|- [RATE]\n\n"
+                  << "prints what board " << "Rover" << " says; plays a recorded FILE or standard input\n"
+                  << "a typed line NAME VALUE... goes to the actuator of that name\n"
+                  << "\n" << options.help() << "\n" << Board::devices()
+                  << "\nexit status: 0 ended by you or the recording; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design curves, board " << "Rover" << ", schema 0x0ca56b7cU\n";
+        return 0;
+    }
+    unsigned baud = Board::default_baud;
+    const auto words = options.words().size();
+    const std::string rate = words == 2 ? options.words()[1] : options.value("baud");
+    if (problem.empty() && (words < 1 || words > 2)) {
+        problem = "which device? for example: " + std::string(argv[0]) + " /dev/ttyACM0";
+    }
+    if (problem.empty() && !rate.empty() && (!sensedsl::parse(rate, baud) || baud == 0)) {
+        problem = "no baud rate: " + rate;
+    }
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
+        return 2;
+    }
+    std::signal(SIGINT, stop);
+    std::signal(SIGTERM, stop);
+    try {
+        return run(options.words()[0], baud, !options.has("no-reconnect"));
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
+        return 2;
+    }
+}

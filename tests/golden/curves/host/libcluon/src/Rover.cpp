@@ -1,0 +1,378 @@
+// OD4 microservice of board Rover: what the board says becomes messages, messages to its
+// actuators become bytes. Written by SenseDSL; do not edit. C++14, libcluon.
+#include "cluon-complete.hpp"
+#include "sense.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sense/curves/Rover_schema.hpp"
+#include "sensedsl/connection.hpp"
+#include "sensedsl/options.hpp"
+#include "sensedsl/text.hpp"
+
+namespace {
+
+const sensedsl::BoardFacts &facts() { return ::sense::curves::facts::Rover(); }
+
+const sensedsl::Option known[] = {
+    {"cid", "SESSION", "OD4 session, 1 to 254"},
+    {"device", "DEVICE", "serial device of the board, for example /dev/ttyACM0"},
+    {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
+    {"id", "STAMP", "sender stamp of all messages; without it a sensor's identifier"},
+    {"freq", "HZ", "send the latest values that often; without it each when it comes"},
+    {"verbose", nullptr, "print each value"},
+    {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
+    {"version", nullptr, "the design and its schema hash"},
+    {"help", nullptr, "this text"},
+};
+
+struct Settings {
+    std::uint16_t cid{0};
+    std::string device{};
+    unsigned baud{115200};
+    /// Each message's own wire identifier when not given.
+    bool has_sender_stamp{false};
+    std::uint32_t sender_stamp{0};
+    bool is_verbose{false};
+    bool reconnect{true};
+    /// 0: each value is sent when it comes.
+    float frequency_hz{0.0F};
+};
+
+class Publisher final : public sensedsl::Receiver {
+public:
+    Publisher(cluon::OD4Session &od4, const Settings &settings) : od4_(od4), settings_(settings) {}
+
+    /// Sends the latest value of each sensor that spoke since the last time.
+    void publish_latest() {
+        for (const auto &entry : latest_) {
+            publish(entry.first, entry.second.bytes.data(), entry.second.sampled);
+        }
+        latest_.clear();
+    }
+
+private:
+    struct Latest {
+        sensedsl::Bytes bytes;
+        cluon::data::TimeStamp sampled;
+    };
+
+    void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
+        const cluon::data::TimeStamp sampled{cluon::time::now()};
+        if (!(settings_.frequency_hz > 0.0F)) {
+            publish(id, bytes, sampled);
+            return;
+        }
+        const sensedsl::Direction &sensors = facts().schema->sensors;
+        for (std::size_t i{0}; i < sensors.item_count; ++i) {
+            if (sensors.items[i].id == id) {
+                const std::size_t size = sensors.items[i].size_bytes();
+                latest_[id] = Latest{sensedsl::Bytes(bytes, bytes + size), sampled};
+            }
+        }
+    }
+
+    void publish(std::uint8_t id, const std::uint8_t *bytes,
+                 const cluon::data::TimeStamp &sampled) {
+        const std::uint32_t stamp{settings_.has_sender_stamp ? settings_.sender_stamp : id};
+        switch (id) {
+        case 1: {
+            uint16_t raw[1];
+            sensedsl::load_all(bytes, raw, 1);
+            ::sense::curves::Ranger message;
+            message.raw(raw[0]);
+            message.value(::sense::curves::scaling::Ranger().of(static_cast<double>(raw[0])));
+            tell("Ranger", raw, 1, true, ::sense::curves::scaling::Ranger(), {8.0, 70.0}, " cm");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 10: {
+            uint16_t raw[8];
+            sensedsl::load_all(bytes, raw, 8);
+            ::sense::curves::Line message;
+            message.raw0(raw[0]);
+            message.raw1(raw[1]);
+            message.raw2(raw[2]);
+            message.raw3(raw[3]);
+            message.raw4(raw[4]);
+            message.raw5(raw[5]);
+            message.raw6(raw[6]);
+            message.raw7(raw[7]);
+            message.value0(::sense::curves::scaling::Line().of(static_cast<double>(raw[0])));
+            message.value1(::sense::curves::scaling::Line().of(static_cast<double>(raw[1])));
+            message.value2(::sense::curves::scaling::Line().of(static_cast<double>(raw[2])));
+            message.value3(::sense::curves::scaling::Line().of(static_cast<double>(raw[3])));
+            message.value4(::sense::curves::scaling::Line().of(static_cast<double>(raw[4])));
+            message.value5(::sense::curves::scaling::Line().of(static_cast<double>(raw[5])));
+            message.value6(::sense::curves::scaling::Line().of(static_cast<double>(raw[6])));
+            message.value7(::sense::curves::scaling::Line().of(static_cast<double>(raw[7])));
+            tell("Line", raw, 8, true, ::sense::curves::scaling::Line(), {1.0, std::numeric_limits<double>::infinity()}, " percent");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 12: {
+            bool raw[3];
+            sensedsl::load_all(bytes, raw, 3);
+            ::sense::curves::Bumper message;
+            message.raw0(raw[0]);
+            message.raw1(raw[1]);
+            message.raw2(raw[2]);
+            tell("Bumper", raw, 3, false, ::sense::curves::scaling::Bumper(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 13: {
+            int32_t raw[2];
+            sensedsl::load_all(bytes, raw, 2);
+            ::sense::curves::Wheels message;
+            message.raw0(raw[0]);
+            message.raw1(raw[1]);
+            message.value0(::sense::curves::scaling::Wheels().of(static_cast<double>(raw[0])));
+            message.value1(::sense::curves::scaling::Wheels().of(static_cast<double>(raw[1])));
+            tell("Wheels", raw, 2, true, ::sense::curves::scaling::Wheels(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 14: {
+            uint16_t raw[1];
+            sensedsl::load_all(bytes, raw, 1);
+            ::sense::curves::Bent message;
+            message.raw(raw[0]);
+            message.value(::sense::curves::scaling::Bent().of(static_cast<double>(raw[0])));
+            tell("Bent", raw, 1, true, ::sense::curves::scaling::Bent(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, "");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 30: {
+            int16_t raw[3];
+            sensedsl::load_all(bytes, raw, 3);
+            ::sense::curves::Acceleration message;
+            message.raw0(raw[0]);
+            message.raw1(raw[1]);
+            message.raw2(raw[2]);
+            message.value0(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[0])));
+            message.value1(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[1])));
+            message.value2(::sense::curves::scaling::Acceleration().of(static_cast<double>(raw[2])));
+            tell("Acceleration", raw, 3, true, ::sense::curves::scaling::Acceleration(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " g");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 31: {
+            int16_t raw[3];
+            sensedsl::load_all(bytes, raw, 3);
+            ::sense::curves::Rate message;
+            message.raw0(raw[0]);
+            message.raw1(raw[1]);
+            message.raw2(raw[2]);
+            message.value0(::sense::curves::scaling::Rate().of(static_cast<double>(raw[0])));
+            message.value1(::sense::curves::scaling::Rate().of(static_cast<double>(raw[1])));
+            message.value2(::sense::curves::scaling::Rate().of(static_cast<double>(raw[2])));
+            tell("Rate", raw, 3, true, ::sense::curves::scaling::Rate(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg/s");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        case 41: {
+            int32_t raw[1];
+            sensedsl::load_all(bytes, raw, 1);
+            ::sense::curves::Position message;
+            message.raw(raw[0]);
+            message.value(::sense::curves::scaling::Position().of(static_cast<double>(raw[0])));
+            tell("Position", raw, 1, true, ::sense::curves::scaling::Position(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " deg");
+            od4_.send(message, sampled, stamp);
+            break;
+        }
+        default:
+            break;
+        }
+    }
+
+    template <typename T>
+    void tell(const char *name, const T *raw, std::size_t count, bool has_value,
+              const sensedsl::Scaling &scaling, const sensedsl::Limits &limits,
+              const char *quantity) const {
+        if (settings_.is_verbose) {
+            std::cout << name << " = ";
+            sensedsl::print_all(std::cout, raw, count);
+            if (has_value) {
+                sensedsl::print_scaled(std::cout, raw, count, scaling, quantity);
+            }
+            std::cout << sensedsl::outside_of(limits, raw, count, scaling, quantity) << std::endl;
+        }
+    }
+
+    cluon::OD4Session &od4_;
+    const Settings &settings_;
+    std::map<std::uint8_t, Latest> latest_{};
+};
+
+/// Messages to actuators go to the board as they come, from the session's thread.
+class Commander {
+public:
+    explicit Commander(sensedsl::Connection &connection) : connection_(connection) {}
+
+    void listen(cluon::OD4Session &od4) {
+        od4.dataTrigger(::sense::curves::Escs::ID(), [this](cluon::data::Envelope &&envelope) {
+            auto message = cluon::extractMessage< ::sense::curves::Escs>(std::move(envelope));
+            const uint16_t raw[4] = {
+                message.raw0(),
+                message.raw1(),
+                message.raw2(),
+                message.raw3(),
+            };
+            const auto refused = sensedsl::outside_of({-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, raw, 4,
+                                                      ::sense::curves::scaling::Escs(), " percent");
+            sensedsl::Report report(*facts().schema, facts().schema->actuators);
+            report.set(20, raw, 4);
+            send("Escs", refused, report.frame());
+        });
+        od4.dataTrigger(::sense::curves::Lamps::ID(), [this](cluon::data::Envelope &&envelope) {
+            auto message = cluon::extractMessage< ::sense::curves::Lamps>(std::move(envelope));
+            const bool raw[3] = {
+                message.raw0(),
+                message.raw1(),
+                message.raw2(),
+            };
+            const auto refused = sensedsl::outside_of({-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, raw, 3,
+                                                      ::sense::curves::scaling::Lamps(), "");
+            sensedsl::Report report(*facts().schema, facts().schema->actuators);
+            report.set(21, raw, 3);
+            send("Lamps", refused, report.frame());
+        });
+        od4.dataTrigger(::sense::curves::Winch::ID(), [this](cluon::data::Envelope &&envelope) {
+            auto message = cluon::extractMessage< ::sense::curves::Winch>(std::move(envelope));
+            const uint16_t raw[1] = {
+                message.raw(),
+            };
+            const auto refused = sensedsl::outside_of({-25.0, 100.0}, raw, 1,
+                                                      ::sense::curves::scaling::Winch(), " N");
+            sensedsl::Report report(*facts().schema, facts().schema->actuators);
+            report.set(22, raw, 1);
+            send("Winch", refused, report.frame());
+        });
+        od4.dataTrigger(::sense::curves::Speed::ID(), [this](cluon::data::Envelope &&envelope) {
+            auto message = cluon::extractMessage< ::sense::curves::Speed>(std::move(envelope));
+            const int16_t raw[1] = {
+                message.raw(),
+            };
+            const auto refused = sensedsl::outside_of({-100.0, 100.0}, raw, 1,
+                                                      ::sense::curves::scaling::Speed(), " %");
+            sensedsl::Report report(*facts().schema, facts().schema->actuators);
+            report.set(40, raw, 1);
+            send("Speed", refused, report.frame());
+        });
+    }
+
+private:
+    /// A problem is told once, until that actuator takes a command again.
+    void send(const std::string &name, const std::string &refused, const sensedsl::Bytes &frame) {
+        const bool is_sent = refused.empty() && connection_.send(frame);
+        if (is_sent) {
+            told_.erase(name);
+        } else if (told_.insert(name).second) {
+            std::cerr << name << ": not sent:" << (refused.empty() ? " the board is not there" : refused)
+                      << std::endl;
+        }
+    }
+
+    sensedsl::Connection &connection_;
+    std::set<std::string> told_{};
+};
+
+int run(const Settings &settings) {
+    cluon::OD4Session od4{settings.cid};
+    Publisher publisher(od4, settings);
+    sensedsl::Connection connection(facts(), publisher);
+    connection.reconnect(settings.reconnect);
+    connection.open(settings.device, settings.baud);
+    Commander commander(connection);
+    commander.listen(od4);
+    using Clock = std::chrono::steady_clock;
+    const bool is_paced{settings.frequency_hz > 0.0F};
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<float>(is_paced ? 1.0F / settings.frequency_hz : 1.0F));
+    auto due = Clock::now() + period;
+    int timeout_ms{50};
+    while (od4.isRunning() && connection.poll(timeout_ms)) {
+        if (is_paced) {
+            if (Clock::now() >= due) {
+                publisher.publish_latest();
+                due += period;
+            }
+            const auto left =
+                std::chrono::duration_cast<std::chrono::milliseconds>(due - Clock::now()).count();
+            timeout_ms = left < 0 ? 0 : left < 50 ? static_cast<int>(left) : 50;
+        }
+    }
+    publisher.publish_latest();
+    std::cerr << connection.summary() << std::endl;
+    return connection.exit_status();
+}
+
+/// What is wrong with the options; empty when nothing is.
+std::string read_settings(const sensedsl::Options &options, Settings &settings) {
+    settings.device = options.value("device");
+    settings.is_verbose = options.has("verbose");
+    settings.reconnect = !options.has("no-reconnect");
+    settings.has_sender_stamp = options.has("id");
+    if (!options.words().empty()) {
+        return "what is " + options.words()[0] + "? see --help";
+    }
+    if (!sensedsl::parse(options.value("cid"), settings.cid) || settings.cid < 1 || settings.cid > 254) {
+        return "which OD4 session? --cid=1 to --cid=254; see --help";
+    }
+    if (settings.device.empty()) {
+        return "which device? for example --device=/dev/ttyACM0; see --help";
+    }
+    if (options.has("baud") &&
+        (!sensedsl::parse(options.value("baud"), settings.baud) || settings.baud == 0)) {
+        return "no baud rate: " + options.value("baud");
+    }
+    if (options.has("id") && !sensedsl::parse(options.value("id"), settings.sender_stamp)) {
+        return "no sender stamp: " + options.value("id");
+    }
+    if (options.has("freq") && (!sensedsl::parse(options.value("freq"), settings.frequency_hz) ||
+                                !(settings.frequency_hz >= 0.0F))) {
+        return "no frequency: " + options.value("freq");
+    }
+    return {};
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    sensedsl::Options options(known, sizeof known / sizeof known[0]);
+    std::string problem = options.read(argc, argv);
+    if (options.has("help")) {
+        std::cout << "usage: " << argv[0] << " --cid=SESSION --device=DEVICE [OPTIONS]\n\n"
+                  << "publishes what board " << "Rover" << " says to an OD4 session\n\n"
+                  << options.help()
+                  << "\nexit status: 0 ended by you; 1 other firmware, or the device is gone;\n"
+                  << "2 wrong call, or the device cannot be opened\n";
+        return 0;
+    }
+    if (options.has("version")) {
+        std::cout << "design curves, board " << "Rover" << ", schema 0x0ca56b7cU\n";
+        return 0;
+    }
+    Settings settings;
+    problem = problem.empty() ? read_settings(options, settings) : problem;
+    if (!problem.empty()) {
+        std::cerr << problem << std::endl;
+        return 2;
+    }
+    try {
+        return run(settings);
+    } catch (const std::exception &error) {
+        std::cerr << error.what() << std::endl;
+        return 2;
+    }
+}
