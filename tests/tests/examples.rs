@@ -28,12 +28,12 @@ fn every_example_is_solved_and_generated() {
         let path = format!("examples/{name}");
         let text = fs::read_to_string(root().join(&path)).unwrap();
         assert!(text.lines().count() <= lines_max(name), "{name} is too long");
-        sensedsl(["fmt", "--check", &path]).run().exits(0);
+        let _ = sensedsl(["fmt", "--check", &path]).run().exits(0);
         let said = sensedsl(["check", &path]).run().exits(0);
         assert!(!said.stdout.contains("error"), "{name}: {}", said.stdout);
         let solved = sensedsl(["solve", &path]).run().exits(0).stdout;
         assert!(solved.contains("proved optimal"), "{name}: {solved}");
         let out = scratch.path().join(name).display().to_string();
-        sensedsl(["generate", &path, "--without", "firmware", "-o", &out]).run().exits(0);
+        let _ = sensedsl(["generate", &path, "--without", "firmware", "-o", &out]).run().exits(0);
     }
 }
