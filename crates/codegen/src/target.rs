@@ -70,7 +70,13 @@ pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
     if let Some(target) = job.profile.and_then(of) {
         gaps.extend(missing_kinds(target, job));
     }
-    gaps.extend(job.devices.iter().filter_map(|one| unmade(job.design, one.device)));
+    // All values of a chip have one thing to say.
+    let unmade = job.devices.iter().filter_map(|one| unmade(job.design, one.device));
+    for gap in unmade {
+        if gaps.last() != Some(&gap) {
+            gaps.push(gap);
+        }
+    }
     gaps
 }
 
@@ -89,7 +95,8 @@ fn unmade(design: &Design, device: &Device) -> Option<Diagnostic> {
     } else {
         return None;
     };
-    Some(e0501_no_generator::not_made_yet(at, &device.name.value, what))
+    let name = if part.chip.is_some() { &part.name.value } else { &device.name.value };
+    Some(e0501_no_generator::not_made_yet(at, name, what))
 }
 
 /// Whether the board is to hold values back or to change them. What only a driver of a plain device calls invalid

@@ -28,7 +28,7 @@ fn what_firmware_would_ignore_is_an_error() {
         ("sensor A returns uint16 { id = 1; type = analog; change = 3; }", "`change`"),
     ] {
         let ran = generate(body, &[]).exits(1);
-        assert!(ran.stderr.contains("E0501"), "{body}\n{}", ran.stderr);
+        assert_eq!(ran.stderr.matches("E0501").count(), 1, "{body}\n{}", ran.stderr);
         assert!(ran.stderr.contains(what), "{body}\n{}", ran.stderr);
         assert!(ran.stderr.contains("--without firmware"), "{body}\n{}", ran.stderr);
         let _ = generate(body, &["--without", "firmware"]).exits(0);
