@@ -1,5 +1,7 @@
 //! Syntax errors as diagnostics.
 
+use std::collections::BTreeSet;
+
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0102_unknown_character, e0103_unterminated, e0104_missing_semicolon,
     e0105_missing_closing, e0106_bad_number, e0107_misspelled_keyword, e0108_nested_too_deep,
@@ -9,7 +11,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span};
 use sensedsl_limits::TOKENS_MAX;
-use sensedsl_syntax::{Block, Item, Parse, SyntaxError, SyntaxErrorKind, SyntaxKind};
+use sensedsl_syntax::{Block, Item, Parse, SyntaxError, SyntaxErrorKind, SyntaxKind, TextRange};
 
 use crate::fields::span;
 use crate::other_types;
@@ -125,20 +127,25 @@ fn unknown_unit(at: Span, found: &str, suggestion: Option<&str>) -> Diagnostic {
 /// Drops what is said of the values in statements that the parser has complained about: they are not
 /// what was meant.
 pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec<Diagnostic>) {
-    let mut broken = Vec::new();
+    let mut broken: Vec<Span> = Vec::new();
     for (file, parsed) in trees {
-        let root = parsed.syntax();
-        for error in parsed.errors().iter().filter(|error| spoils_value(&error.kind)) {
-            let token = root.token_at_offset(error.range.start());
-            let token =
-                if error.range.is_empty() { token.left_biased() } else { token.right_biased() };
-            let mut nodes = token.into_iter().flat_map(|token| token.parent_ancestors());
-            let statement = nodes.find(|node| {
-                matches!(node.kind(), SyntaxKind::Property | SyntaxKind::Const | SyntaxKind::Type)
-            });
-            broken.extend(statement.map(|node| span(*file, node.text_range())));
+        let errors = parsed.errors().iter().filter(|error| spoils_value(&error.kind));
+        // What is missing is missing behind what stands before it.
+        let place = |range: TextRange| (range.start(), !range.is_empty());
+        let places: BTreeSet<_> = errors.map(|error| place(error.range)).collect();
+        if places.is_empty() {
+            continue;
         }
+        let statements = parsed.syntax().descendants().filter(|node| {
+            matches!(node.kind(), SyntaxKind::Property | SyntaxKind::Const | SyntaxKind::Type)
+        });
+        let ranges = statements.map(|node| node.text_range());
+        let is_broken = |range: &TextRange| {
+            places.range((range.start(), true)..(range.end(), true)).next().is_some()
+        };
+        broken.extend(ranges.filter(is_broken).map(|range| span(*file, range)));
     }
+    broken.sort_unstable();
     let is_value = |one: &Diagnostic| {
         let codes = [
             e0209_wrong_value::CODE,
@@ -151,7 +158,10 @@ pub(crate) fn drop_consequences(trees: &[(FileId, Parse)], diagnostics: &mut Vec
     };
     let is_told = |error: &Diagnostic| {
         let at = error.primary.span;
-        broken.iter().any(|one| one.file == at.file && one.start <= at.start && at.end <= one.end)
+        // Statements do not lie in each other, but for a type, whose device is no statement.
+        let behind = broken.partition_point(|one| (one.file, one.start) <= (at.file, at.start));
+        let before = behind.checked_sub(1).and_then(|number| broken.get(number));
+        before.is_some_and(|one| one.file == at.file && at.end <= one.end)
     };
     diagnostics.retain(|one| !is_value(one) || !is_told(one));
 }
