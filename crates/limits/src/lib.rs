@@ -30,6 +30,14 @@ pub const USED_FILES_MAX: usize = 1_000;
 pub const USE_DEPTH_MAX: usize = 64;
 /// Boards, drivers and devices of a design, all together; identifiers go up to 254.
 pub const ITEMS_MAX: usize = 2_000;
+/// Sets of wires of a design, each with the rules for it: an array has one for each element.
+pub const WIRES_MAX: usize = 16_000;
+/// Values that one driver gives and takes.
+pub const DRIVER_VALUES_MAX: usize = 254;
+/// Numbers, words and letters that constants bring into one value.
+pub const CONSTANT_PARTS_MAX: usize = 4_096;
+/// Letters of one text.
+pub const TEXT_BYTES_MAX: usize = 4_096;
 /// Properties and rules of a design, all together; a rule for several pins counts for each.
 pub const STATEMENTS_MAX: usize = 8_000;
 
@@ -115,8 +123,12 @@ limits! {
     DIAGNOSTICS_MAX: "mistakes that are listed", "E0117";
     USED_FILES_MAX: "files that a design uses", "E0224";
     USE_DEPTH_MAX: "files that use each other in a chain", "E0224";
-    ITEMS_MAX: "boards, drivers and devices of a design", "E0225";
-    STATEMENTS_MAX: "properties and rules of a design", "E0225";
+    ITEMS_MAX: "boards, drivers, chips and devices of a design; also devices, those that chips have by themselves included", "E0225";
+    STATEMENTS_MAX: "properties, rules and constants of a design", "E0225";
+    WIRES_MAX: "sets of wires of a design, with the rules for each", "E0225";
+    DRIVER_VALUES_MAX: "readings and commands of a driver", "E0229";
+    CONSTANT_PARTS_MAX: "numbers, words and letters that constants bring into one value", "E0227";
+    TEXT_BYTES_MAX: "letters of one text", "E0211";
     BOARDS_MAX: "boards of a design", "E0225";
     PLACES_MAX: "pins and usages of all boards of a design", "E0225";
     TABLES_BYTES_MAX: "bytes of the tables of all boards of a design", "E0225";

@@ -307,7 +307,7 @@ impl Whole<'_> {
             return;
         };
         let (file, constants) = (self.file, self.known.constants);
-        let found = Evaluator { file, constants, diagnostics }.value(&value);
+        let found = Evaluator::new(file, constants, diagnostics).value(&value);
         let written = name_or_text(&found).unwrap_or_default();
         let of_driver = self.driver.kind.map(KindName::name);
         if of_driver != Some(written.as_str()) {

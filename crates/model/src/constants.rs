@@ -1,6 +1,6 @@
 //! Constants: the `const` statements of all files in, their values out.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::e0228_constants_in_a_circle;
 use sensedsl_diagnostics::{Diagnostic, FileId};
@@ -53,14 +53,16 @@ impl Constants {
         pending: &mut BTreeMap<String, Pending>,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
+        let mut is_open = BTreeSet::from([first.clone()]);
         let mut open: Vec<String> = vec![first];
         while let Some(name) = open.last().cloned() {
             let Some(one) = pending.get_mut(&name) else {
                 open.pop();
+                is_open.remove(&name);
                 continue;
             };
             if let Some(need) = one.needs.pop() {
-                if open.contains(&need) {
+                if is_open.contains(&need) {
                     let circle = open.iter().skip_while(|name| **name != need);
                     let mut circle: Vec<&str> = circle.map(String::as_str).collect();
                     circle.push(&need);
@@ -68,18 +70,21 @@ impl Constants {
                     let report = e0228_constants_in_a_circle::constants_in_a_circle;
                     diagnostics.push(report(at, &circle.join(" -> ")));
                     // Whoever needs any of them is not told a second time.
+                    is_open.clear();
                     for name in open.drain(..) {
                         pending.remove(&name);
                         self.values.insert(name, Value::Unknown);
                     }
                 } else if pending.contains_key(&need) {
+                    is_open.insert(need.clone());
                     open.push(need);
                 }
                 continue;
             }
             let Some(one) = pending.remove(&name) else { continue };
-            let mut evaluator = Evaluator { file: one.file, constants: self, diagnostics };
+            let mut evaluator = Evaluator::new(one.file, self, diagnostics);
             let value = evaluator.value(&one.value);
+            is_open.remove(&name);
             self.values.insert(name, value);
             open.pop();
         }

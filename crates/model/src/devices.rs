@@ -140,8 +140,7 @@ fn driver_with_values<'d>(
 ) -> Option<&'d Driver> {
     let named = node.properties().find(|one| one.name().is_some_and(|n| n.text() == "driver"))?;
     let (constants, said) = (known.constants, &mut Vec::new());
-    let value =
-        crate::value::Evaluator { file, constants, diagnostics: said }.value(&named.value()?);
+    let value = crate::value::Evaluator::new(file, constants, said).value(&named.value()?);
     let driver = known.drivers.look_up(&name_or_text(&value)?)?;
     driver.has_values().then_some(driver)
 }

@@ -122,7 +122,7 @@ impl<'a> Fields<'a> {
             }
             self.names.insert(name.text().into(), self.fields.len());
             let (constants, diagnostics) = (self.constants, &mut *self.diagnostics);
-            let value = Evaluator { file, constants, diagnostics }.value(&node);
+            let value = Evaluator::new(file, constants, diagnostics).value(&node);
             self.fields.push(Field {
                 name: name.text().into(),
                 name_span,

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::codes::{
-    e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0312_unknown_place,
-    e0315_no_board, e0317_table_too_large,
+    e0117_more_mistakes, e0203_duplicate_identifier, e0206_missing_property, e0225_too_many_items,
+    e0312_unknown_place, e0315_no_board, e0317_table_too_large,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Severity, SourceMap, Span};
-use sensedsl_limits::DIAGNOSTICS_MAX;
+use sensedsl_limits::{DIAGNOSTICS_MAX, ITEMS_MAX, WIRES_MAX};
 use sensedsl_syntax::{Parse, ast};
 
 use crate::boards::{self, Context, Left};
@@ -116,20 +116,20 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
 pub(crate) fn limit(diagnostics: &mut Vec<Diagnostic>) {
     let more = diagnostics.len().saturating_sub(DIAGNOSTICS_MAX);
     if more > 0 {
-        let rest = diagnostics.split_off(DIAGNOSTICS_MAX);
+        diagnostics.truncate(DIAGNOSTICS_MAX);
         let at = diagnostics.last().map(|last| last.primary.span);
         let report = |at| e0117_more_mistakes::more_mistakes(at, DIAGNOSTICS_MAX, more);
         diagnostics.extend(at.map(report));
-        // That a table is too long is said before the mistakes in it, of which people see a few.
-        let ends = |one: &Diagnostic| one.code == e0317_table_too_large::CODE;
-        let end = rest.into_iter().find(ends);
-        end.into_iter().for_each(|end| diagnostics.insert(0, end));
     }
 }
 
-/// Orders diagnostics by place, the worse first where the place is the same.
+/// Orders diagnostics by place, the worse first where the place is the same. That there is too much comes first:
+/// people see a few of the mistakes in it.
 pub fn sort(diagnostics: &mut [Diagnostic]) {
-    diagnostics.sort_by_key(|one| (one.primary.span, one.severity, one.code));
+    let is_too_much = |one: &Diagnostic| {
+        [e0225_too_many_items::CODE, e0317_table_too_large::CODE].contains(&one.code)
+    };
+    diagnostics.sort_by_key(|one| (!is_too_much(one), one.primary.span, one.severity, one.code));
 }
 
 /// Leaves each of them once: a driver's mistake is met in each of its devices.
@@ -169,6 +169,7 @@ fn read_parts(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Vec<ReadPart>, Vec<Spanned<String>>) {
     let (mut parts, mut unread) = (Vec::new(), Vec::new());
+    let mut room = Room::default();
     for (file, node, board) in &items.parts {
         let board = board.map(BoardIndex);
         let (read, name) = match node {
@@ -180,7 +181,14 @@ fn read_parts(
             }
         };
         match read {
-            Some(part) => parts.push(part),
+            Some(part) => {
+                if let Some((what, most)) = room.lacks(&part) {
+                    let at = part.part.name.span;
+                    diagnostics.push(e0225_too_many_items::too_many_items(at, what, most));
+                    break;
+                }
+                parts.push(part);
+            }
             None => unread.extend(name.map(|name| Spanned {
                 value: name.text().to_owned(),
                 span: crate::fields::span(*file, name.range()),
@@ -188,6 +196,26 @@ fn read_parts(
         }
     }
     (parts, unread)
+}
+
+/// How much there is of what chips and arrays make many of.
+#[derive(Default)]
+struct Room {
+    devices: usize,
+    wires: usize,
+}
+
+impl Room {
+    /// Takes a part in; what there is too much of then, and how much of it may be.
+    fn lacks(&mut self, read: &ReadPart) -> Option<(&'static str, usize)> {
+        self.devices += read.devices.len();
+        self.wires += read.connections.iter().map(|one| 1 + one.wishes.len()).sum::<usize>();
+        if self.devices > ITEMS_MAX {
+            return Some(("devices, those that chips have by themselves included", ITEMS_MAX));
+        }
+        let full = self.wires > WIRES_MAX;
+        full.then_some(("sets of wires with their rules", WIRES_MAX))
+    }
 }
 
 /// The names of the boards, where they have one.

@@ -114,7 +114,7 @@ fn wish(
         return None;
     }
     let at = span(file, property.range());
-    let evaluated = Evaluator { file, constants, diagnostics }.value(&value);
+    let evaluated = Evaluator::new(file, constants, diagnostics).value(&value);
     let Some(text) = name_or_text(&evaluated) else {
         let place = span(file, value.range());
         let wrong = e0209_wrong_value::wrong_value(place, name.text(), "a name", "another value");

@@ -3,8 +3,9 @@
 //! A number has a unit or none; numbers of units are multiplied and divided as in physics, and added
 //! only to their like.
 
-use sensedsl_diagnostics::codes::e0227_cannot_compute as cannot;
+use sensedsl_diagnostics::codes::{e0211_out_of_range, e0227_cannot_compute as cannot};
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_limits::{CONSTANT_PARTS_MAX, TEXT_BYTES_MAX};
 use sensedsl_syntax::Unit;
 use sensedsl_syntax::ast::{self, AstNode as _, Magnitude, Operator, Sign};
 
@@ -38,6 +39,16 @@ impl Value {
     /// The number that it is.
     pub(crate) fn number(&self) -> Option<&Number> {
         if let Self::Number(number) = self { Some(number) } else { None }
+    }
+
+    /// How many numbers, words and letters it has; none is nothing.
+    fn parts(&self) -> usize {
+        match self {
+            Self::Number(_) | Self::Unknown => 1,
+            Self::Name(text) | Self::Text(text) => 1 + text.len(),
+            Self::List(list) => 1 + list.iter().map(|one| one.value.parts()).sum::<usize>(),
+            Self::Range(ends) => ends.iter().map(|one| one.value.parts()).sum(),
+        }
     }
 
     /// The ends of a range.
@@ -170,12 +181,41 @@ const EXACT_MAX: f64 = 9_007_199_254_740_992.0;
 
 /// Puts constants in and computes.
 pub(crate) struct Evaluator<'a> {
-    pub(crate) file: FileId,
-    pub(crate) constants: &'a Constants,
-    pub(crate) diagnostics: &'a mut Vec<Diagnostic>,
+    file: FileId,
+    constants: &'a Constants,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    /// What constants may still bring into the value. Lists of constants that are lists double with
+    /// each step otherwise.
+    left: usize,
 }
 
-impl Evaluator<'_> {
+impl<'a> Evaluator<'a> {
+    pub(crate) fn new(
+        file: FileId,
+        constants: &'a Constants,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Self {
+        Self { file, constants, diagnostics, left: CONSTANT_PARTS_MAX }
+    }
+
+    /// The value of a constant, where there is room for it.
+    fn constant(&mut self, name: &ast::Name) -> Option<Value> {
+        let value = self.constants.get(name.text())?;
+        let Some(left) = self.left.checked_sub(value.parts()) else {
+            // Said once; what comes behind it is too much as well.
+            if self.left > 0 {
+                let at = span(self.file, name.range());
+                let message = "constants make this value too large";
+                let help = "write what is meant, or split it";
+                self.diagnostics.push(cannot::cannot_compute(at, message, help));
+            }
+            self.left = 0;
+            return Some(Value::Unknown);
+        };
+        self.left = left;
+        Some(value.clone())
+    }
+
     /// What a value means, and where it stands.
     pub(crate) fn spanned(&mut self, node: &ast::Value) -> Spanned<Value> {
         Spanned { value: self.value(node), span: self.span(node) }
@@ -190,15 +230,12 @@ impl Evaluator<'_> {
         match node {
             ast::Value::Number(number) => literal(number),
             ast::Value::Name(name) => match name.name() {
-                Some(name) => match self.constants.get(name.text()) {
-                    Some(constant) => constant.clone(),
-                    None => Value::Name(name.text().to_owned()),
-                },
+                Some(name) => {
+                    self.constant(&name).unwrap_or_else(|| Value::Name(name.text().to_owned()))
+                }
                 None => Value::Unknown,
             },
-            ast::Value::String(text) => {
-                text.literal().map_or(Value::Unknown, |text| Value::Text(text.value()))
-            }
+            ast::Value::String(text) => self.text(text),
             ast::Value::List(list) => {
                 Value::List(list.values().map(|one| self.spanned(&one)).collect())
             }
@@ -214,6 +251,19 @@ impl Evaluator<'_> {
             ast::Value::Signed(signed) => self.signed(signed),
             ast::Value::Binary(binary) => self.binary(binary),
         }
+    }
+
+    fn text(&mut self, node: &ast::StringValue) -> Value {
+        let length = usize::from(node.range().len());
+        if length > TEXT_BYTES_MAX {
+            let at = span(self.file, node.range());
+            let (found, range) =
+                (format!("{length} letters"), format!("up to {TEXT_BYTES_MAX} letters"));
+            let report = e0211_out_of_range::out_of_range;
+            self.diagnostics.push(report(at, "a text", &found, &range));
+            return Value::Unknown;
+        }
+        node.literal().map_or(Value::Unknown, |text| Value::Text(text.value()))
     }
 
     fn signed(&mut self, signed: &ast::Signed) -> Value {

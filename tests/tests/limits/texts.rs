@@ -62,3 +62,36 @@ fn many_properties_and_rules() {
     let pins = repeat(100_000, |at| format!(", PA{at}"));
     refuses("reserve.sense", format!("{BOARD}reserve PA0{pins}; }}\n"), "E0225");
 }
+
+#[test]
+fn constants_that_grow() {
+    let chain = repeat(7_000, |at| format!("const C{at} = C{} + 1;\n", at + 1));
+    refuses("chain.sense", format!("{chain}const C7000 = 1;\n"), "E0315");
+    // Each holds the one before ten times.
+    let tens = repeat(12, |at| {
+        format!("const L{} = [{}];\n", at + 1, vec![format!("L{at}"); 10].join(", "))
+    });
+    refuses("lists.sense", format!("const L0 = [1];\n{tens}"), "E0227");
+    let label = |at| format!("sensor D{at} returns uint16 {{ type = analog; label = LONG; }}\n");
+    let long = format!("const LONG = \"{}\";\n{BOARD}", "x".repeat(MI / 4));
+    refuses("label.sense", format!("{long}{}}}\n", repeat(1_900, label)), "E0211");
+    let driver = format!("driver d for analog {{ label = \"{}\"; }}\n{BOARD}", "x".repeat(MI / 4));
+    let device = |at| format!("sensor D{at} returns uint16 {{ type = analog; driver = d; }}\n");
+    refuses("driver.sense", format!("{driver}{}}}\n", repeat(1_900, device)), "E0211");
+}
+
+#[test]
+fn chips_and_arrays_that_multiply() {
+    let readings =
+        repeat(900, |at| format!("reading r{at} returns uint8 {{ register = {}; }}\n", at % 256));
+    let chips = repeat(900, |at| format!("chip C{at} {{ driver = d; address = 0x40; }}\n"));
+    let driver = format!("driver d for i2c {{\n{readings}}}\n{BOARD}");
+    refuses("readings.sense", format!("{driver}{chips}}}\n"), "E0229");
+    let chips = repeat(1_900, |at| format!("chip C{at} {{ driver = pca9685; address = 0x40; }}\n"));
+    refuses("chips.sense", format!("{BOARD}{chips}}}\n"), "E0225");
+    let array = |at| format!("sensor A{at} returns uint16[128] {{ type = digital; }}\n");
+    refuses("arrays.sense", format!("{BOARD}{}}}\n", repeat(1_900, array)), "E0225");
+    let wishes = repeat(7_000, |at| format!("prefer unit = ADC{};\n", at % 3 + 1));
+    let one = format!("sensor A returns uint16[128] {{ type = digital;\n{wishes}}}\n");
+    refuses("wishes.sense", format!("{BOARD}{one}}}\n"), "E0225");
+}

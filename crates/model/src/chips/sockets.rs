@@ -1,7 +1,7 @@
 //! The connections of a chip: what its driver names, with what the chip says of each.
 
 use sensedsl_diagnostics::codes::{
-    e0204_duplicate_name, e0229_wrong_driver, e0230_unknown_reading,
+    e0204_duplicate_name, e0209_wrong_value, e0229_wrong_driver, e0230_unknown_reading,
 };
 use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
@@ -11,7 +11,7 @@ use super::{Given, Whole};
 use crate::design::{DeviceIndex, Level, Placement, Spanned};
 use crate::devices;
 use crate::drivers::{Driver, kind_of};
-use crate::fields::{Fields, span};
+use crate::fields::{Fields, name_or_text, span};
 use crate::kind::{Kind, KindName};
 use crate::pins::PinRef;
 use crate::placement;
@@ -138,7 +138,7 @@ impl Socket {
         whole: &Whole<'_>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> (Kind, Placement, Option<Level>) {
-        let said = (whole.known.constants, diagnostics);
+        let said = (whole.known.constants, &mut *diagnostics);
         let owner = self.kind.with_article();
         let at = whole.name.span;
         let mut fields = Fields::new(self.block_properties(), whole.file, &owner, at, said);
@@ -154,23 +154,40 @@ impl Socket {
         let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
         let level = devices::level(&mut fields);
         let mut placement = placements.into_iter().next().unwrap_or_default();
-        self.short_pin(whole, &kind, &mut placement);
+        self.short_pin(whole, &kind, &mut placement, diagnostics);
         (kind, placement, level)
     }
 
     /// `in1 = PA3;` in a chip fixes the pin of its connection `in1`.
-    fn short_pin(&self, whole: &Whole<'_>, kind: &Kind, placement: &mut Placement) {
+    fn short_pin(
+        &self,
+        whole: &Whole<'_>,
+        kind: &Kind,
+        placement: &mut Placement,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
         let Some(name) = &self.name else { return };
         let is_named = |one: &&Property| one.name().is_some_and(|own| own.text() == name);
         let Some(property) = whole.properties.iter().find(is_named) else { return };
         let Some(value) = property.value() else { return };
         let (file, constants) = (whole.file, whole.known.constants);
-        let diagnostics = &mut Vec::new();
-        let found = crate::value::Evaluator { file, constants, diagnostics }.value(&value);
+        let at = span(file, value.range());
+        let found = crate::value::Evaluator::new(file, constants, diagnostics).value(&value);
         let roles = kind.roles(self.direction);
-        if let ([role], Some(pin)) = (roles.as_slice(), crate::fields::name_or_text(&found)) {
-            let pin = Spanned { value: PinRef::unbound(&pin), span: span(file, value.range()) };
-            placement.pins.push((*role, pin));
+        let wrong = e0209_wrong_value::wrong_value;
+        match (roles.as_slice(), name_or_text(&found)) {
+            ([role], Some(pin)) => {
+                placement.pins.push((*role, Spanned { value: PinRef::unbound(&pin), span: at }));
+            }
+            ([_], None) => diagnostics.push(wrong(at, name, "a pin such as PA1", "something else")),
+            (roles, _) => {
+                let lines = roles.iter().map(|role| format!("{} = PIN;", role.property()));
+                let lines = lines.collect::<Vec<_>>().join(" ");
+                let takes = format!(
+                    "a block, because it has several wires: `connection {name} {{ {lines} }}`"
+                );
+                diagnostics.push(wrong(at, name, &takes, "a value"));
+            }
         }
     }
 }

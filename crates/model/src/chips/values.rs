@@ -4,6 +4,7 @@ use sensedsl_diagnostics::codes::{
     e0220_impossible_type, e0229_wrong_driver, e0230_unknown_reading,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_limits::DRIVER_VALUES_MAX;
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ValueType};
 
@@ -69,6 +70,12 @@ pub(super) fn given(
     let mut all: Vec<Given> = Vec::new();
     for (name, ty, properties, direction) in readings.chain(commands) {
         let Some(name) = name else { continue };
+        if all.len() >= DRIVER_VALUES_MAX {
+            let at = span(driver.file, name.range());
+            let message = format!("it has more than {DRIVER_VALUES_MAX} values");
+            diagnostics.push(e0229_wrong_driver::wrong_driver(at, &message));
+            break;
+        }
         let value = types::read(driver.file, ty, (constants, diagnostics));
         let at = span(driver.file, name.range());
         if all.iter().any(|one| folded(&one.name) == folded(name.text())) {

@@ -135,7 +135,7 @@ fn values(out: &mut String, part: &PartFacts) {
         told.push("A host multiplies the raw value by the scale.");
     }
     if has(|one| !one.filter.invalid.is_empty()) {
-        told.push("An invalid raw value is no measurement and is not reported.");
+        told.push("The board does not report invalid raw values.");
     }
     if !told.is_empty() {
         let _ = write!(out, "\n{}", wrapped(&told.join(" "), WIDTH, "", ""));
