@@ -19,6 +19,7 @@ static void on_value(void *context, const up_field_t *field, const uint8_t *wire
   (void)context;
   up_value_from_wire(field, wire, value);
   up_put(index, value);
+  sense_apply(index, value);
   up_user_received(index);
 }
 

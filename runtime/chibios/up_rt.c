@@ -43,6 +43,26 @@ void up_fail(size_t field) {
   chMtxUnlock(&store_lock);
 }
 
+void up_result(size_t field, up_result_t result, void *value) {
+  if (result == UP_FRESH && up_config.filters != NULL && up_config.filters[field].filter != NULL) {
+    const up_filtered_t *own = &up_config.filters[field];
+
+    result = up_config.filter(own->filter, own->state, &up_config.schema->fields[field], up_now_ms(), value);
+  }
+  if (result == UP_FRESH) {
+    up_put(field, value);
+  } else if (result != UP_NOTHING) {
+    up_fail(field);
+  }
+}
+
+static void on_value(void *context, uint16_t field, up_result_t result, void *value) {
+  (void)context;
+  up_result(field, result, value);
+}
+
+const up_value_sink_t up_values = {.on_value = on_value};
+
 bool up_get(size_t field, void *value) {
   const void *latest;
 
@@ -114,23 +134,10 @@ static void start_drivers(void) {
   size_t i;
 
   for (i = 0U; i < up_config.pads_count; i++) {
+    palWriteLine(up_config.pads[i].line, up_config.pads[i].level);
     palSetLineMode(up_config.pads[i].line, up_config.pads[i].mode);
   }
-#if HAL_USE_ADC == TRUE
-  for (i = 0U; i < up_config.adcs_count; i++) {
-    (void)adcStart(up_config.adcs[i], NULL);
-  }
-#endif
-#if HAL_USE_I2C == TRUE
-  for (i = 0U; i < up_config.ports_count; i++) {
-    up_i2c_start(&up_config.ports[i]);
-  }
-#endif
-#if HAL_USE_ICU == TRUE
-  for (i = 0U; i < up_config.icus_count; i++) {
-    up_icu_start(&up_config.icus[i]);
-  }
-#endif
+  sense_start();
 }
 
 static void start_tasks(void) {
@@ -146,13 +153,7 @@ static void start_tasks(void) {
 }
 
 static void report_cycle(void) {
-#if HAL_USE_ICU == TRUE
-  size_t i;
-
-  for (i = 0U; i < up_config.icus_count; i++) {
-    up_icu_poll(&up_config.icus[i]);
-  }
-#endif
+  sense_poll();
   if (up_shell_cycle()) {
     up_link_pause();
   } else {

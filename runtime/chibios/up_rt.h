@@ -12,15 +12,17 @@
 
 #include "up_capture.h"
 #include "up_conf.h"
+#include "up_filter.h"
 #include "up_i2c.h"
 #include "up_report.h"
 
 /* ---- tables ---- */
 
-/* How one pad is set up at the start. */
+/* How one pad is set up at the start: its level first, so that an output begins with it. */
 typedef struct {
   ioline_t line;
   iomode_t mode;
+  uint8_t level; /* PAL_LOW or PAL_HIGH; of no meaning but for an output */
 } up_pad_t;
 
 /* A thread that does one cycle every `delay_ms`. */
@@ -33,7 +35,20 @@ typedef struct {
   uint32_t delay_ms;
   int16_t prio; /* relative to NORMALPRIO */
   uint32_t start_ms; /* the first cycle comes so much later: devices of a group take turns */
+  uint8_t device;    /* identifier of the first device that it serves; 0: none */
 } up_task_t;
+
+/* What becomes of the values of a field before they are reported; NULL for nothing. */
+typedef struct {
+  const up_filter_t *filter;
+  up_filter_state_t *state;
+} up_filtered_t;
+
+/* What a driver counts beside the health of devices. */
+typedef struct {
+  const char *title; /* "I2C1 was freed" */
+  const uint32_t *count;
+} up_counter_t;
 
 #if HAL_USE_ADC == TRUE
 /* One sensor of a conversion group. */
@@ -132,18 +147,11 @@ typedef struct {
   size_t pads_count;
   const up_task_t *tasks;
   size_t tasks_count;
-#if HAL_USE_ADC == TRUE
-  ADCDriver *const *adcs;
-  size_t adcs_count;
-#endif
-#if HAL_USE_I2C == TRUE
-  const up_i2c_port_t *ports;
-  size_t ports_count;
-#endif
-#if HAL_USE_ICU == TRUE
-  const up_icu_t *icus;
-  size_t icus_count;
-#endif
+  const up_filtered_t *filters; /* one a field, NULL where no field has one; then `filter` is up_filter_apply */
+  up_result_t (*filter)(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
+                        uint32_t now_ms, void *value);
+  const up_counter_t *counters;
+  size_t counters_count;
 #if UP_LINK_USB == FALSE
   SerialDriver *link_driver;
   const SerialConfig *link_config;
@@ -157,6 +165,20 @@ typedef struct {
 
 extern const up_config_t up_config;
 
+/* ---- what is generated beside the tables ---- */
+
+/* Starts the drivers: once, behind the pads and before any thread. */
+void sense_start(void);
+
+/* Looks at what interrupts have gathered and puts it into the store: from the reporter, in each cycle. */
+void sense_poll(void);
+
+/* The host has set an actuator: does what is done at once. From the reporter, once for each value of a frame. */
+void sense_apply(size_t field, const void *value);
+
+/* The host has been silent for too long: brings the actuators that have a failsafe there. From the reporter. */
+void sense_failsafe(void);
+
 /* ---- values ---- */
 
 /* Milliseconds since the start, from a thread; wraps at 2^32. */
@@ -167,6 +189,13 @@ void up_put(size_t field, void *value);
 
 /* A sensor could not be read; its last value stands. */
 void up_fail(size_t field);
+
+/* What came of one look at a sensor: a value (UP_FRESH) goes through the field's filter to up_put(), a fault is
+ * counted. From a thread. */
+void up_result(size_t field, up_result_t result, void *value);
+
+/* The same as a sink for the core's functions; its context is not used. */
+extern const up_value_sink_t up_values;
 
 /* Copies the latest value; false while there is none. */
 bool up_get(size_t field, void *value);

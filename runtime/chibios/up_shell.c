@@ -181,12 +181,10 @@ static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
            (unsigned long)counters->frames_torn);
   chprintf(out, "received %lu frames, dropped %lu bytes" SHELL_NEWLINE_STR, (unsigned long)decoder->frames,
            (unsigned long)decoder->dropped_bytes);
-#if HAL_USE_I2C == TRUE
-  for (size_t i = 0U; i < up_config.ports_count; i++) {
-    chprintf(out, "bus %u recovered %lu times" SHELL_NEWLINE_STR, (unsigned)i,
-             (unsigned long)*up_config.ports[i].recoveries);
+  for (size_t i = 0U; i < up_config.counters_count; i++) {
+    chprintf(out, "%s %lu times" SHELL_NEWLINE_STR, up_config.counters[i].title,
+             (unsigned long)*up_config.counters[i].count);
   }
-#endif
 }
 
 /* The text that the schema hash is made of: a host that expects another schema names the devices that differ. */

@@ -1,16 +1,22 @@
 //! One board's work, in words that name no system: what any target starts from, and a simulator.
 //!
 //! In: a design and its wiring. Out: for each board that carries a device a [`BoardJob`]: the devices in the
-//! file's order with their units, pads, DMA streams, interrupt lines and cycles, the link, and the
-//! schema whose items are the devices in the same order. How a system spells any of it is the target's.
+//! file's order, the connections with their units, pads, DMA streams, interrupt lines and cycles, the parts with their
+//! tables, the link, and the schema whose items are the devices in the same order. How a system spells any of it is
+//! the target's.
 
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{Board, Design, Device};
-use sensedsl_model::kind::Role;
+use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::{Starts, starts};
 use sensedsl_wire::Schema;
-use sensedsl_wiring::assignment::{Assignment, BoardAssignment, DeviceWiring, Wire};
+use sensedsl_wiring::assignment::{
+    Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
+};
+
+use crate::part::PartPlan;
+use crate::print::snake;
 
 /// One board with everything that is to run on it.
 #[derive(Clone, Debug)]
@@ -23,12 +29,51 @@ pub struct BoardJob<'a> {
     pub wiring: &'a BoardAssignment,
     /// What silicon and system can do; none without a system.
     pub profile: Option<&'a TargetProfile>,
-    /// In the file's order.
+    /// What is reported and what is set, in the file's order.
     pub devices: Vec<JobDevice<'a>>,
+    /// What is wired, in the design's order: one for each device by itself, each element of an array, each connection
+    /// of a chip.
+    pub connections: Vec<JobConnection<'a>>,
+    /// What needs tables of the runtime, in the design's order.
+    pub parts: Vec<JobPart<'a>>,
     /// The port of a serial link.
     pub link: Option<SerialLink<'a>>,
     /// The wire; its items are `devices`, in the same order.
     pub schema: Schema,
+}
+
+/// A part whose values need more than what the hardware does with them.
+#[derive(Clone, Debug)]
+pub struct JobPart<'a> {
+    /// The part.
+    pub part: &'a Part,
+    /// Which part of the design.
+    pub index: PartIndex,
+    /// Its tables.
+    pub plan: PartPlan,
+}
+
+/// A connection with everything the wiring gave it.
+#[derive(Clone, Debug)]
+pub struct JobConnection<'a> {
+    /// The connection.
+    pub connection: &'a Connection,
+    /// The part that it is of.
+    pub part: &'a Part,
+    /// What code calls it, in snake case: `ir_front`, `line_3`, `left_in1`.
+    pub ident: String,
+    /// For people: `IRFront`, `Line[3]`, `Left.in1`.
+    pub title: String,
+    /// Indices into [`BoardJob::devices`] of those whose value goes over it; none where only the part itself needs it.
+    pub devices: Vec<usize>,
+    /// The peripheral instance; none for a bare pin.
+    pub unit: Option<&'a str>,
+    /// In the order of the roles.
+    pub pads: Vec<Pad<'a>>,
+    /// The DMA streams of its unit.
+    pub streams: Vec<JobStream<'a>>,
+    /// When it is served: as often as the fastest of its devices wants.
+    pub cycle: Cycle,
 }
 
 /// A device with everything the wiring gave it.
@@ -36,6 +81,10 @@ pub struct BoardJob<'a> {
 pub struct JobDevice<'a> {
     /// The device.
     pub device: &'a Device,
+    /// Which device of the design.
+    pub index: DeviceIndex,
+    /// What code calls it, in snake case: `ir_front`.
+    pub ident: String,
     /// The peripheral instance; none for a bare pin.
     pub unit: Option<&'a str>,
     /// In the order of the roles.
@@ -110,13 +159,18 @@ impl<'a> BoardJob<'a> {
             wiring,
             profile: board.profile(),
             devices: Vec::new(),
+            connections: Vec::new(),
+            parts: Vec::new(),
             link: None,
             schema: design.schema(wiring.board, &indices),
         };
         let devices = wiring.devices.iter().filter_map(|wiring| job.device(wiring, &starts));
+        let devices: Vec<JobDevice<'a>> = devices.collect();
+        let connections = wiring.connections.iter();
+        let connections = connections.filter_map(|one| job.connection(one, &devices)).collect();
         let link = wiring.link.as_ref();
         let link = link.map(|link| SerialLink { unit: &link.unit, pads: job.pads(&link.wires) });
-        Self { devices: devices.collect(), link, ..job }
+        Self { parts: job.tables(&devices), devices, connections, link, ..job }
     }
 
     /// The system it is for: `chibios` of `chibios-21.11`.
@@ -128,20 +182,87 @@ impl<'a> BoardJob<'a> {
     /// The pads of all devices and of a serial link.
     pub fn all_pads(&self) -> impl Iterator<Item = &Pad<'a>> {
         let link = self.link.iter().flat_map(|link| &link.pads);
-        self.devices.iter().flat_map(|device| &device.pads).chain(link)
+        self.connections.iter().flat_map(|one| &one.pads).chain(link)
+    }
+
+    /// The connections of a kind, in the design's order.
+    pub fn connections(&self, kind: KindName) -> impl Iterator<Item = &JobConnection<'a>> {
+        self.connections.iter().filter(move |one| one.connection.kind.name() == kind)
+    }
+
+    /// The tables of the part that a connection is of.
+    #[must_use]
+    pub fn tables_of(&self, connection: &JobConnection<'_>) -> Option<&PartPlan> {
+        let mut parts = self.parts.iter();
+        Some(&parts.find(|one| one.index == connection.connection.part)?.plan)
+    }
+
+    /// The tables of all parts on the board that have some.
+    fn tables(&self, devices: &[JobDevice<'a>]) -> Vec<JobPart<'a>> {
+        let mut parts: Vec<JobPart<'a>> = Vec::new();
+        for index in devices.iter().map(|one| one.device.part) {
+            let is_known = parts.iter().any(|one| one.index == index);
+            let Some(part) = self.design.part(index).filter(|_| !is_known) else { continue };
+            let plan = PartPlan::new(self.design, index);
+            parts.extend(plan.map(|plan| JobPart { part, index, plan }));
+        }
+        parts
+    }
+
+    fn connection(
+        &self,
+        wiring: &'a ConnectionWiring,
+        devices: &[JobDevice<'a>],
+    ) -> Option<JobConnection<'a>> {
+        let index = wiring.connection;
+        let connection = self.design.connection(index)?;
+        let part = self.design.part(connection.part)?;
+        let own = devices.iter().enumerate();
+        let own: Vec<usize> = own
+            .filter(|(_, one)| one.device.connections.contains(&index))
+            .map(|(field, _)| field)
+            .collect();
+        let all = own.iter().filter_map(|field| devices.get(*field));
+        let of_part = devices.iter().find(|one| one.device.part == connection.part);
+        let cycle = all.min_by_key(|one| one.cycle.delay_ms).or(of_part)?.cycle;
+        let (unit, name) = (wiring.unit.as_deref(), &part.name.value);
+        let (mut ident, mut title) = (snake(name), name.clone());
+        if let Some(own) = &connection.name {
+            ident.push_str(&format!("_{}", snake(own)));
+            title.push_str(&format!(".{own}"));
+        }
+        if let Some(element) = connection.element {
+            ident.push_str(&format!("_{element}"));
+            title.push_str(&format!("[{element}]"));
+        }
+        Some(JobConnection {
+            connection,
+            part,
+            ident,
+            title,
+            devices: own,
+            unit,
+            pads: self.pads(&wiring.wires),
+            streams: self.streams(unit),
+            cycle,
+        })
+    }
+
+    fn streams(&self, unit: Option<&str>) -> Vec<JobStream<'a>> {
+        let streams = self.wiring.dma.iter().filter(|dma| Some(dma.unit.as_str()) == unit);
+        streams.map(|dma| JobStream { request: &dma.request, stream: &dma.stream }).collect()
     }
 
     fn device(&self, wiring: &'a DeviceWiring, starts: &Starts) -> Option<JobDevice<'a>> {
         let device = self.design.device(wiring.device)?;
         let unit = wiring.unit.as_deref();
-        let streams = self.wiring.dma.iter().filter(|dma| Some(dma.unit.as_str()) == unit);
         Some(JobDevice {
             device,
+            index: wiring.device,
+            ident: snake(&device.name.value),
             unit,
             pads: self.pads(&wiring.wires),
-            streams: streams
-                .map(|dma| JobStream { request: &dma.request, stream: &dma.stream })
-                .collect(),
+            streams: self.streams(unit),
             cycle: Cycle {
                 delay_ms: device.delay_ms,
                 prio: device.prio,
@@ -180,7 +301,46 @@ impl<'a> JobDevice<'a> {
     }
 }
 
+impl<'a> JobConnection<'a> {
+    /// The pad of a role.
+    #[must_use]
+    pub fn pad(&self, role: Role) -> Option<&Pad<'a>> {
+        self.pads.iter().find(|pad| pad.role == role)
+    }
+
+    /// Which element of an array it carries, from 0; 0 where it is no array.
+    #[must_use]
+    pub fn element(&self) -> u16 {
+        self.connection.element.unwrap_or(0)
+    }
+
+    /// For a comment: what it is and the row of the board's table: `IRFront at PB0 (ADC12-IN8)`.
+    #[must_use]
+    pub fn place(&self) -> String {
+        let pad = |pad: &Pad<'_>| {
+            let signal = pad.usage.map_or("GPIO", |usage| usage.spelled.as_str());
+            format!("{} ({signal})", pad.pin.name)
+        };
+        let pads: Vec<String> = self.pads.iter().map(pad).collect();
+        format!("{} at {}", self.title, pads.join(", "))
+    }
+}
+
 impl Cycle {
+    /// What code calls a thread of a unit: `adc1_60ms`, `i2c1_250ms_prio_minus_2_at_66`.
+    #[must_use]
+    pub fn ident(self, unit: &str) -> String {
+        let mut ident = format!("{}_{}ms", snake(unit), self.delay_ms);
+        if self.prio != 0 {
+            let sign = if self.prio < 0 { "minus_" } else { "" };
+            ident.push_str(&format!("_prio_{sign}{}", self.prio.unsigned_abs()));
+        }
+        if self.start_ms > 0 {
+            ident.push_str(&format!("_at_{}", self.start_ms));
+        }
+        ident
+    }
+
     /// For a comment and a thread's name.
     #[must_use]
     pub fn title(self, unit: &str) -> String {

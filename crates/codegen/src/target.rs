@@ -8,14 +8,13 @@ use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
-use sensedsl_model::design::{Design, Device};
+use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
-use sensedsl_model::protocol::Filter;
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
 pub use crate::firmware::TARGETS;
-use crate::job::{BoardJob, jobs};
+use crate::job::{BoardJob, JobConnection, jobs};
 
 /// A system that firmware is generated for.
 pub trait Target: Sync {
@@ -25,8 +24,11 @@ pub trait Target: Sync {
     fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String>;
     /// What is wrong with the `[system]` part of a profile, which only this target reads; empty when all is well.
     fn problems(&self, profile: &TargetProfile) -> Vec<String>;
-    /// The kinds of devices that it serves.
-    fn kinds(&self) -> Vec<KindName>;
+    /// The kinds of devices that it serves on the MCUs of a profile.
+    fn kinds(&self, profile: &TargetProfile) -> Vec<KindName>;
+    /// What a connection of such a kind needs and no code is made for, in words that follow "has no code for": without
+    /// it the values would be wrong, or none.
+    fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str>;
     /// The firmware of one board, relative to the board's folder.
     ///
     /// # Errors
@@ -67,55 +69,49 @@ pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
         let name = &job.board.name;
         gaps.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why));
     }
-    if let Some(target) = job.profile.and_then(of) {
-        gaps.extend(missing_kinds(target, job));
-    }
-    // All values of a chip have one thing to say.
-    let unmade = job.devices.iter().filter_map(|one| unmade(job.design, one.device));
-    for gap in unmade {
-        if gaps.last() != Some(&gap) {
-            gaps.push(gap);
+    if let Some((target, profile)) = job.profile.and_then(|one| Some((of(one)?, one))) {
+        gaps.extend(missing_kinds(target, profile, job));
+        // All wires of a chip or an array have one thing to say.
+        for gap in job.connections.iter().filter_map(|one| unmade(target, job, one)) {
+            if gaps.last() != Some(&gap) {
+                gaps.push(gap);
+            }
         }
     }
     gaps
 }
 
-/// What a device needs and no system's firmware does yet: without it the values would be wrong, or none.
-fn unmade(design: &Design, device: &Device) -> Option<Diagnostic> {
-    let part = design.part(device.part)?;
-    let coding = &device.coding;
-    let (at, what) = if part.chip.is_some() {
-        (part.name.span, "chips")
-    } else if device.connections.len() > 1 {
-        (device.value.span, "arrays with a wire for each element")
-    } else if !coding.is_plain() {
-        (device.name.span, "values that are part of a word, packed, in a text or with checksums")
-    } else if is_filtered(device) {
-        (device.name.span, "`invalid`, `median`, `smooth`, `change` and `heartbeat`")
-    } else {
-        return None;
-    };
-    let name = if part.chip.is_some() { &part.name.value } else { &device.name.value };
-    Some(e0501_no_generator::not_made_yet(at, name, what))
+/// What a connection needs and the target does not do.
+fn unmade(
+    target: &dyn Target,
+    job: &BoardJob<'_>,
+    connection: &JobConnection<'_>,
+) -> Option<Diagnostic> {
+    let what = target.lacks(job, connection)?;
+    let name = &connection.part.name;
+    Some(e0501_no_generator::not_made_yet(name.span, &name.value, what))
 }
 
-/// Whether the board is to hold values back or to change them. What only a driver of a plain device calls invalid
-/// is reported as it is measured, as it was before drivers could say so.
-fn is_filtered(device: &Device) -> bool {
-    let filter = &device.filter;
-    let others = Filter { invalid: Vec::new(), invalid_span: None, ..filter.clone() };
-    filter.invalid_span.is_some() || !others.is_empty()
-}
-
-fn missing_kinds(target: &dyn Target, job: &BoardJob<'_>) -> Vec<Diagnostic> {
-    let kinds = target.kinds();
+fn missing_kinds(
+    target: &dyn Target,
+    profile: &TargetProfile,
+    job: &BoardJob<'_>,
+) -> Vec<Diagnostic> {
+    let kinds = target.kinds(profile);
     let can: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
-    let devices = job.devices.iter().map(|one| one.device);
-    let missing = devices.filter(|device| !kinds.contains(&device.kind.name()));
-    let tell = |kind: KindName, span| {
-        e0501_no_generator::no_generator(span, &kind.with_article(), &can.join(", "))
-    };
-    missing.map(|device| tell(device.kind.name(), device.kind_span)).collect()
+    let is_missing = |one: &&JobConnection<'_>| !kinds.contains(&one.connection.kind.name());
+    let missing = job.connections.iter().filter(is_missing);
+    let mut all: Vec<Diagnostic> = Vec::new();
+    for one in missing {
+        let device = job.design.device(one.connection.device);
+        let at = device.map_or(one.part.name.span, |device| device.kind_span);
+        let kind = one.connection.kind.name().with_article();
+        let gap = e0501_no_generator::no_generator(at, &kind, &can.join(", "));
+        if all.last() != Some(&gap) {
+            all.push(gap);
+        }
+    }
+    all
 }
 
 /// The firmware of all boards, each in a folder of its name.

@@ -93,7 +93,9 @@ impl PartPlan {
         (!plan.is_empty()).then_some(plan)
     }
 
-    fn is_empty(&self) -> bool {
+    /// Whether there is nothing to print.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
         let Self { bus, message, formulas, trains, bridges, filters, .. } = self;
         let has_bytes = bus.is_some() || message.is_some();
         let has_values = formulas.is_empty() && trains.is_empty() && bridges.is_empty();

@@ -11,7 +11,7 @@ use sensedsl_diagnostics::codes::{e0506_hardware_limit, e0511_unknown_port};
 use sensedsl_model::kind::KindName;
 
 use super::names::Names;
-use crate::job::{BoardJob, JobDevice, Pad};
+use crate::job::{BoardJob, JobConnection, JobDevice, Pad};
 
 /// One board on its way to a plan.
 pub(super) struct Context<'a> {
@@ -29,6 +29,8 @@ pub(super) struct PadPlan {
     pub(super) pin: PinName,
     pub(super) line: String,
     pub(super) mode: String,
+    /// The level that an output has before it becomes one.
+    pub(super) is_high: bool,
 }
 
 /// How a pad with an alternate function drives its wire.
@@ -52,6 +54,32 @@ impl<'a> Context<'a> {
         Some(Self { job, profile, chibios, names, kernel_timer })
     }
 
+    /// The connections of a kind, in the design's order.
+    pub(super) fn connections(
+        &self,
+        kind: KindName,
+    ) -> impl Iterator<Item = &'a JobConnection<'a>> {
+        self.job.connections(kind)
+    }
+
+    /// The devices whose values go over a connection.
+    pub(super) fn devices_of(
+        &self,
+        connection: &JobConnection<'_>,
+    ) -> impl Iterator<Item = &'a JobDevice<'a>> {
+        connection.devices.iter().filter_map(|field| self.job.devices.get(*field))
+    }
+
+    /// The device of a connection that carries one value.
+    pub(super) fn device_of(&self, connection: &JobConnection<'_>) -> Option<&'a JobDevice<'a>> {
+        self.job.devices.get(*connection.devices.first()?)
+    }
+
+    /// The identifier of the first device of a connection; 0 where no value goes over it.
+    pub(super) fn id_of(&self, connection: &JobConnection<'_>) -> u8 {
+        self.device_of(connection).map_or(0, |one| one.device.id.value)
+    }
+
     /// The devices of a kind, in the file's order.
     pub(super) fn devices(&self, kind: KindName) -> impl Iterator<Item = &'a JobDevice<'a>> {
         let of_kind = move |one: &&JobDevice<'_>| one.device.kind.name() == kind;
@@ -73,7 +101,7 @@ impl<'a> Context<'a> {
             diagnostics.push(report);
             return None;
         };
-        Some(PadPlan { pin: name.clone(), line, mode: mode.to_owned() })
+        Some(PadPlan { pin: name.clone(), line, mode: mode.to_owned(), is_high: false })
     }
 
     /// A pad with the alternate function of its wire. None that is known is a mistake that is reported.

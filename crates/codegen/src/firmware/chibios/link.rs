@@ -92,7 +92,12 @@ fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
     if let Some(number) = usb.alternate {
         let mode = alternate_mode(number, Drive::Fast);
         let pad = |pin: &PinName| {
-            Some(PadPlan { pin: pin.clone(), line: context.line(pin)?, mode: mode.clone() })
+            Some(PadPlan {
+                pin: pin.clone(),
+                line: context.line(pin)?,
+                mode: mode.clone(),
+                is_high: false,
+            })
         };
         pads.extend(usb.pins.iter().filter_map(pad));
     }

@@ -12,6 +12,7 @@ mod i2c;
 mod icu;
 mod link;
 mod names;
+mod parts;
 mod plan;
 mod pulse;
 mod render;
@@ -26,7 +27,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
 use crate::fileset::FileSet;
-use crate::job::BoardJob;
+use crate::job::{BoardJob, JobConnection};
 use crate::target::Target;
 use context::Context;
 pub use names::Names;
@@ -48,8 +49,7 @@ impl Target for Chibios {
         "chibios"
     }
 
-    /// An MCU is served where code is made for the versions of all drivers, also of those that a design does not
-    /// use: of no other MCU has a firmware been built.
+    /// An MCU is served where code is made for its pins; a kind, where code is made for the version of its driver.
     fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String> {
         if facts.is_none_or(|facts| facts.chibios.is_none()) {
             return Some("no ChibiOS board is known for its MCU".to_owned());
@@ -64,8 +64,14 @@ impl Target for Chibios {
         }
     }
 
-    fn kinds(&self) -> Vec<KindName> {
-        section::kinds().collect()
+    fn kinds(&self, profile: &TargetProfile) -> Vec<KindName> {
+        Names::of(profile).map(|names| section::kinds(&names.drivers)).unwrap_or_default()
+    }
+
+    fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+        let kind = connection.connection.kind.name();
+        let peripheral = PERIPHERALS.iter().find(|one| one.kind == Some(kind))?;
+        (peripheral.lacks)(job, connection)
     }
 
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {

@@ -5,13 +5,10 @@ use sensedsl_diagnostics::Diagnostic;
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
+use super::parts::{self, PartsPlan};
 use super::schema::SchemaPlan;
-use super::section::{self, GuardPlan, Section, Size, Work};
+use super::section::{self, Apply, Counter, GuardPlan, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
-
-/// Bytes of a thread's stack: the deepest path of the runtime, interrupts' frames, and room for a
-/// user's transform that calls a mathematical function.
-const STACK_BYTES: u32 = 768;
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -21,6 +18,7 @@ pub(super) struct BoardPlan {
     pub(super) settings: SettingsPlan,
     pub(super) schema: SchemaPlan,
     pub(super) pads: Vec<PadPlan>,
+    pub(super) parts: PartsPlan,
     pub(super) sections: Vec<Section>,
     pub(super) tasks: Vec<TaskPlan>,
     pub(super) link: LinkPlan,
@@ -33,7 +31,6 @@ pub(super) struct BoardPlan {
 /// One thread.
 #[derive(Clone, Debug)]
 pub(super) struct TaskPlan {
-    pub(super) index: usize,
     /// `ADC1 60 ms +2`
     pub(super) name: String,
     /// The runtime's function and the table it works on.
@@ -42,6 +39,8 @@ pub(super) struct TaskPlan {
     pub(super) delay_ms: u32,
     pub(super) prio: i8,
     pub(super) start_ms: u32,
+    /// The identifier of the first device that it serves.
+    pub(super) device: u8,
     pub(super) stack_bytes: u32,
 }
 
@@ -54,7 +53,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     pads.sort();
     pads.dedup();
     let work = sections.iter().flat_map(|section| &section.work);
-    let tasks: Vec<TaskPlan> = work.enumerate().map(TaskPlan::new).collect();
+    let tasks: Vec<TaskPlan> = work.map(TaskPlan::new).collect();
     let settings = settings::plan(context, &sections, &link);
     Some(BoardPlan {
         name: context.job.board.name.value.clone(),
@@ -65,6 +64,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         button: link::button(context),
         guards: settings::guards(context, &sections, &settings),
         settings,
+        parts: parts::plan(context),
         pads,
         sections,
         tasks,
@@ -78,23 +78,47 @@ impl BoardPlan {
         self.sections.iter().flat_map(|section| &section.sizes)
     }
 
-    /// The tables that the runtime is told.
-    pub(super) fn arrays(&self) -> impl Iterator<Item = &'static str> {
-        self.sections.iter().flat_map(|section| section.arrays.iter().copied())
+    /// What drivers count.
+    pub(super) fn counters(&self) -> Vec<&Counter> {
+        self.sections.iter().flat_map(|section| &section.counters).collect()
+    }
+
+    /// What starts the drivers.
+    pub(super) fn starts(&self) -> Vec<&str> {
+        self.lines(|section| &section.starts)
+    }
+
+    /// What the reporter does in each cycle.
+    pub(super) fn polls(&self) -> Vec<&str> {
+        self.lines(|section| &section.polls)
+    }
+
+    /// What brings actuators to safety.
+    pub(super) fn failsafes(&self) -> Vec<&str> {
+        self.lines(|section| &section.failsafes)
+    }
+
+    /// What is done when an actuator is set.
+    pub(super) fn applies(&self) -> Vec<&Apply> {
+        self.sections.iter().flat_map(|section| &section.applies).collect()
+    }
+
+    fn lines(&self, of: fn(&Section) -> &Vec<String>) -> Vec<&str> {
+        self.sections.iter().flat_map(of).map(String::as_str).collect()
     }
 }
 
 impl TaskPlan {
-    fn new((index, work): (usize, &Work)) -> Self {
+    fn new(work: &Work) -> Self {
         Self {
-            index,
             name: work.cycle.title(&work.unit),
             function: work.function,
             work: work.table.clone(),
             delay_ms: work.cycle.delay_ms,
             prio: work.cycle.prio,
             start_ms: work.cycle.start_ms,
-            stack_bytes: STACK_BYTES,
+            device: work.device,
+            stack_bytes: work.stack_bytes,
         }
     }
 }

@@ -12,7 +12,7 @@ use sensedsl_model::kind::KindName;
 use super::PERIPHERALS;
 use super::context::{Context, PadPlan};
 use super::names::{Drivers, Setting};
-use crate::job::Cycle;
+use crate::job::{BoardJob, Cycle, JobConnection};
 
 /// A driver of the system that code is made for.
 pub(super) struct Peripheral {
@@ -24,9 +24,14 @@ pub(super) struct Peripheral {
     pub(super) version: fn(&Drivers) -> &str,
     /// The versions that code is made for.
     pub(super) versions: &'static [Version],
+    /// What a connection needs and is not made: [`plain_only`] until everything is.
+    pub(super) lacks: Lacks,
     /// Its hand-written files: path below `uproxy/`, and text.
     pub(super) runtime: &'static [(&'static str, &'static str)],
 }
+
+/// See [`crate::target::Target::lacks`].
+pub(super) type Lacks = fn(&BoardJob<'_>, &JobConnection<'_>) -> Option<&'static str>;
 
 /// The code for one version of a driver.
 pub(super) struct Version {
@@ -59,8 +64,34 @@ pub(super) struct Section {
     pub(super) clocks: BTreeSet<String>,
     /// The C of its tables.
     pub(super) tables: String,
-    /// The tables that the runtime is told: `adcs`.
-    pub(super) arrays: Vec<&'static str>,
+    /// Lines of C that start it, after the pads.
+    pub(super) starts: Vec<String>,
+    /// Lines of C that look at what its interrupts have gathered: in each cycle of the reporter.
+    pub(super) polls: Vec<String>,
+    /// What is done at once when the host has set an actuator.
+    pub(super) applies: Vec<Apply>,
+    /// What it counts beside the health of devices.
+    pub(super) counters: Vec<Counter>,
+    /// Lines of C that bring its actuators to safety when the host is silent.
+    pub(super) failsafes: Vec<String>,
+}
+
+/// A number for people.
+#[derive(Clone, Debug)]
+pub(super) struct Counter {
+    /// `I2C1 was freed`
+    pub(super) title: String,
+    /// The `uint32_t` in C.
+    pub(super) variable: String,
+}
+
+/// What is done when the host has set an actuator.
+#[derive(Clone, Debug)]
+pub(super) struct Apply {
+    /// The device, as in `SENSE_FIELD_` and its name.
+    pub(super) field: String,
+    /// A line of C; `value` points to the value.
+    pub(super) line: String,
 }
 
 /// A size that the runtime is compiled with.
@@ -77,10 +108,17 @@ pub(super) struct Work {
     /// For people: `ADC1`.
     pub(super) unit: String,
     pub(super) cycle: Cycle,
-    /// The runtime's function and the table it works on.
+    /// The function that does one cycle, and the table it works on.
     pub(super) function: &'static str,
     pub(super) table: String,
+    /// The identifier of the first device that it serves.
+    pub(super) device: u8,
+    pub(super) stack_bytes: u32,
 }
+
+/// Bytes of a thread's stack: the deepest path of the runtime, interrupts' frames, and room for a user's transform
+/// that calls a mathematical function.
+pub(super) const STACK_BYTES: u32 = 768;
 
 /// `_Static_assert(condition, message)`
 #[derive(Clone, Debug)]
@@ -97,14 +135,15 @@ impl Peripheral {
 }
 
 /// The kinds of devices that code is made for.
-pub(super) fn kinds() -> impl Iterator<Item = KindName> {
-    PERIPHERALS.iter().filter_map(|peripheral| peripheral.kind)
+pub(super) fn kinds(drivers: &Drivers) -> Vec<KindName> {
+    let served = PERIPHERALS.iter().filter(|one| one.serving(drivers).is_some());
+    served.filter_map(|one| one.kind).collect()
 }
 
-/// A driver of an MCU that there is no code for, in words.
+/// The driver of an MCU's pins, where there is no code for it, in words.
 pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
-    let mut all = PERIPHERALS.iter();
-    let missing = all.find(|peripheral| peripheral.serving(drivers).is_none())?;
+    let is_missing = |one: &&&Peripheral| one.kind.is_none() && one.serving(drivers).is_none();
+    let missing = PERIPHERALS.iter().find(is_missing)?;
     let known: Vec<&str> = missing.versions.iter().map(|version| version.name).collect();
     Some(format!(
         "its {} driver is {}, code is made for {} only",
@@ -112,6 +151,28 @@ pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
         (missing.version)(drivers),
         known.join(" and ")
     ))
+}
+
+/// Of a driver that serves devices by themselves and no coded values.
+pub(super) fn plain_only(
+    job: &BoardJob<'_>,
+    connection: &JobConnection<'_>,
+) -> Option<&'static str> {
+    let own = connection.devices.iter().filter_map(|field| job.devices.get(*field));
+    if connection.part.chip.is_some() {
+        Some("chips")
+    } else if connection.connection.element.is_some() {
+        Some("arrays with a wire for each element")
+    } else if own.map(|one| one.device).any(|device| !device.coding.is_plain()) {
+        Some("values that are part of a word, packed, in a text or with checksums")
+    } else {
+        None
+    }
+}
+
+/// Of a driver that serves whatever the language has.
+pub(super) fn nothing(_: &BoardJob<'_>, _: &JobConnection<'_>) -> Option<&'static str> {
+    None
 }
 
 /// The sections of a board.

@@ -11,7 +11,7 @@ use sensedsl_timing::{depth, sampling};
 
 use crate::firmware::chibios::context::Context;
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{Section, Work};
+use crate::firmware::chibios::section::{STACK_BYTES, Section, Work};
 use crate::job::{Cycle, JobDevice};
 use crate::print::block;
 
@@ -49,6 +49,7 @@ struct Group {
 /// One column of a group.
 struct Sensor {
     name: String,
+    id: u8,
     column: usize,
     samples: u16,
     channel: u8,
@@ -81,7 +82,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let clock = context.names.adcs.clock_option.as_ref();
     section.mcu.extend(clock.map(|[option, value]| Setting::new(option, value)));
     section.work = analog.groups.iter().map(Group::work).collect();
-    section.arrays = vec!["adcs"];
+    let drivers = analog.drivers.iter();
+    section.starts = drivers.map(|one| format!("(void)adcStart(&{one}, NULL);")).collect();
     section.tables = block(&Tables { s: &analog });
     section
 }
@@ -93,6 +95,7 @@ fn sensor(context: &Context<'_>, wired: &JobDevice<'_>) -> Option<(UnitName, Sen
     let cycles = sampling(&context.profile.adc, analog.sampling_cycles)?;
     let sensor = Sensor {
         name: wired.name().to_owned(),
+        id: wired.device.id.value,
         column: 0,
         samples: analog.samples,
         channel: *channel,
@@ -163,6 +166,8 @@ impl Group {
             cycle: self.cycle,
             function: "up_adc_cycle",
             table: format!("adc_{}", self.index),
+            device: self.sensors.first().map_or(0, |sensor| sensor.id),
+            stack_bytes: STACK_BYTES,
         }
     }
 

@@ -4,7 +4,7 @@ mod v1;
 
 use sensedsl_model::kind::KindName;
 
-use super::section::{Peripheral, Version};
+use super::section::{Peripheral, Version, plain_only};
 
 /// See the module.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
@@ -12,6 +12,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     kind: Some(KindName::I2c),
     version: |drivers| &drivers.i2c,
     versions: &[Version { name: "I2Cv1", plan: v1::plan }],
+    lacks: plain_only,
     runtime: &[
         ("core/up_i2c.c", include_str!("../../../../../../runtime/core/up_i2c.c")),
         ("core/up_i2c.h", include_str!("../../../../../../runtime/core/up_i2c.h")),

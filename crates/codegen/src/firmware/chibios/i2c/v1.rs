@@ -12,7 +12,7 @@ use sensedsl_timing::i2c_clock::{self, BusClock};
 
 use crate::firmware::chibios::context::{Context, Drive, PadPlan};
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{GuardPlan, Section, Size, Work};
+use crate::firmware::chibios::section::{Counter, GuardPlan, STACK_BYTES, Section, Size, Work};
 use crate::job::{Cycle, JobDevice};
 use crate::print::block;
 
@@ -68,6 +68,7 @@ struct Class {
 struct Script {
     index: usize,
     name: String,
+    id: u8,
     /// `0x73U`
     address: String,
     /// Bytes as C literals; empty for none.
@@ -115,7 +116,12 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section.guards = plan.ports.iter().map(Port::guard).collect();
     section.work = plan.classes.iter().map(Class::work).collect();
     if !plan.ports.is_empty() {
-        section.arrays = vec!["ports"];
+        section.starts = plan
+            .ports
+            .iter()
+            .map(|port| format!("up_i2c_start(&ports[{}]);", port.index))
+            .collect();
+        section.counters = plan.ports.iter().map(Port::counter).collect();
         section.tables = block(&Tables { s: &plan });
     }
     section
@@ -175,6 +181,13 @@ impl Port {
         })
     }
 
+    fn counter(&self) -> Counter {
+        Counter {
+            title: format!("{} was freed", self.unit),
+            variable: format!("i2c_recoveries[{}]", self.index),
+        }
+    }
+
     /// The driver halts the board where its clock leaves something over.
     fn guard(&self) -> GuardPlan {
         let Self { unit, unit_clock, clock, .. } = self;
@@ -230,6 +243,8 @@ impl Class {
             cycle: self.cycle,
             function: "up_i2c_cycle",
             table: format!("i2c_{}", self.index),
+            device: self.devices.first().map_or(0, |one| one.id),
+            stack_bytes: STACK_BYTES,
         }
     }
 
@@ -251,6 +266,7 @@ impl Script {
         Self {
             index,
             name: wired.name().to_owned(),
+            id: wired.device.id.value,
             address: byte(i2c.address),
             trigger: i2c.trigger.iter().map(|&value| byte(value)).collect(),
             wait_ms: i2c.wait_us.div_ceil(1_000),

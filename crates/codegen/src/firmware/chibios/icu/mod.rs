@@ -4,7 +4,7 @@ mod v1;
 
 use sensedsl_model::kind::KindName;
 
-use super::section::{Peripheral, Version};
+use super::section::{Peripheral, Version, plain_only};
 
 /// See the module.
 pub(super) const PERIPHERAL: Peripheral = Peripheral {
@@ -12,6 +12,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     kind: Some(KindName::Icu),
     version: |drivers| &drivers.timer,
     versions: &[Version { name: "TIMv1", plan: v1::plan }],
+    lacks: plain_only,
     runtime: &[
         ("core/up_capture.c", include_str!("../../../../../../runtime/core/up_capture.c")),
         ("core/up_capture.h", include_str!("../../../../../../runtime/core/up_capture.h")),

@@ -65,7 +65,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section.clocks = icus.iter().map(|capture| capture.clock.clone()).collect();
     section.guards = icus.iter().flat_map(Capture::guards).collect();
     if !icus.is_empty() {
-        section.arrays = vec!["icus"];
+        let all = || 0..icus.len();
+        section.starts = all().map(|index| format!("up_icu_start(&icus[{index}]);")).collect();
+        section.polls = all().map(|index| format!("up_icu_poll(&icus[{index}]);")).collect();
         section.tables = block(&Tables { s: &Captures { icus } });
     }
     section

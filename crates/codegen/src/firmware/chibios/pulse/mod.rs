@@ -2,7 +2,7 @@
 
 mod v2;
 
-use super::section::{Peripheral, Version};
+use super::section::{Peripheral, Version, nothing};
 
 /// See the module. All other pads are set up by the same driver, so that its version is asked for even where
 /// nothing wants a pulse.
@@ -11,6 +11,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     kind: None,
     version: |drivers| &drivers.gpio,
     versions: &[Version { name: "GPIOv2", plan: v2::plan }],
+    lacks: nothing,
     runtime: &[(
         "chibios/up_pulse.c",
         include_str!("../../../../../../runtime/chibios/up_pulse.c"),
