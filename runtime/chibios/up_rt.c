@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "up_life.h"
 #include "up_link.h"
 #include "up_shell.h"
 
@@ -126,6 +127,7 @@ static THD_FUNCTION(run_task, argument) {
   }
   for (;;) {
     task->cycle(task->work);
+    up_life_beat((size_t)(task - up_config.tasks));
     sleep_cycle(&previous, TIME_MS2I(task->delay_ms));
   }
 }
@@ -166,6 +168,7 @@ int main(void) {
 
   halInit();
   chSysInit();
+  up_life_init();
   chMtxObjectInit(&store_lock);
   up_store_init(&store, up_config.schema, up_config.values);
   up_user_init();
@@ -173,9 +176,11 @@ int main(void) {
   start_tasks();
   up_link_start();
   up_shell_start();
+  up_life_start();
   previous = chVTGetSystemTime();
   for (;;) {
     report_cycle();
+    up_life_cycle();
     sleep_cycle(&previous, TIME_MS2I(up_config.report_ms));
   }
 }

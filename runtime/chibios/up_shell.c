@@ -7,6 +7,7 @@
 
 #include "chprintf.h"
 #include "shell.h"
+#include "up_life.h"
 #include "up_link.h"
 #include "up_text.h"
 
@@ -187,6 +188,34 @@ static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
   }
 }
 
+static void print_thread(BaseSequentialStream *out, const char *name, const void *stack, size_t bytes) {
+  chprintf(out, "%-24s %5lu of %5lu bytes of stack never used" SHELL_NEWLINE_STR, name,
+           (unsigned long)up_stack_left_of(stack, bytes), (unsigned long)bytes);
+}
+
+static void command_threads(BaseSequentialStream *out, int argc, char *argv[]) {
+  static const char *const causes[] = {"unknown", "power", "reset pin", "software", "watchdog", "window watchdog",
+                                       "low power", "kernel halt"};
+  size_t i;
+
+  (void)argc;
+  (void)argv;
+  for (i = 0U; i < up_config.tasks_count; i++) {
+    print_thread(out, up_config.tasks[i].name, up_config.tasks[i].stack, up_config.tasks[i].stack_bytes);
+  }
+  print_thread(out, "shell", shell_stack, sizeof shell_stack);
+  chprintf(out, "least of the application %u bytes, load at most %u %%" SHELL_NEWLINE_STR,
+           (unsigned)up_stack_left(), (unsigned)up_load_percent());
+  chprintf(out, "started by: %s", causes[up_reset_cause()]);
+  if (up_reset_device() != 0U) {
+    chprintf(out, " (thread of device %u)", (unsigned)up_reset_device());
+  }
+  if (up_reset_reason() != NULL) {
+    chprintf(out, " (%s)", up_reset_reason());
+  }
+  chprintf(out, SHELL_NEWLINE_STR);
+}
+
 /* The text that the schema hash is made of: a host that expects another schema names the devices that differ. */
 static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
   const up_schema_t *schema = up_config.schema;
@@ -210,7 +239,8 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
 
 static const ShellCommand commands[] = {
     {"sensors", command_sensors}, {"print", command_print},   {"stream", command_stream},
-    {"link", command_link},       {"schema", command_schema}, {NULL, NULL},
+    {"link", command_link},       {"schema", command_schema}, {"threads", command_threads},
+    {NULL, NULL},
 };
 
 /* ---- who has the channel ---- */

@@ -35,6 +35,8 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
         mcu.push(Setting::new(&context.names.kernel_option, number));
     }
     mcu.extend(used.iter().map(|switch| Setting::new(switch, "TRUE")));
+    // The watchdog and its oscillator.
+    mcu.extend(["STM32_WDG_USE_IWDG", "STM32_LSI_ENABLED"].map(|one| Setting::new(one, "TRUE")));
     mcu.extend(sections.iter().flat_map(|section| section.mcu.iter().cloned()));
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
@@ -73,6 +75,7 @@ fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
         Setting::new("HAL_USE_SERIAL", truth(!link.is_usb())),
         Setting::new("HAL_USE_SERIAL_USB", truth(link.is_usb())),
         Setting::new("HAL_USE_USB", truth(link.is_usb())),
+        Setting::new("HAL_USE_WDG", "TRUE"),
     ]);
     settings.extend(sections.iter().flat_map(|section| section.hal.iter().cloned()));
     if !link.is_usb() {
