@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "up_doctor.h"
 #include "up_life.h"
 #include "up_link.h"
 #include "up_shell.h"
@@ -135,6 +136,7 @@ static THD_FUNCTION(run_task, argument) {
 static void start_drivers(void) {
   size_t i;
 
+  up_doctor_look_at_inputs();
   for (i = 0U; i < up_config.pads_count; i++) {
     palWriteLine(up_config.pads[i].line, up_config.pads[i].level);
     palSetLineMode(up_config.pads[i].line, up_config.pads[i].mode);

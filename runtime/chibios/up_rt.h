@@ -11,6 +11,7 @@
 #include "hal.h"
 
 #include "up_capture.h"
+#include "up_chip.h"
 #include "up_conf.h"
 #include "up_filter.h"
 #include "up_i2c.h"
@@ -137,6 +138,37 @@ typedef struct {
 
 void up_pulse_cycle(const void *work);
 
+#if UP_SHELL == TRUE
+/* What the self test looks at. */
+
+/* A wire that a device drives, or that a resistor pulls up. */
+typedef struct {
+  const char *title; /* "IRFront at PB0 (ADC12-IN8)" */
+  ioline_t line;
+  bool is_bus; /* pulled up, not driven */
+} up_input_t;
+
+typedef struct {
+  const char *title;
+  const up_chip_state_t *state;
+} up_chip_check_t;
+
+/* A bus on which each address can be asked. */
+typedef struct {
+  const char *title;
+  bool (*answers)(const void *bus, uint8_t address);
+  const void *bus;
+  const uint8_t *expected; /* addresses that the design has there */
+  size_t expected_count;
+} up_probe_t;
+
+/* A sensor that counts. */
+typedef struct {
+  const char *title;
+  uint16_t field;
+} up_edges_t;
+#endif
+
 /* A whole application. */
 typedef struct {
   const char *board;
@@ -161,6 +193,16 @@ typedef struct {
   uint8_t button_pressed; /* PAL_HIGH or PAL_LOW */
 #endif
   uint32_t report_ms; /* the reporter's cycle */
+#if UP_SHELL == TRUE
+  const up_input_t *inputs;
+  size_t inputs_count;
+  const up_chip_check_t *chips;
+  size_t chips_count;
+  const up_probe_t *probes;
+  size_t probes_count;
+  const up_edges_t *edges;
+  size_t edges_count;
+#endif
 } up_config_t;
 
 extern const up_config_t up_config;

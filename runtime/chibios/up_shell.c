@@ -7,6 +7,7 @@
 
 #include "chprintf.h"
 #include "shell.h"
+#include "up_doctor.h"
 #include "up_life.h"
 #include "up_link.h"
 #include "up_text.h"
@@ -216,6 +217,21 @@ static void command_threads(BaseSequentialStream *out, int argc, char *argv[]) {
   chprintf(out, SHELL_NEWLINE_STR);
 }
 
+static void say_finding(void *context, const char *subject, const char *verdict) {
+  chprintf(context, "%s: %s" SHELL_NEWLINE_STR, subject, verdict);
+}
+
+static void command_doctor(BaseSequentialStream *out, int argc, char *argv[]) {
+  size_t found;
+
+  (void)argc;
+  (void)argv;
+  found = up_doctor_run(say_finding, out);
+  if (found == 0U) {
+    chprintf(out, "nothing is wrong that the board can see" SHELL_NEWLINE_STR);
+  }
+}
+
 /* The text that the schema hash is made of: a host that expects another schema names the devices that differ. */
 static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
   const up_schema_t *schema = up_config.schema;
@@ -240,6 +256,7 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
 static const ShellCommand commands[] = {
     {"sensors", command_sensors}, {"print", command_print},   {"stream", command_stream},
     {"link", command_link},       {"schema", command_schema}, {"threads", command_threads},
+    {"doctor", command_doctor},
     {NULL, NULL},
 };
 

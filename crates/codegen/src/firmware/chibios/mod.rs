@@ -8,6 +8,7 @@
 mod adc;
 mod board;
 mod context;
+mod doctor;
 mod i2c;
 mod icu;
 mod link;

@@ -4,10 +4,11 @@ use sensedsl_diagnostics::Diagnostic;
 
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
+use super::doctor::{self, DoctorPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
 use super::schema::SchemaPlan;
-use super::section::{self, Apply, Counter, GuardPlan, Section, Size, Work};
+use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
 
 /// The firmware of one board.
@@ -19,6 +20,7 @@ pub(super) struct BoardPlan {
     pub(super) schema: SchemaPlan,
     pub(super) pads: Vec<PadPlan>,
     pub(super) parts: PartsPlan,
+    pub(super) doctor: DoctorPlan,
     pub(super) sections: Vec<Section>,
     pub(super) tasks: Vec<TaskPlan>,
     pub(super) link: LinkPlan,
@@ -65,6 +67,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         guards: settings::guards(context, &sections, &settings),
         settings,
         parts: parts::plan(context),
+        doctor: doctor::plan(context),
         pads,
         sections,
         tasks,
@@ -81,6 +84,11 @@ impl BoardPlan {
     /// What drivers count.
     pub(super) fn counters(&self) -> Vec<&Counter> {
         self.sections.iter().flat_map(|section| &section.counters).collect()
+    }
+
+    /// The buses that can be searched.
+    pub(super) fn probes(&self) -> Vec<&Probe> {
+        self.sections.iter().flat_map(|section| &section.probes).collect()
     }
 
     /// What starts the drivers.

@@ -49,6 +49,8 @@ pub(super) const FILES: &[(&str, &str)] = files![
     "core/up_text.h",
     "core/up_value.c",
     "core/up_value.h",
+    "chibios/up_doctor.c",
+    "chibios/up_doctor.h",
     "chibios/up_life.c",
     "chibios/up_life.h",
     "chibios/up_link.c",

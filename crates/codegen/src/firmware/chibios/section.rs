@@ -72,8 +72,22 @@ pub(super) struct Section {
     pub(super) applies: Vec<Apply>,
     /// What it counts beside the health of devices.
     pub(super) counters: Vec<Counter>,
+    /// Buses on which addresses can be searched for.
+    pub(super) probes: Vec<Probe>,
     /// Lines of C that bring its actuators to safety when the host is silent.
     pub(super) failsafes: Vec<String>,
+}
+
+/// A bus on which addresses can be searched for: an `up_probe_t`.
+#[derive(Clone, Debug)]
+pub(super) struct Probe {
+    /// `I2C1`
+    pub(super) title: String,
+    /// The runtime's function that asks one address, and what it is told.
+    pub(super) function: &'static str,
+    pub(super) table: String,
+    /// Those that the design has there, as C literals.
+    pub(super) expected: Vec<String>,
 }
 
 /// A number for people.
