@@ -12,11 +12,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum {
-  UP_BUS_DONE,
-  UP_BUS_NOT_ACKNOWLEDGED, /* I2C only: nobody has this address, or a byte was refused */
-  UP_BUS_FAILED            /* a time-out, a lost arbitration, a bus that hangs, or a transfer the bus does not have */
-} up_bus_result_t;
+#include "up_result.h"
+
+/* What a transfer came to: UP_BUS_DONE, or the cause that is told of all values in it. */
+typedef up_result_t up_bus_result_t;
+#define UP_BUS_DONE UP_FRESH
+#define UP_BUS_NOT_ACKNOWLEDGED UP_NOT_ACKNOWLEDGED /* I2C only */
+#define UP_BUS_ARBITRATION_LOST UP_ARBITRATION_LOST /* I2C only */
+#define UP_BUS_TIMED_OUT UP_TIMED_OUT
+/* and UP_BUS_ERROR */
 
 /* `address` is the 7-bit address on I2C, and the number of the chip select on SPI as the system counts them. */
 typedef struct {

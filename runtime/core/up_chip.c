@@ -38,27 +38,23 @@ static void restart(up_chip_state_t *state) {
   state->is_running = false;
 }
 
+static void count_fault(up_chip_state_t *state, up_result_t cause) {
+  state->counts.causes[cause]++;
+  state->fault = (uint8_t)cause;
+}
+
 /* Counts what a transfer came to; after one that failed, the chip is to be started again. */
 static bool went_through(up_chip_state_t *state, up_bus_result_t result) {
-  switch (result) {
-  case UP_BUS_DONE:
-    /* Starting proves nothing before it is done. */
-    if (state->fault == UNTOUCHED && state->is_running) {
-      state->fault = UP_CHIP_WELL;
-    }
-    return true;
-  case UP_BUS_NOT_ACKNOWLEDGED:
-    state->counts.not_acknowledged++;
-    state->fault = UP_CHIP_NOT_ACKNOWLEDGED;
-    break;
-  case UP_BUS_FAILED:
-  default:
-    state->counts.failed++;
-    state->fault = UP_CHIP_FAILED;
-    break;
+  if (result != UP_BUS_DONE) {
+    count_fault(state, result);
+    restart(state);
+    return false;
   }
-  restart(state);
-  return false;
+  /* Starting proves nothing before it is done. */
+  if (state->fault == UNTOUCHED && state->is_running) {
+    state->fault = UP_NOTHING;
+  }
+  return true;
 }
 
 static bool write_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
@@ -81,7 +77,7 @@ static const uint8_t *read_bytes(const step_t *step, const uint8_t *select, size
 
 static const uint8_t *exchange_bytes(const step_t *step, const uint8_t *bytes, size_t count) {
   uint8_t *work = step->state->work;
-  up_bus_result_t result = UP_BUS_FAILED;
+  up_bus_result_t result = UP_BUS_ERROR;
 
   memcpy(work, bytes, count);
   if (step->bus->exchange != NULL) {
@@ -133,9 +129,8 @@ static bool identify(const step_t *step) {
     const unsigned mask = (identity->mask != NULL) ? identity->mask[i] : 0xFFU;
     if ((((unsigned)found[i] ^ identity->expected[i]) & mask) != 0U) {
       state->identity_seen = found[i];
-      state->counts.wrong_identity++;
-      state->fault = UP_CHIP_WRONG_IDENTITY;
-      state->is_stranger = state->counts.wrong_identity % LOOKS != 0U;
+      count_fault(state, UP_WRONG_IDENTITY);
+      state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;
       restart(state);
       return false;
     }
@@ -167,7 +162,7 @@ static void begin_transfers(const step_t *step) {
     step->state->transfers[i].ready_ms = step->now_ms + step->chip->transfers[i].wait_ms;
   }
   step->state->is_running = true;
-  step->state->fault = UP_CHIP_WELL;
+  step->state->fault = UP_NOTHING;
   step->state->counts.starts++;
 }
 
@@ -190,19 +185,19 @@ static void say(const step_t *step, const up_chip_reading_t *reading, up_result_
   up_chip_state_t *state = step->state;
 
   if (result == UP_FRESH) {
-    state->counts.values++;
+    state->counts.causes[UP_FRESH]++;
   }
   step->sink->on_value(step->sink->context, reading->field, result, (result == UP_FRESH) ? state->scratch : NULL);
 }
 
-/* All readings of one transfer; of all with `transfer` transfers_count. */
-static void say_error(const step_t *step, size_t transfer) {
+/* The fault, for all readings of one transfer; for those of all with `transfer` transfers_count. */
+static void say_fault(const step_t *step, size_t transfer) {
   size_t i;
 
   for (i = 0U; i < step->chip->readings_count; i++) {
     const up_chip_reading_t *reading = &step->chip->readings[i];
     if (reading->transfer == transfer || transfer == step->chip->transfers_count) {
-      say(step, reading, UP_ERROR);
+      say(step, reading, (up_result_t)step->state->fault);
     }
   }
 }
@@ -245,20 +240,6 @@ static up_result_t decode(const step_t *step, const up_chip_reading_t *reading, 
                          step->state->scratch);
 }
 
-static void count_invalid(const step_t *step, const up_chip_reading_t *reading, const up_field_t *field,
-                          const uint8_t *bytes, size_t length) {
-  const size_t end = (size_t)reading->offset + up_value_bytes(&reading->value, field->count);
-
-  if (!reading->computed && end <= length &&
-      !up_value_crc_is_right(&reading->value, field->count, &bytes[reading->offset])) {
-    step->state->counts.wrong_crc++;
-    step->state->fault = UP_CHIP_WRONG_CRC;
-  } else {
-    step->state->counts.invalid++;
-    step->state->fault = UP_CHIP_INVALID;
-  }
-}
-
 static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes) {
   const size_t length = step->chip->transfers[transfer].length;
   computed_t computed;
@@ -274,8 +255,8 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
     }
     result = reading->computed ? compute(step, reading, field, bytes, length, &computed)
                                : decode(step, reading, field, bytes, length);
-    if (result == UP_INVALID) {
-      count_invalid(step, reading, field, bytes, length);
+    if (result != UP_FRESH) {
+      count_fault(step->state, result);
     }
     say(step, reading, result);
   }
@@ -317,7 +298,7 @@ static bool fetch(const step_t *step, size_t transfer) {
                                          : read_bytes(step, table->select, table->select_count, table->length);
 
   if (bytes == NULL) {
-    say_error(step, transfer);
+    say_fault(step, transfer);
     return false;
   }
   say_values(step, transfer, bytes);
@@ -379,7 +360,7 @@ static void run_triggered(const step_t *step) {
       return;
     }
     if (!write_bytes(step, step->chip->transfers[transfer].trigger, step->chip->transfers[transfer].trigger_count)) {
-      say_error(step, transfer);
+      say_fault(step, transfer);
       return;
     }
     set_next(step, transfer);
@@ -397,7 +378,7 @@ void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t 
   if (!state->is_running) {
     start(&step);
     if (!state->is_running && state->fault != UNTOUCHED) {
-      say_error(&step, chip->transfers_count);
+      say_fault(&step, chip->transfers_count);
     }
   }
   if (state->is_running && fetch_free(&step)) {
@@ -444,9 +425,11 @@ up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const u
     memcpy(state->work, command->prefix, command->prefix_count);
   }
   count = up_value_encode(&command->value, field, value, bytes, up_value_bytes(&command->value, field->count));
-  if (count == 0U ||
-      !went_through(state, bus->write(bus->context, chip->address, state->work, command->prefix_count + count))) {
-    return UP_ERROR;
+  if (count == 0U) {
+    return UP_INVALID;
+  }
+  if (!went_through(state, bus->write(bus->context, chip->address, state->work, command->prefix_count + count))) {
+    return (up_result_t)state->fault;
   }
   state->counts.written++;
   return UP_FRESH;

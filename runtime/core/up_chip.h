@@ -88,26 +88,12 @@ typedef struct {
   uint8_t commands_count;
 } up_chip_t;
 
-/* What is the matter with a chip. */
-typedef enum {
-  UP_CHIP_WELL,
-  UP_CHIP_NOT_ACKNOWLEDGED,
-  UP_CHIP_FAILED,         /* the bus, see UP_BUS_FAILED */
-  UP_CHIP_WRONG_IDENTITY, /* another part, or the right one on a bad wire */
-  UP_CHIP_WRONG_CRC,
-  UP_CHIP_INVALID         /* answered with what is not a measurement */
-} up_chip_fault_t;
-
 /* How often, since the start of the board; each wraps at 2^32. */
 typedef struct {
-  uint32_t starts;           /* initialised, identified and calibrated to the end */
-  uint32_t values;           /* fresh values that went to the sink */
-  uint32_t written;          /* commands that went through */
-  uint32_t not_acknowledged; /* transfers */
-  uint32_t failed;           /* transfers */
-  uint32_t wrong_identity;   /* identities read that were not the expected one */
-  uint32_t wrong_crc;        /* values */
-  uint32_t invalid;          /* values */
+  uint32_t starts;             /* initialised, identified and calibrated to the end */
+  uint32_t written;            /* commands that went through */
+  uint32_t causes[UP_RESULTS]; /* by up_result_t: values that are fresh, invalid or have a wrong checksum; transfers
+                                * that failed; identities that were not the expected one */
 } up_chip_counts_t;
 
 /* Of one transfer. */
@@ -124,7 +110,8 @@ typedef struct {
   uint64_t *scratch;                   /* as large as the largest value of a reading; may be shared likewise */
   up_chip_counts_t counts;
   uint32_t pause_until_ms;
-  uint8_t fault;         /* up_chip_fault_t: of the last step that read anything; a start counts when it is done */
+  uint8_t fault;         /* up_result_t: what is the matter since the last step that read anything (a start counts when
+                          * it is done); UP_NOTHING when all is well */
   uint8_t identity_seen; /* the first byte that was wrong of the identity read last */
   uint8_t init_at;       /* which step of the initialisation is next */
   uint8_t in_flight;     /* 1 + index of the triggered transfer that has not been read; 0 for none */
@@ -136,7 +123,7 @@ typedef struct {
 /* Bytes of work buffer: the most that any transfer writes and reads together, a command's bytes included. */
 size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema);
 
-/* One cycle. Says one result for each reading of a transfer that was read or failed, and UP_ERROR for all readings
+/* One cycle. Says one result for each reading of a transfer that was read or failed, and the cause for all readings
  * when the chip could not be started; says nothing of the others. Of transfers with a trigger one is under way at a
  * time, the one that has been due for longest: their converter is one. */
 void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
@@ -148,8 +135,9 @@ void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t 
 uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, uint32_t now_ms);
 
 /* Writes a value. UP_FRESH: it is written. UP_NOTHING: the chip is not started, ask again after the next step.
- * UP_ERROR: it did not go through, and the chip will be started again. What was written before a start is lost in the
- * chip: when counts.starts has changed, all commands are written anew by whoever calls. */
+ * UP_INVALID: it has no place in the command. Another cause: it did not go through, and the chip will be started again.
+ * What was written before a start is lost in the chip: when counts.starts has changed, all commands are written anew by
+ * whoever calls. */
 up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
                           const up_schema_t *schema, const up_chip_command_t *command, const void *value);
 

@@ -25,9 +25,10 @@ static size_t frame_bytes(const up_message_t *message) {
 /* ---- is it a message? ---- */
 
 typedef enum {
-  MORE,  /* it may become one */
-  WHOLE, /* it is one */
-  BAD    /* it will never be one */
+  MORE,    /* it may become one */
+  WHOLE,   /* it is one */
+  DAMAGED, /* it is one but for its checksum */
+  BAD      /* it will never be one */
 } verdict_t;
 
 static bool starts_right(const up_message_t *message, const uint8_t *bytes, size_t size) {
@@ -81,7 +82,7 @@ static bool sums_right(const up_message_t *message, const uint8_t *bytes, size_t
   }
 }
 
-static verdict_t judge(const up_message_t *message, up_message_state_t *state) {
+static verdict_t judge(const up_message_t *message, const up_message_state_t *state) {
   const uint8_t *bytes = state->buffer;
   const size_t size = state->size;
   const size_t least = frame_bytes(message) + message->length;
@@ -96,8 +97,7 @@ static verdict_t judge(const up_message_t *message, up_message_state_t *state) {
     return BAD;
   }
   if (!sums_right(message, bytes, size - message->end_count - checksum_size(message))) {
-    state->wrong_checksum++;
-    return BAD;
+    return DAMAGED;
   }
   return WHOLE;
 }
@@ -156,6 +156,13 @@ static up_result_t text_value(const up_message_field_t *how, const up_field_t *f
   return result;
 }
 
+/* Whether a body is of the kind that has this value. */
+static bool is_of_body(const up_message_field_t *how, const uint8_t *body, size_t body_count) {
+  const up_piece_t text = {(const char *)body, body_count};
+
+  return how->format == UP_FORMAT_BINARY || how->sentence == NULL || is_sentence(text, how->sentence, how->separator);
+}
+
 bool up_message_value(const up_message_field_t *how, const up_field_t *field, const uint8_t *body, size_t body_count,
                       void *value, up_result_t *result) {
   up_piece_t text;
@@ -169,11 +176,26 @@ bool up_message_value(const up_message_field_t *how, const up_field_t *field, co
   }
   text.start = (const char *)body;
   text.size = body_count;
-  if (how->sentence != NULL && !is_sentence(text, how->sentence, how->separator)) {
+  if (!is_of_body(how, body, body_count)) {
     return false;
   }
   *result = text_value(how, field, text, value);
   return true;
+}
+
+/* A damaged message is told of all values that it has. Without a start or an end nobody knows that it is one. */
+static void say_damaged(const up_message_t *message, const up_message_state_t *state, const up_value_sink_t *sink) {
+  const uint8_t *body = &state->buffer[message->start_count];
+  size_t i;
+
+  if ((size_t)message->start_count + message->end_count == 0U) {
+    return;
+  }
+  for (i = 0U; i < message->fields_count; i++) {
+    if (is_of_body(&message->fields[i], body, state->size - frame_bytes(message))) {
+      sink->on_value(sink->context, message->fields[i].field, UP_WRONG_CRC, NULL);
+    }
+  }
 }
 
 static void say_values(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
@@ -189,7 +211,7 @@ static void say_values(const up_message_t *message, up_message_state_t *state, c
       continue;
     }
     state->values += (result == UP_FRESH) ? 1U : 0U;
-    state->invalid += (result == UP_INVALID) ? 1U : 0U;
+    state->invalid += (result == UP_INVALID || result == UP_WRONG_CRC) ? 1U : 0U;
     sink->on_value(sink->context, how->field, result, (result == UP_FRESH) ? state->scratch : NULL);
   }
 }
@@ -240,7 +262,11 @@ static void take(const up_message_t *message, up_message_state_t *state, const u
                  const up_value_sink_t *sink) {
   verdict_t verdict = align(message, state) ? MORE : judge(message, state);
 
-  while (verdict == BAD && state->size > 0U) {
+  while ((verdict == BAD || verdict == DAMAGED) && state->size > 0U) {
+    if (verdict == DAMAGED) {
+      state->wrong_checksum++;
+      say_damaged(message, state, sink);
+    }
     if (needs_alignment(message)) {
       /* Either too long, and its end is still to come, or at its end and wrong. */
       state->is_aligned = state->size >= message->end_count && ends_right(message, state->buffer, state->size);

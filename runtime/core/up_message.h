@@ -88,7 +88,8 @@ typedef struct {
 const up_message_init_t *up_message_start(const up_message_init_t *init, uint8_t count, up_message_start_t *state,
                                           uint32_t now_ms);
 
-/* Takes the next bytes of the stream, and says the values of each whole message. UP_NOTHING: the field is empty. */
+/* Takes the next bytes of the stream, and says the values of each whole message. UP_NOTHING: the field is empty.
+ * UP_WRONG_CRC: the checksum of its message does not fit. */
 void up_message_feed(const up_message_t *message, up_message_state_t *state, const up_schema_t *schema,
                      const uint8_t *bytes, size_t count, const up_value_sink_t *sink);
 

@@ -160,8 +160,11 @@ up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, cons
   uint8_t *memory = value;
   size_t i;
 
-  if (bytes_count < up_value_bytes(how, field->count) || !up_value_crc_is_right(how, field->count, bytes)) {
+  if (bytes_count < up_value_bytes(how, field->count)) {
     return UP_INVALID;
+  }
+  if (!up_value_crc_is_right(how, field->count, bytes)) {
+    return UP_WRONG_CRC;
   }
   for (i = 0U; i < field->count; i++) {
     const size_t word = word_of_element(how, i);

@@ -7,15 +7,8 @@
 #ifndef UP_VALUE_H
 #define UP_VALUE_H
 
+#include "up_result.h"
 #include "up_schema.h"
-
-/* What a reading came to in one step; whoever makes values says one of these for each. */
-typedef enum {
-  UP_NOTHING, /* not due, not ready, not measured: the last value stands */
-  UP_FRESH,   /* a new value */
-  UP_INVALID, /* the device answered with something that is not a measurement: a fault of this reading */
-  UP_ERROR    /* the device did not answer, or it is another device */
-} up_result_t;
 
 /* Where values go. `value` has up_field_bytes() bytes and is NULL unless the result is UP_FRESH; it is only valid
  * during the call, and may be changed (a filter does). `field` is an index of the schema's fields. */
@@ -53,9 +46,9 @@ typedef struct {
 /* Bytes on the wire of a value with `count` elements, checksums included. */
 size_t up_value_bytes(const up_value_t *how, uint16_t count);
 
-/* Stores the value of `field` that stands in the first up_value_bytes() of `bytes`. UP_FRESH, or UP_INVALID where a
- * checksum is wrong, a BCD digit is greater than 9, a float is infinite or not a number, or there are not enough bytes;
- * then `value` may be half written. */
+/* Stores the value of `field` that stands in the first up_value_bytes() of `bytes`. UP_FRESH; UP_WRONG_CRC where a
+ * checksum is wrong; UP_INVALID where a BCD digit is greater than 9, a float is infinite or not a number, or bytes are
+ * missing. Unless it is fresh, `value` may be half written. */
 up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, const uint8_t *bytes, size_t bytes_count,
                             void *value);
 

@@ -336,7 +336,7 @@ static bool is_finished(void) {
       return false;
     }
   }
-  return test.unit->chip_state->is_running || test.unit->chip_state->fault != UP_CHIP_WELL;
+  return test.unit->chip_state->is_running || test.unit->chip_state->fault != UP_NOTHING;
 }
 
 static void run(void) {
@@ -446,9 +446,14 @@ static void end(void) {
         printf("\n");
         break;
       case UP_INVALID:
+      case UP_WRONG_CRC:
         printf("invalid %u\n", (unsigned)i);
         break;
-      case UP_ERROR:
+      case UP_NOT_ACKNOWLEDGED:
+      case UP_BUS_ERROR:
+      case UP_ARBITRATION_LOST:
+      case UP_TIMED_OUT:
+      case UP_WRONG_IDENTITY:
         printf("error %u\n", (unsigned)i);
         break;
       case UP_NOTHING:
@@ -456,7 +461,7 @@ static void end(void) {
     }
   }
   if (test.unit->chip != NULL) {
-    printf("identity %s\n", (test.unit->chip_state->counts.wrong_identity > 0U) ? "wrong" : "right");
+    printf("identity %s\n", (test.unit->chip_state->counts.causes[UP_WRONG_IDENTITY] > 0U) ? "wrong" : "right");
   }
   printf("end\n");
 }

@@ -174,13 +174,14 @@ static void test_start(void) {
   step(&board, &mpu, t0 + 101U);
   CHECK(board.state.is_running && board.state.counts.starts == 1U && board.heard.results[0] == UP_FRESH);
   CHECK(board.heard.axes[0] == 16 && board.heard.axes[1] == -16 && board.heard.axes[2] == 16384);
-  CHECK(board.heard.results[1] == UP_FRESH && board.heard.celsius == -3728 && board.state.counts.values == 2U);
+  CHECK(board.heard.results[1] == UP_FRESH && board.heard.celsius == -3728);
+  CHECK(board.state.counts.causes[UP_FRESH] == 2U);
   CHECK(board.world.log_size == sizeof written && memcmp(board.world.log, written, sizeof written) == 0);
   CHECK(board.world.transfers == 4U && up_chip_idle_ms(&mpu, &board.state, t0 + 101U) == 10U);
   step(&board, &mpu, t0 + 105U);
   CHECK(board.heard.told[0] == 1U);
   step(&board, &mpu, t0 + 111U);
-  CHECK(board.heard.told[0] == 2U && board.state.fault == UP_CHIP_WELL);
+  CHECK(board.heard.told[0] == 2U && board.state.fault == UP_NOTHING);
   /* 9 ms and 11 ms in turn, as clocks of whole milliseconds round: none is left out, none comes twice. */
   for (uint32_t i = 2U; i < 100U; i++) {
     step(&board, &mpu, t0 + 101U + 10U * i - i % 2U);
@@ -194,24 +195,49 @@ static void test_faults(void) {
   set_up_mpu(&board);
   board.world.is_gone = true;
   step(&board, &mpu, 0U);
-  CHECK(board.heard.results[0] == UP_ERROR && board.heard.results[1] == UP_ERROR && board.heard.told[0] == 1U);
-  CHECK(board.state.counts.not_acknowledged == 1U && board.state.fault == UP_CHIP_NOT_ACKNOWLEDGED);
+  CHECK(board.heard.results[0] == UP_NOT_ACKNOWLEDGED && board.heard.results[1] == UP_NOT_ACKNOWLEDGED);
+  CHECK(board.heard.told[0] == 1U);
+  CHECK(board.state.counts.causes[UP_NOT_ACKNOWLEDGED] == 1U && board.state.fault == UP_NOT_ACKNOWLEDGED);
   CHECK(up_chip_idle_ms(&mpu, &board.state, 0U) == 10U);
   board.world.is_gone = false;
   step(&board, &mpu, 10U);
   step(&board, &mpu, 111U);
-  CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_CHIP_WELL);
+  CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
   /* A transfer fails: error now, then the whole start again, with its pause. */
   board.world.fails_at = board.world.transfers + 1U;
-  board.world.failure = UP_BUS_FAILED;
+  board.world.failure = UP_BUS_TIMED_OUT;
   board.world.log_size = 0U;
   step(&board, &mpu, 121U);
-  CHECK(board.heard.results[0] == UP_ERROR && board.state.counts.failed == 1U && board.state.fault == UP_CHIP_FAILED);
+  CHECK(board.heard.results[0] == UP_TIMED_OUT && board.state.counts.causes[UP_TIMED_OUT] == 1U);
+  CHECK(board.state.fault == UP_TIMED_OUT);
   CHECK(board.heard.told[0] == 3U && !board.state.is_running);
   step(&board, &mpu, 131U);
   CHECK(board.world.log_size == 3U && board.heard.told[0] == 3U);
   step(&board, &mpu, 232U);
   CHECK(board.heard.results[0] == UP_FRESH && board.state.counts.starts == 2U);
+}
+
+/* What a bus says is told of each value, and counted by itself. */
+static void test_causes(void) {
+  static const up_bus_result_t cases[] = {UP_BUS_NOT_ACKNOWLEDGED, UP_BUS_ERROR, UP_BUS_ARBITRATION_LOST,
+                                          UP_BUS_TIMED_OUT};
+  board_t board;
+  size_t i, cause;
+
+  for (i = 0U; i < sizeof cases / sizeof cases[0]; i++) {
+    set_up_mpu(&board);
+    step(&board, &mpu, 0U);
+    step(&board, &mpu, 101U);
+    CHECK(board.heard.results[0] == UP_FRESH && board.state.fault == UP_NOTHING);
+    board.world.fails_at = board.world.transfers + 1U;
+    board.world.failure = cases[i];
+    step(&board, &mpu, 111U);
+    CHECK(board.heard.results[0] == cases[i] && board.heard.results[1] == cases[i]);
+    CHECK(board.state.fault == cases[i]);
+    for (cause = 2U; cause < UP_RESULTS; cause++) {
+      CHECK(board.state.counts.causes[cause] == ((cause == (size_t)cases[i]) ? 1U : 0U));
+    }
+  }
 }
 
 static void test_identity(void) {
@@ -222,19 +248,19 @@ static void test_identity(void) {
   board.world.registers[0x75] = 0x70U; /* an MPU-6500 */
   step(&board, &mpu, 0U);
   step(&board, &mpu, 101U);
-  CHECK(board.heard.results[0] == UP_ERROR && board.state.fault == UP_CHIP_WRONG_IDENTITY);
-  CHECK(board.state.counts.wrong_identity == 1U && board.state.identity_seen == 0x70U);
+  CHECK(board.heard.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
+  CHECK(board.state.counts.causes[UP_WRONG_IDENTITY] == 1U && board.state.identity_seen == 0x70U);
   before = board.world.log_size;
   for (uint32_t now_ms = 111U; now_ms < 1000U; now_ms += 10U) {
     step(&board, &mpu, now_ms);
-    CHECK(board.heard.results[0] == UP_ERROR && board.state.fault == UP_CHIP_WRONG_IDENTITY);
-    if (board.state.counts.wrong_identity < 16U) {
+    CHECK(board.heard.results[0] == UP_WRONG_IDENTITY && board.state.fault == UP_WRONG_IDENTITY);
+    if (board.state.counts.causes[UP_WRONG_IDENTITY] < 16U) {
       CHECK(board.world.log_size == before);
     }
   }
   /* It was read, and seldom written to: each 16th time it is started, with a pause of ten cycles. */
-  CHECK(board.state.counts.values == 0U && board.state.counts.starts == 0U);
-  CHECK(board.state.counts.wrong_identity == 57U && board.world.log_size == before + 3U * 6U);
+  CHECK(board.state.counts.causes[UP_FRESH] == 0U && board.state.counts.starts == 0U);
+  CHECK(board.state.counts.causes[UP_WRONG_IDENTITY] == 57U && board.world.log_size == before + 3U * 6U);
   before = board.world.log_size;
   board.world.registers[0x75] = 0xE9U; /* the bits that count are right */
   step(&board, &mpu, 1000U);
@@ -257,7 +283,7 @@ static void test_command(void) {
   CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_FRESH);
   CHECK(board.world.registers[0x1C] == 0x18U);
   board.world.is_gone = true;
-  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_ERROR);
+  CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_NOT_ACKNOWLEDGED);
   CHECK(up_chip_write(&mpu, &board.state, &board.bus, &schema, mpu_commands, &level) == UP_NOTHING);
 }
 
@@ -369,8 +395,8 @@ static void test_crc(void) {
   board.world.registers[5] ^= 0x10U;
   step(&board, &sht, 100U);
   step(&board, &sht, 200U);
-  CHECK(board.heard.results[2] == UP_FRESH && board.heard.results[3] == UP_INVALID);
-  CHECK(board.state.counts.wrong_crc == 1U && board.state.fault == UP_CHIP_WRONG_CRC && board.state.is_running);
+  CHECK(board.heard.results[2] == UP_FRESH && board.heard.results[3] == UP_WRONG_CRC);
+  CHECK(board.state.counts.causes[UP_WRONG_CRC] == 1U && board.state.fault == UP_WRONG_CRC && board.state.is_running);
 }
 
 static void test_exchange(void) {
@@ -390,7 +416,7 @@ static void test_exchange(void) {
   set_up(&board, &mcp3008);
   CHECK(up_chip_work_bytes(&mcp3008, &schema) == 6U);
   step(&board, &mcp3008, 0U); /* a bus without exchanges */
-  CHECK(board.heard.results[2] == UP_ERROR && board.state.counts.failed == 1U);
+  CHECK(board.heard.results[2] == UP_BUS_ERROR && board.state.counts.causes[UP_BUS_ERROR] == 1U);
   board.bus.exchange = world_exchange;
   step(&board, &mcp3008, 10U);
   CHECK(board.heard.results[2] == UP_FRESH && board.heard.wide[0] == 992 && board.heard.wide[1] == 989);
@@ -422,8 +448,13 @@ static void test_formula(void) {
   board.world.registers[0xFA] = 0x80U;
   board.world.registers[0xFB] = 0x00U;
   step(&board, &bmp, 10U);
-  CHECK(board.heard.results[2] == UP_INVALID && board.state.counts.invalid == 2U);
-  CHECK(board.state.fault == UP_CHIP_INVALID);
+  CHECK(board.heard.results[2] == UP_INVALID && board.state.counts.causes[UP_INVALID] == 2U);
+  CHECK(board.state.fault == UP_INVALID);
+}
+
+static uint32_t failures_of(const up_chip_state_t *state) {
+  return state->counts.causes[UP_NOT_ACKNOWLEDGED] + state->counts.causes[UP_BUS_ERROR] +
+         state->counts.causes[UP_ARBITRATION_LOST] + state->counts.causes[UP_TIMED_OUT];
 }
 
 /* A bad wire: transfers fail at random, another part answers now and then, time jumps. A stranger gives no values, a
@@ -435,36 +466,37 @@ static void test_bad_wire(void) {
   set_up_mpu(&board);
   for (i = 0U; i < 30000U; i++) {
     const unsigned told = board.heard.told[0];
-    const uint32_t failed = board.state.counts.failed + board.state.counts.not_acknowledged;
+    const uint32_t failed = failures_of(&board.state);
     bool is_good;
     seed = seed * 1664525U + 1013904223U;
     is_good = (i / 1000U) % 2U == 1U;
     board.world.registers[0x75] = (!is_good && (seed >> 16) % 10U == 0U) ? 0xFFU : 0x68U;
     board.world.is_gone = !is_good && (seed >> 8) % 40U == 0U;
     board.world.fails_at = (!is_good && (seed >> 20) % 20U == 0U) ? board.world.transfers + 1U + (seed >> 30) : 0U;
-    board.world.failure = UP_BUS_FAILED;
+    board.world.failure = (up_bus_result_t)((unsigned)UP_NOT_ACKNOWLEDGED + (seed >> 12) % 4U);
     board.world.log_size = 0U;
     step(&board, &mpu, now_ms);
     if (board.heard.told[0] != told && board.heard.results[0] == UP_FRESH) {
       fresh++;
-      CHECK(!board.state.is_stranger && board.state.is_running && board.state.fault == UP_CHIP_WELL);
+      CHECK(!board.state.is_stranger && board.state.is_running && board.state.fault == UP_NOTHING);
       CHECK(board.heard.axes[1] == -16 && board.heard.results[1] == UP_FRESH);
     }
-    if (board.state.counts.failed + board.state.counts.not_acknowledged != failed) {
-      CHECK(board.heard.told[0] != told && board.heard.results[0] == UP_ERROR && !board.state.is_running);
+    if (failures_of(&board.state) != failed) {
+      CHECK(board.heard.told[0] != told && board.heard.results[0] == board.state.fault && !board.state.is_running);
     }
-    CHECK(board.state.counts.values == 2U * fresh);
+    CHECK(board.state.counts.causes[UP_FRESH] == 2U * fresh);
     if (i % 1000U > 30U && is_good) {
       CHECK(board.state.is_running && board.heard.told[0] != told);
     }
     now_ms += 10U + ((!is_good && (seed >> 24) == 7U) ? 100000U : 0U);
   }
-  CHECK(fresh > 20000U && board.state.counts.starts > 100U && board.state.counts.wrong_identity > 10U);
+  CHECK(fresh > 20000U && board.state.counts.starts > 100U && board.state.counts.causes[UP_WRONG_IDENTITY] > 10U);
 }
 
 void test_chips(void) {
   test_start();
   test_faults();
+  test_causes();
   test_identity();
   test_command();
   test_turns();

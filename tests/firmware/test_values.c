@@ -86,6 +86,7 @@ static void test_sensirion(void) {
   CHECK(up_value_encode(&wide, &word_field, &both, back, 5U) == 0U);
   image[5] ^= 1U;
   CHECK(decodes(&word, &half_field, image, &number) && !decodes(&wide, &word_field, image, &both));
+  CHECK(up_value_decode(&wide, &word_field, image, 6U, back) == UP_WRONG_CRC);
   CHECK(!up_value_crc_is_right(&wide, 1U, image) && up_value_crc_is_right(&word, 1U, image));
   image[5] ^= 1U;
 }
