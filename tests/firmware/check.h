@@ -20,6 +20,7 @@ void test_chips(void);
 void test_filters(void);
 void test_messages(void);
 void test_outputs(void);
+void test_health(void);
 void test_vectors(const char *path);
 
 #endif

@@ -29,6 +29,7 @@ int main(int argc, char **argv) {
   test_filters();
   test_messages();
   test_outputs();
+  test_health();
   for (i = 1; i < argc; i++) {
     test_vectors(argv[i]);
   }

@@ -1,0 +1,103 @@
+#include "up_health.h"
+
+/* Half of the clock's range. */
+#define ANCIENT_MS 0x80000000U
+/* A value that is so little younger than the time of who asks came meanwhile, from another thread. */
+#define AHEAD_MS 0x10000U
+
+static size_t fault_of(up_result_t result) {
+  switch (result) {
+  case UP_NOT_ACKNOWLEDGED:
+    return UP_FAULT_NOT_ACKNOWLEDGED;
+  case UP_BUS_ERROR:
+    return UP_FAULT_BUS;
+  case UP_ARBITRATION_LOST:
+    return UP_FAULT_ARBITRATION;
+  case UP_TIMED_OUT:
+    return UP_FAULT_TIME_OUT;
+  case UP_WRONG_CRC:
+    return UP_FAULT_CRC;
+  case UP_INVALID:
+  case UP_WRONG_IDENTITY:
+    return UP_FAULT_INVALID;
+  case UP_NOTHING:
+  case UP_FRESH:
+  default:
+    return UP_FAULTS;
+  }
+}
+
+void up_health_note(up_health_t *health, size_t field, up_result_t result, uint32_t now_ms) {
+  up_health_device_t *device = &health->devices[field];
+  const size_t fault = fault_of(result);
+
+  if (result == UP_NOTHING) {
+    return;
+  }
+  device->last = (uint8_t)result;
+  if (fault < UP_FAULTS) {
+    device->counts[fault] = (uint16_t)(device->counts[fault] + (device->counts[fault] < UINT16_MAX));
+  } else {
+    device->good_ms = now_ms;
+    device->has_value = true;
+    device->is_ancient = false;
+  }
+}
+
+static uint32_t age_ms(const up_health_device_t *device, uint32_t now_ms) {
+  const uint32_t age = now_ms - device->good_ms;
+
+  if (!device->has_value) {
+    return UP_AGE_NEVER;
+  }
+  if (device->is_ancient) {
+    return UP_AGE_LONG;
+  }
+  if (age >= 0U - AHEAD_MS) {
+    return 0U;
+  }
+  return (age >= ANCIENT_MS) ? UP_AGE_LONG : age;
+}
+
+void up_health_tick(up_health_t *health, uint32_t now_ms) {
+  up_health_device_t *device;
+
+  if (health->looked_at >= health->devices_count) {
+    health->looked_at = 0U;
+    return;
+  }
+  device = &health->devices[health->looked_at];
+  device->is_ancient = age_ms(device, now_ms) == UP_AGE_LONG;
+  health->looked_at++;
+}
+
+static up_status_t status(const up_health_device_t *device, uint32_t age, uint32_t cycle_ms) {
+  switch ((up_result_t)device->last) {
+  case UP_NOTHING:
+    return UP_STATUS_NEVER;
+  case UP_FRESH:
+    return (cycle_ms != 0U && age / UP_STALE_CYCLES >= cycle_ms) ? UP_STATUS_STALE : UP_STATUS_GOOD;
+  case UP_INVALID:
+    return UP_STATUS_INVALID;
+  case UP_WRONG_CRC:
+  case UP_NOT_ACKNOWLEDGED:
+  case UP_BUS_ERROR:
+  case UP_ARBITRATION_LOST:
+  case UP_TIMED_OUT:
+  case UP_WRONG_IDENTITY:
+  default:
+    return UP_STATUS_FAILED;
+  }
+}
+
+void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row) {
+  const up_health_device_t *device = &health->devices[field];
+  const uint32_t cycle_ms = (health->cycles_ms == NULL) ? 0U : health->cycles_ms[field];
+  size_t i;
+
+  row->age_ms = age_ms(device, now_ms);
+  row->status = (uint8_t)status(device, row->age_ms, cycle_ms);
+  for (i = 0U; i < UP_FAULTS; i++) {
+    row->counts[i] = device->counts[i];
+  }
+}

@@ -1,0 +1,70 @@
+/*
+ * How the devices of a board are: what their last readings came to, how long ago, and how often each fault was met.
+ *
+ * Nothing here locks or knows a clock: the caller serialises the functions, and time comes in.
+ */
+#ifndef UP_HEALTH_H
+#define UP_HEALTH_H
+
+#include "up_result.h"
+#include "up_schema.h"
+
+/* No value yet; and none for so long that the clock cannot tell (24 days). */
+#define UP_AGE_NEVER 0xFFFFFFFFU
+#define UP_AGE_LONG 0xFFFFFFFEU
+
+/* A device without a value for so many of its cycles is stale. */
+#define UP_STALE_CYCLES 3U
+
+typedef enum {
+  UP_STATUS_NEVER,  /* never read */
+  UP_STATUS_GOOD,   /* the last reading was a measurement, and is not old */
+  UP_STATUS_STALE,  /* no value for three cycles */
+  UP_STATUS_FAILED, /* the last reading did not come through */
+  UP_STATUS_INVALID /* the last answer was no measurement */
+} up_status_t;
+
+typedef enum {
+  UP_FAULT_NOT_ACKNOWLEDGED,
+  UP_FAULT_BUS,
+  UP_FAULT_ARBITRATION,
+  UP_FAULT_TIME_OUT,
+  UP_FAULT_CRC,
+  UP_FAULT_INVALID /* another device's answers as well */
+} up_fault_t;
+#define UP_FAULTS 6U
+
+/* What is known of one device. All zero at the start. */
+typedef struct {
+  uint32_t good_ms;           /* when the last value came; the clock may wrap */
+  uint16_t counts[UP_FAULTS]; /* by up_fault_t; they stop at 65535 */
+  uint8_t last;               /* up_result_t of the last reading; UP_NOTHING before the first */
+  bool has_value;
+  bool is_ancient; /* the clock cannot tell how old the value is */
+} up_health_device_t;
+
+typedef struct {
+  up_health_device_t *devices; /* one for each field of the schema */
+  const uint32_t *cycles_ms;   /* for each how often it is read; 0: only when something happens, then it is never stale.
+                                * NULL: all are like that */
+  uint8_t devices_count;
+  uint8_t looked_at; /* the device that up_health_tick() looks at next */
+} up_health_t;
+
+/* One device as the host is told of it. */
+typedef struct {
+  uint32_t age_ms;
+  uint16_t counts[UP_FAULTS];
+  uint8_t status; /* up_status_t */
+} up_health_row_t;
+
+/* What a reading of a field came to, before any filter keeps it from the host. UP_NOTHING says nothing of it. */
+void up_health_note(up_health_t *health, size_t field, up_result_t result, uint32_t now_ms);
+
+/* Call it now and then, at least so often that each device has its turn within 24 days: the clock wraps. */
+void up_health_tick(up_health_t *health, uint32_t now_ms);
+
+/* How a device is. */
+void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row);
+
+#endif
