@@ -1,12 +1,13 @@
 /*
  * The decoders of the project behind one small interface: a schema and a stream in, what was said out.
  *
- * In: a schema as bytes (flags, bit 0 for a checksum and bit 1 for the direction to the board; then for each
- * item its identifier, its type as in up_type_t, its direction as in up_direction_t, its count in two bytes,
+ * In: a schema as bytes (flags, bit 0 for a checksum, bit 1 for the direction to the board and bit 2 for stamps;
+ * then for each item its identifier, its type as in up_type_t, its direction as in up_direction_t, its count in two bytes,
  * the high one first); a stream; how it is cut: sizes of pieces, used in turn, where 0 is all that is left.
- * Out, in pieces: 'R', the number of bytes in four bytes, and the items of the payload as they stand there;
- * 'H' and the hash; 'Q' for the request of a hello; at the end 'E', frames and dropped bytes in four bytes
- * each. Two decoders agree when they write the same bytes.
+ * Out, in pieces: 'R', the number of bytes in four bytes, and the payload as it stands there, its stamp included
+ * and its checksum not; 'D' and the same of health; 'V' and the version of health that is not 1; 'H' and the hash;
+ * 'Q' for the request of a hello and 'A' for that of health; at the end 'E', frames and dropped bytes in four
+ * bytes each. Two decoders agree when they write the same bytes.
  */
 #ifndef DECODERS_H
 #define DECODERS_H

@@ -465,6 +465,8 @@ fn stated_link(
         baud_span: baud.map(|baud| baud.span),
         baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
         checksum: checksum.map(|word| word.value).unwrap_or_default(),
+        stamp: false,
+        silence_ms: None,
         rate_hz: rate.map(|rate| rate.value),
         vbus: vbus.unwrap_or(true),
         stated,

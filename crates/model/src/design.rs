@@ -133,6 +133,10 @@ pub struct Link {
     pub baud_span: Option<Span>,
     /// Whether frames end with a checksum.
     pub checksum: Checksum,
+    /// Whether each report begins with the board's time and a counter.
+    pub stamp: bool,
+    /// After how long without a frame from the host actuators take what is safe; none for never.
+    pub silence_ms: Option<u32>,
     /// At most that many frames per second; none for as many as become due.
     pub rate_hz: Option<u32>,
     /// Whether the USB device is told by its VBUS pin that a host is there.
@@ -455,7 +459,9 @@ impl Design {
     /// The wire of one board that carries `devices` (in file order).
     #[must_use]
     pub fn schema(&self, board: BoardIndex, devices: &[DeviceIndex]) -> Schema {
-        let checksum = self.board(board).map_or(Checksum::None, |board| board.link.checksum);
+        let link = self.board(board).map(|board| &board.link);
+        let checksum = link.map_or(Checksum::None, |link| link.checksum);
+        let stamp = link.is_some_and(|link| link.stamp);
         let items = devices.iter().filter_map(|&index| self.device(index));
         let items = items.map(|device| Item {
             id: device.id.value,
@@ -463,6 +469,6 @@ impl Design {
             direction: device.direction,
             value: device.value.value,
         });
-        Schema { checksum, items: items.collect() }
+        Schema { checksum, stamp, items: items.collect() }
     }
 }

@@ -55,7 +55,7 @@ fn read_schema(bytes: &[u8]) -> Schema {
             length: Some(u16::from_be_bytes([high, low])),
         },
     });
-    Schema { checksum, items: items.collect() }
+    Schema { checksum, stamp: false, items: items.collect() }
 }
 
 /// As much as a user of the values does: looks at the first byte of each.

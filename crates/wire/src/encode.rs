@@ -5,6 +5,8 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::checksum::crc16_ccitt_false;
+use crate::frame::Stamp;
+use crate::health::{HEALTH_REQUEST, Health};
 use crate::scalar::Scalar;
 use crate::schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Schema};
 
@@ -21,6 +23,10 @@ pub enum EncodeError {
     Twice(u8),
     /// There is no value to report.
     Empty,
+    /// A stamp where the link has none, or none where each report of the link has one.
+    Stamp,
+    /// Health has not exactly the devices of the schema, in its order.
+    Devices,
 }
 
 impl fmt::Display for EncodeError {
@@ -31,21 +37,47 @@ impl fmt::Display for EncodeError {
             Self::WrongValue(id) => write!(f, "item {id} cannot hold this value"),
             Self::Twice(id) => write!(f, "item {id} stands twice"),
             Self::Empty => write!(f, "a report needs at least one value"),
+            Self::Stamp => write!(f, "the stamp is not as the link wants it"),
+            Self::Devices => write!(f, "the devices are not those of the schema"),
         }
     }
 }
 
 impl core::error::Error for EncodeError {}
 
-/// One frame with the given values, in schema order whatever the order of `values`.
+/// One frame with the given values, in schema order whatever the order of `values`; without a stamp.
 ///
 /// # Errors
-/// When a value does not fit the schema, or none is given.
+/// When a value does not fit the schema, none is given, or reports of the link have a stamp.
 pub fn encode_report(
     schema: &Schema,
     direction: Direction,
     values: &[(u8, Vec<Scalar>)],
 ) -> Result<Vec<u8>, EncodeError> {
+    encode(schema, direction, None, values)
+}
+
+/// The same from a board whose reports have a stamp.
+///
+/// # Errors
+/// When a value does not fit the schema, none is given, or reports of the link have no stamp.
+pub fn encode_stamped_report(
+    schema: &Schema,
+    stamp: Stamp,
+    values: &[(u8, Vec<Scalar>)],
+) -> Result<Vec<u8>, EncodeError> {
+    encode(schema, Direction::Sensor, Some(stamp), values)
+}
+
+fn encode(
+    schema: &Schema,
+    direction: Direction,
+    stamp: Option<Stamp>,
+    values: &[(u8, Vec<Scalar>)],
+) -> Result<Vec<u8>, EncodeError> {
+    if stamp.is_some() != (schema.stamp && direction == Direction::Sensor) {
+        return Err(EncodeError::Stamp);
+    }
     if values.is_empty() {
         return Err(EncodeError::Empty);
     }
@@ -58,6 +90,11 @@ pub fn encode_report(
         }
     }
     let mut payload = Vec::new();
+    if let Some(Stamp { time_us, counter }) = stamp {
+        payload.push(ID_HELLO);
+        payload.extend_from_slice(&time_us.to_be_bytes());
+        payload.push(counter);
+    }
     for item in &schema.items {
         let Some((_, scalars)) = values.iter().find(|(id, _)| *id == item.id) else { continue };
         if scalars.len() != item.value.count() {
@@ -79,6 +116,24 @@ pub fn encode_hello(schema: &Schema) -> Vec<u8> {
     let mut payload = Vec::from([ID_HELLO]);
     payload.extend_from_slice(&schema.hash().to_be_bytes());
     frame(schema, payload)
+}
+
+/// How the board and its devices are.
+///
+/// # Errors
+/// When the devices are not those of the schema, in its order.
+pub fn encode_health(schema: &Schema, health: &Health) -> Result<Vec<u8>, EncodeError> {
+    let ids = schema.items.iter().map(|item| item.id);
+    if !ids.eq(health.devices.iter().map(|device| device.id)) {
+        return Err(EncodeError::Devices);
+    }
+    Ok(frame(schema, health.payload()))
+}
+
+/// The host's request for health.
+#[must_use]
+pub fn encode_health_request(schema: &Schema) -> Vec<u8> {
+    frame(schema, Vec::from([ID_HELLO, HEALTH_REQUEST]))
 }
 
 /// The host's request for a hello.

@@ -3,8 +3,18 @@
 use alloc::vec::Vec;
 
 use crate::decode::Table;
+use crate::health::{Health, HealthFrame};
 use crate::scalar::Scalar;
 use crate::schema::{Item, Schema};
+
+/// When a report was put together, and its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp {
+    /// Microseconds since the board started; wraps.
+    pub time_us: u32,
+    /// Counts the reports that were put together; wraps. A gap tells of lost ones.
+    pub counter: u8,
+}
 
 /// What a frame said, with its values as they stand in the stream.
 #[derive(Clone, Copy, Debug)]
@@ -13,29 +23,45 @@ pub enum Frame<'a> {
     Report(Report<'a>),
     /// The board's schema hash (board to host).
     Hello(u32),
+    /// How the board and its devices are (board to host).
+    Health(HealthFrame<'a>),
+    /// Health of another version, of which nothing else is known (board to host).
+    OtherHealth(u8),
     /// The host wants a hello (host to board).
     HelloRequest,
+    /// The host wants health (host to board).
+    HealthRequest,
 }
 
 /// What a frame said, with its values in memory of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// Values in the order of the payload.
-    Report(Vec<(u8, Vec<Scalar>)>),
+    /// Values in the order of the payload, and the stamp where the link has one.
+    Report(Option<Stamp>, Vec<(u8, Vec<Scalar>)>),
     /// The board's schema hash (board to host).
     Hello(u32),
+    /// How the board and its devices are (board to host).
+    Health(Health),
+    /// Health of another version, of which nothing else is known (board to host).
+    OtherHealth(u8),
     /// The host wants a hello (host to board).
     HelloRequest,
+    /// The host wants health (host to board).
+    HealthRequest,
 }
 
 impl From<Frame<'_>> for Event {
     fn from(frame: Frame<'_>) -> Self {
         match frame {
             Frame::Report(report) => Self::Report(
+                report.stamp(),
                 report.values().map(|value| (value.item.id, value.scalars().collect())).collect(),
             ),
             Frame::Hello(hash) => Self::Hello(hash),
+            Frame::Health(health) => Self::Health(health.read()),
+            Frame::OtherHealth(version) => Self::OtherHealth(version),
             Frame::HelloRequest => Self::HelloRequest,
+            Frame::HealthRequest => Self::HealthRequest,
         }
     }
 }
@@ -45,6 +71,7 @@ impl From<Frame<'_>> for Event {
 pub struct Report<'a> {
     pub(crate) schema: &'a Schema,
     pub(crate) table: &'a Table,
+    pub(crate) stamp: Option<Stamp>,
     pub(crate) items: &'a [u8],
 }
 
@@ -55,6 +82,12 @@ impl core::fmt::Debug for Report<'_> {
 }
 
 impl<'a> Report<'a> {
+    /// When the board put it together; there where the link has stamps.
+    #[must_use]
+    pub fn stamp(self) -> Option<Stamp> {
+        self.stamp
+    }
+
     /// In the order of the payload.
     #[must_use]
     pub fn values(self) -> Values<'a> {

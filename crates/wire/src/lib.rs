@@ -10,12 +10,20 @@ mod checksum;
 mod decode;
 mod encode;
 mod frame;
+mod health;
 mod scalar;
 mod schema;
 
 pub use checksum::{crc16_ccitt_false, crc32_iso_hdlc};
 pub use decode::Decoder;
-pub use encode::{EncodeError, encode_hello, encode_hello_request, encode_report};
-pub use frame::{Event, Frame, Report, Value, Values};
+pub use encode::{
+    EncodeError, encode_health, encode_health_request, encode_hello, encode_hello_request,
+    encode_report, encode_stamped_report,
+};
+pub use frame::{Event, Frame, Report, Stamp, Value, Values};
+pub use health::{
+    Causes, DeviceHealth, HEALTH_VERSION, Health, HealthFrame, NEVER_MS, ResetCause, Status,
+    UNKNOWN_LOAD, UNKNOWN_STACK,
+};
 pub use scalar::{Scalar, ScalarType, ValueType};
-pub use schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Item, Schema};
+pub use schema::{Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, Item, Schema};

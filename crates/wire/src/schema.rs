@@ -7,17 +7,27 @@ use core::fmt::Write as _;
 use crate::checksum::crc32_iso_hdlc;
 use crate::scalar::ValueType;
 
-/// Identifier of the link's hello.
+/// Identifier of the link's hello, and of the stamp that a report may begin with.
 pub const ID_HELLO: u8 = 0;
 /// Identifier of the optional trailing checksum.
 pub const ID_CHECKSUM: u8 = 255;
+/// Identifier that a health frame begins with; the checksum, which is the same, stands last.
+pub const ID_HEALTH: u8 = 255;
 
 /// Bytes a checksum adds to a payload: its identifier and a CRC-16.
 const CHECKSUM_BYTES: usize = 3;
 /// Bytes of the board's hello: its identifier and the schema hash.
-const HELLO_BYTES: usize = 5;
+pub(crate) const HELLO_BYTES: usize = 5;
 /// Bytes of the host's request for a hello.
-const HELLO_REQUEST_BYTES: usize = 1;
+pub(crate) const HELLO_REQUEST_BYTES: usize = 1;
+/// Bytes of the host's request for health.
+pub(crate) const HEALTH_REQUEST_BYTES: usize = 2;
+/// Bytes of a stamp: its identifier, the time and the counter.
+pub(crate) const STAMP_BYTES: usize = 6;
+/// Bytes of health before the devices, its identifier included.
+pub(crate) const HEALTH_HEAD_BYTES: usize = 19;
+/// Bytes of one device's health.
+pub(crate) const HEALTH_DEVICE_BYTES: usize = 17;
 
 /// Which way an item travels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,6 +97,8 @@ pub struct Item {
 pub struct Schema {
     /// Whether frames end with a checksum.
     pub checksum: Checksum,
+    /// Whether each report begins with the board's time and a counter.
+    pub stamp: bool,
     /// In file order, identifiers unique.
     pub items: Vec<Item>,
 }
@@ -98,12 +110,16 @@ impl Schema {
         self.items.iter().find(|item| item.id == id && item.direction == direction)
     }
 
-    /// The text whose CRC-32 is the schema hash: the checksum line, then a line a device.
+    /// The text whose CRC-32 is the schema hash: the checksum line, a line `stamp` where reports have
+    /// one, then a line a device.
     #[must_use]
     pub fn canonical_text(&self) -> String {
         let mut text = String::new();
         // Writing to a String cannot fail.
         let _ = writeln!(text, "checksum {}", self.checksum.name());
+        if self.stamp {
+            text.push_str("stamp\n");
+        }
         for Item { id, name, direction, value } in &self.items {
             let _ = writeln!(text, "{id} {} {name} {value}", direction.name());
         }
@@ -116,16 +132,28 @@ impl Schema {
         crc32_iso_hdlc(self.canonical_text().as_bytes())
     }
 
+    /// Bytes of the longest report in that direction, its stamp included but not the checksum; 0
+    /// where nothing travels that way.
+    pub(crate) fn report_bytes_max(&self, direction: Direction) -> usize {
+        let items = self.items.iter().filter(|item| item.direction == direction);
+        let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
+        let is_stamped = self.stamp && direction == Direction::Sensor && values > 0;
+        values + if is_stamped { STAMP_BYTES } else { 0 }
+    }
+
+    /// Bytes of health, all devices included but not the checksum.
+    pub(crate) fn health_bytes(&self) -> usize {
+        HEALTH_HEAD_BYTES + HEALTH_DEVICE_BYTES * self.items.len()
+    }
+
     /// Bytes of the longest valid payload in that direction.
     #[must_use]
     pub fn payload_bytes_max(&self, direction: Direction) -> usize {
-        let items = self.items.iter().filter(|item| item.direction == direction);
-        let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
-        let hello = match direction {
-            Direction::Sensor => HELLO_BYTES,
-            Direction::Actuator => HELLO_REQUEST_BYTES,
+        let other = match direction {
+            Direction::Sensor => HELLO_BYTES.max(self.health_bytes()),
+            Direction::Actuator => HEALTH_REQUEST_BYTES,
         };
-        values.max(hello) + self.checksum.size_bytes()
+        self.report_bytes_max(direction).max(other) + self.checksum.size_bytes()
     }
 
     /// Bytes of the longest valid frame in that direction, `LEN`, `:` and `,` included.

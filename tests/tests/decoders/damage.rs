@@ -87,9 +87,10 @@ fn payloads(answer: &[u8]) -> Vec<&[u8]> {
     let mut payloads = Vec::new();
     let mut at = 0;
     while answer[at] != b'E' {
-        // Only reports and hellos reach a host; a hello has no length of its own.
+        // What reaches a host; a hello and health of another version have no length of their own.
         let (start, size) = match answer[at] {
             b'H' => (at, 5),
+            b'V' => (at, 2),
             _ => {
                 let size = answer[at + 1..at + 5].try_into().unwrap();
                 (at + 5, u32::from_be_bytes(size) as usize)

@@ -1,7 +1,7 @@
 //! The definition of decoding, as plain as it can be and as slow: at each place, is this a frame?
 
 use sensedsl_wire::{
-    Checksum, Direction, ID_CHECKSUM, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
+    Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
 };
 
 use super::program::Answer;
@@ -72,16 +72,44 @@ fn look(schema: &Schema, direction: Direction, bytes: &[u8]) -> Verdict {
     }
 }
 
+/// Bytes of the longest payload but health, without the checksum; and of health, 0 where there is none.
+fn lengths(schema: &Schema, direction: Direction) -> (usize, usize) {
+    let items = schema.items.iter().filter(|item| item.direction == direction);
+    let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
+    match direction {
+        Direction::Sensor if schema.stamp && values > 0 => {
+            (values + 6, 19 + 17 * schema.items.len())
+        }
+        Direction::Sensor => (values.max(5), 19 + 17 * schema.items.len()),
+        Direction::Actuator => (values.max(2), 0),
+    }
+}
+
 /// None when they can never be; true when all are there.
 fn are_values(schema: &Schema, direction: Direction, here: &[u8], bytes: usize) -> Option<bool> {
+    let (short_bytes, health_bytes) = lengths(schema, direction);
+    if bytes > short_bytes && bytes != health_bytes {
+        return None;
+    }
+    let Some(&first) = here.first() else { return Some(false) };
+    let is_stamped = schema.stamp && direction == Direction::Sensor;
     let mut at = 0;
+    match (first, direction, bytes) {
+        (ID_HELLO, Direction::Sensor, 5) | (ID_HELLO, Direction::Actuator, 1) => {
+            return Some(here.len() >= bytes);
+        }
+        (ID_HELLO, Direction::Actuator, 2) => {
+            return here.get(1).is_none_or(|&byte| byte == 1).then_some(here.len() >= 2);
+        }
+        (ID_HELLO, ..) if is_stamped && bytes > 6 && bytes <= short_bytes => at = 6,
+        (ID_HEALTH, ..) if bytes == health_bytes => return Some(here.len() >= bytes),
+        (ID_HELLO | ID_HEALTH, ..) => return None,
+        _ if is_stamped || bytes > short_bytes => return None,
+        _ => {}
+    }
     let mut seen = Vec::new();
     while at < bytes {
         let Some(&id) = here.get(at) else { return Some(false) };
-        if id == ID_HELLO {
-            let hello_bytes = if direction == Direction::Sensor { 5 } else { 1 };
-            return (at == 0 && bytes == hello_bytes).then_some(here.len() >= bytes);
-        }
         let item = schema.item(direction, id)?;
         let end = at + 1 + item.value.size_bytes();
         let value = here.get(at + 1..end.min(here.len())).unwrap_or_default();

@@ -5,7 +5,9 @@ use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use sensedsl_wire::{Checksum, Decoder, Direction, Frame, ScalarType, Schema};
+use sensedsl_wire::{
+    Checksum, Decoder, Direction, Frame, HealthFrame, ID_HEALTH, ScalarType, Schema, encode_health,
+};
 
 /// What a decoder said.
 #[derive(Default)]
@@ -16,14 +18,16 @@ impl Answer {
     pub(crate) fn frame(&mut self, payload: &[u8]) {
         match payload {
             [0] => self.0.push(b'Q'),
-            [0, hash @ ..] => {
+            [0, _] => self.0.push(b'A'),
+            [0, hash @ ..] if hash.len() == 4 => {
                 self.0.push(b'H');
                 self.0.extend(hash);
             }
-            items => {
-                self.0.push(b'R');
-                self.0.extend(u32::try_from(items.len()).unwrap().to_be_bytes());
-                self.0.extend(items);
+            [ID_HEALTH, version, ..] if *version != 1 => self.0.extend([b'V', *version]),
+            whole => {
+                self.0.push(if whole.first() == Some(&ID_HEALTH) { b'D' } else { b'R' });
+                self.0.extend(u32::try_from(whole.len()).unwrap().to_be_bytes());
+                self.0.extend(whole);
             }
         }
     }
@@ -54,12 +58,19 @@ pub(crate) fn rust(
         let (piece, others) = rest.split_at(size);
         decoder.feed_frames(piece, |frame| match frame {
             Frame::HelloRequest => answer.frame(&[0]),
+            Frame::HealthRequest => answer.frame(&[0, 1]),
+            Frame::Health(health) => answer.frame(&health_payload(schema, health)),
+            Frame::OtherHealth(version) => answer.frame(&[ID_HEALTH, version]),
             Frame::Hello(hash) => answer.frame(&[&[0][..], &hash.to_be_bytes()].concat()),
             Frame::Report(report) => {
                 let items = report.values().flat_map(|value| {
                     std::iter::once(value.item.id).chain(value.bytes.iter().copied())
                 });
-                answer.frame(&items.collect::<Vec<u8>>());
+                let stamp = report.stamp().map_or(Vec::new(), |stamp| {
+                    let time = stamp.time_us.to_be_bytes();
+                    [&[0], &time[..], &[stamp.counter]].concat()
+                });
+                answer.frame(&stamp.into_iter().chain(items).collect::<Vec<u8>>());
             }
         });
         rest = others;
@@ -67,10 +78,19 @@ pub(crate) fn rust(
     answer.end(decoder.frames(), decoder.dropped_bytes())
 }
 
+/// Health as it stood in its frame, put together again from what was read.
+fn health_payload(schema: &Schema, health: HealthFrame<'_>) -> Vec<u8> {
+    let bare = Schema { checksum: Checksum::None, ..schema.clone() };
+    let frame = encode_health(&bare, &health.read()).unwrap();
+    let start = frame.iter().position(|&byte| byte == b':').unwrap() + 1;
+    frame[start..frame.len() - 1].to_vec()
+}
+
 /// The schema in the bytes that the program takes.
 pub(crate) fn schema_bytes(schema: &Schema, direction: Direction) -> Vec<u8> {
     let crc = u8::from(schema.checksum == Checksum::Crc16);
-    let mut bytes = vec![crc | u8::from(direction == Direction::Actuator) << 1];
+    let to_board = u8::from(direction == Direction::Actuator);
+    let mut bytes = vec![crc | to_board << 1 | u8::from(schema.stamp) << 2];
     for item in &schema.items {
         let scalar = ScalarType::ALL.iter().position(|&scalar| scalar == item.value.scalar);
         bytes.extend([item.id, u8::try_from(scalar.unwrap()).unwrap()]);

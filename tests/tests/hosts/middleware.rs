@@ -68,10 +68,10 @@ fn hear_commands(line: &mut Line, board: &HostBoard, expected: &[(u8, Vec<Scalar
         assert!(start.elapsed() < Duration::from_secs(30), "heard {heard:?}");
         let bytes = line.hear(1, Duration::from_millis(100));
         decoder.feed(&bytes, |event| match event {
-            Event::Report(values) => heard.extend(values),
+            Event::Report(_, values) => heard.extend(values),
             // The host asks until it is answered: one more may have been on its way.
-            Event::HelloRequest => {}
-            Event::Hello(_) => panic!("{event:?}"),
+            Event::HelloRequest | Event::HealthRequest => {}
+            Event::Hello(_) | Event::Health(_) | Event::OtherHealth(_) => panic!("{event:?}"),
         });
     }
     assert_eq!(decoder.dropped_bytes(), 0);

@@ -255,7 +255,7 @@ fn cpp_takes_arrays_and_limits_behind_curves() {
         decoder.feed(&line.hear(1, Duration::from_millis(100)), |event| events.push(event));
     }
     let expected: Vec<Event> =
-        commands().into_iter().map(|command| Event::Report(vec![command])).collect();
+        commands().into_iter().map(|command| Event::Report(None, vec![command])).collect();
     assert_eq!(events, expected);
     drop(line);
     let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();

@@ -174,7 +174,7 @@ fn typed_lines_become_commands() {
         (94, vec![Scalar::Unsigned(1), Scalar::Unsigned(65_535)]),
         (71, vec![Scalar::Float64(-2.5)]),
     ];
-    assert_eq!(events, expected.map(|value| Event::Report(vec![value])));
+    assert_eq!(events, expected.map(|value| Event::Report(None, vec![value])));
     assert_eq!(decoder.dropped_bytes(), 0);
     drop(line);
     let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use sensedsl_wire::{
-    Checksum, Decoder, Direction, Event, ScalarType, Schema, encode_hello, encode_hello_request,
+    Checksum, Decoder, Direction, Event, Health, ScalarType, Schema, Stamp, encode_health_request,
+    encode_hello, encode_hello_request,
 };
 
 use sensedsl_tests::few;
@@ -172,8 +173,14 @@ fn reference(schema: &Schema, stream: &[u8]) -> String {
     decoder.feed(stream, |event| match event {
         Event::Hello(hash) => answer.push_str(&format!("got hello 0x{hash:08x}\n")),
         Event::HelloRequest => answer.push_str("got hello-request\n"),
-        Event::Report(values) => {
+        Event::HealthRequest => answer.push_str("got health-request\n"),
+        Event::OtherHealth(version) => answer.push_str(&format!("got health-version {version}\n")),
+        Event::Health(health) => answer.push_str(&format!("got health{}\n", health_words(&health))),
+        Event::Report(stamp, values) => {
             answer.push_str("got");
+            if let Some(Stamp { time_us, counter }) = stamp {
+                answer.push_str(&format!(" stamp={time_us}/{counter}"));
+            }
             for (id, scalars) in values {
                 let texts: Vec<String> = scalars.iter().map(ToString::to_string).collect();
                 answer.push_str(&format!(" {id}={}", texts.join(",")));
@@ -183,6 +190,21 @@ fn reference(schema: &Schema, stream: &[u8]) -> String {
     });
     answer.push_str(&format!("dropped {}\n", decoder.dropped_bytes()));
     answer
+}
+
+/// Health in the words of a vector file.
+fn health_words(health: &Health) -> String {
+    let Health { uptime_ms, reset_device, reports_sent, reports_refused, .. } = health;
+    let (cause, load, stack) =
+        (health.reset_cause.code(), health.load_percent, health.stack_left_bytes);
+    let mut words = format!(
+        " {uptime_ms} {cause} {reset_device} {reports_sent} {reports_refused} {load} {stack}"
+    );
+    for device in &health.devices {
+        words.push_str(&format!(" {}={}/{}", device.id, device.status.code(), device.age_ms));
+        words.extend(device.causes.counts().map(|count| format!("/{count}")));
+    }
+    words
 }
 
 /// Numbers that are the same in each run.

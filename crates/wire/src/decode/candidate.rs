@@ -4,7 +4,11 @@ use super::leap::{Ids, Leap, Leaps};
 use super::memo::Memo;
 use super::table::Table;
 use crate::checksum::crc16_ccitt_false;
-use crate::schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO};
+use crate::health::HEALTH_REQUEST;
+use crate::schema::{
+    Checksum, Direction, HEALTH_REQUEST_BYTES, HELLO_BYTES, HELLO_REQUEST_BYTES, ID_CHECKSUM,
+    ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
+};
 
 /// What the bytes at hand can be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,17 +26,35 @@ pub(super) enum Verdict {
 pub(super) struct Rules {
     pub(super) table: Table,
     pub(super) checksum: Checksum,
-    pub(super) payload_bytes_max: usize,
-    pub(super) hello_bytes: usize,
+    /// Of any payload, with its checksum.
+    payload_bytes_max: usize,
+    /// Of any payload but health; this and what follows is without the checksum.
+    short_bytes_max: usize,
+    hello_bytes: usize,
+    /// Of the payload that begins with 255; 0 where there is none.
+    health_bytes: usize,
+    /// Of the request for health; 0 where there is none.
+    health_request_bytes: usize,
+    is_stamped: bool,
 }
 
 impl Rules {
-    pub(super) fn new(table: Table, checksum: Checksum, max: usize, direction: Direction) -> Self {
-        let hello_bytes = match direction {
-            Direction::Sensor => 5,
-            Direction::Actuator => 1,
+    pub(super) fn new(table: Table, schema: &Schema, direction: Direction) -> Self {
+        let (hello_bytes, health_bytes, health_request_bytes) = match direction {
+            Direction::Sensor => (HELLO_BYTES, schema.health_bytes(), 0),
+            Direction::Actuator => (HELLO_REQUEST_BYTES, 0, HEALTH_REQUEST_BYTES),
         };
-        Self { table, checksum, payload_bytes_max: max, hello_bytes }
+        let asked_bytes = hello_bytes.max(health_request_bytes);
+        Self {
+            table,
+            checksum: schema.checksum,
+            payload_bytes_max: schema.payload_bytes_max(direction),
+            short_bytes_max: schema.report_bytes_max(direction).max(asked_bytes),
+            hello_bytes,
+            health_bytes,
+            health_request_bytes,
+            is_stamped: schema.stamp && direction == Direction::Sensor,
+        }
     }
 }
 
@@ -125,7 +147,10 @@ impl Candidate {
                     self.frame_bytes = self.payload_start + payload_bytes + 1;
                     self.values_end = self.frame_bytes - 1 - rules.checksum.size_bytes();
                     self.seen = [0; 4];
-                    return Verdict::Complete;
+                    let values_bytes = self.values_end - self.payload_start;
+                    let is_possible =
+                        values_bytes <= rules.short_bytes_max || values_bytes == rules.health_bytes;
+                    return if is_possible { Verdict::Complete } else { Verdict::Invalid };
                 }
                 _ => return Verdict::Invalid,
             }
@@ -139,6 +164,12 @@ impl Candidate {
     /// From identifier to identifier up to the end of the values.
     #[inline]
     fn walk(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
+        if self.at == self.payload_start {
+            match self.begin(rules, bytes) {
+                Verdict::Complete => {}
+                verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
+            }
+        }
         if let Some(leaps) = past.leaps.take() {
             return self.leap(rules, bytes, past, leaps);
         }
@@ -147,6 +178,37 @@ impl Candidate {
                 Verdict::Complete => {}
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
+        }
+        Verdict::Complete
+    }
+
+    /// What a payload is follows from its first byte, its length and the schema: passes over a stamp,
+    /// and over the whole of what is no report.
+    #[inline]
+    fn begin(&mut self, rules: &Rules, bytes: &[u8]) -> Verdict {
+        let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
+        let values_bytes = self.values_end - self.payload_start;
+        match id {
+            ID_HELLO if values_bytes == rules.hello_bytes => self.at = self.values_end,
+            ID_HELLO if values_bytes == rules.health_request_bytes => {
+                match bytes.get(self.at + 1) {
+                    None => return Verdict::Incomplete,
+                    Some(&HEALTH_REQUEST) => self.at = self.values_end,
+                    Some(_) => return Verdict::Invalid,
+                }
+            }
+            ID_HELLO
+                if rules.is_stamped
+                    && (STAMP_BYTES + 1..=rules.short_bytes_max).contains(&values_bytes) =>
+            {
+                self.at += STAMP_BYTES;
+            }
+            ID_HEALTH if values_bytes == rules.health_bytes => self.at = self.values_end,
+            ID_HELLO | ID_HEALTH => return Verdict::Invalid,
+            _ if rules.is_stamped || values_bytes > rules.short_bytes_max => {
+                return Verdict::Invalid;
+            }
+            _ => {}
         }
         Verdict::Complete
     }
@@ -199,16 +261,6 @@ impl Candidate {
     #[inline]
     fn step(&mut self, rules: &Rules, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
         let Some(&id) = bytes.get(self.at) else { return Verdict::Incomplete };
-        if id == ID_HELLO {
-            // It stands alone, and exactly as long as its direction wants it.
-            let is_hello = self.at == self.payload_start
-                && self.values_end - self.payload_start == rules.hello_bytes;
-            if !is_hello {
-                return Verdict::Invalid;
-            }
-            self.at = self.values_end;
-            return Verdict::Complete;
-        }
         let slot = rules.table.slot(id);
         let end = self.at + 1 + slot.value_bytes();
         let bit = 1_u64 << (id % 64);

@@ -21,8 +21,9 @@ use self::candidate::{Candidate, Past, Rules, Verdict};
 use self::leap::Leaps;
 use self::memo::Memo;
 pub(crate) use self::table::Table;
-use crate::frame::{Event, Frame, Report};
-use crate::schema::{Direction, ID_HELLO, Schema};
+use crate::frame::{Event, Frame, Report, Stamp};
+use crate::health::{HEALTH_VERSION, HealthFrame};
+use crate::schema::{Direction, ID_HEALTH, ID_HELLO, Schema};
 
 /// Decoder of one direction of one link.
 #[derive(Clone, Debug)]
@@ -49,11 +50,10 @@ impl<'a> Decoder<'a> {
     /// A decoder for what travels in `direction`.
     #[must_use]
     pub fn new(schema: &'a Schema, direction: Direction) -> Self {
-        let max = schema.payload_bytes_max(direction);
         let table = Table::new(schema, direction);
         Self {
             schema,
-            rules: Rules::new(table, schema.checksum, max, direction),
+            rules: Rules::new(table, schema, direction),
             held: Vec::new(),
             start: 0,
             candidate: Candidate::default(),
@@ -173,11 +173,22 @@ impl<'a> Decoder<'a> {
     fn read<'f>(&'f self, frame: &'f [u8]) -> Frame<'f> {
         let values = self.candidate.payload_start..self.candidate.values_end;
         match frame.get(values).unwrap_or_default() {
-            [id] if *id == ID_HELLO => Frame::HelloRequest,
-            [id, a, b, c, d] if *id == ID_HELLO => {
-                Frame::Hello(u32::from_be_bytes([*a, *b, *c, *d]))
+            &[ID_HELLO] => Frame::HelloRequest,
+            &[ID_HELLO, _] => Frame::HealthRequest,
+            &[ID_HELLO, a, b, c, d] => Frame::Hello(u32::from_be_bytes([a, b, c, d])),
+            [ID_HELLO, a, b, c, d, counter, items @ ..] => {
+                let time_us = u32::from_be_bytes([*a, *b, *c, *d]);
+                self.report(Some(Stamp { time_us, counter: *counter }), items)
             }
-            items => Frame::Report(Report { schema: self.schema, table: &self.rules.table, items }),
+            [ID_HEALTH, HEALTH_VERSION, bytes @ ..] => {
+                Frame::Health(HealthFrame { schema: self.schema, bytes })
+            }
+            [ID_HEALTH, version, ..] => Frame::OtherHealth(*version),
+            items => self.report(None, items),
         }
+    }
+
+    fn report<'f>(&'f self, stamp: Option<Stamp>, items: &'f [u8]) -> Frame<'f> {
+        Frame::Report(Report { schema: self.schema, table: &self.rules.table, stamp, items })
     }
 }

@@ -1,0 +1,257 @@
+//! How a board and its devices are: what a host is told when it asks.
+
+use alloc::vec::Vec;
+
+use crate::schema::{HEALTH_DEVICE_BYTES, HEALTH_HEAD_BYTES, ID_HEALTH, Schema};
+
+/// The version of health that is read and written here.
+pub const HEALTH_VERSION: u8 = 1;
+/// What stands behind the 0 of the request.
+pub(crate) const HEALTH_REQUEST: u8 = 1;
+/// The age of a device that was never read or set.
+pub const NEVER_MS: u32 = u32::MAX;
+/// The load of a processor of which nothing is known.
+pub const UNKNOWN_LOAD: u8 = u8::MAX;
+/// What is left of stacks of which nothing is known.
+pub const UNKNOWN_STACK: u16 = u16::MAX;
+
+/// Why the board started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResetCause {
+    /// Nothing tells.
+    Unknown,
+    /// Power on or brown-out.
+    Power,
+    /// The reset pin.
+    Pin,
+    /// The firmware asked for it.
+    Software,
+    /// The watchdog.
+    Watchdog,
+    /// The window watchdog.
+    WindowWatchdog,
+    /// A wrong way into or out of a low-power mode.
+    LowPower,
+    /// The kernel stopped itself.
+    Halt,
+    /// None of these: of firmware that knows more.
+    Other(u8),
+}
+
+impl ResetCause {
+    /// The cause of that number.
+    #[must_use]
+    pub const fn from_code(code: u8) -> Self {
+        match code {
+            0 => Self::Unknown,
+            1 => Self::Power,
+            2 => Self::Pin,
+            3 => Self::Software,
+            4 => Self::Watchdog,
+            5 => Self::WindowWatchdog,
+            6 => Self::LowPower,
+            7 => Self::Halt,
+            other => Self::Other(other),
+        }
+    }
+
+    /// Its number on the wire.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Unknown => 0,
+            Self::Power => 1,
+            Self::Pin => 2,
+            Self::Software => 3,
+            Self::Watchdog => 4,
+            Self::WindowWatchdog => 5,
+            Self::LowPower => 6,
+            Self::Halt => 7,
+            Self::Other(code) => code,
+        }
+    }
+}
+
+/// How a device is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It was never read.
+    NeverRead,
+    /// The last reading is good.
+    Good,
+    /// There was no value for three cycles.
+    Stale,
+    /// The last reading did not come through.
+    Failed,
+    /// The last answer was no measurement.
+    Invalid,
+    /// None of these: of firmware that knows more.
+    Other(u8),
+}
+
+impl Status {
+    /// The status of that number.
+    #[must_use]
+    pub const fn from_code(code: u8) -> Self {
+        match code {
+            0 => Self::NeverRead,
+            1 => Self::Good,
+            2 => Self::Stale,
+            3 => Self::Failed,
+            4 => Self::Invalid,
+            other => Self::Other(other),
+        }
+    }
+
+    /// Its number on the wire.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::NeverRead => 0,
+            Self::Good => 1,
+            Self::Stale => 2,
+            Self::Failed => 3,
+            Self::Invalid => 4,
+            Self::Other(code) => code,
+        }
+    }
+}
+
+/// How often a device did not give a value, by cause; each count stops at 65535.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Causes {
+    /// Nobody acknowledged its address or a byte.
+    pub not_acknowledged: u16,
+    /// A start or stop out of place, a frame or parity error.
+    pub bus_error: u16,
+    /// Another master took the bus.
+    pub arbitration_lost: u16,
+    /// No answer in time.
+    pub timed_out: u16,
+    /// The answer's checksum was wrong.
+    pub wrong_checksum: u16,
+    /// The answer was no measurement.
+    pub invalid: u16,
+}
+
+impl Causes {
+    /// In the order of the wire.
+    #[must_use]
+    pub const fn counts(self) -> [u16; 6] {
+        let Self { not_acknowledged, bus_error, arbitration_lost, timed_out, .. } = self;
+        let (wrong_checksum, invalid) = (self.wrong_checksum, self.invalid);
+        [not_acknowledged, bus_error, arbitration_lost, timed_out, wrong_checksum, invalid]
+    }
+}
+
+impl From<[u16; 6]> for Causes {
+    fn from(counts: [u16; 6]) -> Self {
+        let [not_acknowledged, bus_error, arbitration_lost, timed_out, wrong_checksum, invalid] =
+            counts;
+        Self { not_acknowledged, bus_error, arbitration_lost, timed_out, wrong_checksum, invalid }
+    }
+}
+
+/// The health of one device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeviceHealth {
+    /// Its identifier, which the wire leaves out: devices stand in the schema's order.
+    pub id: u8,
+    /// How it is.
+    pub status: Status,
+    /// How long ago it was read or set last; [`NEVER_MS`] for never.
+    pub age_ms: u32,
+    /// What went wrong so far.
+    pub causes: Causes,
+}
+
+/// The health of a board and all its devices.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Health {
+    /// How long it runs.
+    pub uptime_ms: u32,
+    /// Why it started.
+    pub reset_cause: ResetCause,
+    /// After a watchdog's reset the first device of the thread that hung; otherwise 0.
+    pub reset_device: u8,
+    /// Reports that were sent.
+    pub reports_sent: u32,
+    /// Reports that the link did not take.
+    pub reports_refused: u32,
+    /// The highest load of the processor so far; [`UNKNOWN_LOAD`] where it is not measured.
+    pub load_percent: u8,
+    /// Bytes never used of the fullest stack; [`UNKNOWN_STACK`] where it is not measured.
+    pub stack_left_bytes: u16,
+    /// All devices in the schema's order.
+    pub devices: Vec<DeviceHealth>,
+}
+
+impl Health {
+    /// Everything but the checksum.
+    pub(crate) fn payload(&self) -> Vec<u8> {
+        let bytes = HEALTH_HEAD_BYTES + HEALTH_DEVICE_BYTES * self.devices.len();
+        let mut payload = Vec::with_capacity(bytes);
+        payload.extend_from_slice(&[ID_HEALTH, HEALTH_VERSION]);
+        payload.extend_from_slice(&self.uptime_ms.to_be_bytes());
+        payload.extend_from_slice(&[self.reset_cause.code(), self.reset_device]);
+        payload.extend_from_slice(&self.reports_sent.to_be_bytes());
+        payload.extend_from_slice(&self.reports_refused.to_be_bytes());
+        payload.push(self.load_percent);
+        payload.extend_from_slice(&self.stack_left_bytes.to_be_bytes());
+        for device in &self.devices {
+            payload.push(device.status.code());
+            payload.extend_from_slice(&device.age_ms.to_be_bytes());
+            let counts = device.causes.counts();
+            payload.extend(counts.into_iter().flat_map(u16::to_be_bytes));
+        }
+        payload
+    }
+}
+
+/// Health read in place.
+#[derive(Clone, Copy, Debug)]
+pub struct HealthFrame<'a> {
+    pub(crate) schema: &'a Schema,
+    /// What stands behind the version; the decoder has compared the length.
+    pub(crate) bytes: &'a [u8],
+}
+
+impl HealthFrame<'_> {
+    /// All of it.
+    #[must_use]
+    pub fn read(self) -> Health {
+        let mut rest = self.bytes;
+        let uptime_ms = u32::from_be_bytes(take(&mut rest));
+        let [reset_cause, reset_device] = take(&mut rest);
+        let reports_sent = u32::from_be_bytes(take(&mut rest));
+        let reports_refused = u32::from_be_bytes(take(&mut rest));
+        let [load_percent] = take(&mut rest);
+        let stack_left_bytes = u16::from_be_bytes(take(&mut rest));
+        let devices = self.schema.items.iter().map(|item| {
+            let [status] = take(&mut rest);
+            DeviceHealth {
+                id: item.id,
+                status: Status::from_code(status),
+                age_ms: u32::from_be_bytes(take(&mut rest)),
+                causes: [(); 6].map(|()| u16::from_be_bytes(take(&mut rest))).into(),
+            }
+        });
+        Health {
+            uptime_ms,
+            reset_cause: ResetCause::from_code(reset_cause),
+            reset_device,
+            reports_sent,
+            reports_refused,
+            load_percent,
+            stack_left_bytes,
+            devices: devices.collect(),
+        }
+    }
+}
+
+/// The next bytes; zeros where there are none.
+fn take<const COUNT: usize>(rest: &mut &[u8]) -> [u8; COUNT] {
+    let Some((bytes, others)) = rest.split_first_chunk() else { return [0; COUNT] };
+    *rest = others;
+    *bytes
+}
