@@ -18,7 +18,7 @@ fn main() {
     let (core, cpp) = (root.join("runtime/core"), root.join("crates/codegen/src/host/cpp/runtime"));
     let mut c = cc::Build::new();
     c.compiler("clang").file("src/decode.c").file(core.join("up_decode.c"));
-    for name in ["up_encode.c", "up_memo.c", "up_schema.c"] {
+    for name in ["up_encode.c", "up_health.c", "up_memo.c", "up_schema.c", "up_wire.c"] {
         c.file(core.join(name));
     }
     c.include(&core).opt_level(2);

@@ -18,7 +18,8 @@
 #ifndef UP_DECODE_H
 #define UP_DECODE_H
 
-#include "up_schema.h"
+#include "up_encode.h"
+#include "up_wire.h"
 
 /* How many walks from identifier to identifier are kept, 0 to 255: each takes an eighth of a frame and 44 bytes (on
  * a machine of 32 bits). With 0 a candidate costs a step for each identifier. */
@@ -26,25 +27,26 @@
 #define UP_DECODER_WALKS 1U
 #endif
 
-/* 1 for a table of sizes by identifier, 512 bytes, that makes a step quicker. */
-#ifndef UP_DECODER_SIZES
-#define UP_DECODER_SIZES 0
-#endif
-
-/* The buffer of a decoder whose longest frame is of so many bytes. Sums take 6 bytes for a block of 32. */
+/* The buffer of a decoder with &up_memo whose longest frame is of so many bytes: sums take 6 bytes for a block of 32.
+ * Without it a buffer is as long as a frame. */
 #define UP_DECODER_BLOCK_BYTES 32U
 #define UP_DECODER_BLOCKS(frame_bytes) ((frame_bytes) / UP_DECODER_BLOCK_BYTES + 1U)
 #define UP_DECODER_BYTES(frame_bytes) ((frame_bytes) + (6U + 4U * UP_DECODER_WALKS) * UP_DECODER_BLOCKS(frame_bytes))
 
-/* What a delivered frame says; each callback may be NULL. The values of one frame come in the order of its
- * payload, then on_frame closes them. A frame that is not valid to its last byte delivers nothing. */
+/* What a delivered frame says; each callback may be NULL. A frame that is not valid to its last byte delivers nothing. */
 typedef struct {
-  void (*on_value)(void *context, const up_field_t *field, const uint8_t *wire);
-  void (*on_frame)(void *context);
+  /* Values: the items of the payload, for the wire's take(); the stamp is NULL where the wire has none. */
+  void (*on_values)(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size);
   /* Towards the host: the board's hello. Towards the board: the request for one (`hash` is 0). */
   void (*on_hello)(void *context, uint32_t hash);
+  /* Towards the host: the payload, for up_health_read_board() and up_health_read_row(). Towards the board: the request,
+   * without bytes. */
+  void (*on_health)(void *context, const uint8_t *payload, size_t size);
   void *context;
 } up_sink_t;
+
+/* What the bytes of a candidate can be. */
+typedef enum { UP_VERDICT_INVALID, UP_VERDICT_INCOMPLETE, UP_VERDICT_COMPLETE } up_verdict_t;
 
 /* Identifiers from place to place of the stream, none of them twice; places are counted from the candidate's first
  * byte. */
@@ -56,16 +58,16 @@ typedef struct {
 } up_walk_t;
 
 typedef struct {
-  const up_schema_t *schema;
+  const up_wire_t *wire;
   const up_sink_t *sink;
   uint8_t *buffer; /* the first bytes of a frame whose end has not come; the candidate starts at `start` */
   size_t buffer_bytes;
   size_t start;
   size_t size; /* bytes behind `start` */
-  size_t payload_bytes_max;
-  size_t checksum_bytes;
+  size_t payload_bytes_max; /* 0 where a frame does not fit into the buffer */
   /* The candidate; all places are counted from its first byte. */
   size_t payload_start; /* 0 as long as its length has not been read */
+  size_t items_start;   /* where its first item stands: behind a stamp */
   size_t values_end;    /* where the values end and the checksum or the comma starts */
   size_t frame_bytes;
   size_t at;        /* where the next identifier stands */
@@ -81,24 +83,19 @@ typedef struct {
 #if UP_DECODER_WALKS > 0U
   up_walk_t walks[UP_DECODER_WALKS];
   uint8_t walks_put; /* which one the next takes the place of */
-  bool has_walks;    /* one at least */
-  uint8_t steps;     /* from identifier to identifier that the candidate has taken by itself */
-  bool joined;       /* the candidate has come upon a walk */
-  bool alone;        /* and goes on without it */
 #endif
-#if UP_DECODER_SIZES
-  uint16_t bytes_of[256]; /* by identifier, of its value; 0 for an unknown one */
-#endif
-  uint8_t direction; /* up_direction_t */
-  uint8_t field_of[256]; /* by identifier: 1 + index of the field; 0 for none */
+  bool has_walks; /* one at least */
+  uint8_t steps;  /* from identifier to identifier that the candidate has taken by itself */
+  bool joined;    /* the candidate has come upon a walk */
+  bool alone;     /* and goes on without it */
   uint32_t frames;
   uint32_t dropped_bytes; /* bytes that were part of no delivered frame */
 } up_decoder_t;
 
-/* `buffer` holds at least UP_DECODER_BYTES(up_frame_bytes_max(schema, direction)) bytes; false when it does not:
- * then every frame is dropped. */
-bool up_decoder_init(up_decoder_t *decoder, const up_schema_t *schema, up_direction_t direction,
-                     uint8_t *buffer, size_t buffer_bytes, const up_sink_t *sink);
+/* The wire has an item(). `buffer` holds at least UP_WIRE_FRAME_BYTES(wire) bytes, and UP_DECODER_BYTES() of that with
+ * &up_memo; false when it does not: then every frame is dropped. */
+bool up_decoder_init(up_decoder_t *decoder, const up_wire_t *wire, uint8_t *buffer, size_t buffer_bytes,
+                     const up_sink_t *sink);
 
 /* Takes the next bytes of the stream and hands each whole frame to the sink, which must not feed the decoder. */
 void up_decoder_feed(up_decoder_t *decoder, const uint8_t *bytes, size_t size);

@@ -1,7 +1,5 @@
 #include "up_encode.h"
 
-#define CHECKSUM_BYTES 3U /* identifier 255 and the CRC */
-
 bool up_bit_get(const uint8_t *bitmap, size_t index) {
   return (bitmap[index / 8U] & (1U << (index % 8U))) != 0U;
 }
@@ -22,128 +20,94 @@ uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size) {
   return crc;
 }
 
-/* Elements pass through an unsigned integer of their own size, so the code is right on any machine. */
-void up_value_to_wire(const up_field_t *field, const void *value, uint8_t *wire) {
-  const size_t size = up_type_bytes(field->type);
-  const uint8_t *memory = value;
-  size_t element, byte;
-
-  for (element = 0U; element < field->count; element++) {
-    uint64_t bits = up_element_load(field->type, &memory[element * size]);
-    for (byte = size; byte > 0U; byte--) {
-      wire[element * size + byte - 1U] = (uint8_t)bits;
-      bits >>= 8;
-    }
-  }
+/* Where the payload begins; NULL when the longest frame would not fit. */
+static uint8_t *open_frame(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+  return (frame_bytes < UP_WIRE_FRAME_BYTES(wire)) ? NULL : &frame[wire->head_bytes];
 }
 
-void up_value_from_wire(const up_field_t *field, const uint8_t *wire, void *value) {
-  const size_t size = up_type_bytes(field->type);
-  uint8_t *memory = value;
-  size_t element, byte;
+/* Puts a checksum, if the link has one, and the comma behind the payload, which ends at `end`, and its length in front.
+ * A payload that is shorter than the longest may move down by a few bytes. Returns the bytes of the frame. */
+static size_t close_frame(const up_wire_t *wire, uint8_t *frame, uint8_t *end) {
+  uint8_t *const payload = &frame[wire->head_bytes];
+  uint8_t *head = payload;
+  size_t rest, bytes;
 
-  for (element = 0U; element < field->count; element++) {
-    uint64_t bits = 0U;
-    for (byte = 0U; byte < size; byte++) {
-      bits = (bits << 8) | wire[element * size + byte];
-    }
-    up_element_store(field->type, bits, &memory[element * size]);
+  if (UP_WIRE_HAS_CHECKSUM(wire)) {
+    const uint16_t crc = up_crc16(UP_CRC16_INIT, payload, (size_t)(end - payload));
+    end = up_put_16(up_put_8(end, UP_ID_CHECKSUM), crc);
   }
-}
-
-/* Writes "LEN:" and returns where the payload starts, or 0 when the whole frame would not fit. */
-static size_t open_frame(size_t payload_bytes, uint8_t *frame, size_t frame_bytes) {
-  size_t digits = 1U;
-  size_t rest, i;
-
-  if (payload_bytes > UP_PAYLOAD_BYTES_LIMIT) {
-    return 0U;
-  }
-  for (rest = payload_bytes; rest >= 10U; rest /= 10U) {
-    digits++;
-  }
-  if (digits + 1U + payload_bytes + 1U > frame_bytes) {
-    return 0U;
-  }
-  rest = payload_bytes;
-  for (i = digits; i > 0U; i--) {
-    frame[i - 1U] = (uint8_t)('0' + (rest % 10U));
+  rest = (size_t)(end - payload);
+  *end = (uint8_t)',';
+  head--;
+  *head = (uint8_t)':';
+  do {
+    head--;
+    *head = (uint8_t)('0' + rest % 10U);
     rest /= 10U;
+  } while (rest > 0U);
+  bytes = (size_t)(end - head) + 1U;
+  if (head != frame) {
+    memmove(frame, head, bytes);
   }
-  frame[digits] = (uint8_t)':';
-  return digits + 1U;
+  return bytes;
 }
 
-/* Adds the checksum, if the link has one, and the closing comma; returns the bytes of the frame. */
-static size_t close_frame(const up_schema_t *schema, uint8_t *frame, size_t start, size_t end) {
-  if (schema->checksum_crc16) {
-    const uint16_t crc = up_crc16(UP_CRC16_INIT, &frame[start], end - start);
-    frame[end] = UP_ID_CHECKSUM;
-    frame[end + 1U] = (uint8_t)(crc >> 8);
-    frame[end + 2U] = (uint8_t)crc;
-    end += CHECKSUM_BYTES;
-  }
-  frame[end] = (uint8_t)',';
-  return end + 1U;
-}
+size_t up_encode_values(const up_wire_t *wire, const up_stamp_t *stamp, const uint8_t *due, const void *values,
+                        uint8_t *frame, size_t frame_bytes) {
+  uint8_t *at = open_frame(wire, frame, frame_bytes);
+  size_t bytes;
 
-static bool is_chosen(const up_schema_t *schema, up_direction_t direction, const uint8_t *chosen, size_t i) {
-  return up_bit_get(chosen, i) && schema->fields[i].direction == (uint8_t)direction;
-}
-
-size_t up_encode_values(const up_schema_t *schema, up_direction_t direction, const uint8_t *chosen,
-                        const void *values, uint8_t *frame, size_t frame_bytes) {
-  const uint8_t *memory = values;
-  size_t payload_bytes = 0U;
-  size_t start, at, i;
-
-  for (i = 0U; i < schema->fields_count; i++) {
-    if (is_chosen(schema, direction, chosen, i)) {
-      payload_bytes += 1U + up_field_bytes(&schema->fields[i]);
-    }
-  }
-  if (payload_bytes == 0U) {
+  if (at == NULL) {
     return 0U;
   }
-  payload_bytes += schema->checksum_crc16 ? CHECKSUM_BYTES : 0U;
-  start = open_frame(payload_bytes, frame, frame_bytes);
-  if (start == 0U) {
-    return 0U;
+  if (UP_WIRE_HAS_STAMP(wire)) {
+    at = up_put_8(up_put_32(up_put_8(at, UP_ID_HELLO), stamp->time_us), stamp->counter);
   }
-  at = start;
-  for (i = 0U; i < schema->fields_count; i++) {
-    const up_field_t *field = &schema->fields[i];
-    if (is_chosen(schema, direction, chosen, i)) {
-      frame[at] = field->id;
-      up_value_to_wire(field, &memory[field->offset], &frame[at + 1U]);
-      at += 1U + up_field_bytes(field);
-    }
-  }
-  return close_frame(schema, frame, start, at);
+  bytes = (wire->put == NULL) ? 0U : wire->put(due, values, at);
+  return (bytes == 0U) ? 0U : close_frame(wire, frame, &at[bytes]);
 }
 
-size_t up_encode_hello(const up_schema_t *schema, uint8_t *frame, size_t frame_bytes) {
-  const size_t payload_bytes = 5U + (schema->checksum_crc16 ? CHECKSUM_BYTES : 0U);
-  const size_t start = open_frame(payload_bytes, frame, frame_bytes);
+size_t up_encode_hello(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+  uint8_t *const at = open_frame(wire, frame, frame_bytes);
 
-  if (start == 0U) {
-    return 0U;
-  }
-  frame[start] = UP_ID_HELLO;
-  frame[start + 1U] = (uint8_t)(schema->hash >> 24);
-  frame[start + 2U] = (uint8_t)(schema->hash >> 16);
-  frame[start + 3U] = (uint8_t)(schema->hash >> 8);
-  frame[start + 4U] = (uint8_t)schema->hash;
-  return close_frame(schema, frame, start, start + 5U);
+  return (at == NULL) ? 0U : close_frame(wire, frame, up_put_32(up_put_8(at, UP_ID_HELLO), wire->hash));
 }
 
-size_t up_encode_hello_request(const up_schema_t *schema, uint8_t *frame, size_t frame_bytes) {
-  const size_t payload_bytes = 1U + (schema->checksum_crc16 ? CHECKSUM_BYTES : 0U);
-  const size_t start = open_frame(payload_bytes, frame, frame_bytes);
+static uint8_t *put_row(uint8_t *at, const up_health_row_t *row) {
+  at = up_put_32(up_put_8(at, row->status), row->age_ms);
+  return up_put_array(at, row->counts, sizeof row->counts[0], UP_FAULTS);
+}
 
-  if (start == 0U) {
+size_t up_encode_health(const up_wire_t *wire, const up_health_board_t *board,
+                        void (*row_of)(void *context, size_t field, up_health_row_t *row), void *context,
+                        uint8_t *frame, size_t frame_bytes) {
+  const size_t devices = ((size_t)wire->health_bytes - UP_HEALTH_BOARD_BYTES) / UP_HEALTH_DEVICE_BYTES;
+  uint8_t *at = open_frame(wire, frame, frame_bytes);
+  size_t i;
+
+  if (at == NULL) {
     return 0U;
   }
-  frame[start] = UP_ID_HELLO;
-  return close_frame(schema, frame, start, start + 1U);
+  at = up_put_8(up_put_8(at, UP_ID_HEALTH), UP_HEALTH_VERSION);
+  at = up_put_8(up_put_8(up_put_32(at, board->uptime_ms), board->reset_cause), board->reset_device);
+  at = up_put_32(up_put_32(at, board->reports_sent), board->reports_refused);
+  at = up_put_16(up_put_8(at, board->load_percent), board->stack_left_bytes);
+  for (i = 0U; i < devices; i++) {
+    up_health_row_t row;
+    row_of(context, i, &row);
+    at = put_row(at, &row);
+  }
+  return close_frame(wire, frame, at);
+}
+
+size_t up_encode_hello_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+  uint8_t *const at = open_frame(wire, frame, frame_bytes);
+
+  return (at == NULL) ? 0U : close_frame(wire, frame, up_put_8(at, UP_ID_HELLO));
+}
+
+size_t up_encode_health_request(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
+  uint8_t *const at = open_frame(wire, frame, frame_bytes);
+
+  return (at == NULL) ? 0U : close_frame(wire, frame, up_put_8(up_put_8(at, UP_ID_HELLO), UP_HEALTH_REQUEST));
 }

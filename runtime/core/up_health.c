@@ -1,5 +1,7 @@
 #include "up_health.h"
 
+#include "up_wire.h"
+
 /* Half of the clock's range. */
 #define ANCIENT_MS 0x80000000U
 /* A value that is so little younger than the time of who asks came meanwhile, from another thread. */
@@ -100,4 +102,32 @@ void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_
   for (i = 0U; i < UP_FAULTS; i++) {
     row->counts[i] = device->counts[i];
   }
+}
+
+/* ---- a host's side ---- */
+
+bool up_health_read_board(const uint8_t *payload, size_t size, up_health_board_t *board) {
+  if (size < UP_HEALTH_BOARD_BYTES || payload[1] != UP_HEALTH_VERSION) {
+    return false;
+  }
+  board->uptime_ms = up_get_32(&payload[2]);
+  board->reset_cause = payload[6];
+  board->reset_device = payload[7];
+  board->reports_sent = up_get_32(&payload[8]);
+  board->reports_refused = up_get_32(&payload[12]);
+  board->load_percent = payload[16];
+  board->stack_left_bytes = up_get_16(&payload[17]);
+  return true;
+}
+
+bool up_health_read_row(const uint8_t *payload, size_t size, size_t index, up_health_row_t *row) {
+  const size_t at = UP_HEALTH_BOARD_BYTES + index * UP_HEALTH_DEVICE_BYTES;
+
+  if (at + UP_HEALTH_DEVICE_BYTES > size || payload[1] != UP_HEALTH_VERSION) {
+    return false;
+  }
+  row->status = payload[at];
+  row->age_ms = up_get_32(&payload[at + 1U]);
+  up_get_array(&payload[at + 5U], row->counts, sizeof row->counts[0], UP_FAULTS);
+  return true;
 }

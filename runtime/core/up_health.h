@@ -58,11 +58,46 @@ typedef struct {
   uint8_t status; /* up_status_t */
 } up_health_row_t;
 
+/* The board itself, as the host is told of it. */
+typedef struct {
+  uint32_t uptime_ms;
+  uint32_t reports_sent;
+  uint32_t reports_refused;
+  uint16_t stack_left_bytes; /* bytes never used of the fullest stack; UP_STACK_UNKNOWN */
+  uint8_t reset_cause;       /* up_reset_t */
+  uint8_t reset_device;      /* after a watchdog's reset the identifier of the first device of the thread that hung */
+  uint8_t load_percent;      /* the highest so far; UP_LOAD_UNKNOWN */
+} up_health_board_t;
+#define UP_LOAD_UNKNOWN 255U
+#define UP_STACK_UNKNOWN 65535U
+
+typedef enum {
+  UP_RESET_UNKNOWN,
+  UP_RESET_POWER, /* switched on, or a brown-out */
+  UP_RESET_PIN,
+  UP_RESET_SOFTWARE,
+  UP_RESET_WATCHDOG,
+  UP_RESET_WINDOW_WATCHDOG,
+  UP_RESET_LOW_POWER,
+  UP_RESET_HALT /* the kernel stopped itself */
+} up_reset_t;
+
+/* On the wire: what the request says, the frame's version, and its parts. */
+#define UP_HEALTH_REQUEST 1U
+#define UP_HEALTH_VERSION 1U
+#define UP_HEALTH_BOARD_BYTES 19U
+#define UP_HEALTH_DEVICE_BYTES 17U
+
 /* What a reading of a field came to, before any filter keeps it from the host. UP_NOTHING says nothing of it. */
 void up_health_note(up_health_t *health, size_t field, up_result_t result, uint32_t now_ms);
 
 /* Call it now and then, at least so often that each device has its turn within 24 days: the clock wraps. */
 void up_health_tick(up_health_t *health, uint32_t now_ms);
+
+/* Of a payload that a decoder has delivered to a host: the board, and device `index` in the schema's order. False where
+ * there is none, or the payload is of another version. */
+bool up_health_read_board(const uint8_t *payload, size_t size, up_health_board_t *board);
+bool up_health_read_row(const uint8_t *payload, size_t size, size_t index, up_health_row_t *row);
 
 /* How a device is. */
 void up_health_row(const up_health_t *health, size_t field, uint32_t now_ms, up_health_row_t *row);

@@ -2,10 +2,11 @@
 
 #include <string.h>
 
-#include "up_encode.h"
 
 #define BLOCK_BYTES UP_DECODER_BLOCK_BYTES
 #define BLOCKS_MAX 0xFFFFU
+/* The way of a candidate that takes fewer is not kept. */
+#define STEPS_MIN 16U
 
 /* Of the stream up to where a block begins. */
 typedef struct {
@@ -30,7 +31,7 @@ static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
   return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(uint16_t)];
 }
 
-void up_memo_init(up_decoder_t *decoder, size_t frame_bytes) {
+static void init(up_decoder_t *decoder, size_t frame_bytes) {
   static const uint8_t zeros[BLOCK_BYTES];
   const size_t blocks = UP_DECODER_BLOCKS(frame_bytes);
   uint16_t power = 1U;
@@ -85,9 +86,9 @@ static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
   memcpy(&sums, sums_at(decoder, decoder->summed), sizeof sums);
   while (decoder->summed < *last) {
     const uint8_t *block = &bytes[decoder->summed];
-    const bool are_bools = count_bools(block, BLOCK_BYTES) == BLOCK_BYTES;
+    const bool is_whole = count_bools(block, BLOCK_BYTES) == BLOCK_BYTES;
     sums.crc = up_crc16(sums.crc, block, BLOCK_BYTES);
-    sums.bools = are_bools ? (uint16_t)(sums.bools + (sums.bools < BLOCKS_MAX)) : 0U;
+    sums.bools = is_whole ? (uint16_t)(sums.bools + (sums.bools < BLOCKS_MAX)) : 0U;
     decoder->summed += BLOCK_BYTES;
     memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
   }
@@ -95,7 +96,7 @@ static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
 }
 
 /* A CRC is linear: what stood before a block shifts through it. */
-uint16_t up_memo_crc(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
+static uint16_t crc_of(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
   uint16_t crc = UP_CRC16_INIT;
   size_t first, last;
 
@@ -112,7 +113,7 @@ uint16_t up_memo_crc(up_decoder_t *decoder, const uint8_t *bytes, size_t from, s
   return up_crc16(crc, &bytes[from], to - from);
 }
 
-bool up_memo_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
+static bool are_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
   size_t first, last;
 
   if (in_blocks(decoder, bytes, from, to, &first, &last)) {
@@ -128,6 +129,13 @@ bool up_memo_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, siz
 }
 
 #if UP_DECODER_WALKS > 0U
+
+typedef enum {
+  STEP_TAKEN,
+  STEP_REPEATS, /* an identifier of the candidate stands twice */
+  STEP_MISSES,  /* none of its items ends where its values do */
+  STEP_UNKNOWN  /* the walk does not tell */
+} step_t;
 
 static bool has_id(const uint32_t *ids, uint8_t id) {
   return ((ids[id / 32U] >> (id % 32U)) & 1U) != 0U;
@@ -176,10 +184,11 @@ static void shorten(const up_decoder_t *decoder, up_walk_t *walk, const uint8_t 
 
   *byte = (uint8_t)(*byte & ~bit);
   walk->ids[id / 32U] &= ~((uint32_t)1U << (id % 32U));
-  walk->tail += 1U + up_decoder_value_bytes(decoder, id);
+  walk->tail += 1U + UP_ITEM_BYTES(decoder->wire->item(id));
 }
 
-up_walk_t *up_memo_walk(up_decoder_t *decoder, size_t place) {
+/* One that has an identifier at this place; NULL when none has. */
+static up_walk_t *find_walk(up_decoder_t *decoder, size_t place) {
   size_t i;
 
   for (i = 0U; i < UP_DECODER_WALKS; i++) {
@@ -190,24 +199,26 @@ up_walk_t *up_memo_walk(up_decoder_t *decoder, size_t place) {
   return NULL;
 }
 
-up_step_t up_memo_step(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t next) {
+/* The candidate stands at an identifier of the walk. One step further at the head of it, to `next`. */
+static step_t take_step(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t next) {
   const uint8_t id = bytes[walk->head];
 
   while (has_id(walk->ids, id)) {
     if (walk->tail == decoder->at) {
-      return UP_STEP_REPEATS;
+      return STEP_REPEATS;
     }
     shorten(decoder, walk, bytes);
   }
   lengthen(decoder, walk, id, next);
-  return UP_STEP_TAKEN;
+  return STEP_TAKEN;
 }
 
-up_step_t up_memo_leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
+/* Whether the candidate comes to the end of its values by the walk, which goes so far. */
+static step_t leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes) {
   const size_t end = decoder->values_end;
 
   if (end != walk->head && !has_place(decoder, walk, end)) {
-    return UP_STEP_MISSES;
+    return STEP_MISSES;
   }
   if (have_common(decoder->seen, walk->ids)) {
     /* Some may stand before the candidate comes upon the walk, or behind its end. */
@@ -215,13 +226,56 @@ up_step_t up_memo_leap(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *by
       shorten(decoder, walk, bytes);
     }
     if (have_common(decoder->seen, walk->ids)) {
-      return (end == walk->head) ? UP_STEP_REPEATS : UP_STEP_UNKNOWN;
+      return (end == walk->head) ? STEP_REPEATS : STEP_UNKNOWN;
     }
   }
-  return UP_STEP_TAKEN;
+  return STEP_TAKEN;
 }
 
-void up_memo_keep(up_decoder_t *decoder, const uint8_t *bytes) {
+/* To the end of the values by a walk of others, which goes on where it has not come so far. */
+static up_verdict_t follow(up_decoder_t *decoder, up_walk_t *walk, const uint8_t *bytes, size_t size) {
+  step_t found;
+
+  decoder->joined = true;
+  while (walk->head < decoder->values_end) {
+    up_item_t item;
+    size_t end;
+
+    if (walk->head >= size) {
+      return UP_VERDICT_INCOMPLETE;
+    }
+    item = decoder->wire->item(bytes[walk->head]);
+    end = walk->head + 1U + UP_ITEM_BYTES(item);
+    if (item == UP_ITEM_NONE || end > decoder->values_end) {
+      return UP_VERDICT_INVALID;
+    }
+    if (UP_ITEM_IS_BOOL(item)) {
+      const up_verdict_t verdict = up_decoder_look_at_bools(decoder, bytes, size, walk->head + 1U, end);
+      if (verdict != UP_VERDICT_COMPLETE) {
+        return verdict;
+      }
+    }
+    if (take_step(decoder, walk, bytes, end) != STEP_TAKEN) {
+      return UP_VERDICT_INVALID;
+    }
+  }
+  found = leap(decoder, walk, bytes);
+  if (found == STEP_TAKEN) {
+    decoder->at = decoder->values_end;
+  }
+  decoder->alone = found == STEP_UNKNOWN;
+  return (found == STEP_TAKEN || decoder->alone) ? UP_VERDICT_COMPLETE : UP_VERDICT_INVALID;
+}
+
+static up_verdict_t join(up_decoder_t *decoder, const uint8_t *bytes, size_t size, bool *is_known) {
+  up_walk_t *known = find_walk(decoder, decoder->at);
+
+  *is_known = known != NULL;
+  return *is_known ? follow(decoder, known, bytes, size) : UP_VERDICT_COMPLETE;
+}
+
+/* The way of a candidate that has failed, unless it was on another's. */
+static void keep(up_decoder_t *decoder, const uint8_t *bytes) {
   up_walk_t *walk = &decoder->walks[decoder->walks_put];
 
   if (decoder->joined) {
@@ -231,11 +285,11 @@ void up_memo_keep(up_decoder_t *decoder, const uint8_t *bytes) {
   decoder->walks_put = (uint8_t)((decoder->walks_put + 1U) % UP_DECODER_WALKS);
   memset(walk->places, 0, decoder->ring_bytes / 8U);
   memset(walk->ids, 0, sizeof walk->ids);
-  walk->tail = decoder->payload_start;
+  walk->tail = decoder->items_start;
   walk->head = walk->tail;
   while (walk->head < decoder->at) {
     const uint8_t id = bytes[walk->head];
-    lengthen(decoder, walk, id, walk->head + 1U + up_decoder_value_bytes(decoder, id));
+    lengthen(decoder, walk, id, walk->head + 1U + UP_ITEM_BYTES(decoder->wire->item(id)));
   }
 }
 
@@ -265,7 +319,8 @@ static bool advance_walks(up_decoder_t *decoder, const uint8_t *bytes, size_t sk
 
 #endif
 
-void up_memo_advance(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
+/* The candidate is given up for one that starts so many bytes further on. */
+static void advance(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped) {
   bool moves = decoder->spent > skipped;
 
   decoder->spent = moves ? decoder->spent - skipped : 0U;
@@ -285,3 +340,29 @@ void up_memo_advance(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped
     }
   }
 }
+
+static void leave(up_decoder_t *decoder, const uint8_t *bytes, size_t skipped, bool has_failed) {
+  if (has_failed) {
+    if (decoder->looked_at > decoder->spent) {
+      decoder->spent = decoder->looked_at;
+    }
+#if UP_DECODER_WALKS > 0U
+    if (decoder->payload_start != 0U && decoder->steps >= STEPS_MIN) {
+      keep(decoder, bytes);
+    }
+#endif
+  }
+  if (decoder->spent != 0U || decoder->has_walks) {
+    advance(decoder, bytes, skipped);
+  }
+}
+
+const up_memo_t up_memo = {
+    .init = init,
+    .crc = crc_of,
+    .bools = are_bools,
+    .leave = leave,
+#if UP_DECODER_WALKS > 0U
+    .join = join,
+#endif
+};

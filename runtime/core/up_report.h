@@ -8,7 +8,7 @@
 #ifndef UP_REPORT_H
 #define UP_REPORT_H
 
-#include "up_schema.h"
+#include "up_encode.h"
 
 typedef struct {
   const up_schema_t *schema;
@@ -25,9 +25,16 @@ void up_store_put(up_store_t *store, size_t index, const void *value);
 /* The value of fields[index]; NULL while nothing was read. */
 const void *up_store_get(const up_store_t *store, size_t index);
 
+/* Whether anything is due towards the host. */
+bool up_report_is_due(const up_store_t *store);
+
+/* The value of fields[index] is not to be reported. */
+void up_report_forget(up_store_t *store, size_t index);
+
 /* Packs what is due towards the host and takes it off the list; `taken` (UP_FIELD_BITMAP_BYTES) says what it
  * was. Returns the bytes of the frame, 0 when nothing is due. */
-size_t up_report_take(up_store_t *store, uint8_t *frame, size_t frame_bytes, uint8_t *taken);
+size_t up_report_take(up_store_t *store, const up_wire_t *wire, const up_stamp_t *stamp, uint8_t *frame,
+                      size_t frame_bytes, uint8_t *taken);
 
 /* Makes the fields of a frame due again that could not be sent. */
 void up_report_restore(up_store_t *store, const uint8_t *taken);

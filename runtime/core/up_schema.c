@@ -84,31 +84,3 @@ const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direc
   }
   return NULL;
 }
-
-size_t up_payload_bytes_max(const up_schema_t *schema, up_direction_t direction) {
-  /* The hello: its identifier and, towards the host, the hash. */
-  const size_t hello_bytes = (direction == UP_TO_HOST) ? 5U : 1U;
-  size_t bytes = 0U;
-  uint8_t i;
-
-  for (i = 0U; i < schema->fields_count; i++) {
-    if (schema->fields[i].direction == (uint8_t)direction) {
-      bytes += 1U + up_field_bytes(&schema->fields[i]);
-    }
-  }
-  if (bytes < hello_bytes) {
-    bytes = hello_bytes;
-  }
-  return bytes + (schema->checksum_crc16 ? 3U : 0U);
-}
-
-size_t up_frame_bytes_max(const up_schema_t *schema, up_direction_t direction) {
-  const size_t payload_bytes = up_payload_bytes_max(schema, direction);
-  size_t digits = 1U;
-  size_t rest;
-
-  for (rest = payload_bytes; rest >= 10U; rest /= 10U) {
-    digits++;
-  }
-  return digits + 1U + payload_bytes + 1U;
-}

@@ -14,6 +14,7 @@
 
 /* Identifiers that belong to the link itself. */
 #define UP_ID_HELLO 0U
+#define UP_ID_HEALTH 255U /* as the first byte of a payload */
 #define UP_ID_CHECKSUM 255U
 
 /* A schema has at most one field for each identifier 1..254. */
@@ -77,9 +78,5 @@ size_t up_field_bytes(const up_field_t *field);
 
 /* The field with this identifier in this direction, or NULL. */
 const up_field_t *up_schema_find(const up_schema_t *schema, uint8_t id, up_direction_t direction);
-
-/* Bytes of the longest payload and of the longest frame that can travel this way. */
-size_t up_payload_bytes_max(const up_schema_t *schema, up_direction_t direction);
-size_t up_frame_bytes_max(const up_schema_t *schema, up_direction_t direction);
 
 #endif

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "model_model.h"
 #include "up_capture.h"
 #include "up_convert.h"
 #include "up_decode.h"
@@ -104,52 +105,51 @@ static void test_text(void) {
   check_text(UP_TYPE_FLOAT32, 0xFF800000U, "-large");
 }
 
-/* ---- reports ---- */
-
-typedef struct {
-  uint16_t front;
-  uint8_t rear;
-  int16_t motor;
-} model_t;
-
-static const up_field_t model_fields[] = {
-    {"Front", 17U, UP_TYPE_UINT16, UP_TO_HOST, false, 1U, (uint16_t)offsetof(model_t, front)},
-    {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, false, 1U, (uint16_t)offsetof(model_t, rear)},
-    {"Motor", 40U, UP_TYPE_INT16, UP_TO_BOARD, false, 1U, (uint16_t)offsetof(model_t, motor)},
-};
-static const up_schema_t model_schema = {model_fields, 3U, false, 0x01020304U};
+/* ---- reports: a printed codec of three values ---- */
 
 static void test_reports(void) {
-  model_t model;
+  static const up_stamp_t stamp = {0U, 0U};
+  model_values_t model;
   up_store_t store;
   const uint16_t front = 300U;
   const uint8_t rear = 9U;
   const int16_t motor = -5;
-  uint8_t frame[16], taken[UP_FIELD_BITMAP_BYTES];
+  uint8_t frame[MODEL_REPORT_FRAME_BYTES], taken[UP_FIELD_BITMAP_BYTES];
+  const size_t size = sizeof frame;
 
   up_store_init(&store, &model_schema, &model);
-  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 0U);
+  CHECK(up_report_take(&store, &model_reports, &stamp, frame, size, taken) == 0U && !up_report_is_due(&store));
   CHECK(up_store_get(&store, 0U) == NULL);
-  up_store_put(&store, 1U, &rear);
   up_store_put(&store, 2U, &motor); /* an actuator's value is never reported */
-  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 5U && memcmp(frame, "2:\x13\x09,", 5U) == 0);
-  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 0U);
+  CHECK(!up_report_is_due(&store) && model.MODEL_Motor == -5);
+  up_store_put(&store, 1U, &rear);
+  CHECK(up_report_is_due(&store));
+  CHECK(up_report_take(&store, &model_reports, &stamp, frame, size, taken) == 5U);
+  CHECK(memcmp(frame, "2:\x13\x09,", 5U) == 0);
+  CHECK(up_report_take(&store, &model_reports, &stamp, frame, size, taken) == 0U && !up_report_is_due(&store));
   up_store_put(&store, 1U, &rear);
   up_store_put(&store, 0U, &front);
-  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 8U);
+  CHECK(up_report_take(&store, &model_reports, &stamp, frame, size, taken) == 8U);
   CHECK(memcmp(frame, "5:\x11\x01\x2c\x13\x09,", 8U) == 0);
   up_report_restore(&store, taken);
-  CHECK(up_report_take(&store, frame, sizeof frame, taken) == 8U);
-  CHECK(up_store_get(&store, 0U) == &model.front && model.front == 300U);
+  up_report_forget(&store, 0U);
+  CHECK(up_report_take(&store, &model_reports, &stamp, frame, size, taken) == 5U);
+  CHECK(up_store_get(&store, 0U) == &model.MODEL_Front && model.MODEL_Front == 300U);
 }
 
-static unsigned requests, values_seen;
+static unsigned requests, health_requests, values_seen;
 static int16_t motor_seen;
 
-static void on_motor(void *context, const up_field_t *field, const uint8_t *wire) {
+static void on_motor(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
+  model_values_t model;
+  uint8_t taken[UP_FIELD_BITMAP_BYTES] = {0U};
+
   (void)context;
+  CHECK(stamp == NULL);
+  model_commands.take(items, &items[size], &model, taken);
+  CHECK(taken[0] == 4U);
   values_seen++;
-  up_value_from_wire(field, wire, &motor_seen);
+  motor_seen = model.MODEL_Motor;
 }
 
 static void on_request(void *context, uint32_t hash) {
@@ -157,34 +157,43 @@ static void on_request(void *context, uint32_t hash) {
   requests += (hash == 0U) ? 1U : 0U;
 }
 
-static void test_link(void) {
-  const up_sink_t sink = {on_motor, NULL, on_request, NULL};
-  const uint8_t stream[] = {'\r', '\n', '1', ':', 0x00U, ',', '3', ':', 40U, 0xFFU, 0xFEU, ','};
-  up_decoder_t decoder;
-  uint8_t buffer[UP_DECODER_BYTES(6U)], frame[16];
+static void on_health_request(void *context, const uint8_t *payload, size_t size) {
+  (void)context;
+  (void)payload;
+  health_requests += (size == 0U) ? 1U : 0U;
+}
 
-  CHECK(up_frame_bytes_max(&model_schema, UP_TO_BOARD) == 6U);
-  CHECK(up_frame_bytes_max(&model_schema, UP_TO_HOST) == 8U);
-  CHECK(!up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer - 1U, &sink));
-  CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));
+static const up_sink_t motor_sink = {on_motor, on_request, on_health_request, NULL};
+
+static void test_link(void) {
+  const uint8_t stream[] = {'\r', '\n', '1', ':', 0x00U, ',', '3', ':', 40U, 0xFFU, 0xFEU, ',', '2', ':', 0U, 1U, ','};
+  up_decoder_t decoder;
+  uint8_t buffer[MODEL_COMMAND_FRAME_BYTES], frame[MODEL_REPORT_FRAME_BYTES];
+
+  CHECK(UP_WIRE_FRAME_BYTES(&model_commands) == 6U && MODEL_COMMAND_FRAME_BYTES == 6U);
+  CHECK(UP_WIRE_FRAME_BYTES(&model_reports) == MODEL_REPORT_FRAME_BYTES && MODEL_REPORT_FRAME_BYTES == 74U);
+  CHECK(model_commands.memo == NULL && model_commands.item(40U) == UP_ITEM(2U, false));
+  CHECK(model_commands.item(17U) == UP_ITEM_NONE && model_reports.item(40U) == UP_ITEM_NONE);
+  CHECK(!up_decoder_init(&decoder, &model_commands, buffer, sizeof buffer - 1U, &motor_sink));
+  CHECK(up_decoder_init(&decoder, &model_commands, buffer, sizeof buffer, &motor_sink));
   up_decoder_feed(&decoder, stream, sizeof stream);
-  CHECK(requests == 1U && values_seen == 1U && motor_seen == -2);
-  CHECK(decoder.frames == 2U && decoder.dropped_bytes == 2U && up_decoder_is_idle(&decoder));
-  CHECK(up_encode_hello(&model_schema, frame, sizeof frame) == 8U);
-  CHECK(memcmp(frame, "5:\0\x01\x02\x03\x04,", 8U) == 0);
-  CHECK(up_encode_hello(&model_schema, frame, 7U) == 0U);
-  CHECK(up_encode_hello_request(&model_schema, frame, sizeof frame) == 4U && memcmp(frame, "1:\0,", 4U) == 0);
+  CHECK(requests == 1U && health_requests == 1U && values_seen == 1U && motor_seen == -2);
+  CHECK(decoder.frames == 3U && decoder.dropped_bytes == 2U && up_decoder_is_idle(&decoder));
+  CHECK(up_encode_hello(&model_reports, frame, sizeof frame) == 8U && memcmp(frame, "5:\0", 3U) == 0);
+  CHECK(up_get_32(&frame[3]) == model_schema.hash && frame[7] == ',');
+  CHECK(up_encode_hello(&model_reports, frame, sizeof frame - 1U) == 0U);
+  CHECK(up_encode_hello_request(&model_commands, frame, sizeof frame) == 4U && memcmp(frame, "1:\0,", 4U) == 0);
+  CHECK(up_encode_health_request(&model_commands, frame, 6U) == 5U && memcmp(frame, "2:\0\1,", 5U) == 0);
 }
 
 /* Random bytes never break the decoder's bounds (a sanitizer watches), and a frame behind them is found. */
 static void test_noise(void) {
-  const up_sink_t sink = {on_motor, NULL, on_request, NULL};
   const uint8_t frame[] = {'3', ':', 40U, 0x00U, 0x07U, ','};
   up_decoder_t decoder;
-  uint8_t buffer[UP_DECODER_BYTES(6U)], noise[16];
+  uint8_t buffer[MODEL_COMMAND_BUFFER_BYTES], noise[16];
   uint32_t seed = 12345U, round, i;
 
-  CHECK(up_decoder_init(&decoder, &model_schema, UP_TO_BOARD, buffer, sizeof buffer, &sink));
+  CHECK(up_decoder_init(&decoder, &model_commands, buffer, sizeof buffer, &motor_sink));
   for (round = 0U; round < 5000U; round++) {
     for (i = 0U; i < sizeof noise; i++) {
       seed = seed * 1664525U + 1013904223U;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "up_decode.h"
+#include "up_memo.h"
 
 static void put(sense_decoded_t *decoded, const void *bytes, size_t size) {
   if (size > decoded->log_bytes_max - decoded->log_size) {
@@ -14,20 +15,11 @@ static void put(sense_decoded_t *decoded, const void *bytes, size_t size) {
   decoded->log_size += size;
 }
 
-static int is_open; /* a report has begun */
-
-static void on_value(void *context, const up_field_t *field, const uint8_t *wire) {
-  if (!is_open) {
-    put(context, "R", 1U);
-    is_open = 1;
-  }
-  put(context, &field->id, 1U);
-  put(context, wire, up_field_bytes(field));
-}
-
-static void on_frame(void *context) {
+static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
+  (void)stamp;
+  put(context, "R", 1U);
+  put(context, items, size);
   put(context, ".", 1U);
-  is_open = 0;
 }
 
 static up_direction_t direction; /* of this stream */
@@ -41,43 +33,65 @@ static void on_hello(void *context, uint32_t hash) {
   }
 }
 
+/* The other decoders of the fuzzer are asked for reports and hellos alone. */
+static void on_health(void *context, const uint8_t *payload, size_t size) {
+  put(context, (direction == UP_TO_BOARD) ? "A" : "D", 1U);
+  put(context, payload, size);
+}
+
+/* What a generator prints as a switch, from a table: any schema comes at run time. */
+static up_item_t item_of[256];
+
+static up_item_t item(uint8_t id) {
+  return item_of[id];
+}
+
+static void read_schema(const sense_stream_t *stream, up_wire_t *wire) {
+  size_t i, number, values_bytes = 0U, payload_bytes;
+
+  memset(wire, 0, sizeof *wire);
+  memset(item_of, 0, sizeof item_of);
+  wire->direction = (uint8_t)direction;
+  wire->has_checksum = stream->crc16 != 0U;
+  for (i = 0U; i < stream->items_count; i++) {
+    const sense_item_t *one = &stream->items[i];
+    if ((one->to_board != 0) == (direction == UP_TO_BOARD)) {
+      item_of[one->id] = UP_ITEM(up_type_bytes(one->type) * one->count, one->type == UP_TYPE_BOOL);
+      values_bytes += 1U + up_type_bytes(one->type) * one->count;
+    }
+  }
+  wire->values_bytes_max = (uint16_t)values_bytes;
+  payload_bytes = (direction == UP_TO_BOARD) ? 2U : UP_HEALTH_BOARD_BYTES + UP_HEALTH_DEVICE_BYTES * stream->items_count;
+  wire->health_bytes = (uint16_t)((direction == UP_TO_BOARD) ? 0U : payload_bytes);
+  payload_bytes = (values_bytes > payload_bytes) ? values_bytes : payload_bytes;
+  payload_bytes += wire->has_checksum ? 3U : 0U;
+  wire->payload_bytes_max = (uint16_t)payload_bytes;
+  wire->head_bytes = 2U;
+  for (number = payload_bytes; number >= 10U; number /= 10U) {
+    wire->head_bytes++;
+  }
+  wire->item = item;
+  wire->memo = ((stream->size & 2U) != 0U) ? &up_memo : NULL;
+}
+
 void sense_decode_c(const sense_stream_t *stream, sense_decoded_t *decoded) {
-  up_field_t fields[16];
-  up_schema_t schema;
-  up_sink_t sink;
+  const up_sink_t sink = {on_values, on_hello, on_health, decoded};
+  up_wire_t wire;
   up_decoder_t decoder;
   uint8_t *buffer;
-  size_t buffer_bytes, i, from = 0U;
-  uint16_t offset = 0U;
+  size_t frame_bytes, buffer_bytes, i, from = 0U;
 
   if (stream->items_count > 16U) {
     abort();
   }
-  memset(&schema, 0, sizeof schema);
-  for (i = 0U; i < stream->items_count; i++) {
-    const sense_item_t *item = &stream->items[i];
-    fields[i].name = "";
-    fields[i].id = item->id;
-    fields[i].type = item->type;
-    fields[i].direction = (uint8_t)(item->to_board ? UP_TO_BOARD : UP_TO_HOST);
-    fields[i].count = item->count;
-    fields[i].offset = offset;
-    offset = (uint16_t)(offset + up_field_bytes(&fields[i]));
-  }
-  schema.fields = fields;
-  schema.fields_count = (uint8_t)stream->items_count;
-  schema.checksum_crc16 = stream->crc16 != 0U;
   direction = stream->to_board ? UP_TO_BOARD : UP_TO_HOST;
-  sink.on_value = on_value;
-  sink.on_frame = on_frame;
-  sink.on_hello = on_hello;
-  sink.context = decoded;
-  is_open = 0;
+  read_schema(stream, &wire);
   /* Exactly as large as promised, for one frame or for two, so that one byte beyond it is noticed. */
-  buffer_bytes = up_frame_bytes_max(&schema, direction);
-  buffer_bytes = (stream->size & 1U) * buffer_bytes + UP_DECODER_BYTES(buffer_bytes);
+  frame_bytes = UP_WIRE_FRAME_BYTES(&wire);
+  buffer_bytes = (stream->size & 1U) * frame_bytes;
+  buffer_bytes += (wire.memo != NULL) ? UP_DECODER_BYTES(frame_bytes) : frame_bytes;
   buffer = malloc(buffer_bytes);
-  if (buffer == NULL || !up_decoder_init(&decoder, &schema, direction, buffer, buffer_bytes, &sink)) {
+  if (buffer == NULL || !up_decoder_init(&decoder, &wire, buffer, buffer_bytes, &sink)) {
     abort();
   }
   for (i = 0U; i <= stream->cuts_count; i++) {

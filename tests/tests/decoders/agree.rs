@@ -70,9 +70,10 @@ fn c_and_cpp_say_what_the_definition_says() {
 
 /// What can be chosen of the decoder in C, as it comes first. Its buffer is one frame here: the
 /// least it works with.
-const BUILDS: [(&str, &[&str]); 3] = [
+const BUILDS: [(&str, &[&str]); 4] = [
     ("agree", &["-DDECODERS_C_FRAMES=1"]),
-    ("agree-more", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=3U", "-DUP_DECODER_SIZES=1"]),
+    ("agree-more", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=3U"]),
+    ("agree-plain", &["-DDECODERS_C_FRAMES=1", "-DDECODERS_C_MEMO=0"]),
     ("agree-none", &["-DDECODERS_C_FRAMES=1", "-DUP_DECODER_WALKS=0U"]),
 ];
 

@@ -117,8 +117,10 @@ impl Program {
             ("gcc", "-std=c99", "tests/decoders/main.c"),
             ("gcc", "-std=c99", "runtime/core/up_decode.c"),
             ("gcc", "-std=c99", "runtime/core/up_encode.c"),
+            ("gcc", "-std=c99", "runtime/core/up_health.c"),
             ("gcc", "-std=c99", "runtime/core/up_memo.c"),
             ("gcc", "-std=c99", "runtime/core/up_schema.c"),
+            ("gcc", "-std=c99", "runtime/core/up_wire.c"),
             ("g++", "-std=c++98", "tests/decoders/cpp.cpp"),
         ] {
             let object = folder.join(Path::new(source).file_name().unwrap()).with_extension("o");

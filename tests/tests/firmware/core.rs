@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
 
 use sensedsl_tests::is_thorough;
 
@@ -24,14 +25,23 @@ fn tests() -> Vec<PathBuf> {
 }
 
 fn vectors() -> Vec<PathBuf> {
-    let mut vectors = files(&root().join("tests/vectors"), "txt");
-    // The core in C has neither stamps nor health yet.
-    vectors.retain(|path| {
-        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        !["stamp", "stamp_checksum", "health", "health_checksum"].contains(&name.as_str())
-    });
-    assert!(vectors.len() >= 6, "the shared vectors are missing");
+    let vectors = files(&root().join("tests/vectors"), "txt");
+    assert!(vectors.len() >= 10, "the shared vectors are missing");
     vectors
+}
+
+/// The generated codecs that the tests need, in a folder of their own: see `codecs.rs`.
+fn codecs() -> PathBuf {
+    static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+        let folder = scratch("codecs");
+        super::codecs::write(&folder, &vectors());
+        folder
+    });
+    FOLDER.clone()
+}
+
+fn tests_with_codecs() -> Vec<PathBuf> {
+    [tests(), files(&codecs(), "c")].concat()
 }
 
 fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
@@ -39,6 +49,7 @@ fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
     let mut command = Command::new(compiler);
     command.args(STRICT).args(flags);
     command.args([include("runtime/core"), include("tests/firmware")]);
+    command.arg(format!("-I{}", codecs().display()));
     command.args(sources).arg("-o").arg(output);
     // The tests compare with the C library's functions; the core itself has none of them.
     run(if flags.contains(&"-c") { &mut command } else { command.arg("-lm") });
@@ -113,7 +124,7 @@ fn runs_on_the_host(compiler: &str) {
     }
     let program = scratch(compiler).join("core");
     let flags = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
-    compile(compiler, &flags, &[sources(), tests()].concat(), &program);
+    compile(compiler, &flags, &[sources(), tests_with_codecs()].concat(), &program);
     let output = run(Command::new(&program).args(vectors()));
     assert!(checks(&output.stdout, vectors().len()) > 10_000);
 }
@@ -142,7 +153,7 @@ fn runs_on_an_emulated_cortex_m4() {
         "-Wl,--section-start=.isr_vector=0x0",
         "-Wl,-Tdata=0x20000000",
     ];
-    compile("arm-none-eabi-gcc", &flags, &[sources(), tests(), vec![start]].concat(), &program);
+    compile("arm-none-eabi-gcc", &flags, &[sources(), tests_with_codecs(), vec![start]].concat(), &program);
     // Semihosting hands on arguments and opens the vector files of the host.
     let arguments = vectors().iter().fold(String::from("arg=core"), |all, path| {
         let name = path.file_name().unwrap().to_string_lossy();
@@ -165,7 +176,12 @@ fn notices_a_broken_core() {
     let folder = scratch("broken");
     let breakages = [
         ("up_encode.c", "(high << 5)", "(high << 6)"),
-        ("up_encode.c", "bits >>= 8;", "bits >>= 4;"),
+        ("up_wire.c", "(i ^ (element_bytes - 1U))", "i"),
+        ("up_encode.c", "if (head != frame)", "if (false)"),
+        ("up_encode.c", "stamp->counter", "0U"),
+        ("up_decode.c", "!= UP_HEALTH_REQUEST", "== 0U"),
+        ("up_decode.c", "values_bytes <= STAMP_BYTES", "values_bytes < STAMP_BYTES"),
+        ("up_decode.c", "values_bytes == decoder->wire->health_bytes", "true"),
         ("up_decode.c", "while (at < limit && !is_digit(bytes[at]))", "while (at < limit)"),
         ("up_decode.c", "length > decoder->payload_bytes_max", "false"),
         ("up_decode.c", "|| (*seen & bit) != 0U", ""),
@@ -247,10 +263,11 @@ fn notices_a_broken_core() {
         for include in ["runtime/core", "tests/firmware"] {
             command.arg(format!("-I{}", root().join(include).display()));
         }
+        command.arg(format!("-I{}", codecs().display()));
         run(command.arg("-c").arg(source).arg("-o").arg(object));
     };
     let object = |source: &Path| folder.join(source.file_stem().unwrap()).with_extension("o");
-    let whole: Vec<PathBuf> = sources().into_iter().chain(tests()).collect();
+    let whole: Vec<PathBuf> = sources().into_iter().chain(tests_with_codecs()).collect();
     whole.iter().for_each(|source| compile(source, &object(source)));
     let mut files = BTreeSet::new();
     for (file, original, broken) in breakages {

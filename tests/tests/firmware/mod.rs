@@ -7,6 +7,7 @@
 
 mod applications;
 mod chibios;
+mod codecs;
 mod core;
 mod emulated;
 mod tools;

@@ -1,5 +1,6 @@
 //! Firmware: the program on the board. A system is a folder here and its two lines: the module, and one of [`TARGETS`].
 
+pub mod c;
 pub mod chibios;
 
 use crate::target::Target;

@@ -18,7 +18,6 @@ mod plan;
 mod pulse;
 mod render;
 mod runtime;
-mod schema;
 mod section;
 mod settings;
 

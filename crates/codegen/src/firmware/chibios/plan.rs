@@ -7,9 +7,9 @@ use super::context::{Context, PadPlan};
 use super::doctor::{self, DoctorPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
-use super::schema::SchemaPlan;
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
+use crate::firmware::c::{Role, SchemaPlan};
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     Some(BoardPlan {
         name: context.job.board.name.value.clone(),
         tree: board::plan(context),
-        schema: SchemaPlan::new(context),
+        schema: SchemaPlan::new(&context.job.schema, Role::Board),
         report_ms: link::report_ms(context, &tasks),
         finish_ms: link::finish_ms(context, &link),
         button: link::button(context),

@@ -6,6 +6,7 @@ use super::PERIPHERALS;
 use super::plan::BoardPlan;
 use super::runtime;
 use crate::fileset::FileSet;
+use crate::firmware::c;
 use crate::print::print;
 
 /// The user's file as it is made once.
@@ -31,8 +32,6 @@ templates! {
     Halconf = "firmware/chibios/templates/halconf.h.txt";
     Mcuconf = "firmware/chibios/templates/mcuconf.h.txt";
     UpConf = "firmware/chibios/templates/up_conf.h.txt";
-    ModelHeader = "firmware/chibios/templates/sense_model.h.txt";
-    Model = "firmware/chibios/templates/sense_model.c.txt";
     Hardware = "firmware/chibios/templates/sense_hw.c.txt";
 }
 
@@ -45,8 +44,7 @@ pub(super) fn render(b: &BoardPlan) -> FileSet {
     files.add("cfg/halconf.h", print(&Halconf { b }));
     files.add("cfg/mcuconf.h", print(&Mcuconf { b }));
     files.add("cfg/up_conf.h", print(&UpConf { b }));
-    files.add("generated/sense_model.h", print(&ModelHeader { b }));
-    files.add("generated/sense_model.c", print(&Model { b }));
+    files.merge_under("generated", c::render(&b.name, &b.schema));
     files.add("generated/sense_hw.c", print(&Hardware { b }));
     files.add_once("user/user.c", USER);
     let drivers = PERIPHERALS.iter().flat_map(|peripheral| peripheral.runtime);

@@ -1,0 +1,300 @@
+#include "up_reporter.h"
+
+/* Bytes that are read at a time, and in a cycle: a host that sends without end must not keep reports waiting. */
+#define READ_BYTES 64U
+#define READS_MAX 16U
+/* A value that has waited for more of its device's cycles, or of the reporter's, is no longer fresh. */
+#define FRESH_CYCLES 2U
+
+static uint32_t now_ms(const up_reporter_t *reporter) {
+  return (uint32_t)(reporter->now_us / 1000U);
+}
+
+static void lock(const up_reporter_t *reporter) {
+  if (reporter->config->lock != NULL) {
+    reporter->config->lock(reporter->config->context);
+  }
+}
+
+static void unlock(const up_reporter_t *reporter) {
+  if (reporter->config->unlock != NULL) {
+    reporter->config->unlock(reporter->config->context);
+  }
+}
+
+/* ---- from the host ---- */
+
+static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
+  const up_reporter_t *reporter = context;
+  const up_reporter_config_t *config = reporter->config;
+  uint8_t taken[UP_FIELD_BITMAP_BYTES];
+  size_t i;
+
+  (void)stamp;
+  if (config->received == NULL || config->commands->take == NULL) {
+    return;
+  }
+  memset(taken, 0, sizeof taken);
+  config->commands->take(items, &items[size], config->received, taken);
+  for (i = 0U; i < config->schema->fields_count; i++) {
+    if (up_bit_get(taken, i)) {
+      config->apply(config->context, i, (const uint8_t *)config->received + config->schema->fields[i].offset);
+    }
+  }
+}
+
+static void on_hello(void *context, uint32_t hash) {
+  up_reporter_t *reporter = context;
+
+  (void)hash;
+  reporter->hello_due = true;
+}
+
+static void on_health(void *context, const uint8_t *payload, size_t size) {
+  up_reporter_t *reporter = context;
+
+  (void)payload;
+  (void)size;
+  reporter->health_due = reporter->config->health != NULL;
+}
+
+static void take_bytes(up_reporter_t *reporter, const uint8_t *bytes, size_t size) {
+  const up_reporter_config_t *config = reporter->config;
+  size_t i;
+
+  if (config->intercept == NULL) {
+    up_decoder_feed(&reporter->decoder, bytes, size);
+    return;
+  }
+  for (i = 0U; i < size; i++) {
+    if (!up_decoder_is_idle(&reporter->decoder) || !config->intercept(config->context, bytes[i])) {
+      up_decoder_feed(&reporter->decoder, &bytes[i], 1U);
+    }
+  }
+}
+
+static void receive(up_reporter_t *reporter) {
+  const up_channel_t *channel = reporter->config->channel;
+  const uint32_t frames = reporter->decoder.frames;
+  uint8_t bytes[READ_BYTES];
+  size_t size = sizeof bytes;
+  unsigned reads;
+
+  for (reads = 0U; reads < READS_MAX && size == sizeof bytes; reads++) {
+    size = channel->read(channel->context, bytes, sizeof bytes);
+    take_bytes(reporter, bytes, size);
+  }
+  if (reporter->decoder.frames != frames) {
+    up_silence_heard(&reporter->silence, now_ms(reporter));
+  }
+}
+
+/* ---- to the host ---- */
+
+/* What is being sent is given up; the values of a report are due again. */
+static void give_up(up_reporter_t *reporter) {
+  if (reporter->frame_size == 0U) {
+    return;
+  }
+  reporter->counts.frames_torn++;
+  reporter->frame_size = 0U;
+  if (reporter->is_report) {
+    lock(reporter);
+    up_report_restore(reporter->config->store, reporter->taken);
+    unlock(reporter);
+  }
+}
+
+/* Sends as much as there is room for; true when nothing is left to be sent. */
+static bool push(up_reporter_t *reporter) {
+  const up_channel_t *channel = reporter->config->channel;
+  const size_t left = reporter->frame_size - reporter->frame_sent;
+  size_t size;
+
+  if (reporter->frame_size == 0U) {
+    return true;
+  }
+  size = channel->room(channel->context);
+  size = (size < left) ? size : left;
+  if (size > 0U && !channel->write(channel->context, &reporter->config->frame[reporter->frame_sent], size)) {
+    give_up(reporter);
+    return false;
+  }
+  reporter->frame_sent += size;
+  if (size < left) {
+    return false;
+  }
+  reporter->frame_size = 0U;
+  reporter->counts.reports_sent += reporter->is_report ? 1U : 0U;
+  return true;
+}
+
+static bool send(up_reporter_t *reporter, size_t size, bool is_report) {
+  reporter->frame_size = size;
+  reporter->frame_sent = 0U;
+  reporter->is_report = is_report;
+  return push(reporter);
+}
+
+static bool send_hello(up_reporter_t *reporter) {
+  const up_reporter_config_t *config = reporter->config;
+
+  if (!reporter->hello_due) {
+    return true;
+  }
+  reporter->hello_due = false;
+  return send(reporter, up_encode_hello(config->reports, config->frame, config->frame_bytes), false);
+}
+
+static void row_of(void *context, size_t field, up_health_row_t *row) {
+  const up_reporter_t *reporter = context;
+
+  up_health_row(reporter->config->health, field, now_ms(reporter), row);
+}
+
+static bool send_health(up_reporter_t *reporter) {
+  const up_reporter_config_t *config = reporter->config;
+  up_health_board_t board;
+  size_t size;
+
+  if (!reporter->health_due) {
+    return true;
+  }
+  reporter->health_due = false;
+  memset(&board, 0, sizeof board);
+  board.uptime_ms = now_ms(reporter);
+  board.reports_sent = reporter->counts.reports_sent;
+  board.reports_refused = reporter->counts.reports_refused;
+  board.load_percent = UP_LOAD_UNKNOWN;
+  board.stack_left_bytes = UP_STACK_UNKNOWN;
+  if (config->describe != NULL) {
+    config->describe(config->context, &board);
+  }
+  lock(reporter);
+  size = up_encode_health(config->reports, &board, row_of, reporter, config->frame, config->frame_bytes);
+  unlock(reporter);
+  return send(reporter, size, false);
+}
+
+/* A value that waited while the channel had no room, and that no reading has followed since. */
+static bool is_old(const up_reporter_t *reporter, size_t field) {
+  const up_health_t *health = reporter->config->health;
+  const uint32_t own_ms = (health->cycles_ms == NULL) ? 0U : health->cycles_ms[field];
+  const uint32_t cycle_ms = (own_ms > reporter->config->cycle_ms) ? own_ms : reporter->config->cycle_ms;
+  up_health_row_t row;
+
+  if (own_ms == 0U) {
+    return false;
+  }
+  up_health_row(health, field, now_ms(reporter), &row);
+  return row.age_ms != UP_AGE_NEVER && row.age_ms / FRESH_CYCLES >= cycle_ms && row.age_ms > FRESH_CYCLES * cycle_ms;
+}
+
+static void drop_old(up_reporter_t *reporter) {
+  up_store_t *store = reporter->config->store;
+  size_t i;
+
+  for (i = 0U; i < reporter->config->schema->fields_count; i++) {
+    if (up_bit_get(store->due, i) && is_old(reporter, i)) {
+      up_report_forget(store, i);
+      reporter->counts.values_dropped++;
+    }
+  }
+}
+
+static void send_report(up_reporter_t *reporter) {
+  const up_reporter_config_t *config = reporter->config;
+  const up_stamp_t stamp = {(uint32_t)reporter->now_us, reporter->counter};
+  size_t size;
+
+  lock(reporter);
+  if (config->health != NULL) {
+    drop_old(reporter);
+  }
+  size = up_report_take(config->store, config->reports, &stamp, config->frame, config->frame_bytes, reporter->taken);
+  unlock(reporter);
+  if (size > 0U) {
+    reporter->counter++;
+    (void)send(reporter, size, true);
+  }
+}
+
+static void transmit(up_reporter_t *reporter) {
+  const up_reporter_config_t *config = reporter->config;
+  const up_channel_t *channel = config->channel;
+  bool has_left;
+
+  if (push(reporter)) {
+    has_left = channel->room(channel->context) >= channel->room_max;
+    if (has_left && send_hello(reporter) && send_health(reporter)) {
+      send_report(reporter);
+      return;
+    }
+  }
+  lock(reporter);
+  reporter->counts.reports_refused += up_report_is_due(config->store) ? 1U : 0U;
+  unlock(reporter);
+}
+
+/* ---- the cycle ---- */
+
+bool up_reporter_init(up_reporter_t *reporter, const up_reporter_config_t *config, uint64_t now_us) {
+  static const up_sink_t functions = {.on_values = on_values, .on_hello = on_hello, .on_health = on_health};
+
+  memset(reporter, 0, sizeof *reporter);
+  reporter->config = config;
+  reporter->now_us = now_us;
+  reporter->sink = functions;
+  reporter->sink.context = reporter;
+  up_silence_init(&reporter->silence, config->silence_ms, now_ms(reporter));
+  return up_decoder_init(&reporter->decoder, config->commands, config->buffer, config->buffer_bytes, &reporter->sink) &&
+         config->frame_bytes >= UP_WIRE_FRAME_BYTES(config->reports);
+}
+
+/* What is done whoever has the channel; `is_open` says whether frames have it. */
+static void begin_cycle(up_reporter_t *reporter, uint64_t now_us, bool is_open) {
+  reporter->now_us = now_us;
+  if (reporter->config->health != NULL) {
+    lock(reporter);
+    up_health_tick(reporter->config->health, now_ms(reporter));
+    unlock(reporter);
+  }
+  if (!is_open) {
+    give_up(reporter);
+  }
+  reporter->hello_due = reporter->hello_due || (is_open && !reporter->is_open);
+  reporter->is_open = is_open;
+}
+
+static void fall_back(up_reporter_t *reporter) {
+  const up_reporter_config_t *config = reporter->config;
+
+  if (up_silence_step(&reporter->silence, now_ms(reporter)) && config->failsafe != NULL) {
+    config->failsafe(config->context);
+  }
+}
+
+void up_reporter_cycle(up_reporter_t *reporter, uint64_t now_us) {
+  const up_channel_t *channel = reporter->config->channel;
+
+  begin_cycle(reporter, now_us, channel->is_open(channel->context));
+  if (reporter->is_open) {
+    receive(reporter);
+  }
+  fall_back(reporter);
+  if (reporter->is_open) {
+    transmit(reporter);
+  }
+}
+
+void up_reporter_pause(up_reporter_t *reporter, uint64_t now_us) {
+  begin_cycle(reporter, now_us, false);
+  fall_back(reporter);
+}
+
+bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
+  const uint32_t frames = reporter->decoder.frames;
+
+  up_decoder_feed(&reporter->decoder, &byte, 1U);
+  return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
+}

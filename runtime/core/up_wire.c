@@ -1,0 +1,31 @@
+#include "up_wire.h"
+
+/* Where byte `i` of an array stands in the other byte order. Memory is as the machine has it. */
+static size_t turned(size_t i, size_t element_bytes) {
+  const uint16_t one = 1U;
+  uint8_t low;
+
+  memcpy(&low, &one, sizeof low);
+  return (low == 0U) ? i : (i ^ (element_bytes - 1U));
+}
+
+uint8_t *up_put_array(uint8_t *at, const void *values, size_t element_bytes, size_t count) {
+  const uint8_t *memory = values;
+  const size_t size = element_bytes * count;
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    at[i] = memory[turned(i, element_bytes)];
+  }
+  return &at[size];
+}
+
+void up_get_array(const uint8_t *at, void *values, size_t element_bytes, size_t count) {
+  uint8_t *memory = values;
+  const size_t size = element_bytes * count;
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    memory[turned(i, element_bytes)] = at[i];
+  }
+}

@@ -1,0 +1,91 @@
+//! The C that is generated for a wire by itself, for the schemas of the vectors and of the core's own tests.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use sensedsl_codegen::firmware::c::{self, Role};
+use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
+
+/// Schemas of tests that are no vectors, in the words of these.
+const OWN: &str = "\
+schema model
+checksum none
+item 17 sensor Front uint16
+item 19 sensor Rear uint8
+item 40 actuator Motor int16
+schema rig
+checksum crc16
+stamp on
+item 1 sensor Range uint16
+item 2 sensor Axes int16[3]
+item 3 sensor Wheel uint32
+item 4 sensor Level uint8
+item 5 actuator Motor int16
+item 6 actuator Lamp bool
+";
+
+fn value_type(word: &str) -> ValueType {
+    let (name, length) = match word.strip_suffix(']').and_then(|word| word.split_once('[')) {
+        Some((name, length)) => (name, Some(length.parse().unwrap())),
+        None => (word, None),
+    };
+    let scalar = ScalarType::ALL.into_iter().find(|scalar| scalar.name() == name);
+    ValueType { scalar: scalar.unwrap(), length }
+}
+
+fn item(line: &str) -> Item {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let [id, direction, name, value] = words[..] else { panic!("{line}") };
+    Item {
+        id: id.parse().unwrap(),
+        name: name.to_owned(),
+        direction: if direction == "actuator" { Direction::Actuator } else { Direction::Sensor },
+        value: value_type(value),
+    }
+}
+
+/// All schemas of a text with lines of the vectors.
+fn schemas(text: &str) -> Vec<(String, Schema)> {
+    let mut schemas: Vec<(String, Schema)> = Vec::new();
+    for line in text.lines() {
+        let line = line.split("  #").next().unwrap_or_default().trim_end();
+        if let Some(name) = line.strip_prefix("schema ") {
+            schemas.push((name.to_owned(), Schema::default()));
+        } else if let Some((_, schema)) = schemas.last_mut() {
+            match line.split_once(' ') {
+                Some(("checksum", "crc16")) => schema.checksum = Checksum::Crc16,
+                Some(("stamp", "on")) => schema.stamp = true,
+                Some(("item", rest)) => schema.items.push(item(rest)),
+                _ => {}
+            }
+        }
+    }
+    schemas
+}
+
+/// Writes the codecs of all schemas side by side: each with a name of its own in place of `sense`.
+pub(super) fn write(folder: &Path, vectors: &[PathBuf]) {
+    let texts = vectors.iter().map(|path| std::fs::read_to_string(path).unwrap());
+    let all: String = texts.chain([OWN.to_owned()]).collect();
+    let (mut includes, mut rows) = (String::new(), String::new());
+    for (name, schema) in schemas(&all) {
+        let own = name.replace('-', "_");
+        for (path, entry) in c::files(&name, &schema, Role::Both).iter() {
+            let text = String::from_utf8(entry.bytes.clone()).unwrap();
+            let text = text.replace("sense_", &format!("{own}_"));
+            let text = text.replace("SENSE_", &format!("{}_", own.to_ascii_uppercase()));
+            std::fs::write(folder.join(path.replace("sense_", &format!("{own}_"))), text).unwrap();
+        }
+        writeln!(includes, "#include \"{own}_model.h\"").unwrap();
+        writeln!(
+            rows,
+            "  {{\"{name}\", &{own}_schema, &{own}_reports, &{own}_commands, sizeof({own}_values_t)}},"
+        )
+        .unwrap();
+    }
+    let text = format!(
+        "#include \"codecs.h\"\n{includes}\nconst test_codec_t test_codecs[] = {{\n{rows}}};\n\
+         const size_t test_codecs_count = sizeof test_codecs / sizeof test_codecs[0];\n"
+    );
+    std::fs::write(folder.join("codecs.c"), text).unwrap();
+}
