@@ -3,32 +3,27 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::catalog;
-use sensedsl_board::profile::{self, NoProfile, Target, TargetProfile};
+use sensedsl_board::profile::{self, NoProfile, Target};
 use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0202_property_twice, e0225_too_many_items, e0301_unknown_board,
-    e0302_table_unreadable, e0313_unknown_target, e0504_no_firmware_target, h0702_target_none,
-    w0607_part_not_certain, w0608_usages_unknown,
+    e0201_unknown_property, e0225_too_many_items, e0301_unknown_board, e0302_table_unreadable,
+    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none, w0607_part_not_certain,
+    w0608_usages_unknown,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 use sensedsl_limits::{BOARDS_MAX, PLACES_MAX, TABLES_BYTES_MAX};
 use sensedsl_parts::Completion;
-use sensedsl_syntax::ast::{self, AstNode as _, BoardSource};
-use sensedsl_wire::Checksum;
+use sensedsl_syntax::ast::{self, BoardSource};
 
 use crate::constants::Constants;
-use crate::design::{Board, Link, Spanned, Transport};
-use crate::fields::{Fields, span};
+use crate::design::{Board, Spanned};
+use crate::fields::span;
 use crate::files::{Files, Unread, Wanted, What};
+use crate::links;
 use crate::resolve::Request;
 use crate::rules;
 use crate::sources::beside;
 use crate::table_findings;
-
-/// The properties of a link.
-const LINK_PROPERTIES: &[&str] = &["transport", "unit", "baud", "checksum", "rate", "vbus"];
-/// Bits per second of a serial link where the file says nothing.
-const LINK_BAUD_DEFAULT: u32 = 115_200;
 
 /// What reading boards needs beside the node.
 pub(crate) struct Context<'a> {
@@ -101,7 +96,7 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
     let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
     let target = pins.as_ref().and_then(|p| target(context, name.span, p.file, mcu.as_deref()));
     let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
-    let mut link = link(
+    let mut link = links::read(
         file,
         node,
         target.as_ref(),
@@ -109,7 +104,7 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
         (context.constants, context.diagnostics),
     );
     if let (Some(pins), Some(target)) = (&pins, &target) {
-        link.vbus &= entry.is_none() || vbus_is_wired(&pins.table, target);
+        link.vbus &= entry.is_none() || links::vbus_is_wired(&pins.table, target);
     }
     let (pins, target) = (pins?, target?);
     let same_mcu = || mcu.as_deref().and_then(catalog::of_mcu);
@@ -334,141 +329,5 @@ fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>)
             context.diagnostics.push(report);
             None
         }
-    }
-}
-
-/// The link. Where the file says nothing it is the first that a built-in board has `wired` and the
-/// target has a driver for; without any wired it is USB where the target has a driver for that, and a
-/// UART otherwise. A UART that the board has wired keeps its unit and its pins. Without a target
-/// there is no firmware that a link could belong to, but what is stated.
-fn link(
-    file: FileId,
-    node: &ast::Board,
-    target: Option<&Target>,
-    wired: &[catalog::Link],
-    said: (&Constants, &mut Vec<Diagnostic>),
-) -> Link {
-    let default = match target {
-        Some(Target::Profile(profile)) => default_transport(profile, wired),
-        Some(Target::None) | None => Transport::Usb,
-    };
-    let mut link = stated_link(file, node, default, said);
-    let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
-    let driven = |wired: &catalog::Link| match target {
-        Some(Target::Profile(profile)) => is_driven(profile, wired),
-        Some(Target::None) | None => true,
-    };
-    let uart = wired.iter().find(|wired| {
-        wired.transport == profile::Transport::Uart
-            && stated.is_none_or(|stated| stated == wired.unit)
-            && driven(wired)
-    });
-    if link.transport == Transport::Uart
-        && let Some(uart) = uart
-    {
-        let at = span(file, node.name().map_or_else(|| node.range(), |name| name.range()));
-        link.unit.get_or_insert_with(|| Spanned { value: uart.unit.clone(), span: at });
-        link.pins.clone_from(&uart.pins);
-    }
-    link
-}
-
-/// Whether a built-in board's table says that something is on the USB device's VBUS pin. What it does
-/// not list is taken to be wired.
-fn vbus_is_wired(table: &Table, target: &Target) -> bool {
-    let Target::Profile(profile) = target else { return true };
-    let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
-    vbus.and_then(|vbus| table.pin(vbus)).is_none_or(|pin| pin.onboard.is_some())
-}
-
-fn default_transport(profile: &TargetProfile, wired: &[catalog::Link]) -> Transport {
-    let first = wired.iter().find(|wired| is_driven(profile, wired)).map(|link| link.transport);
-    match first {
-        Some(profile::Transport::Usb) => Transport::Usb,
-        None if wired.is_empty() && profile.usb(None).is_some() => Transport::Usb,
-        Some(profile::Transport::Uart) | None => Transport::Uart,
-    }
-}
-
-/// Whether the target has a driver for a link.
-fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
-    match wired.transport {
-        profile::Transport::Uart => profile.serials.iter().any(|unit| unit.name == wired.unit),
-        profile::Transport::Usb => profile.usb(None).is_some(),
-    }
-}
-
-/// The link as the file states it.
-fn stated_link(
-    file: FileId,
-    node: &ast::Board,
-    default: Transport,
-    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
-) -> Link {
-    let mut links = node.links();
-    let Some(link) = links.next() else {
-        let baud = LINK_BAUD_DEFAULT;
-        return Link { transport: default, baud, vbus: true, ..Link::default() };
-    };
-    let place = |link: &ast::Link| {
-        span(file, link.keyword().map_or_else(|| link.range(), |keyword| keyword.text_range()))
-    };
-    for again in links {
-        let first = place(&link);
-        diagnostics.push(e0202_property_twice::property_twice(place(&again), "link", first));
-    }
-    let at = place(&link);
-    let mut fields = Fields::new(link.properties(), file, "a link", at, (constants, diagnostics));
-    let transports =
-        [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
-    let transport = fields.word("transport", &transports);
-    let unit = fields.name("unit", "a peripheral such as USART2");
-    let baud = fields.integer("baud", 1_200..=10_000_000);
-    let checksums = [("none", Checksum::None), ("crc16", Checksum::Crc16)];
-    let checksum = fields.word("checksum", &checksums);
-    let rate = fields.frequency_hz("rate", 1..=10_000);
-    let vbus_span = fields.own_span("vbus");
-    let vbus = fields.boolean("vbus").map(|vbus| vbus.value);
-    for field in fields.rest() {
-        let meant = nearest(&field.name, LINK_PROPERTIES.iter().copied());
-        fields.say(e0201_unknown_property::unknown_property(
-            field.name_span,
-            &field.name,
-            "a link",
-            meant,
-        ));
-    }
-    let stated = transport.is_some();
-    let transport = transport.map_or(default, |word| word.value);
-    let of_uart = [baud.as_ref().map(|baud| baud.span), unit.as_ref().map(|unit| unit.span)];
-    match transport {
-        Transport::Usb => {
-            if let Some(baud) = &baud {
-                fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
-            }
-        }
-        Transport::Uart => {
-            if let Some(vbus) = vbus_span {
-                fields.contradiction(vbus, "transport", "a serial link has no VBUS");
-            }
-        }
-        Transport::None => {
-            for span in of_uart.into_iter().chain([vbus_span]).flatten() {
-                fields.contradiction(span, "transport", "there is no link");
-            }
-        }
-    }
-    Link {
-        transport,
-        pins: Vec::new(),
-        unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
-        baud_span: baud.map(|baud| baud.span),
-        baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
-        checksum: checksum.map(|word| word.value).unwrap_or_default(),
-        stamp: false,
-        silence_ms: None,
-        rate_hz: rate.map(|rate| rate.value),
-        vbus: vbus.unwrap_or(true),
-        stated,
     }
 }

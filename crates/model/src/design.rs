@@ -137,6 +137,8 @@ pub struct Link {
     pub stamp: bool,
     /// After how long without a frame from the host actuators take what is safe; none for never.
     pub silence_ms: Option<u32>,
+    /// Where that is given.
+    pub silence_span: Option<Span>,
     /// At most that many frames per second; none for as many as become due.
     pub rate_hz: Option<u32>,
     /// Whether the USB device is told by its VBUS pin that a host is there.

@@ -18,6 +18,7 @@ mod files;
 mod ids;
 pub mod kind;
 mod library;
+mod links;
 mod names;
 mod numbered;
 mod other_types;

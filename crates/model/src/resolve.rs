@@ -19,6 +19,7 @@ use crate::devices::{self, Known};
 use crate::drivers::{self, Drivers};
 use crate::files::Files;
 use crate::ids;
+use crate::links;
 use crate::names;
 use crate::parts::{ReadPart, assemble, on_known_boards};
 use crate::pins;
@@ -89,6 +90,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     pins::bind(&mut design, &mut diagnostics);
     check_places(&design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
+    links::settle_silence(&mut design, &mut diagnostics);
     if items.broken {
         // What is missing may only be unreadable.
         let missing = e0206_missing_property::CODE;

@@ -25,7 +25,8 @@ fn board_value(design: &Design, on: &BoardAssignment, board: &Board) -> Value {
         "name": board.name.value,
         "hash": format!("0x{:08x}", schema.hash()),
         "checksum": schema.checksum.name(),
-        "stamp": false,
+        "stamp": schema.stamp,
+        "silence_ms": board.link.silence_ms,
         "frame_bytes_max": {
             "sensors": schema.frame_bytes_max(Direction::Sensor),
             "actuators": schema.frame_bytes_max(Direction::Actuator),

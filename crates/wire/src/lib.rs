@@ -26,4 +26,6 @@ pub use health::{
     UNKNOWN_LOAD, UNKNOWN_STACK,
 };
 pub use scalar::{Scalar, ScalarType, ValueType};
-pub use schema::{Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, Item, Schema};
+pub use schema::{
+    Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, Item, STAMP_BYTES, Schema,
+};

@@ -23,7 +23,7 @@ pub(crate) const HELLO_REQUEST_BYTES: usize = 1;
 /// Bytes of the host's request for health.
 pub(crate) const HEALTH_REQUEST_BYTES: usize = 2;
 /// Bytes of a stamp: its identifier, the time and the counter.
-pub(crate) const STAMP_BYTES: usize = 6;
+pub const STAMP_BYTES: usize = 6;
 /// Bytes of health before the devices, its identifier included.
 pub(crate) const HEALTH_HEAD_BYTES: usize = 19;
 /// Bytes of one device's health.

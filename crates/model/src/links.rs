@@ -1,0 +1,204 @@
+//! A board's link to the host.
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::{self, Target, TargetProfile};
+use sensedsl_board::table::Table;
+use sensedsl_diagnostics::codes::{
+    e0201_unknown_property, e0202_property_twice, w0601_unused_property,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
+use sensedsl_syntax::ast::{self, AstNode as _};
+use sensedsl_wire::Checksum;
+
+use crate::constants::Constants;
+use crate::design::{BoardIndex, Design, Link, Spanned, Transport};
+use crate::fields::{Fields, span};
+use crate::kind::Kind;
+
+/// The properties of a link.
+const LINK_PROPERTIES: &[&str] =
+    &["transport", "unit", "baud", "checksum", "stamp", "silence", "rate", "vbus"];
+/// Bits per second of a serial link where the file says nothing.
+const LINK_BAUD_DEFAULT: u32 = 115_200;
+/// After how long a silent host is taken to be gone where the file says nothing.
+const SILENCE_DEFAULT_MS: u32 = 500;
+
+/// The link. Where the file says nothing it is the first that a built-in board has `wired` and the
+/// target has a driver for; without any wired it is USB where the target has a driver for that, and a
+/// UART otherwise. A UART that the board has wired keeps its unit and its pins. Without a target
+/// there is no firmware that a link could belong to, but what is stated.
+pub(crate) fn read(
+    file: FileId,
+    node: &ast::Board,
+    target: Option<&Target>,
+    wired: &[catalog::Link],
+    said: (&Constants, &mut Vec<Diagnostic>),
+) -> Link {
+    let default = match target {
+        Some(Target::Profile(profile)) => default_transport(profile, wired),
+        Some(Target::None) | None => Transport::Usb,
+    };
+    let mut link = stated_link(file, node, default, said);
+    let stated = link.unit.as_ref().map(|unit| unit.value.as_str());
+    let driven = |wired: &catalog::Link| match target {
+        Some(Target::Profile(profile)) => is_driven(profile, wired),
+        Some(Target::None) | None => true,
+    };
+    let uart = wired.iter().find(|wired| {
+        wired.transport == profile::Transport::Uart
+            && stated.is_none_or(|stated| stated == wired.unit)
+            && driven(wired)
+    });
+    if link.transport == Transport::Uart
+        && let Some(uart) = uart
+    {
+        let at = span(file, node.name().map_or_else(|| node.range(), |name| name.range()));
+        link.unit.get_or_insert_with(|| Spanned { value: uart.unit.clone(), span: at });
+        link.pins.clone_from(&uart.pins);
+    }
+    link
+}
+
+/// Whether a built-in board's table says that something is on the USB device's VBUS pin. What it does
+/// not list is taken to be wired.
+pub(crate) fn vbus_is_wired(table: &Table, target: &Target) -> bool {
+    let Target::Profile(profile) = target else { return true };
+    let vbus = profile.usb(None).and_then(|usb| usb.vbus.as_ref());
+    vbus.and_then(|vbus| table.pin(vbus)).is_none_or(|pin| pin.onboard.is_some())
+}
+
+fn default_transport(profile: &TargetProfile, wired: &[catalog::Link]) -> Transport {
+    let first = wired.iter().find(|wired| is_driven(profile, wired)).map(|link| link.transport);
+    match first {
+        Some(profile::Transport::Usb) => Transport::Usb,
+        None if wired.is_empty() && profile.usb(None).is_some() => Transport::Usb,
+        Some(profile::Transport::Uart) | None => Transport::Uart,
+    }
+}
+
+/// Whether the target has a driver for a link.
+fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
+    match wired.transport {
+        profile::Transport::Uart => profile.serials.iter().any(|unit| unit.name == wired.unit),
+        profile::Transport::Usb => profile.usb(None).is_some(),
+    }
+}
+
+/// The link as the file states it.
+fn stated_link(
+    file: FileId,
+    node: &ast::Board,
+    default: Transport,
+    (constants, diagnostics): (&Constants, &mut Vec<Diagnostic>),
+) -> Link {
+    let mut links = node.links();
+    let Some(link) = links.next() else {
+        let (baud, checksum) = (LINK_BAUD_DEFAULT, default_checksum(default));
+        return Link { transport: default, baud, checksum, vbus: true, ..Link::default() };
+    };
+    let place = |link: &ast::Link| {
+        span(file, link.keyword().map_or_else(|| link.range(), |keyword| keyword.text_range()))
+    };
+    for again in links {
+        let first = place(&link);
+        diagnostics.push(e0202_property_twice::property_twice(place(&again), "link", first));
+    }
+    let at = place(&link);
+    let mut fields = Fields::new(link.properties(), file, "a link", at, (constants, diagnostics));
+    let transports =
+        [("usb", Transport::Usb), ("uart", Transport::Uart), ("none", Transport::None)];
+    let transport = fields.word("transport", &transports);
+    let unit = fields.name("unit", "a peripheral such as USART2");
+    let baud = fields.integer("baud", 1_200..=10_000_000);
+    let checksums = [("none", Checksum::None), ("crc16", Checksum::Crc16)];
+    let checksum = fields.word("checksum", &checksums);
+    let stamp_span = fields.own_span("stamp");
+    let stamp = fields.boolean("stamp").is_some_and(|stamp| stamp.value);
+    let silence = fields.time_ms("silence", 10..=3_600_000);
+    let rate = fields.frequency_hz("rate", 1..=10_000);
+    let vbus_span = fields.own_span("vbus");
+    let vbus = fields.boolean("vbus").map(|vbus| vbus.value);
+    for field in fields.rest() {
+        let meant = nearest(&field.name, LINK_PROPERTIES.iter().copied());
+        fields.say(e0201_unknown_property::unknown_property(
+            field.name_span,
+            &field.name,
+            "a link",
+            meant,
+        ));
+    }
+    let stated = transport.is_some();
+    let transport = transport.map_or(default, |word| word.value);
+    let of_uart = [baud.as_ref().map(|baud| baud.span), unit.as_ref().map(|unit| unit.span)];
+    match transport {
+        Transport::Usb => {
+            if let Some(baud) = &baud {
+                fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
+            }
+        }
+        Transport::Uart => {
+            if let Some(vbus) = vbus_span {
+                fields.contradiction(vbus, "transport", "a serial link has no VBUS");
+            }
+        }
+        Transport::None => {
+            let of_frames = [
+                vbus_span,
+                stamp_span.filter(|_| stamp),
+                silence.as_ref().map(|silence| silence.span),
+            ];
+            for span in of_uart.into_iter().chain(of_frames).flatten() {
+                fields.contradiction(span, "transport", "there is no link");
+            }
+        }
+    }
+    Link {
+        transport,
+        pins: Vec::new(),
+        unit: unit.map(|unit| Spanned { value: unit.value.to_uppercase(), span: unit.span }),
+        baud_span: baud.map(|baud| baud.span),
+        baud: baud.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(LINK_BAUD_DEFAULT),
+        checksum: checksum.map_or_else(|| default_checksum(transport), |word| word.value),
+        stamp,
+        silence_ms: silence.as_ref().map(|silence| silence.value),
+        silence_span: silence.map(|silence| silence.span),
+        rate_hz: rate.map(|rate| rate.value),
+        vbus: vbus.unwrap_or(true),
+        stated,
+    }
+}
+
+/// USB checks what it carries by itself; a UART checks nothing.
+fn default_checksum(transport: Transport) -> Checksum {
+    match transport {
+        Transport::Usb | Transport::None => Checksum::None,
+        Transport::Uart => Checksum::Crc16,
+    }
+}
+
+/// How long each board's host may be silent: as the file says, or a default where an actuator has
+/// something safe to fall back to.
+pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
+    let falls_back = |kind: &Kind| match kind {
+        Kind::Pwm(pwm) => pwm.failsafe.is_some(),
+        Kind::Dac(dac) => dac.failsafe.is_some(),
+        _ => false,
+    };
+    let falling: Vec<Option<BoardIndex>> = design
+        .connections
+        .iter()
+        .filter(|connection| falls_back(&connection.kind))
+        .map(|connection| connection.board)
+        .collect();
+    for (index, board) in design.boards.iter_mut().enumerate() {
+        let link = &mut board.link;
+        let is_here = |on: &Option<BoardIndex>| on.is_none_or(|on| on.0 == index);
+        if falling.iter().any(is_here) {
+            let default = (link.transport != Transport::None).then_some(SILENCE_DEFAULT_MS);
+            link.silence_ms = link.silence_ms.or(default);
+        } else if let Some(at) = link.silence_span {
+            let (kind, why) = ("this board", "no actuator on it has a `failsafe`");
+            diagnostics.push(w0601_unused_property::unused_property(at, "silence", kind, why));
+        }
+    }
+}
