@@ -33,6 +33,20 @@ private:
 
     virtual void on_hello(uint32_t hash) { say('H', hash, true); }
     virtual void on_hello_request() { say('Q', 0, false); }
+    virtual void on_health_request() { say('A', 0, false); }
+    virtual void on_health(const sensedsl::Health &health) { whole('D', sensedsl::health_payload(health)); }
+    virtual void on_other_health(uint8_t version) {
+        sensedsl::Bytes said(1, static_cast<uint8_t>('V'));
+        said.push_back(version);
+        put(said);
+    }
+    virtual void on_stamp(const sensedsl::Stamp &stamp) {
+        if (out_ != NULL) {
+            report_.push_back(0);
+            sensedsl::store<uint32_t>(report_, stamp.time_us);
+            report_.push_back(stamp.counter);
+        }
+    }
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
         if (out_ == NULL) {
             report_[0] = static_cast<uint8_t>(report_[0] ^ bytes[0]);
@@ -45,11 +59,14 @@ private:
         if (out_ == NULL) {
             return;
         }
-        sensedsl::Bytes said(1, static_cast<uint8_t>('R'));
-        sensedsl::store<uint32_t>(said, static_cast<uint32_t>(report_.size() - 5));
-        said.insert(said.end(), report_.begin() + 5, report_.end());
-        put(said);
+        whole('R', sensedsl::Bytes(report_.begin() + 5, report_.end()));
         report_.resize(5);
+    }
+    void whole(char word, const sensedsl::Bytes &payload) {
+        sensedsl::Bytes said(1, static_cast<uint8_t>(word));
+        sensedsl::store<uint32_t>(said, static_cast<uint32_t>(payload.size()));
+        said.insert(said.end(), payload.begin(), payload.end());
+        put(said);
     }
 
     decoders_out_t out_;
@@ -63,12 +80,14 @@ private:
 extern "C" void decoders_cpp(const decoders_input_t *input, decoders_out_t out, void *context) {
     const bool to_board = (input->schema[0] & 2U) != 0;
     std::vector<sensedsl::Item> items;
+    sensedsl::Bytes ids;
     Log log(out, context);
     size_t values_bytes = 0;
     for (size_t at = 1; at + 5 <= input->schema_bytes; at += 5) {
         const uint8_t *bytes = input->schema + at;
         const sensedsl::Item item = {bytes[0], type_bytes[bytes[1]], bytes[1] == 0,
                                      sensedsl::load<uint16_t>(bytes + 3)};
+        ids.push_back(item.id);
         if ((bytes[2] != 0) == to_board) {
             items.push_back(item);
             log.knows(item);
@@ -76,11 +95,17 @@ extern "C" void decoders_cpp(const decoders_input_t *input, decoders_out_t out, 
         }
     }
     const bool has_checksum = (input->schema[0] & 1U) != 0;
-    const size_t hello_bytes = to_board ? 1 : 5;
+    const bool has_stamp = (input->schema[0] & 4U) != 0;
+    values_bytes += has_stamp && !to_board && values_bytes > 0 ? sensedsl::stamp_bytes : 0;
+    const size_t asked_bytes = to_board ? 2 : 5;
+    const size_t short_bytes = values_bytes > asked_bytes ? values_bytes : asked_bytes;
+    const size_t health_bytes = to_board ? 0 : 19 + 17 * ids.size();
     const sensedsl::Direction direction = {
         items.empty() ? NULL : &items[0], items.size(),
-        (values_bytes > hello_bytes ? values_bytes : hello_bytes) + (has_checksum ? 3 : 0), hello_bytes};
-    const sensedsl::Schema schema = {0, has_checksum, direction, direction};
+        (short_bytes > health_bytes ? short_bytes : health_bytes) + (has_checksum ? 3 : 0), short_bytes,
+        static_cast<size_t>(to_board ? 1 : 5)};
+    const sensedsl::Schema schema = {0,         has_checksum, has_stamp, direction, direction, ids.empty() ? NULL : &ids[0],
+                                     ids.size()};
     sensedsl::Decoder decoder(schema, direction, log);
     size_t piece = 0;
     for (size_t at = 0; at < input->stream_bytes; ++piece) {

@@ -1,6 +1,8 @@
 // Runs wire vectors through the C++ decoder and encoder of a generated host.
 //
-// In, a line each: `hash`, `decode sensors|actuators HEX...`, `encode sensors|actuators ID=V,V...`.
+// In, a line each: `hash`, `decode sensors|actuators HEX...`, `encode sensors|actuators ID=V,V...` (behind
+// `sensors` comes `stamp=MICROSECONDS/COUNTER` where there are stamps), `encode-health` and what the vector
+// files call `got health`.
 // Out: what the vector files call `hash`, `got`, `dropped` and `frame`, and `end` behind each command.
 // A stream is decoded at once, byte by byte, as given and cut at each place; `differs` says that
 // two of these did not agree. `items.h` is `#define ITEMS(X) X(17, uint16_t, 1) ...`, made by the test.
@@ -40,6 +42,24 @@ private:
         text_ << "got hello " << digits << "\n";
     }
     virtual void on_hello_request() { text_ << "got hello-request\n"; }
+    virtual void on_health_request() { text_ << "got health-request\n"; }
+    virtual void on_other_health(uint8_t version) { text_ << "got health-version " << +version << "\n"; }
+    virtual void on_health(const sensedsl::Health &health) {
+        text_ << "got health " << health.uptime_ms << ' ' << +health.reset_cause << ' ' << +health.reset_device << ' '
+              << health.reports_sent << ' ' << health.reports_refused << ' ' << +health.load_percent << ' '
+              << health.stack_left_bytes;
+        for (size_t i = 0; i < health.devices.size(); ++i) {
+            const sensedsl::DeviceHealth &device = health.devices[i];
+            text_ << ' ' << +device.id << '=' << +device.status << '/' << device.age_ms;
+            for (size_t cause = 0; cause < sensedsl::cause_count; ++cause) {
+                text_ << '/' << device.counts[cause];
+            }
+        }
+        text_ << "\n";
+    }
+    virtual void on_stamp(const sensedsl::Stamp &stamp) {
+        line_ << " stamp=" << stamp.time_us << '/' << +stamp.counter;
+    }
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
         line_ << ' ' << +id;
         switch (id) {
@@ -134,8 +154,16 @@ void print_hex(const Bytes &bytes) {
 
 void encode(const sensedsl::Direction &direction, std::istream &words) {
     sensedsl::Report report(schema(), direction);
+    sensedsl::Stamp stamp = {0, 0};
+    bool has_stamp = false;
     for (std::string word; words >> word;) {
         const size_t equals = word.find('=');
+        if (word.compare(0, equals, "stamp") == 0) {
+            const size_t slash = word.find('/');
+            has_stamp = sensedsl::parse(word.substr(equals + 1, slash - equals - 1), stamp.time_us) &&
+                        sensedsl::parse(word.substr(slash + 1), stamp.counter);
+            continue;
+        }
         uint8_t id = 0;
         if (!sensedsl::parse(word.substr(0, equals), id)) {
             std::cout << "no identifier: " << word << "\n";
@@ -153,7 +181,40 @@ void encode(const sensedsl::Direction &direction, std::istream &words) {
         }
     }
     std::cout << "frame ";
-    print_hex(report.frame());
+    print_hex(has_stamp ? report.frame(stamp) : report.frame());
+}
+
+/// The next number of a text, whatever stands between numbers.
+template <typename T> T number(std::istream &text) {
+    while (text.peek() == ' ' || text.peek() == '=' || text.peek() == '/') {
+        text.get();
+    }
+    uint32_t wide = 0;
+    text >> wide;
+    return static_cast<T>(wide);
+}
+
+void encode_health(std::istream &words) {
+    sensedsl::Health health;
+    health.uptime_ms = number<uint32_t>(words);
+    health.reset_cause = number<uint8_t>(words);
+    health.reset_device = number<uint8_t>(words);
+    health.reports_sent = number<uint32_t>(words);
+    health.reports_refused = number<uint32_t>(words);
+    health.load_percent = number<uint8_t>(words);
+    health.stack_left_bytes = number<uint16_t>(words);
+    for (size_t i = 0; i < schema().device_count; ++i) {
+        sensedsl::DeviceHealth device;
+        device.id = number<uint8_t>(words);
+        device.status = number<uint8_t>(words);
+        device.age_ms = number<uint32_t>(words);
+        for (size_t cause = 0; cause < sensedsl::cause_count; ++cause) {
+            device.counts[cause] = number<uint16_t>(words);
+        }
+        health.devices.push_back(device);
+    }
+    std::cout << "frame ";
+    print_hex(sensedsl::health_frame(schema(), health));
 }
 
 Bytes from_hex(const std::string &text) {
@@ -171,7 +232,13 @@ int main() {
         std::istringstream words(line);
         std::string command;
         std::string way;
-        words >> command >> way;
+        words >> command;
+        if (command == "encode-health") {
+            encode_health(words);
+            std::cout << "end" << std::endl;
+            continue;
+        }
+        words >> way;
         const sensedsl::Direction &direction =
             way == "actuators" ? schema().actuators : schema().sensors;
         if (command == "decode") {
@@ -187,6 +254,8 @@ int main() {
             print_hex(sensedsl::hello(schema()));
             std::cout << "hello-request ";
             print_hex(sensedsl::hello_request(schema()));
+            std::cout << "health-request ";
+            print_hex(sensedsl::health_request(schema()));
         }
         std::cout << "end" << std::endl;
     }

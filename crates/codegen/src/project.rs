@@ -87,6 +87,7 @@ fn host_plan(name: &str, design: &Design, assignment: &Assignment) -> HostPlan {
                 name: board.name.value.clone(),
                 schema: design.schema(on.board, &devices),
                 baud: board.link.baud,
+                silence_ms: board.link.silence_ms,
                 presentations: shown.map(|one| (one.id.value, one.shown.clone())).collect(),
                 cycles_ms: paced.map(|one| (one.id.value, one.delay_ms)).collect(),
             }

@@ -134,11 +134,22 @@ impl Schema {
 
     /// Bytes of the longest report in that direction, its stamp included but not the checksum; 0
     /// where nothing travels that way.
-    pub(crate) fn report_bytes_max(&self, direction: Direction) -> usize {
+    fn report_bytes_max(&self, direction: Direction) -> usize {
         let items = self.items.iter().filter(|item| item.direction == direction);
         let values: usize = items.map(|item| 1 + item.value.size_bytes()).sum();
         let is_stamped = self.stamp && direction == Direction::Sensor && values > 0;
         values + if is_stamped { STAMP_BYTES } else { 0 }
+    }
+
+    /// Bytes of the longest payload but health in that direction, without a checksum. It is taken to
+    /// have at least those of a hello, or of a request for health.
+    #[must_use]
+    pub fn short_bytes_max(&self, direction: Direction) -> usize {
+        let asked = match direction {
+            Direction::Sensor => HELLO_BYTES,
+            Direction::Actuator => HEALTH_REQUEST_BYTES,
+        };
+        self.report_bytes_max(direction).max(asked)
     }
 
     /// Bytes of health, all devices included but not the checksum.
@@ -149,11 +160,11 @@ impl Schema {
     /// Bytes of the longest valid payload in that direction.
     #[must_use]
     pub fn payload_bytes_max(&self, direction: Direction) -> usize {
-        let other = match direction {
-            Direction::Sensor => HELLO_BYTES.max(self.health_bytes()),
-            Direction::Actuator => HEALTH_REQUEST_BYTES,
+        let health = match direction {
+            Direction::Sensor => self.health_bytes(),
+            Direction::Actuator => 0,
         };
-        self.report_bytes_max(direction).max(other) + self.checksum.size_bytes()
+        self.short_bytes_max(direction).max(health) + self.checksum.size_bytes()
     }
 
     /// Bytes of the longest valid frame in that direction, `LEN`, `:` and `,` included.

@@ -5,7 +5,7 @@ use sensedsl_wire::{Checksum, Direction, ScalarType, Schema};
 
 use super::program::{Answer, Program, rust, schema_bytes};
 use super::streams::{frame, hard_schemas, hard_stream, overlapping_walks, schema, wide_schema};
-use super::{naive, scratch, tools};
+use super::{OTHERS, naive, scratch, tools};
 
 /// How often; the variable is for long runs.
 fn rounds(usual: usize) -> usize {
@@ -83,7 +83,7 @@ fn c_and_cpp_agree(folder: &str, more: &[&str]) {
     cases(2, rounds(if is_thorough() { 25 } else { 6 }), |schema, direction, stream, pieces| {
         let wanted = naive::decode(schema, direction, stream);
         let schema_bytes = schema_bytes(schema, direction);
-        for who in ["c", "cpp"] {
+        for who in OTHERS {
             for pieces in [&[0][..], &[1], pieces] {
                 let answer = program.say(who, &schema_bytes, stream, pieces);
                 assert_eq!(answer, wanted, "{who} {schema:?} {stream:02x?} {pieces:?}");
@@ -119,7 +119,7 @@ fn all_agree(folder: &str, schema: &Schema, streams: &[Vec<u8>]) {
         for pieces in [0, 1, 64] {
             let answer = rust(schema, Direction::Sensor, stream, &[pieces]);
             assert_eq!(answer, wanted, "{pieces} {stream:02x?}");
-            for who in ["c", "cpp"] {
+            for who in OTHERS {
                 if let Some(program) = &mut program {
                     let answer = program.say(who, &bytes, stream, &[pieces]);
                     assert_eq!(answer, wanted, "{who} {pieces} {stream:02x?}");

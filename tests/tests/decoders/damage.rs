@@ -11,7 +11,7 @@ use sensedsl_wire::{Checksum, Direction, Schema};
 
 use super::program::{Program, rust, schema_bytes};
 use super::streams::{fig2, frame};
-use super::{scratch, tools};
+use super::{OTHERS, scratch, tools};
 
 /// What happens to a frame on its way.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +138,7 @@ fn stream(
     let answer = rust(schema, Direction::Sensor, &stream, &[0]);
     let bytes = schema_bytes(schema, Direction::Sensor);
     let pieces = [1 + random.below(600) as u32, 1 + random.below(40) as u32];
-    for who in ["c", "cpp"] {
+    for who in OTHERS {
         assert!(program.say(who, &bytes, &stream, &pieces) == answer, "{who} says otherwise");
     }
     for payload in payloads(&answer) {

@@ -8,6 +8,9 @@ mod streams;
 
 use std::path::{Path, PathBuf};
 
+/// Those beside the one in Rust. The one in C knows neither stamps nor health yet.
+const OTHERS: [&str; 1] = ["cpp"];
+
 /// A folder of a test's own.
 fn scratch(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("decoders").join(name)

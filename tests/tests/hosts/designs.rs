@@ -13,6 +13,7 @@ pub(crate) fn board(name: &str, checksum: Checksum, items: &str) -> HostBoard {
         name: name.into(),
         schema: Schema { checksum, stamp: false, items },
         baud: 115_200,
+        silence_ms: None,
         presentations: BTreeMap::new(),
         cycles_ms: BTreeMap::new(),
     }

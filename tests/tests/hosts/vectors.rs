@@ -52,13 +52,23 @@ fn read(path: &Path) -> (Schema, Exchange) {
             "item" => schema.items.push(item(rest)),
             "hash" => {
                 assert_eq!(format!("0x{:08x}", schema.hash()), rest);
-                let (hello, request) = (encode_hello(&schema), encode_hello_request(&schema));
-                let answer = format!("hello {}\nhello-request {}\n", hex(&hello), hex(&request));
+                let frames = [encode_hello, encode_hello_request, encode_health_request];
+                let [hello, request, health] = frames.map(|encode| hex(&encode(&schema)));
+                let answer =
+                    format!("hello {hello}\nhello-request {request}\nhealth-request {health}\n");
                 exchange.ask("hash", &answer);
             }
             "encode" | "decode" => (command, answer) = (format!("{word} sensors"), String::new()),
             "encode-actuators" => (command, answer) = ("encode actuators".into(), String::new()),
             "decode-actuators" => (command, answer) = ("decode actuators".into(), String::new()),
+            "encode-health" => (command, answer) = (word.into(), String::new()),
+            "stamp" if rest == "on" => schema.stamp = true,
+            "stamp" => command.push_str(&format!(" stamp={}", rest.replace(' ', "/"))),
+            "board" => command.push_str(&format!(" {rest}")),
+            "device" => {
+                let (id, numbers) = rest.split_once(' ').unwrap();
+                command.push_str(&format!(" {id}={}", numbers.replace(' ', "/")));
+            }
             "value" => {
                 let (id, scalars) = rest.split_once(' ').unwrap();
                 command.push_str(&format!(" {id}={}", scalars.replace(' ', ",")));
@@ -141,7 +151,7 @@ fn vector_files() -> Vec<PathBuf> {
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "txt"));
     files.sort();
-    assert!(files.len() >= 6, "{files:?}");
+    assert!(files.len() >= 10, "{files:?}");
     files
 }
 
@@ -244,7 +254,9 @@ fn damaged_streams_are_read_as_by_the_reference() {
     if !tools::have("g++") {
         return;
     }
-    for name in ["fig2", "checksum", "arrays", "arrays_checksum"] {
+    for name in
+        ["fig2", "checksum", "arrays", "arrays_checksum", "stamp", "stamp_checksum", "health"]
+    {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("vectors/{name}.txt"));
         let (schema, vectors) = read(&path);
         let frames: Vec<Vec<u8>> = vectors

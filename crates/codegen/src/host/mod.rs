@@ -7,7 +7,9 @@
 mod cpp;
 mod plan;
 
-pub use plan::{BoardPlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Scaling};
+pub use plan::{
+    BoardPlan, DevicePlan, DirectionPlan, HostBoard, HostPlan, Limits, MessagePlan, Scaling,
+};
 
 use crate::fileset::FileSet;
 

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::Presentation;
-use sensedsl_wire::{Checksum, Direction, Schema, ValueType};
+use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 /// One board as the hosts see it.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct HostBoard {
     pub schema: Schema,
     /// Baud rate of the link; of no effect over USB.
     pub baud: u32,
+    /// After how long without a frame from the host actuators take their failsafe; none for never.
+    pub silence_ms: Option<u32>,
     /// By wire identifier; absent for what is shown as it comes.
     pub presentations: BTreeMap<u8, Presentation>,
     /// From one value to the next, by wire identifier; absent where values come only when something
@@ -45,12 +47,29 @@ pub struct BoardPlan {
     pub schema_text: String,
     /// Whether frames end with a checksum.
     pub has_checksum: bool,
+    /// Whether each report begins with the board's time and a counter.
+    pub has_stamp: bool,
     /// Baud rate of the link.
     pub baud: u32,
+    /// After how long without a frame from the host actuators take their failsafe; none for never.
+    pub silence_ms: Option<u32>,
+    /// All devices in file order, which is that of their health.
+    pub devices: Vec<DevicePlan>,
     /// Board to host.
     pub sensors: DirectionPlan,
     /// Host to board.
     pub actuators: DirectionPlan,
+}
+
+/// A device as health has it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DevicePlan {
+    /// Its name in the file.
+    pub name: String,
+    /// Wire identifier.
+    pub id: u8,
+    /// Which way its value travels.
+    pub direction: Direction,
 }
 
 /// What travels one way.
@@ -60,6 +79,8 @@ pub struct DirectionPlan {
     pub messages: Vec<MessagePlan>,
     /// Longest valid payload.
     pub payload_bytes_max: usize,
+    /// The same but health, and without a checksum.
+    pub short_bytes_max: usize,
 }
 
 /// One sensor's or actuator's value.
@@ -128,7 +149,10 @@ impl BoardPlan {
             hash: board.schema.hash(),
             schema_text: board.schema.canonical_text(),
             has_checksum: board.schema.checksum == Checksum::Crc16,
+            has_stamp: board.schema.stamp,
             baud: board.baud,
+            silence_ms: board.silence_ms,
+            devices: board.schema.items.iter().map(DevicePlan::new).collect(),
             sensors: DirectionPlan::new(board, Direction::Sensor),
             actuators: DirectionPlan::new(board, Direction::Actuator),
         }
@@ -137,6 +161,12 @@ impl BoardPlan {
     /// Sensors, then actuators.
     pub fn messages(&self) -> impl Iterator<Item = &MessagePlan> {
         self.sensors.messages.iter().chain(&self.actuators.messages)
+    }
+}
+
+impl DevicePlan {
+    fn new(item: &Item) -> Self {
+        Self { name: item.name.clone(), id: item.id, direction: item.direction }
     }
 }
 
@@ -164,6 +194,7 @@ impl DirectionPlan {
         Self {
             messages: messages.collect(),
             payload_bytes_max: board.schema.payload_bytes_max(direction),
+            short_bytes_max: board.schema.short_bytes_max(direction),
         }
     }
 }

@@ -44,12 +44,11 @@ impl Rules {
             Direction::Sensor => (HELLO_BYTES, schema.health_bytes(), 0),
             Direction::Actuator => (HELLO_REQUEST_BYTES, 0, HEALTH_REQUEST_BYTES),
         };
-        let asked_bytes = hello_bytes.max(health_request_bytes);
         Self {
             table,
             checksum: schema.checksum,
             payload_bytes_max: schema.payload_bytes_max(direction),
-            short_bytes_max: schema.report_bytes_max(direction).max(asked_bytes),
+            short_bytes_max: schema.short_bytes_max(direction),
             hello_bytes,
             health_bytes,
             health_request_bytes,

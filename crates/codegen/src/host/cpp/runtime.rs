@@ -10,11 +10,13 @@ macro_rules! shared {
 }
 
 /// From C++98 on: what every host is made of.
-const EVERY_HOST: [(&str, &str); 14] = [
+const EVERY_HOST: [(&str, &str); 16] = [
     shared!("cause.hpp"),
+    shared!("clock.hpp"),
     shared!("connection.hpp"),
     shared!("decode.hpp"),
     shared!("difference.hpp"),
+    shared!("health.hpp"),
     shared!("link.hpp"),
     shared!("memo.hpp"),
     shared!("options.hpp"),

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::visible;
 use sensedsl_wire::ScalarType;
 
 use super::names::CppNames;
-use crate::host::{BoardPlan, DirectionPlan, HostPlan, Limits, MessagePlan};
+use crate::host::{BoardPlan, DevicePlan, DirectionPlan, HostPlan, Limits, MessagePlan};
 
 /// Distance between a wire identifier and the number of its message on an OpenDaVINCI or libcluon
 /// bus. Those busses are shared with other programs, whose messages have small numbers and four-digit ones.
@@ -36,11 +36,25 @@ pub(super) struct BoardView {
     /// C++ string literals, a line each.
     pub(super) schema_text: Vec<String>,
     pub(super) has_checksum: bool,
+    pub(super) has_stamp: bool,
     pub(super) baud: u32,
+    /// 0 for never.
+    pub(super) silence_ms: u32,
+    pub(super) devices: Vec<DeviceView>,
     pub(super) sensors: Vec<MessageView>,
     pub(super) actuators: Vec<MessageView>,
     pub(super) sensor_payload_bytes_max: usize,
     pub(super) actuator_payload_bytes_max: usize,
+    pub(super) sensor_short_bytes_max: usize,
+    pub(super) actuator_short_bytes_max: usize,
+}
+
+/// One device as health has it.
+pub(super) struct DeviceView {
+    pub(super) id: u8,
+    /// Its name as a C++ string literal.
+    pub(super) name: String,
+    pub(super) is_actuator: bool,
 }
 
 /// One message.
@@ -138,17 +152,32 @@ impl BoardView {
             ident: names.take(&board.name),
             hash: format!("0x{:08x}U", board.hash),
             has_checksum: board.has_checksum,
+            has_stamp: board.has_stamp,
             baud: board.baud,
+            silence_ms: board.silence_ms.unwrap_or_default(),
+            devices: board.devices.iter().map(DeviceView::new).collect(),
             sensors,
             actuators,
             sensor_payload_bytes_max: board.sensors.payload_bytes_max,
             actuator_payload_bytes_max: board.actuators.payload_bytes_max,
+            sensor_short_bytes_max: board.sensors.short_bytes_max,
+            actuator_short_bytes_max: board.actuators.short_bytes_max,
         }
     }
 
     /// Sensors, then actuators.
     pub(super) fn messages(&self) -> impl Iterator<Item = &MessageView> {
         self.sensors.iter().chain(&self.actuators)
+    }
+}
+
+impl DeviceView {
+    fn new(device: &DevicePlan) -> Self {
+        Self {
+            id: device.id,
+            name: string_literal(&device.name),
+            is_actuator: device.direction == sensedsl_wire::Direction::Actuator,
+        }
     }
 }
 

@@ -66,7 +66,9 @@ void dispatch(Messages<Message...>, std::uint8_t id, const std::uint8_t *bytes, 
 }
 
 /// Calls `handler` with each message of a stream, whoever it is from: for streams that do not come
-/// from a device. An overload for `sensedsl::Hello` is told which firmware speaks.
+/// from a device. An overload for `sensedsl::Hello` is told which firmware speaks, one for
+/// `sensedsl::Stamp` when the report of the messages behind it was put together, one for
+/// `sensedsl::Health` how the board and its devices are.
 template <typename Sensors, typename Handler> class MessageDecoder final : private Sink {
 public:
     MessageDecoder(const Schema &schema, Handler handler)
@@ -90,6 +92,8 @@ private:
         }
     }
     void on_hello(std::uint32_t hash) override { call(Hello{hash, hash == schema_.hash}); }
+    void on_stamp(const Stamp &stamp) override { call(stamp); }
+    void on_health(const Health &health) override { call(health); }
     void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
         dispatch(Sensors{}, id, bytes, [this](const auto &message) { call(message); });
     }
@@ -105,6 +109,8 @@ template <typename Message> struct Latest {
     double age_s;
     /// It is overdue: three of its cycles have passed.
     bool is_stale;
+    /// When the board put its report together, since its start; 0 where the link has no stamps.
+    double board_s;
 };
 
 /// Whether a command went to the board.
@@ -117,7 +123,8 @@ template <typename... Sensor, typename... Actuator>
 class Board<Messages<Sensor...>, Messages<Actuator...>> : private Receiver {
 public:
     /// The handler has an overload for each message type that is wanted (`sensedsl::Handlers` makes
-    /// one of lambdas), and one for `sensedsl::Note` to take what else is printed on standard error.
+    /// one of lambdas), one for `sensedsl::Note` to take what else is printed on standard error, and
+    /// one for `sensedsl::Health` where that is wanted.
     template <typename Handler>
     Board(const BoardFacts &facts, Handler handler)
         : facts_(facts), connection_(facts, static_cast<Receiver &>(*this)) {
@@ -128,6 +135,9 @@ public:
         if constexpr (std::is_invocable_v<Handler &, const Note &>) {
             note_ = handler;
         }
+        if constexpr (std::is_invocable_v<Handler &, const Health &>) {
+            health_ = handler;
+        }
     }
     Board(const Board &) = delete;
     Board &operator=(const Board &) = delete;
@@ -137,6 +147,11 @@ public:
     void open(const std::string &device, unsigned baud) { connection_.open(device, baud); }
     /// Whether a device that goes is waited for; it is unless told otherwise.
     void reconnect(bool wanted) { connection_.reconnect(wanted); }
+    /// Asks the board for its health that often; 0 for only when it is met and when a value is overdue.
+    void health_every(double seconds) { connection_.health_every(static_cast<Milliseconds>(seconds * 1000.0 + 0.5)); }
+    /// Whether actuators keep what they were told as long as this program runs. Without that they take
+    /// their failsafe when nothing was sent for the `silence` of the design.
+    void hold_commands(bool wanted) { connection_.hold_commands(wanted); }
     /// Waits up to that long, and calls the handler with what came. False when it is over.
     bool poll(int timeout_ms) { return connection_.poll(timeout_ms); }
     /// Until it is over, or `stop()` is called, which a signal handler or another thread may do.
@@ -152,16 +167,26 @@ public:
     /// 0, or 1 when the firmware is another or the device is gone for good.
     [[nodiscard]] int exit_status() const { return connection_.exit_status(); }
     [[nodiscard]] std::string summary() const { return connection_.summary(); }
+    /// When the board put together the report whose messages are being handled; nothing where the link
+    /// has no stamps.
+    [[nodiscard]] const Moment &moment() const { return connection_.moment(); }
+    /// Reports that were lost so far, as the counters of stamps tell.
+    [[nodiscard]] std::uint64_t lost_reports() const { return connection_.lost_reports(); }
+    /// Health as a text of several lines.
+    [[nodiscard]] std::string text(const Health &health) const {
+        return health_text(*facts_.schema, facts_.name, facts_.devices, health);
+    }
 
     /// The latest message of a sensor; nothing before the first. For the thread that polls.
     template <typename Message> [[nodiscard]] std::optional<Latest<Message>> latest() const {
-        const auto &message = std::get<std::optional<Message>>(latest_);
-        if (!message) {
+        const auto &latest = std::get<Kept<Message>>(latest_);
+        if (!latest.message) {
             return std::nullopt;
         }
         const std::size_t at = place(Message::id);
         const double age_s = static_cast<double>(connection_.age_ms(at)) / 1000.0;
-        return Latest<Message>{*message, age_s, connection_.is_stale(at)};
+        return Latest<Message>{*latest.message, age_s, connection_.is_stale(at),
+                               static_cast<double>(latest.board_us) / 1e6};
     }
 
     /// Sends to an actuator; from any thread. A value outside the design's limits is not sent.
@@ -195,6 +220,11 @@ public:
     }
 
 private:
+    template <typename Message> struct Kept {
+        std::optional<Message> message{};
+        std::uint64_t board_us{0};
+    };
+
     template <typename Message, typename Handler> void set_handler(Handler &handler) {
         if constexpr (std::is_invocable_v<Handler &, const Message &>) {
             std::get<std::function<void(const Message &)>>(handlers_) = handler;
@@ -234,7 +264,7 @@ private:
     void on_value(std::uint8_t id, const std::uint8_t *bytes) override {
         dispatch(Messages<Sensor...>{}, id, bytes, [this](const auto &message) {
             using Message = std::decay_t<decltype(message)>;
-            std::get<std::optional<Message>>(latest_) = message;
+            std::get<Kept<Message>>(latest_) = {message, connection_.moment().board_us};
             if (const auto &handler = std::get<std::function<void(const Message &)>>(handlers_)) {
                 handler(message);
             }
@@ -249,6 +279,12 @@ private:
         }
     }
 
+    void on_health(const Health &health) override {
+        if (health_) {
+            health_(health);
+        }
+    }
+
     static std::size_t place(std::uint8_t id) {
         std::size_t at = 0;
         std::size_t found = 0;
@@ -259,7 +295,8 @@ private:
     const BoardFacts &facts_;
     std::tuple<std::function<void(const Sensor &)>...> handlers_{};
     std::function<void(const Note &)> note_{};
-    std::tuple<std::optional<Sensor>...> latest_{};
+    std::function<void(const Health &)> health_{};
+    std::tuple<Kept<Sensor>...> latest_{};
     std::atomic<bool> is_stopped_{false};
     Connection connection_;
 };

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "sensedsl/clock.hpp"
 #include "sensedsl/serial.hpp"
 #include "sensedsl/session.hpp"
 #include "sensedsl/usb.hpp"
@@ -25,6 +26,13 @@ inline Milliseconds now_ms() {
     struct timespec now;
     ::clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<Milliseconds>(now.tv_sec) * 1000 + now.tv_nsec / 1000000;
+}
+
+/// The same in microseconds.
+inline int64_t now_us() {
+    struct timespec now;
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<int64_t>(now.tv_sec) * 1000000 + now.tv_nsec / 1000;
 }
 
 /// `0.4 s`
@@ -41,6 +49,8 @@ class Receiver : public Sink {
 public:
     /// Something happened that people want to know; one or more lines without the last line feed.
     virtual void on_note(const std::string &note) { std::cerr << note << std::endl; }
+    /// Where the link has stamps: what that of a report says, before its values.
+    virtual void on_moment(const Moment &moment) { (void)moment; }
 };
 
 /// One board's link. One thread polls it; any thread may send.
@@ -59,8 +69,10 @@ public:
     Connection(const BoardFacts &facts, Receiver &receiver)
         : facts_(&facts), receiver_(&receiver), session_(NULL), path_(), baud_(0), identity_(), ports_(),
           reconnects_(true), is_ready_(false), is_recording_(false), said_(nothing), end_(none), lost_(-1),
-          silent_(-1), matched_(0), looked_(0), trouble_(), frames_(0), dropped_(0), serial_(),
-          lock_(), values_(facts.schema->sensors.item_count) {
+          silent_(-1), matched_(0), looked_(0), trouble_(), frames_(0), dropped_(0), health_every_(0),
+          other_healths_(0), is_health_missed_(false), has_uptime_(false), uptime_ms_(0), holds_(false), sent_(0),
+          clock_(), serial_(), lock_(), values_(facts.schema->sensors.item_count),
+          worries_(facts.schema->device_count) {
         ::pthread_mutex_init(&lock_, NULL);
     }
     ~Connection() {
@@ -70,6 +82,17 @@ public:
 
     /// Whether a device that goes is waited for; it is unless told otherwise.
     void reconnect(bool wanted) { reconnects_ = wanted; }
+
+    /// How often the board is asked for its health; 0 for when it is met, and when a value is overdue.
+    void health_every(Milliseconds every) {
+        health_every_ = every;
+        if (session_ != NULL) {
+            session_->health_every(every);
+        }
+    }
+    /// Whether actuators keep what they were told as long as this program runs, whatever their `silence`.
+    /// Without that they take their failsafe when nothing is sent.
+    void hold_commands(bool wanted) { holds_ = wanted; }
 
     /// Throws OpenError with the cause and what to do.
     void open(const std::string &path, unsigned baud) {
@@ -99,7 +122,7 @@ public:
             look_for_device(timeout_ms);
             return true;
         }
-        if (!is_recording_ && !write(session_->to_send(now_ms()))) {
+        if (!is_recording_ && !write(to_send())) {
             return lose();
         }
         Bytes bytes;
@@ -129,8 +152,19 @@ public:
     /// Sends a frame to the board. False when it is not there, or not this program's.
     bool send(const Bytes &frame) {
         Lock lock(lock_);
-        return is_ready_ && !frame.empty() && serial_.write(frame);
+        if (!is_ready_ || frame.empty() || !serial_.write(frame)) {
+            return false;
+        }
+        sent_ = now_ms();
+        return true;
     }
+
+    /// When the board put the latest report together, where the link has stamps.
+    const Moment &moment() const { return clock_.moment(); }
+    /// Reports that the counters of stamps say were lost.
+    uint64_t lost_reports() const { return clock_.lost(); }
+    /// Answers of a version of health that is not known here.
+    uint64_t other_healths() const { return other_healths_; }
 
     /// Age of a sensor's latest value by its place in the schema; negative before the first.
     Milliseconds age_ms(size_t sensor) const {
@@ -150,6 +184,9 @@ public:
     std::string summary() const {
         std::ostringstream text;
         text << frames() << " frames, " << dropped_bytes() << " bytes dropped";
+        if (facts_->schema->has_stamp) {
+            text << ", " << lost_reports() << " reports lost";
+        }
         return text.str();
     }
 
@@ -161,6 +198,12 @@ private:
         Milliseconds came;
         /// Its being overdue was noted.
         bool is_told;
+    };
+
+    /// What is told of a device is told once, until it is well again.
+    struct Worry {
+        Worry() : status(status_never) {}
+        uint8_t status;
     };
 
     class Lock {
@@ -185,7 +228,10 @@ private:
         serial_.open(path, baud_);
         keep_counts();
         session_ = new Session(*facts_, *this);
+        session_->health_every(health_every_);
         session_->start(now_ms());
+        clock_.restart();
+        is_health_missed_ = false;
         said_ = nothing;
         trouble_.clear();
     }
@@ -199,8 +245,21 @@ private:
 
     bool write(const Bytes &bytes) {
         Lock lock(lock_);
+        if (!bytes.empty()) {
+            sent_ = now_ms();
+        }
         return bytes.empty() || serial_.write(bytes);
     }
+
+    Bytes to_send() {
+        const Bytes bytes = session_->to_send(now_ms());
+        const bool is_held = holds_ && is_ready() && facts_->silence_ms > 0;
+        Lock lock(lock_);
+        return bytes.empty() && is_held && now_ms() - sent_ >= hold_ms() ? hello_request(*facts_->schema) : bytes;
+    }
+
+    /// Several frames may be lost on the way.
+    Milliseconds hold_ms() const { return (facts_->silence_ms + 3) / 4; }
 
     bool finish(End end) {
         Lock lock(lock_);
@@ -258,7 +317,9 @@ private:
     int wait_ms(int timeout_ms) const {
         const bool is_waiting = session_->state() == Session::asking ||
                                 session_->state() == Session::comparing;
-        return is_waiting && timeout_ms > 50 ? 50 : timeout_ms;
+        const Milliseconds most = holds_ && facts_->silence_ms > 0 && hold_ms() < 50 ? hold_ms() : 50;
+        const bool is_pressed = is_waiting || (holds_ && facts_->silence_ms > 0) || health_every_ > 0;
+        return is_pressed && timeout_ms > most ? static_cast<int>(most) : timeout_ms;
     }
 
     bool look_at_session() {
@@ -271,6 +332,7 @@ private:
         case Session::matched:
             note_matched();
             note_silence();
+            note_missing_health();
             return true;
         case Session::refused:
             note(session_->difference());
@@ -309,6 +371,8 @@ private:
             Lock lock(lock_);
             is_ready_ = true;
         }
+        // What happened to it meanwhile is in its health.
+        session_->want_health();
         // Where only the sensors were silent, and not the board, they are overdue all the same.
         if (silent_ < 0 || said_ == said_unanswered) {
             matched_ = now_ms();
@@ -339,6 +403,7 @@ private:
                 values_[i].is_told = true;
                 note(std::string(facts_->sensors[i].name) + ": no value for " + seconds(now - since) +
                      " (expected every " + seconds(facts_->sensors[i].cycle_ms) + ")");
+                session_->want_health();
             }
         }
         const Milliseconds silence = shortest > 1000 ? shortest : 1000;
@@ -355,6 +420,61 @@ private:
     Milliseconds limit_ms(size_t sensor) const {
         const Milliseconds cycle = facts_->sensors[sensor].cycle_ms;
         return cycle == 0 ? 0 : 3 * cycle + 100;
+    }
+
+    void note_missing_health() {
+        if (session_->is_health_unanswered() && !is_health_missed_ && health_every_ > 0) {
+            is_health_missed_ = true;
+            note(std::string(facts_->name) + " does not tell its health: is its firmware older than this program?");
+        }
+    }
+
+    virtual void on_stamp(const Stamp &stamp) { receiver_->on_moment(clock_.take(stamp, is_recording_ ? -1 : now_us())); }
+
+    virtual void on_other_health(uint8_t version) {
+        if (other_healths_++ == 0) {
+            std::ostringstream text;
+            text << facts_->name << " tells its health in version " << +version << ", and this program knows version "
+                 << +health_version << ": not believed; generate again";
+            note(text.str());
+        }
+        receiver_->on_other_health(version);
+    }
+
+    virtual void on_health(const Health &health) {
+        is_health_missed_ = false;
+        // Once for each start of the board.
+        if (!has_uptime_ || health.uptime_ms < uptime_ms_) {
+            note_reset(health);
+        }
+        has_uptime_ = true;
+        uptime_ms_ = health.uptime_ms;
+        for (size_t i = 0; i < health.devices.size(); ++i) {
+            note_worry(health.devices[i], facts_->devices[i], worries_[i]);
+        }
+        receiver_->on_health(health);
+    }
+
+    void note_reset(const Health &health) {
+        if (health.is_watchdog() || health.reset_cause == reset_halt) {
+            note(std::string(facts_->name) + " was reset " + span_text(health.uptime_ms) + " ago by " +
+                 reset_text(*facts_->schema, facts_->devices, health));
+        }
+    }
+
+    void note_worry(const DeviceHealth &device, const DeviceFacts &facts, Worry &worry) {
+        const bool is_bad = device.status == status_failed || device.status == status_stale;
+        const bool was_bad = worry.status == status_failed || worry.status == status_stale;
+        if (is_bad && device.status != worry.status) {
+            const std::string causes = causes_text(device);
+            note(std::string(facts.name) + ": " + status_text(device.status, facts.is_actuator) +
+                 (causes.empty() ? "" : " (" + causes + ")"));
+        } else if (was_bad && device.status == status_good) {
+            note(std::string(facts.name) + ": good again");
+        }
+        if (is_bad || device.status == status_good) {
+            worry.status = device.status;
+        }
     }
 
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
@@ -413,9 +533,22 @@ private:
     std::string trouble_;
     uint64_t frames_;
     uint64_t dropped_;
+    Milliseconds health_every_;
+    uint64_t other_healths_;
+    /// That the board tells no health was noted.
+    bool is_health_missed_;
+    bool has_uptime_;
+    /// When the board told its health last.
+    uint32_t uptime_ms_;
+    bool holds_;
+    /// When something went to the board last.
+    Milliseconds sent_;
+    BoardClock clock_;
     Serial serial_;
     mutable pthread_mutex_t lock_;
     std::vector<Value> values_;
+    /// By the place in the schema's devices.
+    std::vector<Worry> worries_;
 };
 
 } // namespace sensedsl

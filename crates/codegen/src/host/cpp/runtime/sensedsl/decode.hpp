@@ -14,6 +14,7 @@
 
 #include <vector>
 
+#include "sensedsl/health.hpp"
 #include "sensedsl/memo.hpp"
 #include "sensedsl/wire.hpp"
 
@@ -27,6 +28,14 @@ public:
     virtual void on_hello(uint32_t hash) { (void)hash; }
     /// The host's wish for a hello; only a board's decoder meets it.
     virtual void on_hello_request() {}
+    /// The host's wish for health; only a board's decoder meets it.
+    virtual void on_health_request() {}
+    /// How the board and its devices are.
+    virtual void on_health(const Health &health) { (void)health; }
+    /// Health of another version, of which nothing else is known.
+    virtual void on_other_health(uint8_t version) { (void)version; }
+    /// Where the link has stamps, before the values of each report.
+    virtual void on_stamp(const Stamp &stamp) { (void)stamp; }
     /// One value; `bytes` are as many as the item says and valid during the call.
     virtual void on_value(uint8_t id, const uint8_t *bytes) = 0;
     /// All values of the frame have been handed over.
@@ -47,7 +56,9 @@ public:
 class Decoder {
 public:
     Decoder(const Schema &schema, const Direction &direction, Sink &sink)
-        : direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0), held_(),
+        : schema_(&schema), direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0),
+          is_from_board_(direction.hello_bytes > 1), is_stamped_(is_from_board_ && schema.has_stamp),
+          health_bytes_(is_from_board_ ? schema.health_bytes() : 0), held_(),
           start_(0), candidate_(), place_(0), spent_(0), memo_(direction.payload_bytes_max + 22),
           walked_(0), leaps_(direction.payload_bytes_max + 22), frames_(0), dropped_bytes_(0) {
         memset(slots_, 0, sizeof slots_);
@@ -208,7 +219,9 @@ private:
                 candidate_.frame_bytes = i + 1 + payload_bytes + 1;
                 candidate_.values_end = i + 1 + payload_bytes - checksum_bytes_;
                 candidate_.seen.clear();
-                return complete;
+                const size_t values_bytes = payload_bytes - checksum_bytes_;
+                return values_bytes <= direction_->short_bytes_max || values_bytes == health_bytes_ ? complete
+                                                                                                     : invalid;
             }
             if (byte < '0' || byte > '9' || (i == 0 && byte == '0')) {
                 return invalid;
@@ -223,6 +236,12 @@ private:
 
     /// From identifier to identifier up to the end of the values.
     Verdict walk(const uint8_t *bytes, size_t count) {
+        if (candidate_.at == candidate_.payload_start) {
+            const Verdict begun = begin(bytes, count);
+            if (begun != complete) {
+                return begun;
+            }
+        }
         if (place_ < walked_) {
             return leap(bytes, count);
         }
@@ -231,6 +250,38 @@ private:
             verdict = step(bytes, count);
         }
         return verdict;
+    }
+
+    /// What a payload is follows from its first byte, its length and the schema: steps over a stamp, and
+    /// over the whole of what is no report.
+    Verdict begin(const uint8_t *bytes, size_t count) {
+        const size_t at = candidate_.at;
+        const size_t values_bytes = candidate_.values_end - at;
+        if (at >= count) {
+            return incomplete;
+        }
+        if (bytes[at] == id_hello) {
+            if (values_bytes == direction_->hello_bytes) {
+                candidate_.at = candidate_.values_end;
+                return complete;
+            }
+            if (!is_from_board_ && values_bytes == 2) {
+                if (count < at + 2) {
+                    return incomplete;
+                }
+                candidate_.at = candidate_.values_end;
+                return bytes[at + 1] == ask_health ? complete : invalid;
+            }
+            candidate_.at += stamp_bytes;
+            return is_stamped_ && values_bytes > stamp_bytes && values_bytes <= direction_->short_bytes_max
+                       ? complete
+                       : invalid;
+        }
+        if (bytes[at] == id_health) {
+            candidate_.at = candidate_.values_end;
+            return values_bytes == health_bytes_ ? complete : invalid;
+        }
+        return is_stamped_ || values_bytes > direction_->short_bytes_max ? invalid : complete;
     }
 
     /// The same with the leaps of others, and leaves leaps for others.
@@ -277,14 +328,6 @@ private:
             return incomplete;
         }
         const uint8_t id = bytes[at];
-        if (id == id_hello) {
-            // It stands alone, and exactly as long as its direction wants it.
-            if (at != candidate_.payload_start || values_end - at != direction_->hello_bytes) {
-                return invalid;
-            }
-            candidate_.at = values_end;
-            return complete;
-        }
         const Slot slot = slots_[id];
         const size_t end = at + 1 + slot.value_bytes;
         if (slot.value_bytes == 0 || candidate_.seen.has(id) || end > values_end) {
@@ -343,8 +386,16 @@ private:
     }
 
     void deliver(const uint8_t *payload, size_t values_bytes) {
-        if (payload[0] != id_hello) {
-            for (size_t at = 0; at < values_bytes;) {
+        if (payload[0] == id_health) {
+            deliver_health(payload);
+        } else if (payload[0] != id_hello || (is_from_board_ && values_bytes > direction_->hello_bytes)) {
+            size_t at = 0;
+            if (payload[0] == id_hello) {
+                const Stamp stamp = {load<uint32_t>(payload + 1), payload[5]};
+                sink_->on_stamp(stamp);
+                at = stamp_bytes;
+            }
+            while (at < values_bytes) {
                 const uint8_t id = payload[at];
                 sink_->on_value(id, payload + at + 1);
                 at += 1 + slots_[id].value_bytes;
@@ -352,14 +403,29 @@ private:
             sink_->on_frame_end();
         } else if (values_bytes == 1) {
             sink_->on_hello_request();
+        } else if (values_bytes == 2) {
+            sink_->on_health_request();
         } else {
             sink_->on_hello(load<uint32_t>(payload + 1));
         }
     }
 
+    void deliver_health(const uint8_t *payload) {
+        if (payload[1] == health_version) {
+            sink_->on_health(read_health(*schema_, payload));
+        } else {
+            sink_->on_other_health(payload[1]);
+        }
+    }
+
+    const Schema *schema_;
     const Direction *direction_;
     Sink *sink_;
     size_t checksum_bytes_;
+    bool is_from_board_;
+    bool is_stamped_;
+    /// 0 where there is none.
+    size_t health_bytes_;
     Slot slots_[256];
     /// The first bytes of a frame whose end has not come; the candidate starts at `start_`.
     Bytes held_;

@@ -46,12 +46,14 @@ struct SchemaLine {
 
 /// A schema text, read.
 struct SchemaText {
-    explicit SchemaText(const std::string &text) : checksum(), devices() {
+    explicit SchemaText(const std::string &text) : checksum(), has_stamp(false), devices() {
         std::istringstream lines(text);
         for (std::string line; std::getline(lines, line);) {
             SchemaLine device;
             if (line.compare(0, 9, "checksum ") == 0) {
                 checksum = line.substr(9);
+            } else if (line == "stamp") {
+                has_stamp = true;
             } else if (device.read(line)) {
                 devices.push_back(device);
             }
@@ -67,6 +69,7 @@ struct SchemaText {
     }
 
     std::string checksum;
+    bool has_stamp;
     std::vector<SchemaLine> devices;
 };
 
@@ -77,6 +80,10 @@ inline std::string differences(const std::string &own, const std::string &board)
     std::string text;
     if (here.checksum != there.checksum) {
         text += "  checksum: " + here.checksum + " here, " + there.checksum + " on the board\n";
+    }
+    if (here.has_stamp != there.has_stamp) {
+        text += here.has_stamp ? "  stamp: reports have one here, none on the board\n"
+                               : "  stamp: reports have none here, one on the board\n";
     }
     for (size_t i = 0; i < here.devices.size(); ++i) {
         const SchemaLine &device = here.devices[i];
@@ -128,6 +135,8 @@ private:
         const size_t start = line_.find("checksum ");
         if (start != std::string::npos) {
             text_ = line_.substr(start) + "\n";
+        } else if (line_ == "stamp" && text_.find('\n') + 1 == text_.size()) {
+            text_ += line_ + "\n";
         } else if (!text_.empty() && device.read(line_) && text_.size() < 65536) {
             text_ += line_ + "\n";
         }

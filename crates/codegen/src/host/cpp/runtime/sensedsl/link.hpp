@@ -34,6 +34,18 @@ inline Bytes frame_of(const Schema &schema, Bytes payload) {
 /// The frame by which a host asks the board for its hello.
 inline Bytes hello_request(const Schema &schema) { return frame_of(schema, Bytes(1, id_hello)); }
 
+/// The frame by which a host asks the board for its health.
+inline Bytes health_request(const Schema &schema) {
+    Bytes payload(1, id_hello);
+    payload.push_back(ask_health);
+    return frame_of(schema, payload);
+}
+
+/// The frame by which a board tells its health.
+inline Bytes health_frame(const Schema &schema, const Health &health) {
+    return frame_of(schema, health_payload(health));
+}
+
 /// The frame by which a board tells its schema hash.
 inline Bytes hello(const Schema &schema) {
     Bytes payload(1, id_hello);
@@ -73,18 +85,28 @@ public:
     }
 
     /// The frame of all values set; empty when none is.
-    Bytes frame() const {
-        Bytes payload;
+    Bytes frame() const { return frame_behind(Bytes()); }
+
+    /// The same from a board whose reports have stamps.
+    Bytes frame(const Stamp &stamp) const {
+        Bytes payload(1, id_hello);
+        store<uint32_t>(payload, stamp.time_us);
+        payload.push_back(stamp.counter);
+        return frame_behind(payload);
+    }
+
+private:
+    Bytes frame_behind(Bytes payload) const {
+        const size_t head_bytes = payload.size();
         for (size_t i = 0; i < values_.size(); ++i) {
             if (!values_[i].empty()) {
                 payload.push_back(direction_->items[i].id);
                 payload.insert(payload.end(), values_[i].begin(), values_[i].end());
             }
         }
-        return payload.empty() ? payload : frame_of(*schema_, payload);
+        return payload.size() == head_bytes ? Bytes() : frame_of(*schema_, payload);
     }
 
-private:
     const Schema *schema_;
     const Direction *direction_;
     std::vector<Bytes> values_;

@@ -6,6 +6,8 @@
 #define SENSEDSL_OPTIONS_HPP
 
 #include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
 
 #include <map>
 #include <string>
@@ -13,7 +15,7 @@
 
 namespace sensedsl {
 
-/// One option: `--name`, or `--name=VALUE` where it has a value.
+/// One option: `--name`, or `--name=VALUE` where it has a value; one in brackets may be left out.
 struct Option {
     const char *name;
     /// What stands for the value in the help; NULL for an option without one.
@@ -54,6 +56,24 @@ public:
     /// What is no option.
     const std::vector<std::string> &words() const { return words_; }
 
+    /// What is wrong with `--health`, in seconds; empty when nothing is, and then `every_ms` is it, 0
+    /// without the option.
+    std::string read_health(int64_t &every_ms) const {
+        every_ms = 0;
+        if (!has("health")) {
+            return std::string();
+        }
+        const std::string given = value("health");
+        char *end = NULL;
+        const double seconds = strtod(given.c_str(), &end);
+        const bool is_number = given.find_first_not_of("0123456789.") == std::string::npos && *end == '\0';
+        if (!is_number || seconds < 0.1 || seconds > 3600.0) {
+            return "how many seconds between questions for health? 0.1 to 3600, not " + given;
+        }
+        every_ms = static_cast<int64_t>(seconds * 1000.0 + 0.5);
+        return std::string();
+    }
+
     /// A line for each option.
     std::string help() const {
         std::string text;
@@ -68,8 +88,13 @@ public:
 private:
     static std::string spelling(const Option &option) {
         const std::string name = std::string("--") + option.name;
-        return option.value == NULL ? name : name + "=" + option.value;
+        if (option.value == NULL) {
+            return name;
+        }
+        return is_optional(option) ? name + "[=" + (option.value + 1) : name + "=" + option.value;
     }
+
+    static bool is_optional(const Option &option) { return option.value != NULL && option.value[0] == '['; }
 
     std::string read_option(const std::string &word) {
         const size_t equals = word.find('=');
@@ -79,7 +104,7 @@ private:
                 continue;
             }
             const bool has_value = equals != std::string::npos && equals + 1 < word.size();
-            if (known_[i].value != NULL && !has_value) {
+            if (known_[i].value != NULL && !has_value && (!is_optional(known_[i]) || equals != std::string::npos)) {
                 return name + " needs a value: " + spelling(known_[i]);
             }
             // `--verbose=1` is customary for flags as well.

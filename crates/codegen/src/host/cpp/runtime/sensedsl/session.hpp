@@ -33,6 +33,10 @@ struct BoardFacts {
     const char *schema_text;
     /// In the order of the schema's sensors.
     const SensorFacts *sensors;
+    /// In the order of the schema's devices.
+    const DeviceFacts *devices;
+    /// After how long without a frame from here actuators take their failsafe; 0 for never.
+    uint32_t silence_ms;
 };
 
 /// Milliseconds of a clock that only goes forward.
@@ -43,6 +47,8 @@ const Milliseconds ask_rarely_after_ms = 5000;
 const Milliseconds ask_rarely_every_ms = 1000;
 const Milliseconds unanswered_after_ms = 1500;
 const Milliseconds shell_answers_within_ms = 1000;
+const Milliseconds health_at_most_every_ms = 1000;
+const Milliseconds health_answers_within_ms = 2000;
 
 /// One session with a board, from opening the device to losing it.
 class Session : private Sink {
@@ -62,7 +68,8 @@ public:
 
     Session(const BoardFacts &facts, Sink &sink)
         : facts_(&facts), sink_(&sink), is_recording_(false), state_(asking), now_(0), started_(0), asked_(-1), heard_(0),
-          requests_(0), other_form_hash_(0), bytes_(0), withheld_(0), step_(0), board_hash_(0), reader_(0),
+          requests_(0), health_every_(0), health_asked_(-1), health_due_since_(0),
+          is_health_wanted_(false), is_health_due_(false), other_form_hash_(0), bytes_(0), withheld_(0), step_(0), board_hash_(0), reader_(0),
           other_form_(other_form(*facts.schema)), other_sink_(*this),
           decoder_(*facts.schema, facts.schema->sensors, *this),
           other_decoder_(other_form_, other_form_.sensors, other_sink_) {}
@@ -98,7 +105,19 @@ public:
         if (state_ == asking) {
             return request();
         }
+        if (state_ == matched) {
+            return ask_for_health();
+        }
         return state_ == comparing ? shell_command() : Bytes();
+    }
+
+    /// Asks for health that often from now on; 0 for only when it is wanted.
+    void health_every(Milliseconds every) { health_every_ = every; }
+    /// Asks for health once, soon.
+    void want_health() { is_health_wanted_ = true; }
+    /// True when the board should have told its health by now.
+    bool is_health_unanswered() const {
+        return state_ == matched && is_health_due_ && now_ - health_due_since_ >= health_answers_within_ms;
     }
 
     State state() const { return state_; }
@@ -157,6 +176,9 @@ private:
         other.has_checksum = !own.has_checksum;
         other.sensors.items = NULL;
         other.sensors.item_count = 0;
+        other.device_ids = NULL;
+        other.device_count = 0;
+        other.sensors.short_bytes_max = other.sensors.hello_bytes;
         other.sensors.payload_bytes_max = other.sensors.hello_bytes + (other.has_checksum ? 3 : 0);
         return other;
     }
@@ -171,6 +193,22 @@ private:
         ++requests_;
         // A board that does not answer may have the other form of frames.
         return hello_request(requests_ % 3 == 0 ? other_form_ : *facts_->schema);
+    }
+
+    Bytes ask_for_health() {
+        const bool is_first = health_asked_ < 0;
+        const Milliseconds waited = now_ - health_asked_;
+        const bool is_wanted = is_health_wanted_ && (is_first || waited >= health_at_most_every_ms);
+        const bool is_time = health_every_ > 0 && (is_first || waited >= health_every_);
+        if (!is_wanted && !is_time) {
+            return Bytes();
+        }
+        // The first of several questions counts for how long the answer takes.
+        health_due_since_ = is_health_due_ ? health_due_since_ : now_;
+        health_asked_ = now_;
+        is_health_due_ = true;
+        is_health_wanted_ = false;
+        return health_request(*facts_->schema);
     }
 
     /// `q` brings the shell back from frames; the return before the command ends what was typed.
@@ -216,6 +254,28 @@ private:
         other_form_hash_ = hash;
     }
 
+    virtual void on_stamp(const Stamp &stamp) {
+        if (state_ == matched || state_ == playing) {
+            sink_->on_stamp(stamp);
+        }
+    }
+
+    virtual void on_health(const Health &health) {
+        heard_ = now_;
+        is_health_due_ = false;
+        if (state_ == matched || state_ == playing) {
+            sink_->on_health(health);
+        }
+    }
+
+    virtual void on_other_health(uint8_t version) {
+        heard_ = now_;
+        is_health_due_ = false;
+        if (state_ == matched || state_ == playing) {
+            sink_->on_other_health(version);
+        }
+    }
+
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
         if (state_ == matched || state_ == playing) {
             sink_->on_value(id, bytes);
@@ -241,6 +301,13 @@ private:
     Milliseconds asked_;
     Milliseconds heard_;
     unsigned requests_;
+    Milliseconds health_every_;
+    /// When health was asked for last; negative before the first time.
+    Milliseconds health_asked_;
+    Milliseconds health_due_since_;
+    bool is_health_wanted_;
+    /// An answer is awaited.
+    bool is_health_due_;
     uint32_t other_form_hash_;
     uint64_t bytes_;
     uint64_t withheld_;

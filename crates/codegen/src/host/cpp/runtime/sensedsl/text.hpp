@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <iomanip>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -142,6 +143,13 @@ template <> inline std::string read_typed<float>(const std::string &text, float 
 /// Reads one scalar. False when the text is none.
 template <typename T> inline bool parse(const std::string &text, T &value) {
     return read_typed(text, value).empty();
+}
+
+/// Microseconds as seconds: `12.345678`.
+inline std::string seconds_text(uint64_t microseconds) {
+    std::ostringstream text;
+    text << microseconds / 1000000 << '.' << std::setfill('0') << std::setw(6) << microseconds % 1000000;
+    return text.str();
 }
 
 /// The limits that the design gives to a value; absent ones are infinite.

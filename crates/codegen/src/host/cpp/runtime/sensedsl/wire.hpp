@@ -16,10 +16,19 @@ namespace sensedsl {
 /// Bytes of a frame or a stream.
 typedef std::vector<uint8_t> Bytes;
 
-/// Identifier of the link's hello; a device never has it.
+/// Identifier of the link's hello, and of the stamp that a report may begin with; a device never has it.
 const uint8_t id_hello = 0;
 /// Identifier of the optional trailing checksum; a device never has it.
 const uint8_t id_checksum = 255;
+/// What health begins with; the checksum, which is the same, stands last.
+const uint8_t id_health = 255;
+/// What stands behind the 0 of the request for health.
+const uint8_t ask_health = 1;
+/// Bytes of a stamp: identifier, time, counter.
+const size_t stamp_bytes = 6;
+/// Bytes of health before the devices, and of each device.
+const size_t health_head_bytes = 19;
+const size_t health_device_bytes = 17;
 
 /// What travels under one identifier.
 struct Item {
@@ -36,6 +45,8 @@ struct Direction {
     const Item *items;
     size_t item_count;
     size_t payload_bytes_max;
+    /// Bytes of the longest payload but health, without a checksum.
+    size_t short_bytes_max;
     /// Bytes of this direction's hello: 5 with the schema hash, 1 as the host's request.
     size_t hello_bytes;
 };
@@ -44,8 +55,23 @@ struct Direction {
 struct Schema {
     uint32_t hash;
     bool has_checksum;
+    /// Whether each report from the board begins with its time and a counter.
+    bool has_stamp;
     Direction sensors;
     Direction actuators;
+    /// All devices in the file's order, which is that of their health.
+    const uint8_t *device_ids;
+    size_t device_count;
+
+    size_t health_bytes() const { return health_head_bytes + health_device_bytes * device_count; }
+};
+
+/// When a report was put together, and its number.
+struct Stamp {
+    /// Microseconds since the board started; wraps.
+    uint32_t time_us;
+    /// Counts the reports that were put together; wraps. A gap tells of lost ones.
+    uint8_t counter;
 };
 
 /// What a byte in the upper half of the register does to a CRC-16/CCITT-FALSE, and the same with one,
