@@ -1,6 +1,7 @@
 #include "up_capture.h"
 
 #include "up_convert.h"
+#include "up_count.h"
 
 #define COUNT_REPEAT_MS 1000U
 
@@ -29,7 +30,7 @@ static bool read_count(up_capture_state_t *state, const up_capture_raw_t *raw, b
   state->has_told = true;
   state->captures = edges;
   state->told_ms = now_ms;
-  up_store_unsigned(type, edges, element);
+  up_count_store(type, (int64_t)edges, element);
   return true;
 }
 

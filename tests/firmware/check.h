@@ -21,6 +21,7 @@ void test_filters(void);
 void test_messages(void);
 void test_outputs(void);
 void test_health(void);
+void test_timers(void);
 void test_vectors(const char *path);
 
 #endif

@@ -30,6 +30,7 @@ int main(int argc, char **argv) {
   test_messages();
   test_outputs();
   test_health();
+  test_timers();
   for (i = 1; i < argc; i++) {
     test_vectors(argv[i]);
   }

@@ -1,0 +1,65 @@
+#include "up_debounce.h"
+
+static bool counts(const up_contact_config_t *config, bool level) {
+  return config->edge == UP_EDGE_BOTH || (config->edge == UP_EDGE_RISING) == level;
+}
+
+/* What was seen before has lasted until now. */
+static void settle(const up_contact_config_t *config, up_contact_t *contact, uint32_t now) {
+  if (contact->seen != contact->level && (uint32_t)(now - contact->since) >= config->lasting) {
+    contact->level = contact->seen;
+    if (counts(config, contact->level)) {
+      contact->edges++;
+    }
+  }
+}
+
+static void begin(up_contact_t *contact, bool level, uint32_t now) {
+  contact->has_level = true;
+  contact->seen = level;
+  contact->level = level;
+  contact->since = now;
+}
+
+void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+  if (config->lasting == 0U) {
+    begin(contact, level, now);
+    contact->edges++;
+    return;
+  }
+  if (!contact->has_level) {
+    begin(contact, level, now);
+  }
+  settle(config, contact, now);
+  /* The level may be back already; it has changed all the same. */
+  contact->seen = level;
+  contact->since = now;
+}
+
+void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+  if (!contact->has_level || config->lasting == 0U) {
+    begin(contact, level, now);
+    return;
+  }
+  settle(config, contact, now);
+  if (level != contact->seen) {
+    contact->seen = level;
+    contact->since = now;
+  }
+}
+
+bool up_contact_tell(const up_contact_config_t *config, const up_contact_t *contact, up_contact_told_t *told) {
+  const bool has_edge = contact->edges != told->edges;
+
+  told->edges = contact->edges;
+  if (!told->has_told || contact->level != told->level) {
+    told->has_told = true;
+    told->level = contact->level;
+    return true;
+  }
+  if (has_edge && counts(config, !told->level)) {
+    told->level = !told->level;
+    return true;
+  }
+  return false;
+}
