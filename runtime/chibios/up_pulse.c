@@ -18,8 +18,11 @@ void up_pulse_cycle(const void *work) {
   uint8_t i;
 
   for (i = 0U; i < pulse->lines_count; i++) {
-    palSetLine(pulse->lines[i]);
+    palSetLine(pulse->lines[i].line);
     wait_us(pulse->pulse_us);
-    palClearLine(pulse->lines[i]);
+    palClearLine(pulse->lines[i].line);
+    if (pulse->lines[i].apart_ms > 0U) {
+      chThdSleepMilliseconds(pulse->lines[i].apart_ms);
+    }
   }
 }

@@ -9,12 +9,19 @@
 
 #include "ch.h"
 #include "hal.h"
+#include "stm32_tim.h"
 
 #include "up_capture.h"
 #include "up_chip.h"
 #include "up_conf.h"
+#include "up_count.h"
+#include "up_debounce.h"
+#include "up_drive.h"
+#include "up_elements.h"
 #include "up_filter.h"
 #include "up_i2c.h"
+#include "up_ppm.h"
+#include "up_pulse_width.h"
 #include "up_report.h"
 
 /* ---- tables ---- */
@@ -103,35 +110,167 @@ void up_i2c_cycle(const void *work);
 #endif
 
 #if HAL_USE_ICU == TRUE
+/* One captured wire. */
 typedef struct {
   ICUDriver *driver;
-  const ICUConfig *config;
-  up_capture_config_t capture;
   up_capture_raw_t *raw;
-  up_capture_state_t *state;
+} up_icu_input_t;
+
+/* A sensor of captured wires: what up_icu_poll() works on. */
+typedef struct {
+  const up_icu_input_t *inputs; /* one an element */
+  up_capture_config_t capture;
+  up_capture_state_t *states; /* one an element */
+  uint8_t *flags;             /* of an array: one an element */
+  uint64_t *latest;           /* of an array: what each element was last; else NULL */
+  uint64_t *value;            /* as large as the value */
   uint16_t field;
+  uint8_t inputs_count;
+  bool is_complete; /* an array is told when each element is new */
 } up_icu_t;
 
-void up_icu_start(const up_icu_t *icu);
-void up_icu_poll(const up_icu_t *icu);
+/* The channels of a model receiver: what up_train_poll() works on. */
+typedef struct {
+  const up_ppm_config_t *config;
+  const up_ppm_raw_t *raw;
+  uint32_t *trains_seen;
+  uint64_t *value; /* as large as the value */
+  uint16_t field;
+} up_train_t;
 
-/* The callbacks of one input: `raw` is where its captures go. */
-#define UP_ICU_WIDTH_CALLBACK(name, raw, both_edges)                                                         \
-  static void name(ICUDriver *driver) {                                                                      \
-    up_capture_on_width(&(raw), (uint32_t)icuGetWidthX(driver), (both_edges));                               \
-  }
-#define UP_ICU_PERIOD_CALLBACK(name, raw)                                                                    \
-  static void name(ICUDriver *driver) {                                                                      \
-    up_capture_on_period(&(raw), (uint32_t)icuGetPeriodX(driver));                                           \
-  }
+void up_icu_start(ICUDriver *driver, const ICUConfig *config);
+void up_icu_poll(const up_icu_t *icu);
+void up_train_poll(const up_train_t *train);
 
 /* Makes the driver notice that its timer wrapped, so that it leaves out the capture; needs no action here. */
 void up_icu_on_overflow(ICUDriver *driver);
 #endif
 
-/* A line that gets a pulse each cycle: what up_pulse_cycle() works on. */
+/* What is kept of a timer that counts; all zero at the start. */
 typedef struct {
-  const ioline_t *lines;
+  virtual_timer_t timer; /* of a counter of 16 bits: reads it in time */
+  up_count_t count;
+  int32_t told;
+} up_encoder_state_t;
+
+/* A timer that counts the edges of two tracks. No driver of ChibiOS knows it. */
+typedef struct {
+  stm32_tim_t *timer;
+  up_encoder_state_t *state;
+  uint8_t filter; /* of both inputs: IC1F and IC2F */
+  bool is_wide;   /* the counter has 32 bits */
+} up_encoder_counter_t;
+
+/* A sensor of such timers: what up_encoder_poll() works on. */
+typedef struct {
+  const up_encoder_counter_t *counters; /* one an element */
+  up_repeat_t *repeat;
+  uint64_t *value; /* as large as the value */
+  uint16_t field;
+  uint8_t counters_count;
+} up_encoder_t;
+
+void up_encoder_start(const up_encoder_counter_t *counter);
+void up_encoder_poll(const up_encoder_t *encoder);
+
+#if HAL_USE_PWM == TRUE
+typedef struct {
+  PWMDriver *driver;
+  pwmchannel_t channel; /* from 0 */
+  up_pulse_width_t width;
+} up_pwm_output_t;
+
+/* An actuator of such outputs. */
+typedef struct {
+  const up_pwm_output_t *outputs; /* one an element */
+  uint16_t field;
+  uint8_t outputs_count;
+} up_pwm_t;
+
+/* One input of an H-bridge: an output of a timer, or a pin. */
+typedef struct {
+  const up_pwm_output_t *pwm; /* NULL for a pin */
+  ioline_t line;
+  bool is_low_active;
+} up_bridge_output_t;
+
+typedef struct {
+  const up_drive_t *drive;
+  up_drive_state_t *state;
+  const up_bridge_output_t *outputs; /* in the order of up_drive_mode_t */
+  uint16_t field;
+} up_bridge_t;
+
+/* From the next period on: what the host has set, or 0 to 10000 for all outputs. */
+void up_pwm_set(const up_pwm_t *pwm, const void *value);
+void up_pwm_set_level(const up_pwm_t *pwm, uint32_t level);
+
+/* What the host has set, or -10000 to 10000. */
+void up_bridge_set(const up_bridge_t *bridge, const void *value);
+void up_bridge_set_level(const up_bridge_t *bridge, int32_t level);
+#endif
+
+/* An actuator of plain pins. */
+typedef struct {
+  const ioline_t *lines; /* one an element */
+  uint16_t field;
+  uint8_t lines_count;
+  bool is_low_active;
+} up_digital_output_t;
+
+/* What is kept of an input; all zero at the start. */
+typedef struct {
+  up_contact_t contact;
+  up_contact_told_t told;
+} up_digital_state_t;
+
+typedef struct {
+  ioline_t line;
+  const up_contact_config_t *config; /* NULL: its level as it is */
+  up_digital_state_t *state;         /* NULL likewise */
+} up_digital_input_t;
+
+/* A sensor of plain pins. */
+typedef struct {
+  const up_digital_input_t *inputs; /* one an element */
+  uint64_t *value;                  /* as large as the value */
+  up_repeat_t *repeat;              /* with edges: told when something happens, and then again */
+  uint32_t repeat_ms;
+  uint16_t field;
+  uint8_t inputs_count;
+  bool is_low_active;
+} up_digital_t;
+
+/* The sensors that one thread reads: what up_digital_cycle() works on. */
+typedef struct {
+  const up_digital_t *sensors;
+  uint8_t sensors_count;
+} up_digital_class_t;
+
+/* `lasting` of a contact, in ticks of the kernel, at least one. */
+#define UP_LASTING_US(us) ((uint32_t)(((uint64_t)(us) * CH_CFG_ST_FREQUENCY + 999999U) / 1000000U))
+
+void up_digital_set(const up_digital_output_t *output, const void *value);
+void up_digital_cycle(const void *work);
+
+/* Looks at contacts that are to be still: at the start, and in each cycle of the reporter. */
+void up_digital_look(const up_digital_t *sensor);
+
+#if PAL_USE_CALLBACKS == TRUE
+/* Sensors with edges: an interrupt for each, and what came of them. */
+void up_digital_start(const up_digital_t *sensor);
+void up_digital_poll(const up_digital_t *sensor);
+#endif
+
+/* A line that gets a pulse. */
+typedef struct {
+  ioline_t line;
+  uint32_t apart_ms; /* from it to the next line's, which would hear its answer; 0: that follows at once */
+} up_pulse_line_t;
+
+/* Lines that get a pulse each cycle: what up_pulse_cycle() works on. */
+typedef struct {
+  const up_pulse_line_t *lines;
   uint32_t pulse_us;
   uint8_t lines_count;
 } up_pulse_t;

@@ -8,7 +8,9 @@
 mod adc;
 mod board;
 mod context;
+mod digital;
 mod doctor;
+mod encoder;
 mod i2c;
 mod icu;
 mod link;
@@ -16,10 +18,12 @@ mod names;
 mod parts;
 mod plan;
 mod pulse;
+mod pwm;
 mod render;
 mod runtime;
 mod section;
 mod settings;
+mod timers;
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
@@ -38,6 +42,9 @@ const PERIPHERALS: &[&Peripheral] = &[
     &adc::PERIPHERAL, //
     &i2c::PERIPHERAL,
     &icu::PERIPHERAL,
+    &encoder::PERIPHERAL,
+    &digital::PERIPHERAL,
+    &pwm::PERIPHERAL,
     &pulse::PERIPHERAL,
 ];
 

@@ -115,8 +115,6 @@ pub(super) struct Off {
 #[serde(deny_unknown_fields)]
 struct Timers {
     icu: Group,
-    /// For pulses, which no code is made for yet.
-    #[expect(dead_code, reason = "stated, for the firmware of kind pwm")]
     pwm: Group,
 }
 
@@ -221,6 +219,12 @@ impl Names {
         let switch = switch.or(self.group(unit).map(|group| &group.switch));
         let switch = switch.map(|switch| apply(switch, unit));
         switch.into_iter().chain(own.iter().flat_map(|own| own.needs.clone())).collect()
+    }
+
+    /// The driver object of a timer's outputs, and the option that turns it on.
+    pub(super) fn pwm(&self, timer: &str) -> (String, String) {
+        let pwm = &self.timers.pwm;
+        (apply(&pwm.driver, timer), apply(&pwm.switch, timer))
     }
 
     /// The option that names the stream of a request, and the stream's name; none where the tree

@@ -48,6 +48,8 @@ pub(super) struct Section {
     pub(super) pads: Vec<PadPlan>,
     /// The units that it takes.
     pub(super) units: BTreeSet<UnitName>,
+    /// For `mcuconf.h`: options that turn on what is no unit of its own, such as the outputs of a timer.
+    pub(super) switches: Vec<String>,
     /// For `halconf.h`: whether the driver is compiled.
     pub(super) switch: Option<Setting>,
     /// For `halconf.h`: how it is compiled.

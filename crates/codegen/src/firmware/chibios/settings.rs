@@ -27,7 +27,8 @@ pub(super) struct SettingsPlan {
 pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan) -> SettingsPlan {
     let units: BTreeSet<&UnitName> = sections.iter().flat_map(|section| &section.units).collect();
     let used = units.iter().flat_map(|unit| context.names.switches(unit.as_str()));
-    let used: Vec<String> = link.switches().iter().cloned().chain(used).collect();
+    let own = sections.iter().flat_map(|section| section.switches.iter().cloned());
+    let used: Vec<String> = link.switches().iter().cloned().chain(used).chain(own).collect();
     let off = context.names.off.switches.iter().filter(|switch| !used.contains(switch));
     let mut mcu: Vec<Setting> = off.map(|switch| Setting::new(switch, "FALSE")).collect();
     if let Some(timer) = &context.kernel_timer {

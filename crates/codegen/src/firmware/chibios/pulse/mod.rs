@@ -10,7 +10,11 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     name: "GPIO",
     kind: None,
     version: |drivers| &drivers.gpio,
-    versions: &[Version { name: "GPIOv2", plan: v2::plan }],
+    versions: &[
+        Version { name: "GPIOv1", plan: v2::plan },
+        Version { name: "GPIOv2", plan: v2::plan },
+        Version { name: "GPIOv3", plan: v2::plan },
+    ],
     lacks: nothing,
     runtime: &[(
         "chibios/up_pulse.c",
