@@ -1,5 +1,6 @@
 /* Pulses on lines of their own that make a device measure (the trigger of an ultrasonic ranger). */
 #include "up_rt.h"
+#include "up_wait.h"
 
 /* From here on a pulse is slept through instead of waited for. */
 #define SLEEP_US 1000U
@@ -8,8 +9,7 @@ static void wait_us(uint32_t pulse_us) {
   if (pulse_us >= SLEEP_US) {
     chThdSleepMicroseconds(pulse_us);
   } else {
-    /* The core's cycle counter; being preempted makes the pulse longer, never shorter. */
-    chSysPolledDelayX(US2RTC(UP_CORE_HZ, pulse_us));
+    up_wait_us(pulse_us);
   }
 }
 

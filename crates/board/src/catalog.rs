@@ -177,8 +177,17 @@ pub struct Chibios {
     pub ldscript: String,
     /// The memory that the linker script gives to data, where it is known.
     pub ram_bytes: Option<u32>,
+    /// Bytes of the main thread's stack and of that of interrupts, where the usual ones are too large.
+    pub stacks_bytes: Option<[u32; 2]>,
     /// The macro by which the configuration tells its MCU.
     pub mcuconf: String,
+    /// What of the board's folder and the demo's configuration is not right for this board: macros, and what they
+    /// are to be; nothing for one that must not be defined.
+    #[serde(default)]
+    pub changes: BTreeMap<String, String>,
+    /// Pins that the folder makes outputs and that are free on this board.
+    #[serde(default, deserialize_with = "pins")]
+    pub released: Vec<PinName>,
     /// What the configuration's clock tree gives, by macro.
     #[serde(default)]
     pub clocks_hz: BTreeMap<String, u32>,

@@ -8,6 +8,13 @@ pub(super) struct TreePlan {
     /// `21.11`
     pub(super) version: String,
     pub(super) mcu: String,
+    /// The core's unit for real numbers, as the compiler is told.
+    pub(super) fpu: Option<String>,
+    /// Bytes of the main thread's stack and of that of interrupts.
+    pub(super) process_stack_bytes: u32,
+    pub(super) exceptions_stack_bytes: u32,
+    /// The core's clock, which its cycle counter counts.
+    pub(super) core_clock: String,
     pub(super) startup_mk: String,
     pub(super) platform_mk: String,
     pub(super) port_mk: String,
@@ -20,12 +27,21 @@ pub(super) struct TreePlan {
     pub(super) mcuconf: String,
 }
 
+/// Stacks of the main thread and of interrupts.
+const STACKS_BYTES: [u32; 2] = [1_536, 1_024];
+
 pub(super) fn plan(context: &Context<'_>) -> TreePlan {
     let (profile, chibios) = (context.profile, context.chibios);
     let tree = &context.names.tree;
+    let [process_stack_bytes, exceptions_stack_bytes] =
+        chibios.stacks_bytes.unwrap_or(STACKS_BYTES);
     TreePlan {
         version: profile.version().to_owned(),
         mcu: tree.mcu.clone(),
+        fpu: tree.fpu.clone(),
+        process_stack_bytes,
+        exceptions_stack_bytes,
+        core_clock: context.names.core_clock.clone(),
         startup_mk: tree.startup_mk.clone(),
         platform_mk: tree.platform_mk.clone(),
         port_mk: tree.port_mk.clone(),

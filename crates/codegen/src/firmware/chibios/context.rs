@@ -8,7 +8,7 @@ use sensedsl_board::profile::{Fallback, TargetProfile};
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0506_hardware_limit, e0511_unknown_port};
-use sensedsl_model::kind::KindName;
+use sensedsl_model::kind::{KindName, Role};
 
 use super::names::Names;
 use crate::job::{BoardJob, JobConnection, JobDevice, Pad};
@@ -112,6 +112,9 @@ impl<'a> Context<'a> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<PadPlan> {
         let (name, usage) = (&pad.pin.name, pad.usage?);
+        if self.names.drivers.gpio == "GPIOv1" {
+            return self.pad(pad, unnumbered_mode(pad.role, drive), diagnostics);
+        }
         let Some(number) = pad.alternate else {
             let span = self.job.board.table_span(usage.range.clone());
             let message =
@@ -134,13 +137,26 @@ impl<'a> Context<'a> {
 /// Pads of one port.
 const PADS_OF_PORT: u8 = 16;
 
-/// The first timer that no device has; none for the core's tick.
+/// Steps of the kernel's time in a second, with a timer of its own: all that a 16-bit one can make of any clock.
+pub(super) const KERNEL_HZ: u32 = 10_000;
+
+/// Steps of the kernel's time in a second with the core's tick.
+pub(super) const TICK_HZ: u32 = 1_000;
+
+/// The first timer that no device has and that does not wrap within a cycle; none for the core's tick.
 fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
-    let units: BTreeSet<UnitName> =
-        job.devices.iter().filter_map(|device| device.unit).map(UnitName::new).collect();
+    let taken = job.connections.iter().filter_map(|one| one.unit);
+    let units: BTreeSet<UnitName> = taken.map(UnitName::new).collect();
+    let cycles = job.connections.iter().map(|one| one.cycle.delay_ms.max(one.cycle.start_ms));
+    let longest_ms = u64::from(cycles.max().unwrap_or(0));
     let kernel = &profile.kernel;
     let is_free = |timer: &&String| units.iter().all(|unit| unit.as_str() != timer.as_str());
-    let free = kernel.timers.iter().find(is_free);
+    // Half of what it counts is room for a thread that comes late.
+    let lasts = |timer: &&String| {
+        let bits = profile.timer(timer).map_or(0, |timer| timer.bits.min(32));
+        longest_ms * u64::from(KERNEL_HZ) / 1_000 < (1 << bits) / 2
+    };
+    let free = kernel.timers.iter().filter(is_free).find(lasts);
     match kernel.fallback {
         Some(Fallback::Systick) => free.cloned(),
         // Without a fallback the wiring has kept one free.
@@ -156,4 +172,14 @@ pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
         Drive::Fast => " | PAL_STM32_OSPEED_HIGHEST",
     };
     format!("PAL_MODE_ALTERNATE({number}){extra}")
+}
+
+/// The mode of a pad where it has no number of an alternate function: an output is the peripheral's, and an input is
+/// any input, which the peripheral reads as well.
+fn unnumbered_mode(role: Role, drive: Drive) -> &'static str {
+    match drive {
+        Drive::OpenDrain => "PAL_MODE_STM32_ALTERNATE_OPENDRAIN",
+        Drive::Plain | Drive::Fast if role.is_driven_by_device() => "PAL_MODE_INPUT",
+        Drive::Plain | Drive::Fast => "PAL_MODE_STM32_ALTERNATE_PUSHPULL",
+    }
 }

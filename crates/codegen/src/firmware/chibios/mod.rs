@@ -11,6 +11,7 @@ mod context;
 mod digital;
 mod doctor;
 mod encoder;
+mod gpio;
 mod i2c;
 mod icu;
 mod link;
@@ -39,6 +40,7 @@ use section::Peripheral;
 
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
 const PERIPHERALS: &[&Peripheral] = &[
+    &gpio::PERIPHERAL,
     &adc::PERIPHERAL, //
     &i2c::PERIPHERAL,
     &icu::PERIPHERAL,

@@ -24,7 +24,12 @@ pub struct Names {
     pub drivers: Drivers,
     /// The option that names the kernel's timer.
     pub(super) kernel_option: String,
+    /// The core's clock, which its cycle counter counts.
+    #[serde(default = "core_clock")]
+    pub(super) core_clock: String,
     pub(super) off: Off,
+    /// How the field is called that moves a unit to other pins; none where every pin has a choice.
+    remap: Option<String>,
     timers: Timers,
     pub(super) adcs: Group,
     pub(super) i2cs: Group,
@@ -52,6 +57,8 @@ pub struct Line {
     pub devices: Vec<String>,
     /// Where the line has its own list of drivers.
     platform_mk: Option<String>,
+    /// Where the line has its own unit for real numbers.
+    fpu: Option<String>,
 }
 
 /// Files of the tree, relative to its root.
@@ -60,6 +67,8 @@ pub struct Line {
 pub struct Tree {
     /// The core, as the compiler is told.
     pub mcu: String,
+    /// The core's unit for real numbers, as the compiler is told; none where there is none.
+    pub fpu: Option<String>,
     /// Start-up code.
     pub startup_mk: String,
     /// The platform's drivers.
@@ -171,6 +180,8 @@ struct Unit {
     rx: Option<String>,
     tx: Option<String>,
     dma: Option<String>,
+    /// The field that moves it to other pins.
+    remap: Option<String>,
     /// How its options name a stream, with `{controller}` and `{stream}`.
     stream: Option<String>,
     /// Options that must be on as well.
@@ -180,6 +191,10 @@ struct Unit {
 
 /// How an option names a stream.
 const STREAM: &str = "STM32_DMA_STREAM_ID({controller}, {stream})";
+
+fn core_clock() -> String {
+    "STM32_HCLK".to_owned()
+}
 
 fn apply(rule: &str, name: &str) -> String {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -202,6 +217,9 @@ impl Names {
         if let Some(platform_mk) = &names.line.platform_mk {
             names.tree.platform_mk.clone_from(platform_mk);
         }
+        if names.line.fpu.is_some() {
+            names.tree.fpu.clone_from(&names.line.fpu);
+        }
         names.line_name.clone_from(&profile.line);
         Ok(names)
     }
@@ -210,6 +228,12 @@ impl Names {
     pub(super) fn driver(&self, unit: &str) -> Option<String> {
         let own = self.own(unit).and_then(|own| own.driver.as_ref());
         Some(apply(own.or(self.group(unit).map(|group| &group.driver))?, unit))
+    }
+
+    /// The field that moves a unit to other pins, where pins have no choice of their own.
+    pub(super) fn remap(&self, unit: &str) -> Option<String> {
+        let own = self.own(unit).and_then(|own| own.remap.as_ref());
+        Some(apply(own.or(self.remap.as_ref())?, unit))
     }
 
     /// The options that turn a unit on.

@@ -71,5 +71,7 @@ pub(super) const FILES: &[(&str, &str)] = files![
     "chibios/up_rt.h",
     "chibios/up_shell.c",
     "chibios/up_shell.h",
+    "chibios/up_wait.c",
+    "chibios/up_wait.h",
     "chibios/uproxy.mk",
 ];

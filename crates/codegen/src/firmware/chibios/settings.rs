@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sensedsl_board::signal::UnitName;
 
-use super::context::Context;
+use super::context::{Context, KERNEL_HZ, TICK_HZ};
 use super::link::LinkPlan;
 use super::names::Setting;
 use super::section::{GuardPlan, Section};
@@ -12,10 +12,8 @@ use super::section::{GuardPlan, Section};
 /// All settings.
 #[derive(Clone, Debug)]
 pub(super) struct SettingsPlan {
-    /// The kernel has the core's tick instead of a timer.
-    pub(super) is_systick: bool,
-    /// What has the kernel's time, for people.
-    pub(super) kernel_clock: String,
+    /// What the kernel's time comes from.
+    pub(super) kernel: KernelPlan,
     /// For `halconf.h`.
     pub(super) hal: Vec<Setting>,
     /// For `mcuconf.h`.
@@ -24,13 +22,49 @@ pub(super) struct SettingsPlan {
     dma: Vec<String>,
 }
 
+/// What the kernel's time comes from.
+#[derive(Clone, Debug)]
+pub(super) struct KernelPlan {
+    /// `TIM2`
+    pub(super) name: String,
+    /// For people.
+    pub(super) why: String,
+    /// A timer wakes the kernel when something is due, instead of a tick.
+    pub(super) is_tickless: bool,
+    /// Width of the counter.
+    pub(super) bits: u8,
+    pub(super) hz: u32,
+}
+
+impl KernelPlan {
+    fn new(context: &Context<'_>) -> Self {
+        let Some(kernel) = &context.kernel_timer else {
+            let why = "the core's own tick, for there is no timer that could have it".to_owned();
+            return Self {
+                name: "SysTick".to_owned(),
+                why,
+                is_tickless: false,
+                bits: 32,
+                hz: TICK_HZ,
+            };
+        };
+        let bits = context.profile.timer(kernel).map_or(32, |timer| timer.bits);
+        let why = format!(
+            "{kernel}, which counts {bits} bits and wakes the kernel when something is due"
+        );
+        Self { name: kernel.clone(), why, is_tickless: true, bits, hz: KERNEL_HZ }
+    }
+}
+
 pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan) -> SettingsPlan {
     let units: BTreeSet<&UnitName> = sections.iter().flat_map(|section| &section.units).collect();
     let used = units.iter().flat_map(|unit| context.names.switches(unit.as_str()));
     let own = sections.iter().flat_map(|section| section.switches.iter().cloned());
     let used: Vec<String> = link.switches().iter().cloned().chain(used).chain(own).collect();
     let off = context.names.off.switches.iter().filter(|switch| !used.contains(switch));
-    let mut mcu: Vec<Setting> = off.map(|switch| Setting::new(switch, "FALSE")).collect();
+    let changes = context.chibios.changes.iter();
+    let mut mcu: Vec<Setting> = changes.map(|(name, value)| Setting::new(name, value)).collect();
+    mcu.extend(off.map(|switch| Setting::new(switch, "FALSE")));
     if let Some(timer) = &context.kernel_timer {
         let number = timer.trim_start_matches("TIM");
         mcu.push(Setting::new(&context.names.kernel_option, number));
@@ -42,8 +76,7 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
     SettingsPlan {
-        is_systick: context.kernel_timer.is_none(),
-        kernel_clock: context.kernel_timer.clone().unwrap_or_else(|| "SysTick".to_owned()),
+        kernel: KernelPlan::new(context),
         hal: hal(sections, link),
         mcu,
         dma: streams.into_iter().map(|setting| setting.name).collect(),
@@ -68,22 +101,40 @@ fn streams(context: &Context<'_>, units: &BTreeSet<&UnitName>) -> Vec<Setting> {
     settings
 }
 
+/// Drivers that a demo may turn on and nothing here uses unless a section says so.
+const DRIVERS: [&str; 20] = [
+    "ADC", "CAN", "CRY", "DAC", "EFL", "GPT", "I2C", "I2S", "ICU", "MAC", "MMC_SPI", "PWM", "RTC",
+    "SDC", "SIO", "SPI", "TRNG", "UART", "WDG", "WSPI",
+];
+
+/// Each driver once, on where anything wants it on.
 fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
     let truth = |value: bool| if value { "TRUE" } else { "FALSE" };
     let mut settings = vec![Setting::new("HAL_USE_PAL", "TRUE")];
-    settings.extend(sections.iter().filter_map(|section| section.switch.clone()));
-    settings.extend([
+    let link_switches = [
         Setting::new("HAL_USE_SERIAL", truth(!link.is_usb())),
         Setting::new("HAL_USE_SERIAL_USB", truth(link.is_usb())),
         Setting::new("HAL_USE_USB", truth(link.is_usb())),
         Setting::new("HAL_USE_WDG", "TRUE"),
-    ]);
+    ];
+    let switches = sections.iter().filter_map(|section| section.switch.clone());
+    let off = DRIVERS.iter().map(|name| Setting::new(&format!("HAL_USE_{name}"), "FALSE"));
+    for switch in switches.chain(link_switches).chain(off) {
+        match settings.iter_mut().find(|one| one.name == switch.name) {
+            Some(one) if switch.value == "TRUE" => one.value = switch.value,
+            Some(_) => {}
+            None => settings.push(switch),
+        }
+    }
     settings.extend(sections.iter().flat_map(|section| section.hal.iter().cloned()));
-    if !link.is_usb() {
-        settings.push(Setting::new("SERIAL_BUFFERS_SIZE", "256"));
+    if settings.iter().any(|one| one.name == "HAL_USE_SERIAL" && one.value == "TRUE") {
+        settings.push(Setting::new("SERIAL_BUFFERS_SIZE", SERIAL_BYTES));
     }
     settings
 }
+
+/// Bytes of the queues of a serial port, each way.
+const SERIAL_BYTES: &str = "256";
 
 /// What the C compiler is asked to check against the user's tree, because nothing else would.
 pub(super) fn guards(

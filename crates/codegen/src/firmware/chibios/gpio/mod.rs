@@ -1,0 +1,38 @@
+//! What an MCU's pins need beside their modes: where the peripheral decides on which pins it is.
+
+mod v1;
+
+use super::context::{Context, PadPlan};
+use super::section::{Peripheral, Section, Version, nothing};
+use sensedsl_board::pin::PinName;
+use sensedsl_diagnostics::Diagnostic;
+
+/// See the module. The modes themselves are in `context.rs`.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "GPIO",
+    kind: None,
+    version: |drivers| &drivers.gpio,
+    versions: &[
+        Version { name: "GPIOv1", plan: v1::plan },
+        Version { name: "GPIOv2", plan: by_pin },
+        Version { name: "GPIOv3", plan: by_pin },
+    ],
+    lacks: nothing,
+    runtime: &[],
+};
+
+/// Every pin has its own number of an alternate function: its mode says everything.
+fn by_pin(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+    Section { pads: released(context), ..Section::default() }
+}
+
+/// Pins that the system's folder of another board makes outputs, and that nothing here drives.
+fn released(context: &Context<'_>) -> Vec<PadPlan> {
+    let is_free = |pin: &&PinName| context.job.all_pads().all(|pad| pad.pin.name != **pin);
+    let pins = context.chibios.released.iter().filter(is_free);
+    let pads = pins.filter_map(|pin| {
+        let line = context.line(pin)?;
+        Some(PadPlan { pin: pin.clone(), line, mode: "PAL_MODE_INPUT".to_owned(), is_high: false })
+    });
+    pads.collect()
+}
