@@ -1,11 +1,17 @@
 //! The arguments of all commands.
 
+mod build;
+mod parts;
+
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use sensedsl_model::kind::KindName;
+
+pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
+pub(crate) use parts::{PartsArgs, PartsOrder};
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///
@@ -34,6 +40,10 @@ pub(crate) enum Command {
     Solve(SolveArgs),
     /// Write firmware, host applications, wiring sheet and picture
     Generate(GenerateArgs),
+    /// Build the firmware of a file, or of a generated folder, with your tree of `ChibiOS`
+    Build(BuildArgs),
+    /// Build the firmware and write it to the board
+    Flash(FlashArgs),
     /// Explain a diagnostic, why a device is on its pin, or what the hardware has to do in a second
     Explain(ExplainArgs),
     /// Say what can still be added to a wiring, and what blocks the next device
@@ -271,70 +281,6 @@ pub(crate) struct DiffArgs {
     /// How to print it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PartsArgs {
-    /// The file; - is the standard input
-    #[arg(conflicts_with_all = ["list", "table"])]
-    pub(crate) file: Option<PathBuf>,
-    /// List the parts instead, or those with these words in their numbers or package
-    #[arg(long, value_name = "SEARCH", num_args = 0..=1)]
-    pub(crate) list: Option<Option<String>>,
-    /// Print the table of a part as CSV instead
-    #[arg(long, value_name = "PART", conflicts_with = "list")]
-    pub(crate) table: Option<String>,
-    /// Print the target profile of a part instead, with the other parts of its family
-    #[arg(long, value_name = "PART", conflicts_with_all = ["file", "list", "table"])]
-    pub(crate) profile: Option<String>,
-    /// Only parts of this family: STM32F4, G0, RP2040
-    #[arg(long)]
-    pub(crate) family: Option<String>,
-    /// Only parts in this package: LQFP, LQFP48, 48
-    #[arg(long)]
-    pub(crate) package: Option<String>,
-    /// Only parts with at most that many contacts
-    #[arg(long, value_name = "N")]
-    pub(crate) max_pins: Option<u32>,
-    /// Only parts with this core: M0+, Cortex-M4, AVR8
-    #[arg(long)]
-    pub(crate) core: Option<String>,
-    /// Only parts with at least so many KB of flash; flash beside the part is as large as you like
-    #[arg(long, value_name = "KB")]
-    pub(crate) min_flash: Option<usize>,
-    /// Only parts with at least so many KB of RAM
-    #[arg(long, value_name = "KB")]
-    pub(crate) min_ram: Option<usize>,
-    /// What comes first: of a file the cheapest wiring unless you say otherwise, of a list the names
-    #[arg(long, value_enum)]
-    pub(crate) sort: Option<PartsOrder>,
-    /// Print so many at most
-    #[arg(long, value_name = "N", requires = "file")]
-    pub(crate) limit: Option<usize>,
-    /// Stop after that time with those found so far; so does Ctrl-C
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "file")]
-    pub(crate) timeout: Option<f64>,
-    /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
-    #[arg(long, value_name = "NAME")]
-    pub(crate) target: Option<String>,
-    #[command(flatten)]
-    pub(crate) reach: Reach,
-    /// How to print it
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: TableFormat,
-}
-
-/// What comes first among parts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PartsOrder {
-    /// The cheapest wiring
-    Cost,
-    /// The fewest contacts
-    Pins,
-    /// The least flash; parts whose flash is beside them come last
-    Flash,
-    /// The least RAM
-    Ram,
 }
 
 #[derive(Debug, Args)]

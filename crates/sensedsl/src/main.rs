@@ -8,6 +8,7 @@
 mod cli;
 mod commands;
 mod files;
+mod firmware;
 mod terminal;
 
 use std::process::ExitCode;
@@ -92,6 +93,8 @@ fn run(command: Command, terminal: &mut Terminal) -> anyhow::Result<Status> {
         Command::Check(args) => commands::check::run(&args, terminal),
         Command::Solve(args) => commands::solve::run(&args, terminal),
         Command::Generate(args) => commands::generate::run(&args, terminal),
+        Command::Build(args) => commands::build::run(&args, terminal),
+        Command::Flash(args) => commands::flash::run(&args, terminal),
         Command::Explain(args) => commands::explain::run(&args, terminal),
         Command::Capacity(args) => commands::capacity::run(&args, terminal),
         Command::Diff(args) => commands::diff::run(&args, terminal),

@@ -30,6 +30,11 @@ impl Terminal {
         AutoStream::choice(&io::stdout()) != ColorChoice::Never && io::stdout().is_terminal()
     }
 
+    /// Whether nothing but errors and the result is wanted.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// Whether more is wanted than usual.
     pub(crate) fn verbose(&self) -> bool {
         self.verbose

@@ -6,6 +6,7 @@
 //! tree, which no registry has: without it the generated applications are only looked at.
 
 mod applications;
+mod building;
 mod chibios;
 mod codecs;
 mod core;

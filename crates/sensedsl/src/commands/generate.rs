@@ -10,7 +10,7 @@ use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
     e0509_not_written, e0510_unfinished,
 };
-use sensedsl_diagnostics::{Diagnostic, Span, visible};
+use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
 use sensedsl_model::design::Design;
 use sensedsl_model::{apply_allows, sort};
 use sensedsl_report::human;
@@ -32,6 +32,29 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     if !args.host.is_empty() && args.without.contains(&Without::Host) {
         bail!("--host asks for what --without host leaves out");
     }
+    made(args, terminal, &mut |made| match made.update(args, terminal)? {
+        Ok(changes) => {
+            report(args, terminal, made.design, made.assignment, &changes)?;
+            Ok(Status::Done)
+        }
+        Err(status) => Ok(status),
+    })
+}
+
+/// A design with everything that is to be written of it.
+pub(super) struct Made<'a> {
+    pub(super) design: &'a Design,
+    pub(super) assignment: &'a Assignment,
+    pub(super) files: &'a FileSet,
+    pub(super) sources: &'a SourceMap,
+}
+
+/// Makes everything, and hands it on where nothing is wrong.
+pub(super) fn made(
+    args: &GenerateArgs,
+    terminal: &Terminal,
+    then: &mut dyn FnMut(&Made<'_>) -> Result<Status>,
+) -> Result<Status> {
     let keep = input::keep(args.keep.as_deref())?;
     let snapshot = input::load(&args.file, &args.on);
     let sources = snapshot.sources();
@@ -52,15 +75,24 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status
     if has_errors(&diagnostics) {
         return Ok(Status::Wrong);
     }
-    let changes = match update(args, terminal, design, &files)? {
-        Ok(changes) => changes,
-        Err(refusal) => {
-            terminal.diagnostics(&[*refusal.why], sources)?;
-            return Ok(refusal.status);
+    then(&Made { design, assignment, files: &files, sources })
+}
+
+impl Made<'_> {
+    /// Brings the folder up to date. Where that cannot be, the reason has been said.
+    pub(super) fn update(
+        &self,
+        args: &GenerateArgs,
+        terminal: &Terminal,
+    ) -> Result<Result<Changes, Status>> {
+        match update(args, terminal, self.design, self.files)? {
+            Ok(changes) => Ok(Ok(changes)),
+            Err(refusal) => {
+                terminal.diagnostics(&[*refusal.why], self.sources)?;
+                Ok(Err(refusal.status))
+            }
         }
-    };
-    report(args, terminal, design, assignment, &changes)?;
-    Ok(Status::Done)
+    }
 }
 
 /// All that is to be written. A gap of the firmware is an error: whoever can do without says so.

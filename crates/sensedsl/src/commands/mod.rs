@@ -1,6 +1,7 @@
 //! One file for each command.
 
 pub(crate) mod boards;
+pub(crate) mod build;
 pub(crate) mod capacity;
 pub(crate) mod check;
 mod deadline;
@@ -8,6 +9,7 @@ pub(crate) mod diff;
 pub(crate) mod drivers;
 pub(crate) mod explain;
 mod facts;
+pub(crate) mod flash;
 pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod help;

@@ -1,0 +1,31 @@
+//! E0515: the tree lacks a file that the board needs.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0515",
+    severity: Severity::Error,
+    title: "the tree lacks a file that the board needs",
+    explanation: r#"Firmware is built from files of the ChibiOS tree: start-up code, drivers, the folder of the board, and the
+configuration of a demo that the board's own builds on. One of them is missing, so the tree was fetched in
+part (a sparse clone, `os` without `demos`), or something was removed from it.
+
+Way out: fetch the tree again, whole:
+
+    git clone --depth 1 -b stable_21.11.x https://github.com/ChibiOS/ChibiOS.git
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The tree, the board, and the files that are missing.
+#[must_use]
+pub fn tree_incomplete(span: Span, folder: &str, board: &str, missing: &[String]) -> Diagnostic {
+    let all = missing.join("`, `");
+    Diagnostic::new(CODE, span, format!("the ChibiOS tree `{folder}` lacks what {board} needs: `{all}`"))
+        .help("the tree is not whole: fetch it again, with `demos` and all of `os`")
+}

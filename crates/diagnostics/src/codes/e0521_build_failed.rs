@@ -1,0 +1,29 @@
+//! E0521: make failed.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0521",
+    severity: Severity::Error,
+    title: "make failed",
+    explanation: r#"Everything that the build needs was there, and make ended with an error, which stands above the message. Where
+it names a file in `user/`, the mistake is in your own code. A `_Static_assert` of `generated/sense_hw.c` says that
+your ChibiOS tree is not what the wiring was computed for (other clocks, another DMA stream).
+
+Way out: mend what the first error names. `make -C FOLDER CHIBIOS=… USE_VERBOSE_COMPILE=yes` shows the whole
+commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a bug of SenseDSL.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The board, and how make ended.
+#[must_use]
+pub fn build_failed(span: Span, board: &str, how: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the firmware of {board} was not built: make ended with {how}"))
+        .help("mend what the first error above names; nothing was flashed")
+}
