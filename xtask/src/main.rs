@@ -2,10 +2,11 @@
 //!
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
-//! break something. `parts` writes the table of known parts, or compares it;
+//! break something. `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
 //! `profiles` compares the target profiles with a tree of ChibiOS. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
+mod firmware;
 mod fuzz;
 mod parts;
 mod profiles;
@@ -31,12 +32,13 @@ fn run() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
         Some((task, [])) if task == "bless" => bless(),
+        Some((task, rest)) if task == "firmware" => firmware::run(rest),
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => profiles::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
+            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
         ),
     }
 }

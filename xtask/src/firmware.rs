@@ -1,0 +1,155 @@
+//! `cargo xtask firmware --matrix`: the firmware of small designs, one a kind, for every board that a
+//! profile covers, built with the tree of ChibiOS that `CHIBIOS` names.
+//!
+//! `cells` makes designs and firmware, `build` calls make and reads what comes of it, `table` prints.
+//! Everything is built in a scratch folder. A cell is a whole build, with its own configuration, so its
+//! sizes are those of a user's program; with `ccache` on the machine what is the same in many cells is
+//! compiled once.
+
+mod build;
+mod cells;
+mod table;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::{Context as _, Result, bail, ensure};
+
+use build::Built;
+use cells::{Cell, Made};
+
+use crate::say;
+
+const USAGE: &str = "CHIBIOS=FOLDER cargo xtask firmware --matrix [--boards A,B] [--kinds a,b] [--jobs N] \
+                     [--scratch FOLDER] [--write]";
+
+/// The page that a complete run writes.
+const PAGE: &str = "docs/firmware-matrix.md";
+
+/// What is asked for.
+#[derive(Debug, Default)]
+struct Options {
+    boards: Option<BTreeSet<String>>,
+    kinds: Option<BTreeSet<String>>,
+    jobs: usize,
+    scratch: Option<PathBuf>,
+    write: bool,
+}
+
+impl Options {
+    fn read(arguments: &[String]) -> Result<Self> {
+        let mut options = Self { jobs: 2, ..Self::default() };
+        let mut words = arguments.iter();
+        ensure!(words.next().is_some_and(|word| word == "--matrix"), USAGE);
+        while let Some(word) = words.next() {
+            let mut next = || words.next().context(USAGE);
+            let listed = |text: &str| Some(text.split(',').map(str::to_owned).collect());
+            match word.as_str() {
+                "--boards" => options.boards = listed(next()?),
+                "--kinds" => options.kinds = listed(next()?),
+                "--jobs" => options.jobs = next()?.parse().context(USAGE)?,
+                "--scratch" => options.scratch = Some(next()?.into()),
+                "--write" => options.write = true,
+                _ => bail!(USAGE),
+            }
+        }
+        ensure!(options.jobs > 0, USAGE);
+        let is_part = options.boards.is_some() || options.kinds.is_some();
+        ensure!(!(options.write && is_part), "--write is for the whole matrix");
+        Ok(options)
+    }
+}
+
+/// A cell with what came of it.
+struct Done {
+    cell: Cell,
+    outcome: Outcome,
+}
+
+/// What came of a cell.
+enum Outcome {
+    /// The MCU has no such unit, or the system no driver for it.
+    NotOffered,
+    /// The units are there, but not on pins that are free together.
+    NoWiring(String),
+    /// Built; without the kinds that did not fit beside the others.
+    Built(Built, Vec<&'static str>),
+    /// Neither generated nor built, and why.
+    Failed(String),
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &[String]) -> Result<()> {
+    let options = Options::read(arguments)?;
+    let tree = std::env::var("CHIBIOS").context("CHIBIOS does not name a ChibiOS tree")?;
+    let tree = Path::new(&tree).canonicalize().with_context(|| tree.clone())?;
+    let scratch = options.scratch.clone().unwrap_or_else(|| {
+        std::env::temp_dir().join(format!("sensedsl-matrix-{}", std::process::id()))
+    });
+    let cells = cells::all(options.boards.as_ref(), options.kinds.as_ref())?;
+    let done = run_all(cells, options.jobs, &tree, &scratch);
+    if options.scratch.is_none() {
+        std::fs::remove_dir_all(&scratch).with_context(|| scratch.display().to_string())?;
+    }
+    let page = table::page(&done);
+    if options.write {
+        std::fs::write(PAGE, &page).context(PAGE)?;
+    } else {
+        say(&page)?;
+    }
+    let failed = done.iter().filter(|one| matches!(one.outcome, Outcome::Failed(_))).count();
+    ensure!(failed == 0, "{failed} of {} cells failed", done.len());
+    Ok(())
+}
+
+/// Works on several cells at once; the result is in the order of the cells.
+fn run_all(cells: Vec<Cell>, jobs: usize, tree: &Path, scratch: &Path) -> Vec<Done> {
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<(usize, Outcome)>> = Mutex::default();
+    std::thread::scope(|scope| {
+        for _ in 0..jobs {
+            let _ = scope.spawn(|| {
+                loop {
+                    let at = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(cell) = cells.get(at) else { return };
+                    let outcome = outcome(cell, tree, &scratch.join(at.to_string()));
+                    tell(cell, &outcome, at, cells.len());
+                    let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
+                    results.push((at, outcome));
+                }
+            });
+        }
+    });
+    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.sort_by_key(|(at, _)| *at);
+    let pair = |(cell, (_, outcome))| Done { cell, outcome };
+    cells.into_iter().zip(results).map(pair).collect()
+}
+
+fn outcome(cell: &Cell, tree: &Path, folder: &Path) -> Outcome {
+    match cells::make(cell) {
+        Made::NotOffered => Outcome::NotOffered,
+        Made::NoWiring(why) => Outcome::NoWiring(why),
+        Made::Refused(why) => Outcome::Failed(why),
+        Made::Files(files, left_out) => match build::build(&files, tree, folder) {
+            Ok(built) => Outcome::Built(built, left_out),
+            Err(error) => Outcome::Failed(format!("{error:#}")),
+        },
+    }
+}
+
+/// A line on the standard error: the whole takes long.
+fn tell(cell: &Cell, outcome: &Outcome, at: usize, all: usize) {
+    use std::io::Write as _;
+    let what = match outcome {
+        Outcome::NotOffered => "not offered".to_owned(),
+        Outcome::NoWiring(_) => "no wiring".to_owned(),
+        Outcome::Built(built, _) => built.sizes(),
+        Outcome::Failed(why) => format!("FAILED: {why}"),
+    };
+    let (board, kind) = (&cell.board, &cell.kind);
+    // There is nowhere to report that reporting failed.
+    let _ = writeln!(std::io::stderr(), "{}/{all} {board} {kind}: {what}", at + 1);
+}

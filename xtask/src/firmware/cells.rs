@@ -1,0 +1,188 @@
+//! What is built: a board and a kind in, the files of its firmware out.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use anyhow::{Context as _, Result, ensure};
+use sensedsl_board::catalog;
+use sensedsl_board::profile::{self, Target, TargetProfile};
+use sensedsl_codegen::fileset::FileSet;
+use sensedsl_codegen::target;
+use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_session::{Ask, On, Workspace};
+
+/// Where the designs are, one a kind.
+const DESIGNS: &str = "tests/firmware/kinds";
+/// All kinds in one design.
+pub(super) const ALL: &str = "all";
+/// The paper's example, and the paper's car.
+const EXAMPLES: [(&str, &str); 2] =
+    [("fig2", "examples/fig2.sense"), ("car", "examples/miniature_car.sense")];
+
+/// The columns of the table, in the order of the language's page.
+pub(super) const KINDS: [&str; 10] =
+    ["analog", "i2c", "icu", "encoder", "digital", "uart", "spi", "pwm", "dac", "can"];
+
+/// A board and what it is built for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Cell {
+    pub(super) board: String,
+    /// The family of its MCU, for people.
+    pub(super) family: String,
+    pub(super) kind: String,
+    mcu: &'static str,
+}
+
+/// What became of a cell before anything is built.
+pub(super) enum Made {
+    NotOffered,
+    NoWiring(String),
+    Refused(String),
+    /// The firmware of one board, and the kinds that did not fit.
+    Files(FileSet, Vec<&'static str>),
+}
+
+/// The boards that a profile covers and the tree knows, with all kinds.
+pub(super) fn all(
+    boards: Option<&BTreeSet<String>>,
+    kinds: Option<&BTreeSet<String>>,
+) -> Result<Vec<Cell>> {
+    let columns = KINDS.into_iter().chain([ALL]).chain(EXAMPLES.map(|(name, _)| name));
+    let columns: Vec<&str> =
+        columns.filter(|kind| kinds.is_none_or(|wanted| wanted.contains(*kind))).collect();
+    let mut cells = Vec::new();
+    for entry in catalog::all() {
+        let wanted = boards.is_none_or(|wanted| wanted.contains(entry.name));
+        let in_tree = entry.board().is_ok_and(|board| board.chibios.is_some());
+        if let (true, true, Some(profile)) = (wanted, in_tree, profile_of(entry.mcu)) {
+            cells.extend(columns.iter().map(|kind| Cell {
+                board: entry.name.to_owned(),
+                family: profile.family.clone(),
+                kind: (*kind).to_owned(),
+                mcu: entry.mcu,
+            }));
+        }
+    }
+    ensure!(!cells.is_empty(), "there is no such board with a profile, or no such kind");
+    Ok(cells)
+}
+
+fn profile_of(mcu: &str) -> Option<std::sync::Arc<TargetProfile>> {
+    match profile::find(profile::DEFAULT, mcu) {
+        Ok(Target::Profile(profile)) => Some(profile.into()),
+        Ok(Target::None) | Err(_) => None,
+    }
+}
+
+/// The firmware of a cell.
+pub(super) fn make(cell: &Cell) -> Made {
+    let Some(profile) = profile_of(cell.mcu) else { return Made::NotOffered };
+    let board = cell.board.replace('-', "_");
+    if let Some((_, path)) = EXAMPLES.iter().find(|(name, _)| *name == cell.kind) {
+        return match read(path) {
+            Ok(text) => firmware(&text, Some(&cell.board), Vec::new()),
+            Err(error) => Made::Refused(format!("{error:#}")),
+        };
+    }
+    let offered = |kind: &&&str| has(&profile, kind);
+    if cell.kind == ALL {
+        return together(&board, KINDS.iter().filter(offered));
+    }
+    if !has(&profile, &cell.kind) {
+        return Made::NotOffered;
+    }
+    match design(&board, &[&cell.kind]) {
+        Ok(text) => firmware(&text, None, Vec::new()),
+        Err(error) => Made::Refused(format!("{error:#}")),
+    }
+}
+
+/// As many kinds as have a wiring together, the first ones first.
+fn together<'a>(board: &str, kinds: impl Iterator<Item = &'a &'static str>) -> Made {
+    let (mut taken, mut left_out): (Vec<&str>, Vec<&'static str>) = (Vec::new(), Vec::new());
+    let mut made = Made::NotOffered;
+    for kind in kinds {
+        taken.push(kind);
+        let text = match design(board, &taken) {
+            Ok(text) => text,
+            Err(error) => return Made::Refused(format!("{error:#}")),
+        };
+        match firmware(&text, None, Vec::new()) {
+            // Last, because what was there before still fits.
+            Made::NoWiring(_) => {
+                let _ = taken.pop();
+                left_out.push(kind);
+            }
+            other => made = other,
+        }
+    }
+    match made {
+        Made::Files(files, _) => Made::Files(files, left_out),
+        other => other,
+    }
+}
+
+/// Whether the MCU has units of a kind that the system serves.
+fn has(profile: &TargetProfile, kind: &str) -> bool {
+    match kind {
+        "analog" => !profile.adcs.is_empty(),
+        "i2c" => !profile.i2cs.is_empty(),
+        "icu" => profile.timers.iter().any(|timer| timer.icu.is_some()),
+        "pwm" => profile.timers.iter().any(|timer| timer.pwm.is_some()),
+        "uart" => !profile.serials.is_empty(),
+        "spi" => !profile.spis.is_empty(),
+        "dac" => !profile.dacs.is_empty(),
+        "can" => !profile.cans.is_empty(),
+        // Every MCU has pins, and timers that count by themselves.
+        _ => true,
+    }
+}
+
+/// One design of several kinds.
+fn design(board: &str, kinds: &[&str]) -> Result<String> {
+    let mut devices = String::new();
+    for kind in kinds {
+        let text = read(&format!("{DESIGNS}/{kind}.sense"))?;
+        let inside = text.split_once("{\n").and_then(|(_, rest)| rest.rsplit_once('}'));
+        devices.push_str(inside.with_context(|| kind.to_string())?.0);
+    }
+    Ok(format!("board {board} {{\n{devices}}}\n"))
+}
+
+fn read(path: &str) -> Result<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    std::fs::read_to_string(root.join(path)).with_context(|| path.to_owned())
+}
+
+/// No design names another file.
+struct Alone;
+
+impl Files for Alone {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+/// Solves and generates.
+fn firmware(text: &str, on: Option<&str>, left_out: Vec<&'static str>) -> Made {
+    const NAME: &str = "cell.sense";
+    let mut workspace = Workspace::default();
+    workspace.open(NAME, text);
+    let snapshot = workspace.snapshot(NAME, On { board: on, target: None }, &Alone);
+    let answer = snapshot.solve(&Ask::default());
+    let Some((design, wiring)) = answer.wired() else {
+        return Made::NoWiring(first(&answer.diagnostics));
+    };
+    match target::firmware(design, wiring) {
+        Ok(files) => Made::Files(files, left_out),
+        Err(diagnostics) => Made::Refused(first(&diagnostics)),
+    }
+}
+
+/// The first error: what the others come from.
+fn first(diagnostics: &[Diagnostic]) -> String {
+    let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
+    let first = diagnostics.iter().find(is_error);
+    first.map_or_else(String::new, |one| format!("{}: {}", one.code.info().code, one.message))
+}

@@ -1,0 +1,106 @@
+//! The table of a run, as Markdown.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use super::cells::{ALL, KINDS};
+use super::{Done, Outcome};
+
+const HEAD: &str = "# Firmware, board by board
+
+Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
+by `cargo xtask firmware --matrix`: text, data and bss of the development build in bytes, shell and link among them,
+without the heap, which is whatever is left. `all` is a design with all kinds that the board's MCU has, as far as they
+fit on its pins together; Fig. 2 and the paper's car are `fig2` and `car`. `·`: the MCU has no such unit, or ChibiOS no
+driver for it. `-`: the units are there, but not on free pins of this board.
+";
+
+/// The whole page.
+pub(super) fn page(done: &[Done]) -> String {
+    let mut page = HEAD.to_owned();
+    let columns: Vec<&str> = KINDS
+        .into_iter()
+        .chain([ALL, "fig2", "car"])
+        .filter(|kind| done.iter().any(|one| one.cell.kind == *kind))
+        .collect();
+    // Writing to a string cannot fail.
+    let _ = writeln!(page, "\n| board | {} |", columns.join(" | "));
+    let _ = writeln!(page, "|{}", " --- |".repeat(columns.len() + 1));
+    let boards: Vec<&Done> = {
+        let mut seen = BTreeSet::new();
+        done.iter().filter(|one| seen.insert(&one.cell.board)).collect()
+    };
+    for first in &boards {
+        let of = |kind: &&str| {
+            let is = |one: &&Done| one.cell.board == first.cell.board && one.cell.kind == **kind;
+            done.iter().find(is).map_or("", |one| mark(&one.outcome)).to_owned()
+        };
+        let sizes = |kind: &&str| {
+            let is = |one: &&Done| one.cell.board == first.cell.board && one.cell.kind == **kind;
+            match done.iter().find(is).map(|one| &one.outcome) {
+                Some(Outcome::Built(built, _)) => built.sizes(),
+                _ => of(kind),
+            }
+        };
+        let cells: Vec<String> = columns.iter().map(sizes).collect();
+        let _ = writeln!(page, "| {} | {} |", first.cell.board, cells.join(" | "));
+    }
+    page.push_str(&summary(done, &boards));
+    page
+}
+
+fn mark(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::NotOffered => "·",
+        Outcome::NoWiring(_) => "-",
+        Outcome::Built(..) => "built",
+        Outcome::Failed(_) => "**failed**",
+    }
+}
+
+/// What the table cannot say.
+fn summary(done: &[Done], boards: &[&Done]) -> String {
+    let count = |mark: fn(&Outcome) -> bool| done.iter().filter(|one| mark(&one.outcome)).count();
+    let built = count(|outcome| matches!(outcome, Outcome::Built(..)));
+    let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
+    let none = count(|outcome| matches!(outcome, Outcome::NoWiring(_)));
+    let not = count(|outcome| matches!(outcome, Outcome::NotOffered));
+    let families: BTreeSet<&str> = boards.iter().map(|one| one.cell.family.as_str()).collect();
+    let mut text = format!(
+        "\n{} boards of {} families: {built} cells built, {failed} failed, {none} without a wiring, {not} \
+         not offered.\n",
+        boards.len(),
+        families.len()
+    );
+    let mut list = |title: &str, line: &dyn Fn(&Done) -> Option<String>| {
+        let lines: Vec<String> = done
+            .iter()
+            .filter_map(|one| {
+                Some(format!("- {} {}: {}\n", one.cell.board, one.cell.kind, line(one)?))
+            })
+            .collect();
+        if !lines.is_empty() {
+            let _ = write!(text, "\n## {title}\n\n{}", lines.concat());
+        }
+    };
+    list("Failed", &|one| match &one.outcome {
+        Outcome::Failed(why) => Some(format!("`{}`", why.replace('`', "'"))),
+        _ => None,
+    });
+    list("Warnings of our files", &|one| match &one.outcome {
+        Outcome::Built(built, _) => {
+            let first = built.warnings.first()?;
+            Some(format!("{}, the first `{}`", built.warnings.len(), first.replace('`', "'")))
+        }
+        _ => None,
+    });
+    list("Without a wiring", &|one| match &one.outcome {
+        Outcome::NoWiring(why) => Some(why.clone()),
+        _ => None,
+    });
+    list("Left out of `all`", &|one| match &one.outcome {
+        Outcome::Built(_, left_out) if !left_out.is_empty() => Some(left_out.join(", ")),
+        _ => None,
+    });
+    text
+}
