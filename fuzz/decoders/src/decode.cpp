@@ -29,6 +29,25 @@ public:
     }
 
     virtual void on_hello_request() { put(*decoded_, "Q", 1); }
+    virtual void on_health_request() { put(*decoded_, "A", 1); }
+
+    virtual void on_health(const sensedsl::Health &health) {
+        const sensedsl::Bytes payload = sensedsl::health_payload(health);
+        put(*decoded_, "D", 1);
+        put(*decoded_, &payload[0], payload.size());
+    }
+
+    virtual void on_other_health(uint8_t version) {
+        put(*decoded_, "V", 1);
+        put(*decoded_, &version, 1);
+    }
+
+    virtual void on_stamp(const sensedsl::Stamp &stamp) {
+        sensedsl::Bytes bytes(1, static_cast<uint8_t>('S'));
+        sensedsl::store<uint32_t>(bytes, stamp.time_us);
+        bytes.push_back(stamp.counter);
+        put(*decoded_, &bytes[0], bytes.size());
+    }
 
     virtual void on_value(uint8_t id, const uint8_t *bytes) {
         if (!is_open_) {
@@ -71,11 +90,16 @@ struct Side {
                 bytes += 1 + item.size_bytes();
             }
         }
-        const size_t hello_bytes = to_board ? 1 : 5;
+        const size_t asked_bytes = to_board ? 2 : 5;
+        const size_t health_bytes = to_board ? 0 : 19 + 17 * stream.items_count;
+        bytes += stream.stamp != 0 && !to_board && bytes > 0 ? sensedsl::stamp_bytes : 0;
         direction.items = items.empty() ? NULL : &items[0];
         direction.item_count = items.size();
-        direction.hello_bytes = hello_bytes;
-        direction.payload_bytes_max = (bytes > hello_bytes ? bytes : hello_bytes) + (stream.crc16 != 0 ? 3 : 0);
+        direction.hello_bytes = to_board ? 1 : 5;
+        direction.short_bytes_max = bytes > asked_bytes ? bytes : asked_bytes;
+        direction.payload_bytes_max =
+            (direction.short_bytes_max > health_bytes ? direction.short_bytes_max : health_bytes) +
+            (stream.crc16 != 0 ? 3 : 0);
     }
 
     std::vector<sensedsl::Item> items;
@@ -87,7 +111,17 @@ struct Side {
 extern "C" void sense_decode_cpp(const sense_stream_t *stream, sense_decoded_t *decoded) {
     const Side sensors(*stream, false);
     const Side actuators(*stream, true);
-    const sensedsl::Schema schema = {0, stream->crc16 != 0, sensors.direction, actuators.direction};
+    sensedsl::Bytes ids;
+    for (size_t i = 0; i < stream->items_count; ++i) {
+        ids.push_back(stream->items[i].id);
+    }
+    const sensedsl::Schema schema = {0,
+                                     stream->crc16 != 0,
+                                     stream->stamp != 0,
+                                     sensors.direction,
+                                     actuators.direction,
+                                     ids.empty() ? NULL : &ids[0],
+                                     ids.size()};
     Log log(*stream, *decoded);
     sensedsl::Decoder decoder(schema, stream->to_board != 0 ? schema.actuators : schema.sensors, log);
     size_t from = 0;

@@ -20,6 +20,7 @@ typedef struct {
   const sense_item_t *items;
   size_t items_count;
   uint8_t crc16;
+  uint8_t stamp;
   uint8_t to_board;
   const uint8_t *bytes;
   size_t size;
@@ -27,7 +28,9 @@ typedef struct {
   size_t cuts_count;
 } sense_stream_t;
 
-/* A report is `R`, identifiers with their bytes, `.`; a hello `H` and its hash; a request `Q`. */
+/* A report is `R`, identifiers with their bytes, `.`, and before it where there are stamps `S` with time and
+ * counter; a hello `H` and its hash; health `D` and its payload; its other versions `V` and the version; a request
+ * `Q`, and for health `A`. */
 typedef struct {
   uint8_t *log;
   size_t log_size;

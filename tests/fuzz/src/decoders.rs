@@ -5,8 +5,9 @@
 //! crate `wire`; the fuzzer adds the decoders in C and C++, which this crate cannot call.
 
 use sensedsl_wire::{
-    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType, encode_hello,
-    encode_hello_request, encode_report,
+    Checksum, Decoder, DeviceHealth, Direction, Event, Health, ID_HEALTH, Item, ResetCause, Scalar,
+    ScalarType, Schema, Stamp, Status, ValueType, encode_health, encode_health_request,
+    encode_hello, encode_hello_request, encode_report, encode_stamped_report,
 };
 
 use crate::draw::Draw;
@@ -27,7 +28,9 @@ pub struct Stream {
 /// What a decoder makes of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoded {
-    /// A report is `R`, identifiers with their bytes, `.`; a hello `H` and its hash; a request `Q`.
+    /// A report is `R`, identifiers with their bytes, `.`, and before it where there are stamps `S` with
+    /// time and counter; a hello `H` and its hash; health `D` and its payload; its other versions `V` and
+    /// the version; a request `Q`, and for health `A`.
     pub log: Vec<u8>,
     /// Frames delivered.
     pub frames: u64,
@@ -53,7 +56,12 @@ pub fn reference(stream: &Stream) -> Decoded {
 
 fn tell(schema: &Schema, event: &Event, log: &mut Vec<u8>) {
     match event {
-        Event::Report(values) => {
+        Event::Report(stamp, values) => {
+            if let Some(stamp) = stamp {
+                log.push(b'S');
+                log.extend(stamp.time_us.to_be_bytes());
+                log.push(stamp.counter);
+            }
             log.push(b'R');
             for (id, scalars) in values {
                 log.push(*id);
@@ -68,8 +76,22 @@ fn tell(schema: &Schema, event: &Event, log: &mut Vec<u8>) {
             log.push(b'H');
             log.extend(hash.to_be_bytes());
         }
+        Event::Health(health) => {
+            log.push(b'D');
+            log.extend(health_payload(schema, health));
+        }
+        Event::OtherHealth(version) => log.extend([b'V', *version]),
         Event::HelloRequest => log.push(b'Q'),
+        Event::HealthRequest => log.push(b'A'),
     }
+}
+
+/// Health as it stands in a frame without a checksum.
+fn health_payload(schema: &Schema, health: &Health) -> Vec<u8> {
+    let bare = Schema { checksum: Checksum::None, ..schema.clone() };
+    let frame = encode_health(&bare, health).expect("the devices of the schema");
+    let start = frame.iter().position(|&byte| byte == ID_HEALTH).unwrap_or_default();
+    frame[start..frame.len() - 1].to_vec()
 }
 
 /// The body where there are no other decoders.
@@ -77,8 +99,8 @@ pub fn rust_alone(bytes: &[u8]) {
     run(bytes, &[]);
 }
 
-/// Streams that an input stands for: with and without checksum, both ways, whole and cut, as it is
-/// and with one byte changed in several ways (what calling costs is then paid once for all of them).
+/// Streams that an input stands for: with and without checksum, both ways, whole and cut, as it is and
+/// with one byte changed in several ways (what calling costs is then paid once for all of them).
 pub const STREAMS: u64 = 8 * CHANGES;
 /// The input itself is the first of them.
 const CHANGES: u64 = 8;
@@ -130,7 +152,8 @@ fn schema(draw: &mut Draw<'_>, checksum: Checksum) -> Schema {
         let direction = if draw.chance(64) { Direction::Actuator } else { Direction::Sensor };
         Item { id, name: String::new(), direction, value: ValueType { scalar, length } }
     });
-    Schema { checksum, items: items.collect() }
+    let items = items.collect();
+    Schema { checksum, stamp: draw.chance(96), items }
 }
 
 /// The stream that the bytes stand for.
@@ -181,10 +204,35 @@ fn piece(draw: &mut Draw<'_>, schema: &Schema, direction: Direction, out: &mut V
             out.extend(frame);
         }
         0xD0..=0xD7 => out.extend(encode_hello(schema)),
-        0xD8..=0xDF => out.extend(encode_hello_request(schema)),
+        0xD8..=0xDB => out.extend(encode_hello_request(schema)),
+        0xDC | 0xDD => out.extend(encode_health_request(schema)),
+        0xDE | 0xDF => out.extend(health(draw, schema)),
         0xE0..=0xEF => out.extend(std::iter::repeat_n(draw.byte(), usize::from(choice & 15) + 2)),
         _ => out.push(draw.byte()),
     }
+}
+
+/// Health of few numbers; where it is damaged, it is by other pieces.
+fn health(draw: &mut Draw<'_>, schema: &Schema) -> Vec<u8> {
+    let counts = [0; 6].map(|_: u16| u16::from(draw.byte()) * 257);
+    let devices = schema.items.iter().map(|item| DeviceHealth {
+        id: item.id,
+        status: Status::from_code(draw.byte()),
+        age_ms: u32::from(draw.byte()) * 0x0101_0101,
+        causes: counts.into(),
+    });
+    let devices = devices.collect();
+    let health = Health {
+        uptime_ms: u32::from(draw.byte()) * 0x0101_0101,
+        reset_cause: ResetCause::from_code(draw.byte()),
+        reset_device: draw.byte(),
+        reports_sent: u32::from(draw.byte()) * 0x0101_0101,
+        reports_refused: 0x313A_002C,
+        load_percent: draw.byte(),
+        stack_left_bytes: u16::from(draw.byte()) * 257,
+        devices,
+    };
+    encode_health(schema, &health).expect("the devices of the schema")
 }
 
 /// A frame of our own, which is one event when nothing else comes.
@@ -204,6 +252,11 @@ fn frame(draw: &mut Draw<'_>, schema: &Schema, direction: Direction) -> Vec<u8> 
             scalar.unwrap_or(Scalar::Bool(true))
         });
         values.push((item.id, scalars.collect()));
+    }
+    if schema.stamp && direction == Direction::Sensor {
+        let time_us = u32::from(draw.byte()) * 0x0101_0101;
+        let stamp = Stamp { time_us, counter: draw.byte() };
+        return encode_stamped_report(schema, stamp, &values).expect("values of the schema");
     }
     encode_report(schema, direction, &values).expect("values of the schema")
 }

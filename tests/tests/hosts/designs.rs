@@ -113,10 +113,14 @@ pub(crate) fn hostile() -> Vec<HostBoard> {
     vec![board]
 }
 
-/// Three boards: one with a checksum, one that only listens, one with neither sensor nor actuator.
+/// Three boards: one with checksum, stamps and a limit of silence, one that only listens, one with neither sensor nor actuator.
 pub(crate) fn several_boards() -> Vec<HostBoard> {
+    let mut front =
+        board("Front", Checksum::Crc16, "1 sensor Left uint16\n2 actuator Steering int16");
+    front.schema.stamp = true;
+    front.silence_ms = Some(500);
     vec![
-        board("Front", Checksum::Crc16, "1 sensor Left uint16\n2 actuator Steering int16"),
+        front,
         board("Rear", Checksum::None, "3 actuator Lamps bool[4]"),
         board("Spare", Checksum::None, ""),
     ]

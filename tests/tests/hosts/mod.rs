@@ -10,6 +10,7 @@
 mod compile;
 mod designs;
 mod files;
+mod health;
 mod link;
 mod middleware;
 mod page;

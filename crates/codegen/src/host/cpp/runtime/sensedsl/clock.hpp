@@ -33,8 +33,10 @@ public:
         const int64_t waited_us = now_us < 0 ? static_cast<int64_t>(passed) : now_us - came_us_;
         // By how much the board's clock went further than ours.
         const int32_t ahead_us = static_cast<int32_t>(passed - static_cast<uint32_t>(waited_us));
+        // Back, or on by more than 35 minutes.
         const bool is_back = (passed & 0x80000000U) != 0;
-        if (!is_running_ || ahead_us > tolerance_us || (is_back && (now_us < 0 || ahead_us < -tolerance_us))) {
+        const bool is_long = now_us >= 0 && waited_us > 0x7FFFFFFF && ahead_us > -tolerance_us;
+        if (!is_running_ || ahead_us > tolerance_us || (is_back && !is_long)) {
             // The first one, or the board was started anew.
             moment_.board_us = stamp.time_us;
             moment_.lost = 0;
