@@ -6,7 +6,7 @@ use sensedsl_board::table::Table;
 use sensedsl_diagnostics::codes::{
     e0201_unknown_property, e0202_property_twice, w0601_unused_property,
 };
-use sensedsl_diagnostics::{Diagnostic, FileId, nearest};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::Checksum;
 
@@ -84,6 +84,30 @@ fn is_driven(profile: &TargetProfile, wired: &catalog::Link) -> bool {
     }
 }
 
+/// Where a file gives what not every medium has.
+struct Given {
+    transport: Transport,
+    baud: Option<Span>,
+    unit: Option<Span>,
+    vbus: Option<Span>,
+    stamp: Option<Span>,
+    silence: Option<Span>,
+}
+
+impl Given {
+    fn contradictions(&self, fields: &mut Fields<'_>) {
+        let Self { transport, baud, unit, vbus, stamp, silence } = *self;
+        let (spans, why) = match transport {
+            Transport::Usb => (vec![baud], "a USB link has no baud rate"),
+            Transport::Uart => (vec![vbus], "a serial link has no VBUS"),
+            Transport::None => (vec![baud, unit, vbus, stamp, silence], "there is no link"),
+        };
+        for span in spans.into_iter().flatten() {
+            fields.contradiction(span, "transport", why);
+        }
+    }
+}
+
 /// The link as the file states it.
 fn stated_link(
     file: FileId,
@@ -129,29 +153,15 @@ fn stated_link(
     }
     let stated = transport.is_some();
     let transport = transport.map_or(default, |word| word.value);
-    let of_uart = [baud.as_ref().map(|baud| baud.span), unit.as_ref().map(|unit| unit.span)];
-    match transport {
-        Transport::Usb => {
-            if let Some(baud) = &baud {
-                fields.contradiction(baud.span, "transport", "a USB link has no baud rate");
-            }
-        }
-        Transport::Uart => {
-            if let Some(vbus) = vbus_span {
-                fields.contradiction(vbus, "transport", "a serial link has no VBUS");
-            }
-        }
-        Transport::None => {
-            let of_frames = [
-                vbus_span,
-                stamp_span.filter(|_| stamp),
-                silence.as_ref().map(|silence| silence.span),
-            ];
-            for span in of_uart.into_iter().chain(of_frames).flatten() {
-                fields.contradiction(span, "transport", "there is no link");
-            }
-        }
-    }
+    let given = Given {
+        transport,
+        baud: baud.as_ref().map(|baud| baud.span),
+        unit: unit.as_ref().map(|unit| unit.span),
+        vbus: vbus_span,
+        stamp: stamp_span.filter(|_| stamp),
+        silence: silence.as_ref().map(|silence| silence.span),
+    };
+    given.contradictions(&mut fields);
     Link {
         transport,
         pins: Vec::new(),
@@ -179,10 +189,9 @@ fn default_checksum(transport: Transport) -> Checksum {
 /// How long each board's host may be silent: as the file says, or a default where an actuator has
 /// something safe to fall back to.
 pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
-    let falls_back = |kind: &Kind| match kind {
-        Kind::Pwm(pwm) => pwm.failsafe.is_some(),
-        Kind::Dac(dac) => dac.failsafe.is_some(),
-        _ => false,
+    let falls_back = |kind: &Kind| {
+        matches!(kind, Kind::Pwm(pwm) if pwm.failsafe.is_some())
+            || matches!(kind, Kind::Dac(dac) if dac.failsafe.is_some())
     };
     let falling: Vec<Option<BoardIndex>> = design
         .connections

@@ -34,6 +34,8 @@ const sensedsl::Option known[] = {
     {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
     {"id", "NUMBER", "tells several modules of one name apart"},
     {"verbose", "1", "print each value"},
+    {"health", "[SECONDS]", "ask the board for its health that often, each second without a\n"
+                            "                        number, and print it on standard error"},
     {"profiling", "1", "OpenDaVINCI's own"},
     {"realtime", "PRIORITY", "OpenDaVINCI's own"},
     {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
@@ -45,12 +47,13 @@ const sensedsl::Option known[] = {
 class Board final : public odcore::base::module::DataTriggeredConferenceClientModule,
                     public sensedsl::Receiver {
 public:
-    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud)
+    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud, int64_t healthMs)
         : odcore::base::module::DataTriggeredConferenceClientModule(argc, argv,
                                                                     "curves_Rover"),
-          m_device(options.value("device")), m_baud(baud), m_connection(facts(), *this),
+          m_device(options.value("device")), m_baud(baud), m_isHealthPrinted(healthMs > 0), m_connection(facts(), *this),
           m_thread(m_connection) {
         m_connection.reconnect(!options.has("no-reconnect"));
+        m_connection.health_every(healthMs);
     }
 
     /// 1 when the firmware is another or the device is gone, 2 when it cannot be opened, otherwise 0.
@@ -153,6 +156,11 @@ private:
             break;
         }
     }
+    void on_health(const sensedsl::Health &health) override {
+        if (m_isHealthPrinted) {
+            std::cerr << sensedsl::health_text(*facts().schema, facts().name, facts().devices, health) << std::endl;
+        }
+    }
 
     template <typename Message> void publish(const Message &message) {
         if (isVerbose()) {
@@ -196,6 +204,7 @@ private:
 
     std::string m_device;
     unsigned m_baud;
+    bool m_isHealthPrinted;
     std::set<std::uint8_t> m_told{};
     bool m_isOpen{false};
     bool m_isRefused{false};
@@ -230,12 +239,14 @@ int main(int argc, char **argv) {
     if (problem.empty() && options.has("baud") && (!sensedsl::parse(options.value("baud"), baud) || baud == 0)) {
         problem = "no baud rate: " + options.value("baud");
     }
+    int64_t health_ms = 0;
+    problem = problem.empty() ? options.read_health(health_ms) : problem;
     if (!problem.empty()) {
         std::cerr << problem << std::endl;
         return 2;
     }
     try {
-        Board board(argc, argv, options, baud);
+        Board board(argc, argv, options, baud, health_ms);
         const int code = board.runModule();
         return board.exitStatus() != 0 ? board.exitStatus() : code;
     } catch (const std::exception &error) {

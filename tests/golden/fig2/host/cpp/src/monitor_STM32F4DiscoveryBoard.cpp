@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -20,17 +21,27 @@ extern "C" void stop(int) { stopped = true; }
 
 const sensedsl::Option known[] = {
     {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
+    {"health", "[SECONDS]", "ask the board for its health that often, each second without a\n"
+                            "                        number, and print it"},
     {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
     {"version", nullptr, "the design and its schema hash"},
     {"help", nullptr, "this text"},
 };
 
-int run(const std::string &device, unsigned baud, bool reconnect) {
+int run(const sensedsl::Options &options, const std::string &device, unsigned baud, std::int64_t health_ms) {
+    Board *self = nullptr;
     Board board(sensedsl::Handlers{
         [](const auto &message) { std::cout << message << "\n"; },
+        [&](const sensedsl::Health &health) {
+            if (health_ms > 0) {
+                std::cout << self->text(health) << "\n";
+            }
+        },
         [](const sensedsl::Note &note) { std::cerr << note.text << std::endl; },
     });
-    board.reconnect(reconnect);
+    self = &board;
+    board.reconnect(!options.has("no-reconnect"));
+    board.health_every(static_cast<double>(health_ms) / 1000.0);
     board.open(device, baud);
     while (!stopped && board.poll(50)) {
         std::cout.flush();
@@ -66,6 +77,8 @@ int main(int argc, char **argv) {
     if (problem.empty() && !rate.empty() && (!sensedsl::parse(rate, baud) || baud == 0)) {
         problem = "no baud rate: " + rate;
     }
+    std::int64_t health_ms = 0;
+    problem = problem.empty() ? options.read_health(health_ms) : problem;
     if (!problem.empty()) {
         std::cerr << problem << std::endl;
         return 2;
@@ -73,7 +86,7 @@ int main(int argc, char **argv) {
     std::signal(SIGINT, stop);
     std::signal(SIGTERM, stop);
     try {
-        return run(options.words()[0], baud, !options.has("no-reconnect"));
+        return run(options, options.words()[0], baud, health_ms);
     } catch (const std::exception &error) {
         std::cerr << error.what() << std::endl;
         return 2;

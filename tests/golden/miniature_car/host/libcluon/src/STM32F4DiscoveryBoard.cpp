@@ -29,6 +29,8 @@ const sensedsl::Option known[] = {
     {"id", "STAMP", "sender stamp of all messages; without it a sensor's identifier"},
     {"freq", "HZ", "send the latest values that often; without it each when it comes"},
     {"verbose", nullptr, "print each value"},
+    {"health", "[SECONDS]", "ask the board for its health that often, each second without a\n"
+                            "                        number, and print it on standard error"},
     {"no-reconnect", nullptr, "end when the device is gone, instead of waiting for it"},
     {"version", nullptr, "the design and its schema hash"},
     {"help", nullptr, "this text"},
@@ -43,6 +45,8 @@ struct Settings {
     std::uint32_t sender_stamp{0};
     bool is_verbose{false};
     bool reconnect{true};
+    /// 0: the board's health is not printed.
+    std::int64_t health_ms{0};
     /// 0: each value is sent when it comes.
     float frequency_hz{0.0F};
 };
@@ -77,6 +81,11 @@ private:
                 const std::size_t size = sensors.items[i].size_bytes();
                 latest_[id] = Latest{sensedsl::Bytes(bytes, bytes + size), sampled};
             }
+        }
+    }
+    void on_health(const sensedsl::Health &health) override {
+        if (settings_.health_ms > 0) {
+            std::cerr << sensedsl::health_text(*facts().schema, facts().name, facts().devices, health) << std::endl;
         }
     }
 
@@ -236,6 +245,7 @@ int run(const Settings &settings) {
     Publisher publisher(od4, settings);
     sensedsl::Connection connection(facts(), publisher);
     connection.reconnect(settings.reconnect);
+    connection.health_every(settings.health_ms);
     connection.open(settings.device, settings.baud);
     using Clock = std::chrono::steady_clock;
     const bool is_paced{settings.frequency_hz > 0.0F};
@@ -285,7 +295,7 @@ std::string read_settings(const sensedsl::Options &options, Settings &settings) 
                                 !(settings.frequency_hz >= 0.0F))) {
         return "no frequency: " + options.value("freq");
     }
-    return {};
+    return options.read_health(settings.health_ms);
 }
 
 } // namespace

@@ -26,6 +26,8 @@ const sensedsl::Option known[] = {
     {"baud", "RATE", "of a serial link, 115200 by default; of no effect over USB"},
     {"id", "NUMBER", "tells several modules of one name apart"},
     {"verbose", "1", "print each value"},
+    {"health", "[SECONDS]", "ask the board for its health that often, each second without a\n"
+                            "                        number, and print it on standard error"},
     {"profiling", "1", "OpenDaVINCI's own"},
     {"no-reconnect", NULL, "end when the device is gone, instead of waiting for it"},
     {"version", NULL, "the design and its schema hash"},
@@ -35,11 +37,12 @@ const sensedsl::Option known[] = {
 /// Values come from the connection's thread, Containers from the conference's.
 class Board : public core::base::ConferenceClientModule, public sensedsl::Receiver {
 public:
-    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud)
+    Board(int argc, char **argv, const sensedsl::Options &options, unsigned baud, int64_t healthMs)
         : core::base::ConferenceClientModule(argc, argv, "miniature_car_STM32F4DiscoveryBoard"),
-          m_device(options.value("device")), m_baud(baud), m_told(), m_isOpen(false),
+          m_device(options.value("device")), m_baud(baud), m_isHealthPrinted(healthMs > 0), m_told(), m_isOpen(false),
           m_isRefused(false), m_connection(facts(), *this), m_thread(m_connection) {
         m_connection.reconnect(!options.has("no-reconnect"));
+        m_connection.health_every(healthMs);
     }
 
     /// 1 when the firmware is another or the device is gone, 2 when it cannot be opened, otherwise 0.
@@ -176,6 +179,12 @@ private:
         }
     }
 
+    virtual void on_health(const sensedsl::Health &health) {
+        if (m_isHealthPrinted) {
+            std::cerr << sensedsl::health_text(*facts().schema, facts().name, facts().devices, health) << std::endl;
+        }
+    }
+
     template <typename Message> void publish(const Message &message) {
         if (isVerbose()) {
             std::cout << message.toString() << std::endl;
@@ -190,6 +199,7 @@ private:
 
     std::string m_device;
     unsigned m_baud;
+    bool m_isHealthPrinted;
     std::set<uint8_t> m_told;
     bool m_isOpen;
     bool m_isRefused;
@@ -224,12 +234,14 @@ int main(int argc, char **argv) {
     if (problem.empty() && options.has("baud") && (!sensedsl::parse(options.value("baud"), baud) || baud == 0)) {
         problem = "no baud rate: " + options.value("baud");
     }
+    int64_t health_ms = 0;
+    problem = problem.empty() ? options.read_health(health_ms) : problem;
     if (!problem.empty()) {
         std::cerr << problem << std::endl;
         return 2;
     }
     try {
-        Board board(argc, argv, options, baud);
+        Board board(argc, argv, options, baud, health_ms);
         const int code = board.runModule();
         return board.exitStatus() != 0 ? board.exitStatus() : code;
     } catch (const std::exception &error) {

@@ -39,11 +39,29 @@ inline const ::sensedsl::BoardFacts &Rover() {
         {22, 2, false, 1}, // actuator Winch uint16
         {40, 2, false, 1}, // actuator Speed int16
     };
+    // All devices in the file's order, which is that of their health: identifiers; names and whether they are actuators.
+    static const uint8_t device_ids[] = {1, 10, 12, 13, 14, 20, 21, 22, 30, 31, 40, 41};
+    static const ::sensedsl::DeviceFacts device_facts[] = {
+        {"Ranger", false},
+        {"Line", false},
+        {"Bumper", false},
+        {"Wheels", false},
+        {"Bent", false},
+        {"Escs", true},
+        {"Lamps", true},
+        {"Winch", true},
+        {"Acceleration", false},
+        {"Rate", false},
+        {"Speed", true},
+        {"Position", false},
+    };
     static const ::sensedsl::Schema schema = {
         0x0ca56b7cU,
         false,
-        {sensors, 8, 55, 5},
-        {actuators, 4, 19, 1}};
+        false,
+        {sensors, 8, 223, 55, 5},
+        {actuators, 4, 19, 19, 1},
+        device_ids, 12};
     static const ::sensedsl::BoardFacts facts = {
         "Rover", &schema,
         "checksum none\012"
@@ -59,7 +77,7 @@ inline const ::sensedsl::BoardFacts &Rover() {
         "31 sensor Rate int16[3]\012"
         "40 actuator Speed int16\012"
         "41 sensor Position int32\012",
-        sensor_facts};
+        sensor_facts, device_facts, 500};
     return facts;
 }
 

@@ -25,11 +25,21 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
         {"USRear", 40},
         {"WheelEncoder", 0},
     };
+    // All devices in the file's order, which is that of their health: identifiers; names and whether they are actuators.
+    static const uint8_t device_ids[] = {17, 18, 19, 20};
+    static const ::sensedsl::DeviceFacts device_facts[] = {
+        {"IRFront", false},
+        {"IRFrontRight", false},
+        {"USRear", false},
+        {"WheelEncoder", false},
+    };
     static const ::sensedsl::Schema schema = {
         0xb2d2a70bU,
         false,
-        {sensors, 4, 13, 5},
-        {NULL, 0, 1, 1}};
+        false,
+        {sensors, 4, 87, 13, 5},
+        {NULL, 0, 2, 2, 1},
+        device_ids, 4};
     static const ::sensedsl::BoardFacts facts = {
         "STM32F4DiscoveryBoard", &schema,
         "checksum none\012"
@@ -37,7 +47,7 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
         "18 sensor IRFrontRight uint16\012"
         "19 sensor USRear uint8\012"
         "20 sensor WheelEncoder uint32\012",
-        sensor_facts};
+        sensor_facts, device_facts, 0};
     return facts;
 }
 

@@ -43,11 +43,30 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
         {"RCThrottle", 0},
         {"RCSwitch", 0},
     };
+    // All devices in the file's order, which is that of their health: identifiers; names and whether they are actuators.
+    static const uint8_t device_ids[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+    static const ::sensedsl::DeviceFacts device_facts[] = {
+        {"IRFrontRight", false},
+        {"IRRearRight", false},
+        {"IRRear", false},
+        {"USFront", false},
+        {"USFrontRight", false},
+        {"USRear", false},
+        {"WheelLeftA", false},
+        {"WheelLeftB", false},
+        {"WheelRightA", false},
+        {"WheelRightB", false},
+        {"RCSteering", false},
+        {"RCThrottle", false},
+        {"RCSwitch", false},
+    };
     static const ::sensedsl::Schema schema = {
         0x64783683U,
         false,
-        {sensors, 13, 47, 5},
-        {NULL, 0, 1, 1}};
+        false,
+        {sensors, 13, 240, 47, 5},
+        {NULL, 0, 2, 2, 1},
+        device_ids, 13};
     static const ::sensedsl::BoardFacts facts = {
         "STM32F4DiscoveryBoard", &schema,
         "checksum none\012"
@@ -64,7 +83,7 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
         "11 sensor RCSteering uint16\012"
         "12 sensor RCThrottle uint16\012"
         "13 sensor RCSwitch uint16\012",
-        sensor_facts};
+        sensor_facts, device_facts, 0};
     return facts;
 }
 
