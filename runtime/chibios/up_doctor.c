@@ -58,12 +58,15 @@ static void say_inputs(report_t *report) {
 
 static const char *verdict_of(const up_chip_state_t *state) {
   static const char *const verdicts[] = {
-      [UP_CHIP_WELL] = NULL,
-      [UP_CHIP_NOT_ACKNOWLEDGED] = "does not answer: check power, address and wires",
-      [UP_CHIP_FAILED] = "the bus fails: check SCL, SDA and their resistors",
-      [UP_CHIP_WRONG_IDENTITY] = "another part answers, or the right one on a bad wire",
-      [UP_CHIP_WRONG_CRC] = "answers with wrong checksums: a bad wire or too fast a bus",
-      [UP_CHIP_INVALID] = "answers with what is no measurement",
+      [UP_NOTHING] = NULL,
+      [UP_FRESH] = NULL,
+      [UP_INVALID] = "answers with what is no measurement",
+      [UP_WRONG_CRC] = "answers with wrong checksums: a bad wire or too fast a bus",
+      [UP_NOT_ACKNOWLEDGED] = "does not answer: check power, address and wires",
+      [UP_BUS_ERROR] = "the bus fails: check SCL, SDA and their resistors",
+      [UP_ARBITRATION_LOST] = "somebody else drives its bus: check SCL, SDA and their resistors",
+      [UP_TIMED_OUT] = "its bus hangs: check SCL, SDA and their resistors",
+      [UP_WRONG_IDENTITY] = "another part answers, or the right one on a bad wire",
   };
 
   if (state->fault >= sizeof verdicts / sizeof verdicts[0]) {

@@ -11,17 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* As the health frame says them. */
-typedef enum {
-  UP_CAUSE_UNKNOWN,
-  UP_CAUSE_POWER,
-  UP_CAUSE_PIN,
-  UP_CAUSE_SOFTWARE,
-  UP_CAUSE_WATCHDOG,
-  UP_CAUSE_WINDOW_WATCHDOG,
-  UP_CAUSE_LOW_POWER,
-  UP_CAUSE_HALT /* the kernel stopped itself */
-} up_cause_t;
+#include "up_health.h"
 
 /* Looks at why the board started; first of all. */
 void up_life_init(void);

@@ -1,128 +1,145 @@
-/* Frames in both directions over whatever channel there is. */
-#include "up_decode.h"
-#include "up_encode.h"
+/* The channel under the portable reporter, and what the reporter asks of this system. */
 #include "up_link.h"
+
+#include "sense_model.h"
+#include "up_life.h"
 #include "up_shell.h"
 
-static up_decoder_t decoder;
-/* Two frames, so that what is left of a failed one moves once on average. */
-static uint8_t decoder_buffer[UP_FRAME_BYTES_MAX_TO_BOARD + UP_DECODER_BYTES(UP_FRAME_BYTES_MAX_TO_BOARD)];
-static uint8_t frame[UP_FRAME_BYTES_MAX_TO_HOST];
-static up_link_counters_t counters;
-static bool hello_due;
-static bool was_open;
+static up_reporter_t reporter;
+static uint8_t frame[SENSE_REPORT_FRAME_BYTES];
+static uint8_t buffer[SENSE_COMMAND_BUFFER_BYTES];
 
-static void on_value(void *context, const up_field_t *field, const uint8_t *wire) {
-  static uint64_t value[(UP_VALUE_BYTES_MAX + 7U) / 8U];
-  const size_t index = (size_t)(field - up_config.schema->fields);
+/* ---- the channel ---- */
+
+static bool is_open(void *context) {
+  (void)context;
+  return up_channel_is_open();
+}
+
+static size_t read_bytes(void *context, uint8_t *bytes, size_t size) {
+  (void)context;
+  return chnReadTimeout(up_channel(), bytes, size, TIME_IMMEDIATE);
+}
+
+static size_t room(void *context) {
+  (void)context;
+  return up_channel_room();
+}
+
+static bool write_bytes(void *context, const uint8_t *bytes, size_t size) {
+  (void)context;
+  return chnWriteTimeout(up_channel(), bytes, size, TIME_IMMEDIATE) == size;
+}
+
+static const up_channel_t channel = {
+    .is_open = is_open,
+    .read = read_bytes,
+    .room = room,
+    .write = write_bytes,
+    .room_max = UP_CHANNEL_ROOM_MAX,
+};
+
+/* ---- what the reporter asks for ---- */
+
+#if defined(SENSE_HAS_COMMANDS)
+static sense_values_t received;
+
+static void apply(void *context, size_t field, const void *value) {
+  static uint64_t changed[(UP_VALUE_BYTES_MAX + 7U) / 8U];
 
   (void)context;
-  up_value_from_wire(field, wire, value);
-  up_put(index, value);
-  sense_apply(index, value);
-  up_user_received(index);
+  /* The user's transform works on a value of its own. */
+  memcpy(changed, value, up_field_bytes(&up_config.schema->fields[field]));
+  up_put(field, changed);
+  sense_apply(field, changed);
+  up_user_received(field);
 }
+#endif
 
-static void on_hello(void *context, uint32_t hash) {
+static void failsafe(void *context) {
   (void)context;
-  (void)hash;
-  hello_due = true;
+  sense_failsafe();
 }
 
-/* A frame goes out whole or not at all: what a full queue does not take stays due, and what it began to take is
- * finished. */
-static bool send(const uint8_t *bytes, size_t size) {
-  size_t sent = chnWriteTimeout(up_channel(), bytes, size, TIME_IMMEDIATE);
-
-  if (sent == 0U) {
-    counters.frames_refused++;
-    return false;
-  }
-  if (sent < size) {
-    sent += chnWriteTimeout(up_channel(), &bytes[sent], size - sent, TIME_MS2I(UP_LINK_FINISH_MS));
-  }
-  if (sent < size) {
-    counters.frames_torn++;
-    return false;
-  }
-  counters.frames_sent++;
-  return true;
+static void describe(void *context, up_health_board_t *board) {
+  (void)context;
+  board->reset_cause = up_reset_cause();
+  board->reset_device = up_reset_device();
+  board->load_percent = up_load_percent();
+  board->stack_left_bytes = up_stack_left();
 }
 
-static void receive(void) {
-  uint8_t byte;
-
-  while (chnReadTimeout(up_channel(), &byte, 1U, TIME_IMMEDIATE) == 1U) {
-    if (!up_shell_wants(&decoder, byte)) {
-      up_decoder_feed(&decoder, &byte, 1U);
-    }
-  }
+static bool intercept(void *context, uint8_t byte) {
+  (void)context;
+  return up_shell_wants(byte);
 }
 
-static void send_hello(void) {
-  const size_t bytes = up_encode_hello(up_config.schema, frame, sizeof frame);
-
-  hello_due = !send(frame, bytes);
+static void lock(void *context) {
+  (void)context;
+  up_lock();
 }
 
-static void send_report(void) {
-  uint8_t taken[UP_FIELD_BITMAP_BYTES];
-  const size_t bytes = up_take_report(frame, sizeof frame, taken);
+static void unlock(void *context) {
+  (void)context;
+  up_unlock();
+}
 
-  if (bytes > 0U && !send(frame, bytes)) {
-    up_restore_report(taken);
-  }
+/* Microseconds since the start, which do not wrap. */
+static uint64_t now_us(void) {
+  const uint64_t ticks = chVTGetTimeStamp();
+
+  return ticks / CH_CFG_ST_FREQUENCY * 1000000U + ticks % CH_CFG_ST_FREQUENCY * 1000000U / CH_CFG_ST_FREQUENCY;
 }
 
 void up_link_start(void) {
-  static const up_sink_t sink = {.on_value = on_value, .on_hello = on_hello};
-  const bool fits = up_decoder_init(&decoder, up_config.schema, UP_TO_BOARD, decoder_buffer,
-                                    sizeof decoder_buffer, &sink);
+  static up_reporter_config_t config = {
+      .reports = &sense_reports,
+      .commands = &sense_commands,
+      .channel = &channel,
+      .frame = frame,
+      .frame_bytes = sizeof frame,
+      .buffer = buffer,
+      .buffer_bytes = sizeof buffer,
+      .silence_ms = UP_SILENCE_MS,
+      .failsafe = failsafe,
+      .describe = describe,
+      .intercept = intercept,
+      .lock = lock,
+      .unlock = unlock,
+#if defined(SENSE_HAS_COMMANDS)
+      .received = &received,
+      .apply = apply,
+#endif
+  };
 
+  config.schema = up_config.schema;
+  config.store = up_store();
+  config.health = up_health();
+  config.cycle_ms = up_config.report_ms;
   /* The generated sizes and the generated tables are made together; this holds them together. */
-  if (!fits || sizeof frame < up_frame_bytes_max(up_config.schema, UP_TO_HOST)) {
+  if (!up_reporter_init(&reporter, &config, now_us())) {
     chSysHalt("frame sizes");
   }
   up_channel_start();
 }
 
 void up_link_cycle(void) {
-  const bool is_open = up_channel_is_open();
+  const bool was_open = reporter.is_open;
 
-  if (is_open && !was_open) {
-    hello_due = true;
-  }
-  if (!is_open && was_open) {
+  up_reporter_cycle(&reporter, now_us());
+  if (was_open && !reporter.is_open) {
     up_shell_channel_closed();
-  }
-  was_open = is_open;
-  if (!is_open) {
-    return;
-  }
-  receive();
-  if (hello_due) {
-    send_hello();
-  }
-  if (!hello_due) {
-    send_report();
   }
 }
 
 void up_link_pause(void) {
-  was_open = false;
+  up_reporter_pause(&reporter, now_us());
 }
 
 bool up_link_peek(uint8_t byte) {
-  const uint32_t frames_before = decoder.frames;
-
-  up_decoder_feed(&decoder, &byte, 1U);
-  return decoder.frames != frames_before && hello_due;
+  return up_reporter_peek(&reporter, byte);
 }
 
-const up_link_counters_t *up_link_counters(void) {
-  return &counters;
-}
-
-const up_decoder_t *up_link_decoder(void) {
-  return &decoder;
+const up_reporter_t *up_link_reporter(void) {
+  return &reporter;
 }

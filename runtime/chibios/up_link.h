@@ -4,20 +4,21 @@
 #ifndef UP_LINK_H
 #define UP_LINK_H
 
-#include "up_decode.h"
+#include "up_reporter.h"
 #include "up_rt.h"
-
-/* What happened on the link since the start. */
-typedef struct {
-  uint32_t frames_sent;
-  uint32_t frames_refused; /* nothing of the frame was taken; its values stay due */
-  uint32_t frames_torn;    /* the host went away in the middle of a frame */
-} up_link_counters_t;
 
 /* ---- the channel: one of up_link_usb.c and up_link_serial.c ---- */
 
 void up_channel_start(void);
 BaseChannel *up_channel(void);
+
+/* Bytes that it takes now without waiting; UP_CHANNEL_ROOM_MAX when all that it took has left. */
+#if UP_LINK_USB == TRUE
+#define UP_CHANNEL_ROOM_MAX ((size_t)SERIAL_USB_BUFFERS_NUMBER * SERIAL_USB_BUFFERS_SIZE)
+#else
+#define UP_CHANNEL_ROOM_MAX ((size_t)SERIAL_BUFFERS_SIZE)
+#endif
+size_t up_channel_room(void);
 
 /* True while somebody listens at the other end, as far as the channel can tell. */
 bool up_channel_is_open(void);
@@ -35,7 +36,7 @@ void up_link_pause(void);
 /* Looks for the host's request for a hello in what the shell reads; true when it has just ended. */
 bool up_link_peek(uint8_t byte);
 
-const up_link_counters_t *up_link_counters(void);
-const up_decoder_t *up_link_decoder(void);
+/* For people: what it counted. */
+const up_reporter_t *up_link_reporter(void);
 
 #endif

@@ -11,6 +11,15 @@ BaseChannel *up_channel(void) {
   return (BaseChannel *)up_config.link_driver;
 }
 
+size_t up_channel_room(void) {
+  size_t bytes;
+
+  chSysLock();
+  bytes = oqGetEmptyI(&up_config.link_driver->oqueue);
+  chSysUnlock();
+  return bytes;
+}
+
 bool up_channel_is_open(void) {
   return true;
 }

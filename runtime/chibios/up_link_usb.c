@@ -227,6 +227,19 @@ BaseChannel *up_channel(void) {
   return (BaseChannel *)&channel;
 }
 
+/* Whole buffers only: what stands in one that has begun to fill leaves with the next frame of the bus. */
+size_t up_channel_room(void) {
+  size_t buffers;
+
+  chSysLock();
+  buffers = obqIsEmptyI(&channel.obqueue) ? SERIAL_USB_BUFFERS_NUMBER : bqSpaceI(&channel.obqueue);
+  if (buffers > 0U && channel.obqueue.ptr != NULL) {
+    buffers--;
+  }
+  chSysUnlock();
+  return buffers * SERIAL_USB_BUFFERS_SIZE;
+}
+
 bool up_channel_is_open(void) {
   if (channel_config.usbp->state != USB_ACTIVE) {
     return false;

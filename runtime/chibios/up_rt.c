@@ -11,8 +11,8 @@
 static up_store_t store;
 static mutex_t store_lock;
 static uint32_t sequences[UP_FIELDS_COUNT];
-static uint32_t errors[UP_FIELDS_COUNT];
-static uint32_t read_ms[UP_FIELDS_COUNT];
+static up_health_device_t devices[UP_FIELDS_COUNT];
+static up_health_t health = {.devices = devices, .devices_count = UP_FIELDS_COUNT};
 /* All threads count from here, so that those of a group keep apart. */
 static systime_t start;
 
@@ -35,14 +35,18 @@ void up_put(size_t field, void *value) {
   chMtxLock(&store_lock);
   up_store_put(&store, field, value);
   sequences[field]++;
-  read_ms[field] = up_now_ms();
+  up_health_note(&health, field, UP_FRESH, up_now_ms());
+  chMtxUnlock(&store_lock);
+}
+
+static void note(size_t field, up_result_t result) {
+  chMtxLock(&store_lock);
+  up_health_note(&health, field, result, up_now_ms());
   chMtxUnlock(&store_lock);
 }
 
 void up_fail(size_t field) {
-  chMtxLock(&store_lock);
-  errors[field]++;
-  chMtxUnlock(&store_lock);
+  note(field, UP_BUS_ERROR);
 }
 
 void up_result(size_t field, up_result_t result, void *value) {
@@ -50,11 +54,15 @@ void up_result(size_t field, up_result_t result, void *value) {
     const up_filtered_t *own = &up_config.filters[field];
 
     result = up_config.filter(own->filter, own->state, &up_config.schema->fields[field], up_now_ms(), value);
+    if (result == UP_NOTHING) {
+      /* A measurement all the same, which the host has no need of. */
+      note(field, UP_FRESH);
+    }
   }
   if (result == UP_FRESH) {
     up_put(field, value);
-  } else if (result != UP_NOTHING) {
-    up_fail(field);
+  } else {
+    note(field, result);
   }
 }
 
@@ -82,25 +90,37 @@ uint32_t up_sequence(size_t field) {
 }
 
 uint32_t up_errors(size_t field) {
-  return errors[field];
+  uint32_t sum = 0U;
+  size_t i;
+
+  for (i = 0U; i < UP_FAULTS; i++) {
+    sum += devices[field].counts[i];
+  }
+  return sum;
 }
 
 uint32_t up_age_ms(size_t field) {
-  return up_now_ms() - read_ms[field];
+  up_health_row_t row;
+
+  up_lock();
+  up_health_row(&health, field, up_now_ms(), &row);
+  up_unlock();
+  return row.age_ms;
 }
 
-size_t up_take_report(uint8_t *frame, size_t frame_bytes, uint8_t *taken) {
-  size_t bytes;
-
-  chMtxLock(&store_lock);
-  bytes = up_report_take(&store, frame, frame_bytes, taken);
-  chMtxUnlock(&store_lock);
-  return bytes;
+up_store_t *up_store(void) {
+  return &store;
 }
 
-void up_restore_report(const uint8_t *taken) {
+up_health_t *up_health(void) {
+  return &health;
+}
+
+void up_lock(void) {
   chMtxLock(&store_lock);
-  up_report_restore(&store, taken);
+}
+
+void up_unlock(void) {
   chMtxUnlock(&store_lock);
 }
 
@@ -173,6 +193,7 @@ int main(void) {
   up_life_init();
   chMtxObjectInit(&store_lock);
   up_store_init(&store, up_config.schema, up_config.values);
+  health.cycles_ms = up_config.cycles_ms;
   up_user_init();
   start_drivers();
   start_tasks();

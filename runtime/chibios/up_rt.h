@@ -19,6 +19,7 @@
 #include "up_drive.h"
 #include "up_elements.h"
 #include "up_filter.h"
+#include "up_health.h"
 #include "up_i2c.h"
 #include "up_ppm.h"
 #include "up_pulse_width.h"
@@ -313,6 +314,7 @@ typedef struct {
   const char *board;
   const up_schema_t *schema;
   void *values;
+  const uint32_t *cycles_ms; /* one a field: see up_health_t */
   void (*const *transforms)(void *value); /* one a field, NULL where there is none */
   const up_pad_t *pads;
   size_t pads_count;
@@ -386,9 +388,11 @@ uint32_t up_sequence(size_t field);
 uint32_t up_errors(size_t field);
 uint32_t up_age_ms(size_t field);
 
-/* The reporter's way to the store: packs what is due, or makes it due again. */
-size_t up_take_report(uint8_t *frame, size_t frame_bytes, uint8_t *taken);
-void up_restore_report(const uint8_t *taken);
+/* For the reporter: the store and the health of devices, which it uses between up_lock() and up_unlock(). */
+up_store_t *up_store(void);
+up_health_t *up_health(void);
+void up_lock(void);
+void up_unlock(void);
 
 /* ---- the user's part; empty unless user/ defines it ---- */
 

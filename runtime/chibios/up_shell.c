@@ -9,6 +9,7 @@
 #include "shell.h"
 #include "up_doctor.h"
 #include "up_life.h"
+#include "sense_model.h"
 #include "up_link.h"
 #include "up_text.h"
 
@@ -171,18 +172,17 @@ static void command_stream(BaseSequentialStream *out, int argc, char *argv[]) {
 }
 
 static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
-  const up_link_counters_t *counters = up_link_counters();
-  const up_decoder_t *decoder = up_link_decoder();
+  const up_reporter_t *reporter = up_link_reporter();
 
   (void)argc;
   (void)argv;
   chprintf(out, "schema 0x%08lx, checksum %s" SHELL_NEWLINE_STR, (unsigned long)up_config.schema->hash,
            up_config.schema->checksum_crc16 ? "crc16" : "none");
-  chprintf(out, "sent %lu, refused %lu, torn %lu frames" SHELL_NEWLINE_STR,
-           (unsigned long)counters->frames_sent, (unsigned long)counters->frames_refused,
-           (unsigned long)counters->frames_torn);
-  chprintf(out, "received %lu frames, dropped %lu bytes" SHELL_NEWLINE_STR, (unsigned long)decoder->frames,
-           (unsigned long)decoder->dropped_bytes);
+  chprintf(out, "sent %lu reports, kept back %lu, torn %lu frames, too old %lu values" SHELL_NEWLINE_STR,
+           (unsigned long)reporter->counts.reports_sent, (unsigned long)reporter->counts.reports_refused,
+           (unsigned long)reporter->counts.frames_torn, (unsigned long)reporter->counts.values_dropped);
+  chprintf(out, "received %lu frames, dropped %lu bytes" SHELL_NEWLINE_STR, (unsigned long)reporter->decoder.frames,
+           (unsigned long)reporter->decoder.dropped_bytes);
   for (size_t i = 0U; i < up_config.counters_count; i++) {
     chprintf(out, "%s %lu times" SHELL_NEWLINE_STR, up_config.counters[i].title,
              (unsigned long)*up_config.counters[i].count);
@@ -240,6 +240,9 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
   (void)argc;
   (void)argv;
   chprintf(out, "checksum %s" SHELL_NEWLINE_STR, schema->checksum_crc16 ? "crc16" : "none");
+  if (sense_reports.has_stamp) {
+    chprintf(out, "stamp" SHELL_NEWLINE_STR);
+  }
   for (i = 0U; i < schema->fields_count; i++) {
     const up_field_t *field = &schema->fields[i];
 
@@ -296,9 +299,9 @@ bool up_shell_cycle(void) {
   return !is_streaming;
 }
 
-bool up_shell_wants(const up_decoder_t *decoder, uint8_t byte) {
+bool up_shell_wants(uint8_t byte) {
   /* A frame starts with a digit: between two frames the letter can mean nothing else. */
-  if (byte != (uint8_t)'q' || !up_decoder_is_idle(decoder)) {
+  if (byte != (uint8_t)'q') {
     return false;
   }
   is_streaming = false;
@@ -317,8 +320,7 @@ bool up_shell_cycle(void) {
   return false;
 }
 
-bool up_shell_wants(const up_decoder_t *decoder, uint8_t byte) {
-  (void)decoder;
+bool up_shell_wants(uint8_t byte) {
   (void)byte;
   return false;
 }

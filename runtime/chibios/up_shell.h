@@ -9,7 +9,6 @@
 #ifndef UP_SHELL_H
 #define UP_SHELL_H
 
-#include "up_decode.h"
 #include "up_rt.h"
 
 void up_shell_start(void);
@@ -20,7 +19,7 @@ bool up_shell_cycle(void);
 /* The host has gone while frames were on: the next one finds what the start decided. */
 void up_shell_channel_closed(void);
 
-/* Looks at a byte that the host sent while frames are on; true when it was the shell's. */
-bool up_shell_wants(const up_decoder_t *decoder, uint8_t byte);
+/* Looks at a byte that the host sent between two frames; true when it was the shell's. */
+bool up_shell_wants(uint8_t byte);
 
 #endif

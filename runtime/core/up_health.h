@@ -64,23 +64,24 @@ typedef struct {
   uint32_t reports_sent;
   uint32_t reports_refused;
   uint16_t stack_left_bytes; /* bytes never used of the fullest stack; UP_STACK_UNKNOWN */
-  uint8_t reset_cause;       /* up_reset_t */
+  uint8_t reset_cause;       /* up_cause_t */
   uint8_t reset_device;      /* after a watchdog's reset the identifier of the first device of the thread that hung */
   uint8_t load_percent;      /* the highest so far; UP_LOAD_UNKNOWN */
 } up_health_board_t;
 #define UP_LOAD_UNKNOWN 255U
 #define UP_STACK_UNKNOWN 65535U
 
+/* Why the board started. */
 typedef enum {
-  UP_RESET_UNKNOWN,
-  UP_RESET_POWER, /* switched on, or a brown-out */
-  UP_RESET_PIN,
-  UP_RESET_SOFTWARE,
-  UP_RESET_WATCHDOG,
-  UP_RESET_WINDOW_WATCHDOG,
-  UP_RESET_LOW_POWER,
-  UP_RESET_HALT /* the kernel stopped itself */
-} up_reset_t;
+  UP_CAUSE_UNKNOWN,
+  UP_CAUSE_POWER, /* switched on, or a brown-out */
+  UP_CAUSE_PIN,
+  UP_CAUSE_SOFTWARE,
+  UP_CAUSE_WATCHDOG,
+  UP_CAUSE_WINDOW_WATCHDOG,
+  UP_CAUSE_LOW_POWER,
+  UP_CAUSE_HALT /* the kernel stopped itself */
+} up_cause_t;
 
 /* On the wire: what the request says, the frame's version, and its parts. */
 #define UP_HEALTH_REQUEST 1U

@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-
 #define BLOCK_BYTES UP_DECODER_BLOCK_BYTES
 #define BLOCKS_MAX 0xFFFFU
 /* The way of a candidate that takes fewer is not kept. */

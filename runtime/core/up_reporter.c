@@ -129,21 +129,18 @@ static bool push(up_reporter_t *reporter) {
   return true;
 }
 
-static bool send(up_reporter_t *reporter, size_t size, bool is_report) {
+static void send(up_reporter_t *reporter, size_t size, bool is_report) {
   reporter->frame_size = size;
   reporter->frame_sent = 0U;
   reporter->is_report = is_report;
-  return push(reporter);
+  (void)push(reporter);
 }
 
-static bool send_hello(up_reporter_t *reporter) {
+static void send_hello(up_reporter_t *reporter) {
   const up_reporter_config_t *config = reporter->config;
 
-  if (!reporter->hello_due) {
-    return true;
-  }
   reporter->hello_due = false;
-  return send(reporter, up_encode_hello(config->reports, config->frame, config->frame_bytes), false);
+  send(reporter, up_encode_hello(config->reports, config->frame, config->frame_bytes), false);
 }
 
 static void row_of(void *context, size_t field, up_health_row_t *row) {
@@ -152,14 +149,11 @@ static void row_of(void *context, size_t field, up_health_row_t *row) {
   up_health_row(reporter->config->health, field, now_ms(reporter), row);
 }
 
-static bool send_health(up_reporter_t *reporter) {
+static void send_health(up_reporter_t *reporter) {
   const up_reporter_config_t *config = reporter->config;
   up_health_board_t board;
   size_t size;
 
-  if (!reporter->health_due) {
-    return true;
-  }
   reporter->health_due = false;
   memset(&board, 0, sizeof board);
   board.uptime_ms = now_ms(reporter);
@@ -173,7 +167,7 @@ static bool send_health(up_reporter_t *reporter) {
   lock(reporter);
   size = up_encode_health(config->reports, &board, row_of, reporter, config->frame, config->frame_bytes);
   unlock(reporter);
-  return send(reporter, size, false);
+  send(reporter, size, false);
 }
 
 /* A value that waited while the channel had no room, and that no reading has followed since. */
@@ -215,18 +209,30 @@ static void send_report(up_reporter_t *reporter) {
   unlock(reporter);
   if (size > 0U) {
     reporter->counter++;
-    (void)send(reporter, size, true);
+    send(reporter, size, true);
   }
 }
 
+/* What the host has asked for; true when it is on its way. */
+static bool answer(up_reporter_t *reporter) {
+  if (reporter->hello_due) {
+    send_hello(reporter);
+  } else if (reporter->health_due) {
+    send_health(reporter);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/* One frame at a time, so that none waits behind another; answers and reports take turns. */
 static void transmit(up_reporter_t *reporter) {
   const up_reporter_config_t *config = reporter->config;
   const up_channel_t *channel = config->channel;
-  bool has_left;
 
-  if (push(reporter)) {
-    has_left = channel->room(channel->context) >= channel->room_max;
-    if (has_left && send_hello(reporter) && send_health(reporter)) {
+  if (push(reporter) && channel->room(channel->context) >= channel->room_max) {
+    reporter->has_answered = !reporter->has_answered && answer(reporter);
+    if (!reporter->has_answered) {
       send_report(reporter);
       return;
     }
@@ -296,5 +302,8 @@ bool up_reporter_peek(up_reporter_t *reporter, uint8_t byte) {
   const uint32_t frames = reporter->decoder.frames;
 
   up_decoder_feed(&reporter->decoder, &byte, 1U);
+  if (reporter->decoder.frames != frames) {
+    up_silence_heard(&reporter->silence, now_ms(reporter));
+  }
   return reporter->decoder.frames != frames && (reporter->hello_due || reporter->health_due);
 }

@@ -58,7 +58,7 @@ typedef struct {
 /* Since the start; they wrap at 2^32. */
 typedef struct {
   uint32_t reports_sent;
-  uint32_t reports_refused; /* cycles in which something was due and the one before had not left */
+  uint32_t reports_refused; /* cycles in which something was due and the line had not done with a frame */
   uint32_t frames_torn;     /* the other end went away in the middle of one */
   uint32_t values_dropped;  /* too old to be reported when the channel had room */
 } up_reporter_counts_t;
@@ -78,6 +78,7 @@ typedef struct {
   bool is_open;
   bool hello_due;
   bool health_due;
+  bool has_answered; /* with the last frame: a report's turn is next */
 } up_reporter_t;
 
 /* False when a buffer is too small. */

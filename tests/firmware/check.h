@@ -22,6 +22,8 @@ void test_messages(void);
 void test_outputs(void);
 void test_health(void);
 void test_timers(void);
+void test_reporter(void);
+void test_faults_of_a_board(void);
 void test_vectors(const char *path);
 
 #endif

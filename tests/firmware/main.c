@@ -31,6 +31,8 @@ int main(int argc, char **argv) {
   test_outputs();
   test_health();
   test_timers();
+  test_reporter();
+  test_faults_of_a_board();
   for (i = 1; i < argc; i++) {
     test_vectors(argv[i]);
   }

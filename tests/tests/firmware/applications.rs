@@ -135,7 +135,7 @@ fn fig2_has_a_group_a_bus_and_a_counter() {
     ] {
         assert!(hardware.contains(expected), "{expected} is missing in\n{hardware}");
     }
-    assert!(files[&format!("{board}/cfg/up_conf.h")].contains("MAX_TO_HOST 17U"));
+    assert!(files[&format!("{board}/generated/sense_model.h")].contains("REPORT_FRAME_BYTES 91U"));
     assert!(files[&format!("{board}/cfg/mcuconf.h")].contains("STM32_ST_USE_TIMER 2"));
     assert!(generate(FIG2).unwrap().get(&format!("{board}/user/user.c")).unwrap().once);
 }

@@ -19,7 +19,7 @@ fn sources() -> Vec<PathBuf> {
 fn tests() -> Vec<PathBuf> {
     let is_test = |path: &PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        name == "main.c" || name.starts_with("test_")
+        ["main.c", "rig.c"].contains(&name.as_str()) || name.starts_with("test_")
     };
     files(&root().join("tests/firmware"), "c").into_iter().filter(is_test).collect()
 }
@@ -208,7 +208,7 @@ fn notices_a_broken_core() {
         ("up_formula_ntc.c", "level >= FULL", "level > FULL"),
         ("up_formula_tsl2561.c", "0x02D1U", "0x02C1U"),
         ("up_chip.c", "now_ms - when_ms", "now_ms > when_ms ? 0U : 0x80000000U"),
-        ("up_chip.c", "  restart(state);\n  return false;", "  return false;"),
+        ("up_chip.c", "    restart(state);\n    return false;", "    return false;"),
         ("up_chip.c", "state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;", ""),
         ("up_chip.c", "% LOOKS != 0U", "!= 0U"),
         ("up_message.c", "(uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U", "false"),
@@ -242,6 +242,12 @@ fn notices_a_broken_core() {
         ("up_message.c", "IBUS_START - ", "0U - "),
         ("up_message.c", "size >= 2U * (size_t)message->start_count", "false"),
         ("up_message.c", "state->is_aligned || ", ""),
+        ("up_reporter.c", "channel->room(channel->context) >= channel->room_max", "true"),
+        ("up_reporter.c", "drop_old(reporter);", ""),
+        ("up_reporter.c", "up_report_restore(reporter->config->store, reporter->taken);", ""),
+        ("up_reporter.c", "!reporter->has_answered && answer(reporter)", "answer(reporter)"),
+        ("up_reporter.c", "up_silence_heard(&reporter->silence, now_ms(reporter));", ""),
+        ("up_reporter.c", "reporter->counter++;", ""),
         ("up_health.c", "(device->counts[fault] < UINT16_MAX)", "1"),
         ("up_health.c", "age / UP_STALE_CYCLES >= cycle_ms", "age >= cycle_ms"),
         ("up_health.c", "if (device->is_ancient)", "if (false)"),

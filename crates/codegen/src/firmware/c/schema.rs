@@ -31,8 +31,6 @@ pub struct SchemaPlan {
     /// As a C literal.
     pub(crate) hash: String,
     pub(crate) value_bytes_max: usize,
-    pub(crate) frame_bytes_max_to_host: usize,
-    pub(crate) frame_bytes_max_to_board: usize,
     /// Reports and commands.
     pub(crate) wires: [WirePlan; 2],
 }
@@ -82,8 +80,6 @@ impl SchemaPlan {
             has_checksum: schema.checksum == Checksum::Crc16,
             hash: format!("0x{:08x}U", schema.hash()),
             value_bytes_max: sizes.max().unwrap_or(1),
-            frame_bytes_max_to_host: schema.frame_bytes_max(Direction::Sensor),
-            frame_bytes_max_to_board: schema.frame_bytes_max(Direction::Actuator),
             wires: wires.map(|direction| WirePlan::new(schema, direction, role)),
         }
     }

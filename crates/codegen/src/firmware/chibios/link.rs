@@ -4,7 +4,6 @@ use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_model::design::Transport;
-use sensedsl_wire::Direction;
 
 use super::context::{Context, Drive, PadPlan, alternate_mode};
 use super::plan::TaskPlan;
@@ -137,12 +136,6 @@ pub(super) fn button(context: &Context<'_>) -> Option<ButtonPlan> {
         line,
         level: if button.active_high { "PAL_HIGH" } else { "PAL_LOW" },
     })
-}
-
-/// How long the reporter waits for the rest of a frame.
-pub(super) fn finish_ms(context: &Context<'_>, link: &LinkPlan) -> u32 {
-    let frame_bytes = context.job.schema.frame_bytes_max(Direction::Sensor);
-    sensedsl_timing::finish_ms(frame_bytes, (!link.is_usb()).then(|| link.baud()))
 }
 
 /// As often as something can become due, at most as often as the link allows.

@@ -1,6 +1,8 @@
 //! All decisions about the firmware of a board, ready to be printed.
 
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+use sensedsl_wire::Direction;
 
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
@@ -10,6 +12,7 @@ use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
 use crate::firmware::c::{Role, SchemaPlan};
+use crate::job::JobDevice;
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -26,7 +29,9 @@ pub(super) struct BoardPlan {
     pub(super) link: LinkPlan,
     pub(super) button: Option<ButtonPlan>,
     pub(super) report_ms: u32,
-    pub(super) finish_ms: u32,
+    /// How often each value comes; 0 where only something that happens brings one.
+    pub(super) cycles_ms: Vec<u32>,
+    pub(super) silence_ms: u32,
     pub(super) guards: Vec<GuardPlan>,
 }
 
@@ -62,7 +67,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         tree: board::plan(context),
         schema: SchemaPlan::new(&context.job.schema, Role::Board),
         report_ms: link::report_ms(context, &tasks),
-        finish_ms: link::finish_ms(context, &link),
+        cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
+        silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
         button: link::button(context),
         guards: settings::guards(context, &sections, &settings),
         settings,
@@ -73,6 +79,11 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         tasks,
         link,
     })
+}
+
+fn cycle_ms(device: &JobDevice<'_>) -> u32 {
+    let is_event = device.device.kind.name() == KindName::Icu || device.device.direction == Direction::Actuator;
+    if is_event { 0 } else { device.cycle.delay_ms }
 }
 
 impl BoardPlan {
