@@ -11,9 +11,11 @@
 #include "hal.h"
 #include "stm32_tim.h"
 
+#include "up_conf.h"
+#include "up_dma.h" /* before the core's headers: they take its UP_DMA_BUFFER */
+
 #include "up_capture.h"
 #include "up_chip.h"
-#include "up_conf.h"
 #include "up_count.h"
 #include "up_debounce.h"
 #include "up_drive.h"

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use sensedsl_board::profile::TargetProfile;
 use serde::Deserialize;
 
+use crate::job::JobStream;
+
 /// The names of one line of MCUs.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +32,9 @@ pub struct Names {
     pub(super) off: Off,
     /// How the field is called that moves a unit to other pins; none where every pin has a choice.
     remap: Option<String>,
+    /// Where buffers of a DMA lie; by default with all other data.
+    #[serde(default)]
+    pub(super) memory: Memory,
     timers: Timers,
     pub(super) adcs: Group,
     pub(super) i2cs: Group,
@@ -118,6 +123,22 @@ pub struct Drivers {
 pub(super) struct Off {
     pub(super) switches: Vec<String>,
     source: String,
+}
+
+/// The memory that DMA controllers reach and no cache stands before.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Memory {
+    /// The section of the tree's linker scripts for buffers.
+    pub(super) dma_section: Option<String>,
+    /// The same for the basic controller, which reaches one memory alone.
+    pub(super) bdma_section: Option<String>,
+    /// The number of the basic controller in the names of streams.
+    bdma_controller: Option<String>,
+    /// Options that keep the cache away from the sections, and their values.
+    #[serde(default)]
+    options: Vec<[String; 2]>,
+    source: Option<String>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -267,6 +288,19 @@ impl Names {
         Some(Setting::new(&apply(option, unit), &value))
     }
 
+    /// What a buffer is marked with that these streams fill or empty.
+    pub(super) fn buffer(&self, streams: &[JobStream<'_>]) -> &'static str {
+        let controllers = streams.iter().filter_map(|one| one.stream.split_once(',')?.0.into());
+        let basic = self.memory.bdma_controller.as_deref();
+        let is_basic = |controller: &str| Some(controller) == basic;
+        if controllers.into_iter().any(is_basic) { "UP_BDMA_BUFFER" } else { "UP_DMA_BUFFER" }
+    }
+
+    /// The options that keep the cache away from buffers.
+    pub(super) fn memory_settings(&self) -> impl Iterator<Item = Setting> {
+        self.memory.options.iter().map(|[name, value]| Setting::new(name, value))
+    }
+
     /// The names of a USB device.
     #[must_use]
     pub fn usb(&self, name: &str) -> Option<&Usb> {
@@ -312,6 +346,10 @@ impl Names {
         let sources = [&self.tree.source, &self.drivers.source, &self.off.source];
         if sources.iter().any(|source| source.is_empty()) {
             problems.push(format!("{line}: files, drivers or switches have no source"));
+        }
+        let memory = &self.memory;
+        if memory.dma_section.is_some() && memory.source.is_none() {
+            problems.push(format!("{line}: the memory of buffers has no source"));
         }
         if self.line.devices.is_empty() {
             problems.push(format!("{line}: no devices"));

@@ -62,6 +62,7 @@ pub(super) const FILES: &[(&str, &str)] = files![
     "chibios/up_doctor.h",
     "chibios/up_life.c",
     "chibios/up_life.h",
+    "chibios/up_dma.h",
     "chibios/up_link.c",
     "chibios/up_link.h",
     "chibios/up_link_serial.c",

@@ -18,6 +18,8 @@ pub(super) struct SettingsPlan {
     pub(super) hal: Vec<Setting>,
     /// For `mcuconf.h`.
     pub(super) mcu: Vec<Setting>,
+    /// The sections for buffers, and the macros by which the runtime knows them.
+    pub(super) memory: Vec<Setting>,
     /// The macros of DMA streams in use.
     dma: Vec<String>,
 }
@@ -72,6 +74,7 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
     mcu.extend(used.iter().map(|switch| Setting::new(switch, "TRUE")));
     // The watchdog and its oscillator.
     mcu.extend(["STM32_WDG_USE_IWDG", "STM32_LSI_ENABLED"].map(|one| Setting::new(one, "TRUE")));
+    mcu.extend(context.names.memory_settings());
     mcu.extend(sections.iter().flat_map(|section| section.mcu.iter().cloned()));
     let streams = streams(context, &units);
     mcu.extend(streams.iter().cloned());
@@ -79,8 +82,22 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
         kernel: KernelPlan::new(context),
         hal: hal(sections, link),
         mcu,
+        memory: memory(context),
         dma: streams.into_iter().map(|setting| setting.name).collect(),
     }
+}
+
+/// The sections of the linker script for buffers of a DMA.
+fn memory(context: &Context<'_>) -> Vec<Setting> {
+    let memory = &context.names.memory;
+    let sections = [
+        ("UP_DMA_SECTION", memory.dma_section.as_ref()),
+        ("UP_BDMA_SECTION", memory.bdma_section.as_ref()),
+    ];
+    let set = |(name, section): (&str, Option<&String>)| {
+        Some(Setting::new(name, &format!("\"{}\"", section?)))
+    };
+    sections.into_iter().filter_map(set).collect()
 }
 
 /// The streams of all requests, by the macro that names each.
