@@ -14,12 +14,14 @@
 #include "up_conf.h"
 #include "up_dma.h" /* before the core's headers: they take its UP_DMA_BUFFER */
 
+#include "up_adc.h"
 #include "up_capture.h"
 #include "up_chip.h"
 #include "up_count.h"
 #include "up_debounce.h"
 #include "up_drive.h"
 #include "up_elements.h"
+#include "up_dac.h"
 #include "up_filter.h"
 #include "up_health.h"
 #include "up_i2c.h"
@@ -60,27 +62,6 @@ typedef struct {
   const char *title; /* "I2C1 was freed" */
   const uint32_t *count;
 } up_counter_t;
-
-#if HAL_USE_ADC == TRUE
-/* One sensor of a conversion group. */
-typedef struct {
-  uint16_t field;
-  uint16_t samples; /* the mean of so many, at most the group's depth */
-  uint8_t column;   /* place in the group's sequence */
-} up_analog_t;
-
-/* One conversion group: what up_adc_cycle() works on. */
-typedef struct {
-  ADCDriver *driver;
-  const ADCConversionGroup *group;
-  adcsample_t *buffer; /* depth rows of num_channels columns */
-  size_t depth;
-  const up_analog_t *sensors;
-  uint8_t sensors_count;
-} up_adc_t;
-
-void up_adc_cycle(const void *work);
-#endif
 
 #if HAL_USE_I2C == TRUE
 /* One bus, shared by all that use its driver. */

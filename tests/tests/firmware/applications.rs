@@ -125,8 +125,8 @@ fn fig2_has_a_group_a_bus_and_a_counter() {
         "PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG",
         "PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2)",
         "PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN",
-        "/* ADC1 60 ms: IRFrontRight */",
-        "/* ADC1 1000 ms: IRFront */",
+        "/* ADC1 60 ms:\n * IRFrontRight at PB1 (ADC12-IN9) */",
+        "/* ADC1 1000 ms:\n * IRFront at PB0 (ADC12-IN8) */",
         "/* I2C3 40 ms +2: USRear */",
         ".address = 0x73U",
         ".wait_ms = 65U",
@@ -144,9 +144,9 @@ fn fig2_has_a_group_a_bus_and_a_counter() {
 fn one_thread_serves_what_is_alike() {
     let files = files(CAR);
     let hardware = &files["STM32F4DiscoveryBoard/generated/sense_hw.c"];
-    assert!(hardware.contains("/* ADC1 60 ms +12: "), "{hardware}");
+    assert!(hardware.contains("/* ADC1 60 ms +12:\n * "), "{hardware}");
     assert_eq!(hardware.matches("THD_WORKING_AREA(").count(), 2);
-    assert_eq!(hardware.matches("up_adc_t adc_").count(), 1);
+    assert_eq!(hardware.matches("up_adc_t adc1_").count(), 1);
     assert_eq!(hardware.matches("static const I2CConfig").count(), 1);
     // Seven captures have every timer but one of the two that share PA1.
     let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];

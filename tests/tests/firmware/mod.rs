@@ -5,6 +5,7 @@
 //! a tool that package registries have is then a failure. `CHIBIOS` names a ChibiOS 21.11 source
 //! tree, which no registry has: without it the generated applications are only looked at.
 
+mod analog;
 mod applications;
 mod building;
 mod chibios;

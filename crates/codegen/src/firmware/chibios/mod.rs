@@ -12,6 +12,7 @@ mod digital;
 mod doctor;
 mod encoder;
 mod gpio;
+mod dac;
 mod i2c;
 mod icu;
 mod link;
@@ -42,6 +43,7 @@ use section::Peripheral;
 const PERIPHERALS: &[&Peripheral] = &[
     &gpio::PERIPHERAL,
     &adc::PERIPHERAL, //
+    &dac::PERIPHERAL,
     &i2c::PERIPHERAL,
     &icu::PERIPHERAL,
     &encoder::PERIPHERAL,

@@ -158,16 +158,23 @@ pub(super) struct Group {
     rx: Option<String>,
     tx: Option<String>,
     dma: Option<String>,
-    /// The option that chooses the divider of the group's clock, and its value.
-    pub(super) clock_option: Option<[String; 2]>,
+    /// Options that choose source and divider of the group's clock, and their values.
+    #[serde(default)]
+    options: Vec<[String; 2]>,
     /// The option for how many milliseconds the driver holds the processor while a bus is busy.
     pub(super) busy_option: Option<String>,
+}
+
+impl Group {
+    /// The options that choose source and divider of its clock.
+    pub(super) fn settings(&self) -> impl Iterator<Item = Setting> {
+        self.options.iter().map(|[name, value]| Setting::new(name, value))
+    }
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Dacs {
-    #[expect(dead_code, reason = "stated, for the firmware of kind dac")]
     switch: String,
     /// The driver objects of a converter's outputs, from the first on.
     drivers: BTreeMap<String, Vec<String>>,
@@ -288,12 +295,25 @@ impl Names {
         Some(Setting::new(&apply(option, unit), &value))
     }
 
+    /// The driver object of a converter's output, counted from 1, and the option that turns it on.
+    pub(super) fn dac(&self, unit: &str, channel: u8) -> Option<(String, String)> {
+        let dacs = self.dacs.as_ref()?;
+        let place = usize::from(channel).checked_sub(1)?;
+        let driver = dacs.drivers.get(unit)?.get(place)?.clone();
+        let switch = dacs.switch.replace("{channel}", &channel.to_string());
+        Some((driver, apply(&switch, unit)))
+    }
+
     /// What a buffer is marked with that these streams fill or empty.
     pub(super) fn buffer(&self, streams: &[JobStream<'_>]) -> &'static str {
-        let controllers = streams.iter().filter_map(|one| one.stream.split_once(',')?.0.into());
-        let basic = self.memory.bdma_controller.as_deref();
-        let is_basic = |controller: &str| Some(controller) == basic;
-        if controllers.into_iter().any(is_basic) { "UP_BDMA_BUFFER" } else { "UP_DMA_BUFFER" }
+        let is_basic = streams.iter().any(|one| self.is_basic(one.stream));
+        if is_basic { "UP_BDMA_BUFFER" } else { "UP_DMA_BUFFER" }
+    }
+
+    /// Whether a stream is one of the basic controller.
+    pub(super) fn is_basic(&self, stream: &str) -> bool {
+        let controller = stream.split_once(',').map(|(controller, _)| controller);
+        controller.is_some() && controller == self.memory.bdma_controller.as_deref()
     }
 
     /// The options that keep the cache away from buffers.

@@ -20,8 +20,16 @@ pub(super) struct SettingsPlan {
     pub(super) mcu: Vec<Setting>,
     /// The sections for buffers, and the macros by which the runtime knows them.
     pub(super) memory: Vec<Setting>,
-    /// The macros of DMA streams in use.
-    dma: Vec<String>,
+    /// The DMA streams in use.
+    dma: Vec<StreamPlan>,
+}
+
+/// A stream, by the macro that names it.
+#[derive(Clone, Debug)]
+struct StreamPlan {
+    setting: Setting,
+    /// It is one of the basic controller, whose numbers are for themselves.
+    is_basic: bool,
 }
 
 /// What the kernel's time comes from.
@@ -77,13 +85,13 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
     mcu.extend(context.names.memory_settings());
     mcu.extend(sections.iter().flat_map(|section| section.mcu.iter().cloned()));
     let streams = streams(context, &units);
-    mcu.extend(streams.iter().cloned());
+    mcu.extend(streams.iter().map(|stream| stream.setting.clone()));
     SettingsPlan {
         kernel: KernelPlan::new(context),
         hal: hal(sections, link),
         mcu,
         memory: memory(context),
-        dma: streams.into_iter().map(|setting| setting.name).collect(),
+        dma: streams,
     }
 }
 
@@ -101,17 +109,16 @@ fn memory(context: &Context<'_>) -> Vec<Setting> {
 }
 
 /// The streams of all requests, by the macro that names each.
-fn streams(context: &Context<'_>, units: &BTreeSet<&UnitName>) -> Vec<Setting> {
+fn streams(context: &Context<'_>, units: &BTreeSet<&UnitName>) -> Vec<StreamPlan> {
     let mut settings = Vec::new();
     for unit in units {
-        let devices = &context.job.devices;
-        let Some(device) = devices.iter().find(|one| one.unit == Some(unit.as_str())) else {
-            continue;
-        };
+        let mut wired = context.job.connections.iter();
+        let Some(wired) = wired.find(|one| one.unit == Some(unit.as_str())) else { continue };
         for request in context.profile.dma(unit.as_str()) {
-            let served = device.streams.iter().find(|one| one.request == request.name);
+            let served = wired.streams.iter().find(|one| one.request == request.name);
             settings.extend(served.and_then(|served| {
-                context.names.stream(unit.as_str(), served.request, served.stream)
+                let setting = context.names.stream(unit.as_str(), served.request, served.stream)?;
+                Some(StreamPlan { setting, is_basic: context.names.is_basic(served.stream) })
             }));
         }
     }
@@ -184,7 +191,9 @@ fn clocks<'a>(context: &'a Context<'_>, sections: &'a [Section]) -> BTreeSet<&'a
 /// Two drivers on one stream compile, and fail at run time.
 fn streams_differ(settings: &SettingsPlan, guards: &mut Vec<GuardPlan>) {
     for (at, first) in settings.dma.iter().enumerate() {
-        for second in settings.dma.iter().skip(at + 1) {
+        let others = settings.dma.iter().skip(at + 1);
+        for second in others.filter(|second| second.is_basic == first.is_basic) {
+            let [first, second] = [first, second].map(|stream| &stream.setting.name);
             guards.push(GuardPlan {
                 condition: format!("{first} !=\n               {second}"),
                 message: "two drivers have one DMA stream".to_owned(),

@@ -1,0 +1,8 @@
+/* The smallest application. */
+#ifndef UP_CONF_H
+#define UP_CONF_H
+
+#define UP_LINK_USB TRUE
+#define UP_HAS_BUTTON FALSE
+
+#endif
