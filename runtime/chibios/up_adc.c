@@ -11,7 +11,7 @@
 /* Raw values go from 0 to this, whatever the converter has. */
 #define RAW_FULL 4095U
 
-/* A field has elements from at most so many units. */
+/* No MCU has more units. */
 #define GROUPS_MAX 5U
 
 void up_adc_on_error(ADCDriver *driver, adcerror_t errors) {

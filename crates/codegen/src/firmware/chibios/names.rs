@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::signal::UnitName;
 use serde::Deserialize;
 
 use crate::job::JobStream;
@@ -36,7 +37,7 @@ pub struct Names {
     #[serde(default)]
     pub(super) memory: Memory,
     timers: Timers,
-    pub(super) adcs: Group,
+    adcs: Group,
     pub(super) i2cs: Group,
     spis: Group,
     serials: Group,
@@ -165,13 +166,6 @@ pub(super) struct Group {
     pub(super) busy_option: Option<String>,
 }
 
-impl Group {
-    /// The options that choose source and divider of its clock.
-    pub(super) fn settings(&self) -> impl Iterator<Item = Setting> {
-        self.options.iter().map(|[name, value]| Setting::new(name, value))
-    }
-}
-
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Dacs {
@@ -215,6 +209,9 @@ struct Unit {
     /// Options that must be on as well.
     #[serde(default)]
     needs: Vec<String>,
+    /// Options that choose source and divider of its clock, and their values.
+    #[serde(default)]
+    options: Vec<[String; 2]>,
 }
 
 /// How an option names a stream.
@@ -302,6 +299,14 @@ impl Names {
         let driver = dacs.drivers.get(unit)?.get(place)?.clone();
         let switch = dacs.switch.replace("{channel}", &channel.to_string());
         Some((driver, apply(&switch, unit)))
+    }
+
+    /// The options that choose source and divider of the converters' clock.
+    pub(super) fn converters<'a>(&self, units: impl Iterator<Item = &'a UnitName>) -> Vec<Setting> {
+        let own = units.filter_map(|unit| self.own(unit.as_str()));
+        let own = own.flat_map(|own| &own.options);
+        let all = self.adcs.options.iter().chain(own);
+        all.map(|[name, value]| Setting::new(name, value)).collect()
     }
 
     /// What a buffer is marked with that these streams fill or empty.

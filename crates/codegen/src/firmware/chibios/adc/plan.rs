@@ -95,7 +95,7 @@ pub(super) fn plan(
     section.hal.push(Setting::new("ADC_DRIVER_EXT_FIELDS", "uint32_t up_errors;"));
     section.clocks.extend(context.profile.adc.clock.clone());
     // The converters' clock is told, so that it is what their times were computed with.
-    section.mcu = context.names.adcs.settings().collect();
+    section.mcu = context.names.converters(section.units.iter());
     let groups = classes.into_iter().filter_map(|(class, inputs)| group(context, class, inputs));
     let tasks = tasks(context, groups.collect(), text);
     section.work = tasks.iter().map(Task::work).collect();

@@ -42,8 +42,7 @@ fn a_group_has_an_even_number_of_rows() {
 }
 
 /// Seven inputs need two registers, and those from 10 on have their sampling times in the other one.
-const SEVEN: &[(u8, u32)] =
-    &[(0, 84), (1, 84), (2, 84), (3, 84), (4, 84), (5, 84), (11, 480)];
+const SEVEN: &[(u8, u32)] = &[(0, 84), (1, 84), (2, 84), (3, 84), (4, 84), (5, 84), (11, 480)];
 
 #[test]
 fn the_sequence_of_f4_and_f1() {
