@@ -181,6 +181,9 @@ pub struct Chibios {
     pub stacks_bytes: Option<[u32; 2]>,
     /// The macro by which the configuration tells its MCU.
     pub mcuconf: String,
+    /// Macros that the files of the tree want to be told.
+    #[serde(default)]
+    pub defines: Vec<String>,
     /// What of the board's folder and the demo's configuration is not right for this board: macros, and what they
     /// are to be; nothing for one that must not be defined.
     #[serde(default)]

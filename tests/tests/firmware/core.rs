@@ -252,7 +252,11 @@ fn notices_a_broken_core() {
         ("up_health.c", "age / UP_STALE_CYCLES >= cycle_ms", "age >= cycle_ms"),
         ("up_health.c", "if (device->is_ancient)", "if (false)"),
         ("up_silence.c", "silence->is_silent || ", ""),
-        ("up_silence.c", "(uint32_t)(now_ms - silence->heard_ms) <", "now_ms < silence->heard_ms +"),
+        (
+            "up_silence.c",
+            "(uint32_t)(now_ms - silence->heard_ms) <",
+            "now_ms < silence->heard_ms +",
+        ),
         ("up_ppm.c", "interval_ticks < config->min_ticks", "false"),
         ("up_ppm.c", "raw->is_inside && raw->building_count > 0U", "raw->building_count > 0U"),
         ("up_drive.c", "put(writes, &count, 0U, 0U);\n    put", "put"),

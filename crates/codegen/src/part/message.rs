@@ -35,8 +35,29 @@ pub struct MessagePlan {
     pub checksum_from: u8,
     /// The values.
     pub fields: Vec<MessageFieldPlan>,
+    /// The values that are sent.
+    pub commands: Vec<ComposePlan>,
     /// 64-bit words that hold the largest value.
     pub scratch_words: usize,
+}
+
+/// An `up_compose_t`: a value that is sent as a message of its own.
+#[derive(Clone, Debug)]
+pub struct ComposePlan {
+    /// The device.
+    pub field: String,
+    /// How the value is coded.
+    pub value: ValuePlan,
+    /// First bytes of the message.
+    pub start: Vec<String>,
+    /// Last bytes of the message.
+    pub end: Vec<String>,
+    /// The runtime's name for the checksum.
+    pub checksum: &'static str,
+    /// The first byte that is summed.
+    pub checksum_from: u8,
+    /// Of the whole message.
+    pub bytes: u16,
 }
 
 /// An `up_message_field_t`.
@@ -62,11 +83,10 @@ pub struct MessageFieldPlan {
 
 /// The part's table; none where nothing comes from it over a serial port.
 pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
-    let devices: Vec<&Device> = source
-        .devices(|kind| matches!(kind, Kind::Uart(_)))
-        .filter(|device| device.direction == Direction::Sensor)
-        .collect();
-    let first = devices.first()?;
+    let all: Vec<&Device> = source.devices(|kind| matches!(kind, Kind::Uart(_))).collect();
+    let is_sensor = |device: &&&Device| device.direction == Direction::Sensor;
+    let devices: Vec<&Device> = all.iter().filter(is_sensor).copied().collect();
+    let first = devices.first().or(all.first())?;
     let uart = source.design.main_connection(first)?.kind.uart()?;
     let is_text = devices.iter().any(|device| device.coding.text.is_some());
     let is_chip = source.part.chip.is_some();
@@ -82,6 +102,7 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
         checksum: checksum(uart.checksum).0,
         checksum_from: uart.checksum_from,
         fields: devices.iter().filter_map(|device| field(device)).collect(),
+        commands: all.iter().filter_map(|device| command(device)).collect(),
         scratch_words: sizes.max().unwrap_or(1),
     })
 }
@@ -102,6 +123,24 @@ const fn checksum(checksum: MessageChecksum) -> (&'static str, u16) {
 fn bytes(uart: &Uart) -> u16 {
     let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
     uart.length_bytes.saturating_add(ends).saturating_add(checksum(uart.checksum).1)
+}
+
+/// A value that is sent; none where it comes in.
+fn command(device: &Device) -> Option<ComposePlan> {
+    let Kind::Uart(uart) = &device.kind else { return None };
+    let is_sent = device.direction == Direction::Actuator;
+    let words = Words::of(device).filter(|_| is_sent)?;
+    let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
+    let (checksum, checksum_bytes) = checksum(uart.checksum);
+    Some(ComposePlan {
+        field: device.name.value.clone(),
+        value: ValuePlan::new(&words),
+        start: literal::bytes(&uart.start),
+        end: literal::bytes(&uart.end),
+        checksum,
+        checksum_from: uart.checksum_from,
+        bytes: words.wire_bytes().saturating_add(ends).saturating_add(checksum_bytes),
+    })
 }
 
 fn field(device: &Device) -> Option<MessageFieldPlan> {

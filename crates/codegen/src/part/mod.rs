@@ -22,7 +22,7 @@ use sensedsl_wire::Direction;
 use crate::print::block;
 pub use bus::{BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, ReadingPlan};
 pub use filter::FilterPlan;
-pub use message::{MessageFieldPlan, MessagePlan};
+pub use message::{ComposePlan, MessageFieldPlan, MessagePlan};
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
 pub use transfers::TransferPlan;
 pub use value::ValuePlan;

@@ -23,6 +23,8 @@ pub(super) struct TreePlan {
     pub(super) board_mk: String,
     pub(super) cfg_dir: String,
     pub(super) ldscript: String,
+    /// Macros that the files want to be told.
+    pub(super) defines: Vec<String>,
     /// The macro by which `mcuconf.h` tells its MCU.
     pub(super) mcuconf: String,
 }
@@ -50,6 +52,7 @@ pub(super) fn plan(context: &Context<'_>) -> TreePlan {
         board_mk: format!("os/hal/boards/{}/board.mk", chibios.board),
         cfg_dir: format!("{}/{}", chibios.demo, chibios.cfg),
         ldscript: chibios.ldscript.clone(),
+        defines: chibios.defines.clone(),
         mcuconf: chibios.mcuconf.clone(),
     }
 }

@@ -42,6 +42,8 @@ pub(super) enum Drive {
     OpenDrain,
     /// Fast edges: USB.
     Fast,
+    /// An input that is high, or low, as long as nothing is connected.
+    Resting(bool),
 }
 
 impl<'a> Context<'a> {
@@ -170,6 +172,8 @@ pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
         Drive::Plain => "",
         Drive::OpenDrain => " | PAL_STM32_OTYPE_OPENDRAIN",
         Drive::Fast => " | PAL_STM32_OSPEED_HIGHEST",
+        Drive::Resting(true) => " | PAL_STM32_PUPDR_PULLUP",
+        Drive::Resting(false) => " | PAL_STM32_PUPDR_PULLDOWN",
     };
     format!("PAL_MODE_ALTERNATE({number}){extra}")
 }
@@ -179,6 +183,8 @@ pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
 fn unnumbered_mode(role: Role, drive: Drive) -> &'static str {
     match drive {
         Drive::OpenDrain => "PAL_MODE_STM32_ALTERNATE_OPENDRAIN",
+        Drive::Resting(true) => "PAL_MODE_INPUT_PULLUP",
+        Drive::Resting(false) => "PAL_MODE_INPUT_PULLDOWN",
         Drive::Plain | Drive::Fast if role.is_driven_by_device() => "PAL_MODE_INPUT",
         Drive::Plain | Drive::Fast => "PAL_MODE_STM32_ALTERNATE_PUSHPULL",
     }

@@ -26,6 +26,7 @@ mod runtime;
 mod section;
 mod settings;
 mod timers;
+mod uart;
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
@@ -50,6 +51,7 @@ const PERIPHERALS: &[&Peripheral] = &[
     &digital::PERIPHERAL,
     &pwm::PERIPHERAL,
     &pulse::PERIPHERAL,
+    &uart::PERIPHERAL,
 ];
 
 /// The target `chibios`.

@@ -18,6 +18,8 @@ pub(super) const FILES: &[(&str, &str)] = files![
     "core/up_checksum.h",
     "core/up_chip.c",
     "core/up_chip.h",
+    "core/up_compose.c",
+    "core/up_compose.h",
     "core/up_convert.c",
     "core/up_convert.h",
     "core/up_decode.c",

@@ -151,14 +151,20 @@ fn hal(sections: &[Section], link: &LinkPlan) -> Vec<Setting> {
         }
     }
     settings.extend(sections.iter().flat_map(|section| section.hal.iter().cloned()));
-    if settings.iter().any(|one| one.name == "HAL_USE_SERIAL" && one.value == "TRUE") {
-        settings.push(Setting::new("SERIAL_BUFFERS_SIZE", SERIAL_BYTES));
+    if !link.is_usb() {
+        let own = settings.iter_mut().find(|one| one.name == SERIAL_SIZE);
+        match own {
+            Some(own) if own.value.parse().is_ok_and(|bytes: u32| bytes >= LINK_BYTES) => {}
+            Some(own) => own.value = LINK_BYTES.to_string(),
+            None => settings.push(Setting::new(SERIAL_SIZE, &LINK_BYTES.to_string())),
+        }
     }
     settings
 }
 
-/// Bytes of the queues of a serial port, each way.
-const SERIAL_BYTES: &str = "256";
+/// Bytes of the queues of all serial ports, each way; and how many the link wants.
+const SERIAL_SIZE: &str = "SERIAL_BUFFERS_SIZE";
+const LINK_BYTES: u32 = 256;
 
 /// What the C compiler is asked to check against the user's tree, because nothing else would.
 pub(super) fn guards(

@@ -1,0 +1,209 @@
+//! A port with its device: its settings, what is sent and what is listened for.
+
+use askama::Template;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0506_hardware_limit;
+use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::{Kind, KindName, Role};
+
+use crate::firmware::chibios::context::{Context, Drive};
+use crate::firmware::chibios::names::Setting;
+use crate::firmware::chibios::section::{Apply, STACK_BYTES, Section, Size, Work};
+use crate::job::{Cycle, JobConnection};
+use crate::part::MessagePlan;
+use crate::print::block;
+use sensedsl_board::signal::UnitName;
+
+#[derive(Template)]
+#[template(path = "firmware/chibios/uart/v1.c.txt", escape = "none")]
+struct Tables<'a> {
+    s: &'a Ports,
+}
+
+struct Ports {
+    ports: Vec<Port>,
+}
+
+/// A port with a device.
+struct Port {
+    ident: String,
+    /// For people: the device and its pins.
+    place: String,
+    unit: String,
+    driver: String,
+    baud: u32,
+    /// For people: `8E2, inverted`.
+    frame: String,
+    /// Values of the registers beside the driver's own; empty for none.
+    cr1: String,
+    cr2: String,
+    prefix: String,
+    init: usize,
+    fields: usize,
+    gap_ms: u32,
+    cycle: Cycle,
+    id: u8,
+}
+
+/// The version whose ports cannot invert.
+const WITHOUT_INVERSION: &str = "USARTv1";
+
+/// The queue of a port holds what comes in so long: the thread that takes it out may have to wait for others.
+const PATIENCE_MS: u32 = 20;
+
+/// The smallest and the largest queue.
+const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
+
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    let (mut ports, mut queue_bytes, mut send_bytes) = (Vec::new(), 0, 1);
+    for wired in context.connections(KindName::Uart) {
+        let Some(uart) = uart(context, wired) else { continue };
+        let Some(message) = context.job.tables_of(wired).and_then(|plan| plan.message.as_ref())
+        else {
+            continue;
+        };
+        let Some(port) = Port::new(context, wired, uart, message) else { continue };
+        refuse(context, wired, uart, diagnostics);
+        for pad in &wired.pads {
+            let drive =
+                if pad.role == Role::Rx { Drive::Resting(!uart.is_inverted) } else { Drive::Plain };
+            section.pads.extend(context.alternate_pad(pad, drive, diagnostics));
+        }
+        let sent = message.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
+        let told = message.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
+        send_bytes = send_bytes.max(sent);
+        let needed = (uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000;
+        let needed = needed.max(2 * sent).max(u32::try_from(told).unwrap_or(0));
+        queue_bytes = queue_bytes.max(needed.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end()));
+        section.units.insert(UnitName::new(&port.unit));
+        section.clocks.extend(context.profile.unit(&port.unit).and_then(|unit| unit.clock.clone()));
+        section.starts.push(format!("up_uart_start(&{});", port.table()));
+        section.applies.extend(message.commands.iter().map(|one| Apply {
+            field: one.field.clone(),
+            line: format!("up_uart_send(&{}, &compose_{}, field, value);", port.table(), one.field),
+        }));
+        section.work.extend(port.work());
+        ports.push(port);
+    }
+    if !ports.is_empty() {
+        section.switch = Some(Setting::new("HAL_USE_SERIAL", "TRUE"));
+        section.hal =
+            vec![Setting::new("SERIAL_BUFFERS_SIZE", &queue_bytes.next_power_of_two().to_string())];
+        section.tables = block(&Tables { s: &Ports { ports } });
+    }
+    section.sizes = vec![Size {
+        comment: "The longest message that a serial device is sent.",
+        setting: Setting::new("UP_UART_SEND_BYTES_MAX", &format!("{send_bytes}U")),
+    }];
+    section
+}
+
+/// How the port of a connection is set.
+fn uart<'a>(context: &Context<'a>, wired: &JobConnection<'a>) -> Option<&'a Uart> {
+    match &wired.connection.kind {
+        Kind::Uart(uart) => Some(uart),
+        _ => match &context.device_of(wired)?.device.kind {
+            Kind::Uart(uart) => Some(uart),
+            _ => None,
+        },
+    }
+}
+
+/// A port that cannot do what the device needs.
+fn refuse(
+    context: &Context<'_>,
+    wired: &JobConnection<'_>,
+    uart: &Uart,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    if uart.is_inverted && context.names.drivers.serial == WITHOUT_INVERSION {
+        let name = &wired.part.name;
+        let message =
+            format!("the serial ports of {} cannot invert their wires", context.profile.family);
+        let help = format!(
+            "put an inverter in front of {} and leave `invert` out, or take another MCU",
+            name.value
+        );
+        diagnostics.push(e0506_hardware_limit::hardware_limit(name.span, &message, &help));
+    }
+}
+
+impl Port {
+    fn new(
+        context: &Context<'_>,
+        wired: &JobConnection<'_>,
+        uart: &Uart,
+        message: &MessagePlan,
+    ) -> Option<Self> {
+        let unit = wired.unit?;
+        Some(Self {
+            ident: wired.ident.clone(),
+            place: wired.place(),
+            unit: unit.to_owned(),
+            driver: context.names.driver(unit)?,
+            baud: uart.baud,
+            frame: frame(uart),
+            cr1: cr1(uart),
+            cr2: cr2(uart),
+            prefix: message.prefix.clone(),
+            init: message.init.len(),
+            fields: message.fields.len(),
+            gap_ms: gap_ms(uart, message),
+            cycle: wired.cycle,
+            id: context.id_of(wired),
+        })
+    }
+
+    fn table(&self) -> String {
+        format!("{}_port", self.ident)
+    }
+
+    /// Where something comes in or the device is to be started.
+    fn work(&self) -> Option<Work> {
+        (self.fields > 0 || self.init > 0).then(|| Work {
+            unit: self.unit.clone(),
+            cycle: self.cycle,
+            function: "up_uart_cycle",
+            table: self.table(),
+            device: self.id,
+            stack_bytes: STACK_BYTES,
+        })
+    }
+}
+
+/// For people.
+fn frame(uart: &Uart) -> String {
+    let parity = match uart.parity {
+        Parity::None => 'N',
+        Parity::Even => 'E',
+        Parity::Odd => 'O',
+    };
+    let inverted = if uart.is_inverted { ", inverted" } else { "" };
+    format!("{}{parity}{}{inverted}", uart.data_bits, uart.stop_bits)
+}
+
+/// Parity, and whether it comes behind eight bits.
+fn cr1(uart: &Uart) -> String {
+    let nine = if uart.data_bits == 8 { "UP_UART_NINE_BITS | " } else { "" };
+    match uart.parity {
+        Parity::None => String::new(),
+        Parity::Even => format!("{nine}USART_CR1_PCE"),
+        Parity::Odd => format!("{nine}USART_CR1_PCE | USART_CR1_PS"),
+    }
+}
+
+/// Stop bits and inversion.
+fn cr2(uart: &Uart) -> String {
+    let stop = (uart.stop_bits == 2).then_some("USART_CR2_STOP_1");
+    let invert = uart.is_inverted.then_some("USART_CR2_RXINV | USART_CR2_TXINV");
+    let all: Vec<&str> = stop.into_iter().chain(invert).collect();
+    all.join(" | ")
+}
+
+/// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
+fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
+    let is_told = message.checksum != "UP_CHECKSUM_NONE" || !uart.end.is_empty();
+    let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
+    if is_told { 0 } else { two_characters_ms.max(2) }
+}
