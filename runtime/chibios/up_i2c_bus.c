@@ -1,4 +1,3 @@
-/* I2C devices: the core's scripts over a bus with finite time-outs that frees itself when it hangs. */
 #include "up_rt.h"
 
 #include <string.h>
@@ -8,6 +7,26 @@
 /* A device that was cut off in the middle of a byte lets go after at most so many clocks. */
 #define RECOVERY_CLOCKS 9U
 #define RECOVERY_HALF_CLOCK_US 100U
+/* From one try to free a bus that is stuck to the next: the first time, and at most. */
+#define BACKOFF_FIRST_MS 50U
+#define BACKOFF_MAX_MS 1000U
+
+/* The pad as it is moved by hand, with the MCU's own resistor where there is one for an output. */
+#if defined(PAL_STM32_PUPDR_PULLUP)
+#define BY_HAND (PAL_MODE_OUTPUT_OPENDRAIN | PAL_STM32_PUPDR_PULLUP)
+#else
+#define BY_HAND PAL_MODE_OUTPUT_OPENDRAIN
+#endif
+
+static bool is_busy(const up_i2c_port_t *port) {
+#if defined(I2C_ISR_BUSY)
+  return (port->driver->i2c->ISR & I2C_ISR_BUSY) != 0U;
+#else
+  return (port->driver->i2c->SR2 & I2C_SR2_BUSY) != 0U;
+#endif
+}
+
+/* ---- freeing ---- */
 
 static void half_clock(ioline_t line, uint8_t level) {
   palWriteLine(line, level);
@@ -19,17 +38,17 @@ static void set_pads(const up_i2c_port_t *port) {
   palSetLineMode(port->sda, port->sda_mode);
 }
 
-/* Clocks a stuck device out by hand, ends with a stop condition and starts the driver anew. The driver is
- * locked after a time-out, so nothing short of a restart helps. */
-static void recover(const up_i2c_port_t *port) {
+/* Clocks until the device that holds SDA lets go of it, and ends with a stop condition. True when both wires are free
+ * after that. */
+static bool clock_out(const up_i2c_port_t *port) {
   unsigned clock;
 
-  i2cStop(port->driver);
   palSetLine(port->scl);
   palSetLine(port->sda);
-  palSetLineMode(port->scl, PAL_MODE_OUTPUT_OPENDRAIN);
-  palSetLineMode(port->sda, PAL_MODE_OUTPUT_OPENDRAIN);
-  for (clock = 0U; clock < RECOVERY_CLOCKS; clock++) {
+  palSetLineMode(port->scl, BY_HAND);
+  palSetLineMode(port->sda, BY_HAND);
+  half_clock(port->scl, PAL_HIGH);
+  for (clock = 0U; clock < RECOVERY_CLOCKS && palReadLine(port->sda) == PAL_LOW; clock++) {
     half_clock(port->scl, PAL_LOW);
     half_clock(port->scl, PAL_HIGH);
   }
@@ -37,13 +56,51 @@ static void recover(const up_i2c_port_t *port) {
   half_clock(port->sda, PAL_LOW);
   half_clock(port->scl, PAL_HIGH);
   half_clock(port->sda, PAL_HIGH);
-  set_pads(port);
-  (void)i2cStart(port->driver, port->config);
-  (*port->recoveries)++;
+  return palReadLine(port->scl) == PAL_HIGH && palReadLine(port->sda) == PAL_HIGH;
 }
 
-static msg_t transfer(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count,
-                      uint8_t *rx, size_t rx_count) {
+/* The driver is locked after a time-out, and its unit may take the bus for busy for good: both start anew. */
+static bool recover(const up_i2c_port_t *port) {
+  up_i2c_state_t *state = port->state;
+  bool is_free;
+
+  i2cStop(port->driver);
+  is_free = clock_out(port);
+  set_pads(port);
+  (void)i2cStart(port->driver, port->config);
+  if (is_free) {
+    state->freed++;
+    state->backoff_ms = 0U;
+    return true;
+  }
+  state->kept++;
+  state->backoff_ms = (state->backoff_ms == 0U) ? BACKOFF_FIRST_MS : 2U * state->backoff_ms;
+  if (state->backoff_ms > BACKOFF_MAX_MS) {
+    state->backoff_ms = BACKOFF_MAX_MS;
+  }
+  state->retry_ms = up_now_ms() + state->backoff_ms;
+  return false;
+}
+
+/* ---- transfers ---- */
+
+/* Looks before the driver does, which would hold the processor while the bus is busy. Right behind a transfer that is
+ * the transfer's stop condition, and the driver waits for no more than that (STM32_I2C_BUSY_TIMEOUT). */
+static bool is_ready(const up_i2c_port_t *port) {
+  const up_i2c_state_t *state = port->state;
+
+  if (state->backoff_ms > 0U) {
+    /* Half the range of the clock lies ahead, half behind: right across its wrap. */
+    return (uint32_t)(up_now_ms() - state->retry_ms) < 0x80000000U && recover(port);
+  }
+  if (is_busy(port) && chTimeDiffX(state->ended, chVTGetSystemTimeX()) > TIME_MS2I(1)) {
+    return recover(port);
+  }
+  return true;
+}
+
+static msg_t run(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
+                 size_t rx_count) {
   const sysinterval_t timeout = TIME_MS2I(port->timeout_ms);
 
   if (tx_count == 0U) {
@@ -52,88 +109,61 @@ static msg_t transfer(const up_i2c_port_t *port, uint8_t address, const uint8_t 
   return i2cMasterTransmitTimeout(port->driver, address, tx, tx_count, rx, rx_count, timeout);
 }
 
-static bool exchange(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count,
-                     uint8_t *rx, size_t rx_count) {
-  msg_t result;
+static up_bus_result_t cause(const up_i2c_port_t *port, msg_t message) {
+  const i2cflags_t errors = i2cGetErrors(port->driver);
+
+  if (message == MSG_OK) {
+    return UP_BUS_DONE;
+  }
+  if (message == MSG_TIMEOUT) {
+    return recover(port) ? UP_BUS_TIMED_OUT : UP_BUS_ERROR;
+  }
+  /* Who loses the bus may see a refused byte as well. */
+  if ((errors & I2C_ARBITRATION_LOST) != 0U) {
+    return UP_BUS_ARBITRATION_LOST;
+  }
+  if ((errors & I2C_ACK_FAILURE) != 0U) {
+    return UP_BUS_NOT_ACKNOWLEDGED;
+  }
+  return ((errors & I2C_TIMEOUT) != 0U) ? UP_BUS_TIMED_OUT : UP_BUS_ERROR;
+}
+
+static up_bus_result_t transfer(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count,
+                                uint8_t *rx, size_t rx_count) {
+  up_bus_result_t result = UP_BUS_ERROR;
 
   i2cAcquireBus(port->driver);
-  result = transfer(port, address, tx, tx_count, rx, rx_count);
-  if (result == MSG_TIMEOUT) {
-    recover(port);
+  if (is_ready(port)) {
+    result = cause(port, run(port, address, tx, tx_count, rx, rx_count));
+    port->state->ended = chVTGetSystemTime();
   }
   i2cReleaseBus(port->driver);
-  return result == MSG_OK;
-}
-
-static bool bus_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
-  return exchange(context, address, bytes, count, NULL, 0U);
-}
-
-/* The I2C unit of an STM32F1 cannot end a reading after one byte: two are read and the second is left. */
-static bool bus_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
-                           size_t rx_count) {
-#if UP_I2C_READ_BYTES_MIN > 1
-  uint8_t enough[UP_I2C_READ_BYTES_MIN];
-
-  if (rx_count < sizeof enough) {
-    if (!exchange(context, address, tx, tx_count, enough, sizeof enough)) {
-      return false;
-    }
-    memcpy(rx, enough, rx_count);
-    return true;
-  }
-#endif
-  return exchange(context, address, tx, tx_count, rx, rx_count);
+  return result;
 }
 
 void up_i2c_start(const up_i2c_port_t *port) {
-  set_pads(port);
   (void)i2cStart(port->driver, port->config);
+  port->state->ended = chVTGetSystemTime();
 }
 
-static up_i2c_result_t step_sensor(const up_i2c_t *work, const up_i2c_bus_t *bus, size_t i) {
-  const up_i2c_device_t *device = &work->devices[i];
-  const up_field_t *field = &up_config.schema->fields[device->field];
-  const up_i2c_result_t result =
-      up_i2c_step(&device->script, &work->states[i], bus, field, up_now_ms(), work->work, work->scratch);
-
-  if (result == UP_I2C_FRESH) {
-    up_put(device->field, work->scratch);
-  }
-  return result;
+up_bus_result_t up_i2c_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
+  return transfer(context, address, bytes, count, NULL, 0U);
 }
 
-/* An actuator is written once for each value that came; one that did not get through is tried again. */
-static up_i2c_result_t step_actuator(const up_i2c_t *work, const up_i2c_bus_t *bus, size_t i) {
-  const up_i2c_device_t *device = &work->devices[i];
-  const up_field_t *field = &up_config.schema->fields[device->field];
-  const uint32_t sequence = up_sequence(device->field);
-  up_i2c_result_t result;
+up_bus_result_t up_i2c_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
+                                  size_t rx_count) {
+#if UP_I2C_READ_BYTES_MIN > 1
+  /* The unit of an STM32F1 cannot end a reading after one byte: two are read and the second is dropped. */
+  uint8_t enough[UP_I2C_READ_BYTES_MIN];
 
-  if (sequence == work->states[i].readings || !up_get(device->field, work->scratch)) {
-    return UP_I2C_NOTHING;
-  }
-  result = up_i2c_write_value(&device->script, &work->states[i], bus, field, work->work, work->scratch);
-  if (result == UP_I2C_FRESH) {
-    work->states[i].readings = sequence;
-  }
-  return result;
-}
+  if (rx_count < sizeof enough) {
+    const up_bus_result_t result = transfer(context, address, tx, tx_count, enough, sizeof enough);
 
-void up_i2c_cycle(const void *work) {
-  const up_i2c_t *devices = work;
-  const up_i2c_bus_t bus = {bus_write, bus_write_read, (void *)(uintptr_t)devices->port};
-  uint8_t i;
-
-  for (i = 0U; i < devices->devices_count; i++) {
-    const uint16_t field = devices->devices[i].field;
-    const bool is_sensor = up_config.schema->fields[field].direction == (uint8_t)UP_TO_HOST;
-    const up_i2c_result_t result =
-        is_sensor ? step_sensor(devices, &bus, i) : step_actuator(devices, &bus, i);
-    if (result == UP_I2C_ERROR) {
-      up_fail(field);
-    }
+    memcpy(rx, enough, rx_count);
+    return result;
   }
+#endif
+  return transfer(context, address, tx, tx_count, rx, rx_count);
 }
 
 #endif

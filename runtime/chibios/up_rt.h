@@ -27,7 +27,18 @@
 #include "up_i2c.h"
 #include "up_ppm.h"
 #include "up_pulse_width.h"
+#include "up_chips.h"
+#include "up_conf.h"
+#include "up_dma.h"
+#include "up_filter.h"
 #include "up_report.h"
+
+#if HAL_USE_I2C == TRUE
+#include "up_i2c_bus.h"
+#endif
+#if HAL_USE_SPI == TRUE
+#include "up_spi_bus.h"
+#endif
 
 /* ---- tables ---- */
 
@@ -91,6 +102,25 @@ typedef struct {
 
 void up_i2c_start(const up_i2c_port_t *port);
 void up_i2c_cycle(const void *work);
+#if HAL_USE_ADC == TRUE
+/* One sensor of a conversion group. */
+typedef struct {
+  uint16_t field;
+  uint16_t samples; /* the mean of so many, at most the group's depth */
+  uint8_t column;   /* place in the group's sequence */
+} up_analog_t;
+
+/* One conversion group: what up_adc_cycle() works on. */
+typedef struct {
+  ADCDriver *driver;
+  const ADCConversionGroup *group;
+  adcsample_t *buffer; /* depth rows of num_channels columns */
+  size_t depth;
+  const up_analog_t *sensors;
+  uint8_t sensors_count;
+} up_adc_t;
+
+void up_adc_cycle(const void *work);
 #endif
 
 #if HAL_USE_ICU == TRUE

@@ -7,7 +7,6 @@
 #include "up_convert.h"
 #include "up_decode.h"
 #include "up_encode.h"
-#include "up_i2c.h"
 #include "up_report.h"
 #include "up_text.h"
 
@@ -211,87 +210,6 @@ static void test_noise(void) {
   CHECK(up_decoder_is_idle(&decoder));
 }
 
-/* ---- I2C ---- */
-
-typedef struct {
-  bool answers;
-  unsigned triggers, readings;
-  uint8_t last_trigger[4];
-  uint8_t echo[2];
-} ranger_t;
-
-static bool ranger_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
-  ranger_t *ranger = context;
-  if (!ranger->answers || address != 0x73U || count > sizeof ranger->last_trigger) {
-    return false;
-  }
-  memcpy(ranger->last_trigger, bytes, count);
-  ranger->triggers++;
-  return true;
-}
-
-static bool ranger_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
-                              size_t rx_count) {
-  ranger_t *ranger = context;
-  if (!ranger->answers || address != 0x73U || tx_count != 1U || tx[0] != 0x02U || rx_count != 2U) {
-    return false;
-  }
-  memcpy(rx, ranger->echo, 2U);
-  ranger->readings++;
-  return true;
-}
-
-static void test_i2c(void) {
-  static const uint8_t ranging[] = {0x00U, 0x51U};
-  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT8, UP_TO_HOST, false, 1U, 0U};
-  const up_i2c_script_t script = {ranging, 65U, 2U, 0x73U, 0x02U, true, false, 2U};
-  ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x00U, 0x2AU}};
-  const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
-  up_i2c_state_t state = {false, 0U, 0U, 0U};
-  const uint32_t t0 = 0xFFFFFFE0U; /* the clock wraps between trigger and echo */
-  uint8_t value = 0U, work[3];
-
-  CHECK(up_i2c_work_bytes(&script) == sizeof work);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0, work, &value) == UP_I2C_NOTHING);
-  CHECK(ranger.triggers == 1U && memcmp(ranger.last_trigger, ranging, 2U) == 0);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 40U, work, &value) == UP_I2C_NOTHING);
-  CHECK(ranger.readings == 0U);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 80U, work, &value) == UP_I2C_FRESH && value == 42U);
-  CHECK(ranger.triggers == 2U); /* the next measurement is under way */
-  ranger.echo[0] = 1U;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 145U, work, &value) == UP_I2C_FRESH && value == 255U);
-  ranger.answers = false;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 210U, work, &value) == UP_I2C_ERROR);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 250U, work, &value) == UP_I2C_ERROR);
-  CHECK(state.errors == 2U && state.readings == 2U && value == 255U);
-  ranger.answers = true;
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 290U, work, &value) == UP_I2C_NOTHING);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, t0 + 355U, work, &value) == UP_I2C_FRESH);
-}
-
-static void test_i2c_without_trigger(void) {
-  const up_field_t field = {"Rear", 19U, UP_TYPE_UINT16, UP_TO_HOST, false, 1U, 0U};
-  const up_field_t out = {"Out", 20U, UP_TYPE_UINT8, UP_TO_BOARD, false, 1U, 0U};
-  const up_i2c_script_t script = {NULL, 0U, 0U, 0x73U, 0x02U, true, true, 2U};
-  const up_i2c_script_t slow = {NULL, 50U, 0U, 0x73U, 0x02U, true, true, 2U};
-  const up_i2c_script_t output = {NULL, 0U, 0U, 0x73U, 0x10U, true, false, 1U};
-  ranger_t ranger = {true, 0U, 0U, {0U, 0U, 0U, 0U}, {0x34U, 0x12U}};
-  const up_i2c_bus_t bus = {ranger_write, ranger_write_read, &ranger};
-  up_i2c_state_t state = {false, 0U, 0U, 0U};
-  uint16_t value = 0U;
-  const uint8_t level = 0x5AU;
-  uint8_t work[3];
-
-  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, work, &value) == UP_I2C_FRESH && value == 0x1234U);
-  CHECK(up_i2c_step(&script, &state, &bus, &field, 0U, work, &value) == UP_I2C_FRESH && ranger.triggers == 0U);
-  state.is_waiting = false;
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 100U, work, &value) == UP_I2C_FRESH);
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 149U, work, &value) == UP_I2C_NOTHING);
-  CHECK(up_i2c_step(&slow, &state, &bus, &field, 150U, work, &value) == UP_I2C_FRESH);
-  CHECK(up_i2c_write_value(&output, &state, &bus, &out, work, &level) == UP_I2C_FRESH);
-  CHECK(ranger.last_trigger[0] == 0x10U && ranger.last_trigger[1] == 0x5AU);
-}
-
 /* ---- capture ---- */
 
 static void test_count(void) {
@@ -368,8 +286,6 @@ void test_units(void) {
   test_reports();
   test_link();
   test_noise();
-  test_i2c();
-  test_i2c_without_trigger();
   test_count();
   test_captures();
   test_single_pulses();

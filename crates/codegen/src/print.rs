@@ -26,8 +26,8 @@ pub(crate) fn snake(name: &str) -> String {
         let before = at.checked_sub(1).and_then(|at| letters.get(at));
         let starts = letter.is_ascii_uppercase()
             && before.is_some_and(|before| {
-                let is_last = letters.get(at + 1).is_some_and(char::is_ascii_lowercase);
-                *before != '_' && (!before.is_ascii_uppercase() || is_last)
+                let is_word = letters.get(at + 1).is_some_and(char::is_ascii_lowercase);
+                before.is_ascii_lowercase() || (*before != '_' && is_word)
             });
         if starts {
             text.push('_');
@@ -48,6 +48,7 @@ mod tests {
             ("WheelEncoder", "wheel_encoder"),
             ("USRear", "us_rear"),
             ("ADC1", "adc1"),
+            ("I2C1", "i2c1"),
             ("Left_In1", "left_in1"),
             ("speed", "speed"),
             ("A", "a"),

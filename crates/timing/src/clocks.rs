@@ -1,6 +1,6 @@
 //! Dividers: what clock comes of another, and how near to the one that was asked for.
 
-use sensedsl_board::profile::{Adcs, Cycles, Dividers, Timer, Unit};
+use sensedsl_board::profile::{Adcs, Cycles, Dividers, TargetProfile, Timer, Unit};
 
 use crate::Context;
 
@@ -60,12 +60,29 @@ pub(crate) fn unit_hz(context: &Context<'_>, unit: &Unit) -> Option<u32> {
     context.clock_hz(unit.clock.as_deref()?)
 }
 
-/// The fastest clock that is not above the one that was asked for; none where all are.
-pub(crate) fn at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
+/// The divider of the fastest clock that is not above the one that was asked for; none where all are.
+fn divider_at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
     let [least, greatest] = dividers.range;
     let wanted = unit_hz.div_ceil(asked_hz.max(1)).max(least);
     let divider = if dividers.powers_of_two { wanted.next_power_of_two() } else { wanted };
-    (divider <= greatest).then(|| unit_hz / divider)
+    (divider <= greatest).then_some(divider)
+}
+
+/// The fastest clock that is not above the one that was asked for; none where all are.
+pub(crate) fn at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Option<u32> {
+    divider_at_most(dividers, unit_hz, asked_hz).map(|divider| unit_hz / divider)
+}
+
+/// What an SPI unit divides its clock by, so that a device can follow; none where it cannot go so slow.
+#[must_use]
+pub fn spi_divider(profile: &TargetProfile, unit_hz: u32, asked_hz: u32) -> Option<u32> {
+    divider_at_most(profile.spi_dividers.as_ref()?, unit_hz, asked_hz).filter(|divider| *divider > 0)
+}
+
+/// How often a clock is halved by a divider, which is a power of two.
+#[must_use]
+pub const fn power_of_two(divider: u32) -> u32 {
+    divider.trailing_zeros()
 }
 
 /// The slowest clock.

@@ -3,11 +3,14 @@
 //!
 //! The driver divides its unit's clock by whole numbers and halts the board where something is left
 //! over. A device names the fastest clock it stands, so the bus gets the fastest that the driver can
-//! make and that is not above it. Units with a timing register count the same way in one register.
+//! make and that is not above it. Units with a timing register have their own counts ([`TimingRegister`]).
 
 use std::ops::RangeInclusive;
 
-use sensedsl_board::profile::{I2cMode, I2cTiming, I2cs};
+use sensedsl_board::profile::{I2cMode, I2cs};
+
+use crate::i2c_register;
+pub use crate::i2c_register::TimingRegister;
 
 /// The clock that a bus gets.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +23,8 @@ pub struct BusClock {
     pub clocks: u32,
     /// The dividers that the driver takes.
     pub dividers: RangeInclusive<u32>,
+    /// What a unit with a timing register is told instead.
+    pub register: Option<TimingRegister>,
 }
 
 /// The fastest clock up to `speed_max_hz` that a unit can make of its own.
@@ -31,39 +36,33 @@ pub fn fastest(facts: &I2cs, unit_hz: u32, speed_max_hz: u32) -> Option<BusClock
             best = Some(clock);
         }
     }
-    best
+    let counted = || i2c_register::fastest(facts.timing?, unit_hz, speed_max_hz).map(of_register);
+    best.or_else(counted)
 }
 
 /// The slowest clock that a unit can make of its own.
 #[must_use]
 pub fn slowest_hz(facts: &I2cs, unit_hz: u32) -> Option<u32> {
-    all(facts, unit_hz).map(|clock| clock.speed_hz).min()
+    let divided = all(facts, unit_hz).map(|clock| clock.speed_hz).min();
+    divided.or_else(|| Some(i2c_register::slowest_hz(facts.timing?, unit_hz)))
 }
 
-/// All clocks that the driver accepts.
+/// All clocks that a driver accepts which divides.
 fn all(facts: &I2cs, unit_hz: u32) -> impl Iterator<Item = BusClock> + '_ {
-    let divided = facts.modes.iter().flat_map(move |mode| {
+    facts.modes.iter().flat_map(move |mode| {
         let [least, greatest] = mode.dividers;
         (least..=greatest).filter_map(move |divider| clock(mode, unit_hz, divider))
-    });
-    let counted = facts.timing.iter().flat_map(move |timing| counted(*timing, unit_hz));
-    divided.chain(counted)
+    })
 }
 
-/// What a timing register makes, to the next lower hertz.
-fn counted(timing: I2cTiming, unit_hz: u32) -> impl Iterator<Item = BusClock> {
-    let [few, many] = timing.steps;
-    (1..=timing.prescaler_max).flat_map(move |prescaler| {
-        (few..=many).filter_map(move |steps| {
-            let clocks = prescaler.checked_mul(steps)?;
-            Some(BusClock {
-                speed_hz: unit_hz.checked_div(clocks)?,
-                duty: String::new(),
-                clocks,
-                dividers: 1..=1,
-            })
-        })
-    })
+fn of_register(register: TimingRegister) -> BusClock {
+    BusClock {
+        speed_hz: register.speed_hz,
+        duty: String::new(),
+        clocks: 0,
+        dividers: 1..=1,
+        register: Some(register),
+    }
 }
 
 fn clock(mode: &I2cMode, unit_hz: u32, divider: u32) -> Option<BusClock> {
@@ -76,6 +75,7 @@ fn clock(mode: &I2cMode, unit_hz: u32, divider: u32) -> Option<BusClock> {
         duty: mode.duty.clone(),
         clocks: mode.clocks,
         dividers: mode.dividers[0]..=mode.dividers[1],
+        register: None,
     })
 }
 
@@ -162,10 +162,11 @@ mod tests {
     #[test]
     fn a_timing_register_counts_to_any_speed_in_reach() {
         let facts = profile("STM32G071RB").i2c;
-        let speed_hz = |asked_hz| fastest(&facts, 48_000_000, asked_hz).map(|clock| clock.speed_hz);
-        assert_eq!(speed_hz(400_000), Some(400_000));
-        assert_eq!(speed_hz(300_000), Some(300_000));
+        let speed_hz = |asked_hz| fastest(&facts, 64_000_000, asked_hz).map(|clock| clock.speed_hz);
+        assert_eq!(speed_hz(400_000), Some(399_002));
+        assert_eq!(speed_hz(300_000), Some(299_906));
+        assert_eq!(speed_hz(100_000), Some(99_937));
         assert_eq!(speed_hz(5_000), None);
-        assert_eq!(slowest_hz(&facts, 48_000_000), Some(5_859));
+        assert_eq!(slowest_hz(&facts, 64_000_000), Some(7_803));
     }
 }

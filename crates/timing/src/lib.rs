@@ -11,6 +11,7 @@ mod clocks;
 mod converters;
 mod groups;
 pub mod i2c_clock;
+mod i2c_register;
 mod judge;
 mod limits;
 mod link;
@@ -25,7 +26,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
 
-pub use clocks::{Tick, sampling};
+pub use clocks::{Tick, power_of_two, sampling, spi_divider};
 pub use converters::depth;
 pub use groups::{Starts, starts};
 pub use judge::shown_time;

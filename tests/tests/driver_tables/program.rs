@@ -52,7 +52,8 @@ fn build(units: &[Unit]) -> PathBuf {
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
     command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
-    command.arg("-I").arg(&core).arg("-I").arg(&folder);
+    // Where buffers lie is the target's.
+    command.arg("-DUP_DMA_BUFFER=").arg("-I").arg(&core).arg("-I").arg(&folder);
     command.arg(root().join("tests/drivers/main.c")).args(files(&core, "c"));
     let output = command.arg("-o").arg(&program).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -112,16 +113,16 @@ fn unit_fields(unit: &Unit) -> String {
 fn unit_field(plan: &PartPlan, name: &str) -> String {
     let filter = plan.filters.iter().find(|one| one.field == name);
     let filter = filter.map_or("NULL, NULL, 0U".to_owned(), |one| {
-        format!("&filter_{name}, &filter_state_{name}, {}U", one.memory_words)
+        format!("&{0}_filter, &{0}_filter_state, {1}U", one.ident, one.memory_words)
     });
     let formula = plan.formulas.iter().find(|one| one.field == name);
     let formula = formula.map_or("NULL, NULL, 0U".to_owned(), |one| {
-        format!("&{}, {}_parameters, {}U", one.formula, one.prefix, one.output)
+        format!("&{}, {}_parameters, {}U", one.formula, one.ident, one.output)
     });
-    let named =
-        |is: bool, kind: &str| if is { format!("&{kind}_{name}") } else { "NULL".to_owned() };
-    let train = named(plan.trains.iter().any(|one| one.field == name), "train");
-    let bridge = named(plan.bridges.iter().any(|one| one.field == name), "bridge");
+    let train = plan.trains.iter().find(|one| one.field == name);
+    let train = train.map_or("NULL".to_owned(), |one| format!("&{}_train", one.ident));
+    let bridge = plan.bridges.iter().find(|one| one.field == name);
+    let bridge = bridge.map_or("NULL".to_owned(), |one| format!("&{}_bridge", one.ident));
     format!("{filter}, {formula}, {train}, {bridge}")
 }
 
@@ -131,7 +132,7 @@ fn entry(unit: &Unit) -> String {
     let plan = plan(unit);
     if let Some(bus) = plan.as_ref().and_then(|plan| plan.bus.as_ref()) {
         let prefix = &bus.prefix;
-        write!(text, ", .chip = &{prefix}_chip, .chip_state = &{prefix}_state, .work_bytes = sizeof {prefix}_work").unwrap();
+        write!(text, ", .chip = &{prefix}_chip, .chip_state = &{prefix}_chip_state, .work_bytes = sizeof {prefix}_work").unwrap();
     }
     if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
         let prefix = &message.prefix;

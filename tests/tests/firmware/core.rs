@@ -186,7 +186,6 @@ fn notices_a_broken_core() {
         ("up_decode.c", "length > decoder->payload_bytes_max", "false"),
         ("up_decode.c", "|| (*seen & bit) != 0U", ""),
         ("up_convert.c", "(raw > ranges[type].max) ? ranges[type].max : raw", "raw"),
-        ("up_i2c.c", "!is_reached(now_ms, state->ready_ms)", "now_ms < state->ready_ms"),
         ("up_capture.c", "(first_edge_seen ? 1U : 0U)", "0U"),
         ("up_report.c", "memset(store->due, 0, sizeof store->due);", ""),
         ("up_convert.c", "rest > half", "rest >= half"),

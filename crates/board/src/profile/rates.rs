@@ -42,15 +42,13 @@ impl fmt::Display for Cycles {
     }
 }
 
-/// The timing register of an I²C unit: the unit's clock, divided by the prescaler, is counted for the
-/// low and the high part of a bus clock.
+/// The timing register of an I²C unit (`TIMINGR`): the unit's clock, divided by the prescaler, is counted for the low
+/// and the high part of a bus clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct I2cTiming {
     /// The greatest prescaler.
     pub prescaler_max: u32,
-    /// The least and the greatest number of steps in one bus clock, both parts together.
-    pub steps: [u32; 2],
 }
 
 /// How a unit's clock is divided to the one on its wires.

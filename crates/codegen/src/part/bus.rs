@@ -8,13 +8,14 @@ use sensedsl_wire::Direction;
 
 use super::transfers::{self, Place, TransferPlan, register, register_to_read};
 use super::{Source, ValuePlan, literal};
+use crate::print::snake;
 
 /// An `up_chip_t`.
 #[derive(Clone, Debug)]
 pub struct BusPlan {
     /// What the names of its tables begin with.
     pub prefix: String,
-    /// The 7-bit address as a C literal; 0 on SPI, where the target numbers the chip selects.
+    /// The 7-bit address as a C literal; on SPI the number of the chip select, which is 0 until the target counts.
     pub address: String,
     /// How it is started.
     pub init: Vec<InitPlan>,
@@ -38,8 +39,10 @@ pub struct BusPlan {
     pub calibration_bytes: u16,
     /// The most that any transfer writes and reads together.
     pub work_bytes: usize,
-    /// 64-bit words that hold the largest value of a reading.
+    /// 64-bit words that hold the largest value.
     pub scratch_words: usize,
+    /// Where the work buffer lies: the runtime's word for memory that the DMA of the bus reaches.
+    pub memory: &'static str,
 }
 
 /// An `up_chip_init_t`.
@@ -76,6 +79,8 @@ pub struct CalibrationPlan {
 pub struct ReadingPlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// Index of the transfer.
     pub transfer: usize,
     /// Where it begins there, with checksums.
@@ -91,6 +96,8 @@ pub struct ReadingPlan {
 pub struct CommandPlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// Written in front of the value.
     pub prefix: Vec<String>,
     /// How it is coded.
@@ -109,7 +116,7 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
     let sensors: Vec<&Device> = of(Direction::Sensor).collect();
     let (transfers, places) = transfers::plan(&sensors, protocol);
     let readings = sensors.iter().zip(places);
-    let sizes = sensors.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
+    let sizes = all.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
     let calibration = protocol.calibration.iter().map(|&(number, count)| CalibrationPlan {
         select: literal::bytes(&register_to_read(u32::from(number), protocol)),
         count,
@@ -129,6 +136,7 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
         calibration_bytes: protocol.calibration.iter().map(|(_, count)| count).sum(),
         work_bytes: 0,
         scratch_words: sizes.max().unwrap_or(1),
+        memory: "UP_DMA_BUFFER",
     };
     Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
 }
@@ -176,8 +184,15 @@ fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
         Some(_) => None,
         None => Some(ValuePlan::of(device)?),
     };
-    let field = device.name.value.clone();
-    Some(ReadingPlan { field, transfer: place.transfer, offset: place.offset, output, value })
+    let name = &device.name.value;
+    Some(ReadingPlan {
+        field: name.clone(),
+        ident: snake(name),
+        transfer: place.transfer,
+        offset: place.offset,
+        output,
+        value,
+    })
 }
 
 fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
@@ -187,6 +202,7 @@ fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
     let prefix = number.map(|number| register(u32::from(number), protocol)).unwrap_or_default();
     Some(CommandPlan {
         field: device.name.value.clone(),
+        ident: snake(&device.name.value),
         prefix: literal::bytes(&prefix),
         value: ValuePlan::new(&words),
         bytes: words.wire_bytes(),
@@ -194,6 +210,11 @@ fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
 }
 
 impl BusPlan {
+    /// The same behind a chip select.
+    pub(crate) fn selected_by(&mut self, number: u8) {
+        self.address = format!("{number}U");
+    }
+
     /// As `up_chip_work_bytes()` counts.
     fn work_bytes(&self) -> usize {
         let init = self.init.iter().map(|step| step.bytes.len());

@@ -4,12 +4,15 @@ use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
 
 use super::literal;
+use crate::print::snake;
 
 /// An `up_filter_t`.
 #[derive(Clone, Debug)]
 pub struct FilterPlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// The member of `up_number_t` that its numbers are in.
     pub member: &'static str,
     /// Values that are no measurement, as C literals: from, to.
@@ -47,6 +50,7 @@ impl FilterPlan {
         let change_words = if has_change { value_words(1) } else { 0 };
         Some(Self {
             field: device.name.value.clone(),
+            ident: snake(&device.name.value),
             member: member(scalar),
             invalid: filter.invalid.iter().filter_map(|&ends| range(scalar, ends)).collect(),
             is_wide: scalar == ScalarType::Float64 && (has_smooth || has_change),

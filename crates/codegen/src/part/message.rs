@@ -9,6 +9,7 @@ use sensedsl_wire::Direction;
 
 use super::bus::{self, InitPlan};
 use super::{Source, ValuePlan, literal};
+use crate::print::snake;
 
 /// The longest message whose length nothing tells, with start and end: a line of NMEA 0183 has 82 characters, and
 /// receivers with more digits send longer ones.
@@ -65,6 +66,8 @@ pub struct ComposePlan {
 pub struct MessageFieldPlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// The runtime's name for how the number is written.
     pub format: &'static str,
     /// Where a binary value begins behind the start.
@@ -148,6 +151,7 @@ fn field(device: &Device) -> Option<MessageFieldPlan> {
     let Some(text) = &device.coding.text else {
         let value = ValuePlan::new(&Words::of(device)?);
         return Some(MessageFieldPlan {
+            ident: snake(&name),
             field: name,
             format: "UP_FORMAT_BINARY",
             byte: device.coding.byte,
@@ -160,6 +164,7 @@ fn field(device: &Device) -> Option<MessageFieldPlan> {
     };
     let TextField { sentence, field, separator, format, decimals } = text;
     Some(MessageFieldPlan {
+        ident: snake(&name),
         field: name,
         format: match format {
             Format::Decimal => "UP_FORMAT_DECIMAL",

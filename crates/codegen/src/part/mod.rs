@@ -19,7 +19,7 @@ use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_wire::Direction;
 
-use crate::print::block;
+use crate::print::{block, snake};
 pub use bus::{BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, ReadingPlan};
 pub use filter::FilterPlan;
 pub use message::{ComposePlan, MessageFieldPlan, MessagePlan};
@@ -30,7 +30,7 @@ pub use value::ValuePlan;
 /// The tables of one part.
 #[derive(Clone, Debug)]
 pub struct PartPlan {
-    /// What its names in C begin with; the part's own name is the rest.
+    /// What its names in C begin with: the part's name in snake case.
     pub prefix: String,
     /// For people.
     pub title: String,
@@ -79,12 +79,12 @@ impl PartPlan {
         let plain = Protocol::default();
         let protocol = part.chip.as_ref().unwrap_or(&plain);
         let source = Source { part, protocol, design, index };
-        let prefix = format!("part_{}", part.name.value);
+        let prefix = snake(&part.name.value);
         let plan = Self {
             title: title(part),
             bus: bus::plan(source, &prefix),
             message: message::plan(source, &prefix),
-            formulas: simple::formulas(source, &prefix),
+            formulas: simple::formulas(source),
             trains: simple::trains(source),
             bridges: simple::bridges(source),
             filters: source.devices(|_| true).filter_map(FilterPlan::new).collect(),

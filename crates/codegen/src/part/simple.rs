@@ -6,6 +6,7 @@ use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::protocol::Drive;
 
 use super::{Source, bus};
+use crate::print::snake;
 
 /// A longer interval than this starts a pulse train.
 const TRAIN_GAP_US: u64 = 2_700;
@@ -17,10 +18,10 @@ const FULL: u32 = 10_000;
 /// A value that a formula makes of an analog one.
 #[derive(Clone, Debug)]
 pub struct FormulaPlan {
-    /// What the name of its table begins with.
-    pub prefix: String,
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// The runtime's formula.
     pub formula: &'static str,
     /// Which output it is.
@@ -34,6 +35,8 @@ pub struct FormulaPlan {
 pub struct TrainPlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// Of the timer.
     pub tick_hz: u32,
     /// A longer interval starts a train.
@@ -47,6 +50,8 @@ pub struct TrainPlan {
 pub struct BridgePlan {
     /// The device.
     pub field: String,
+    /// What code calls it.
+    pub ident: String,
     /// The runtime's name for how the outputs are driven.
     pub mode: &'static str,
     /// The greatest magnitude.
@@ -55,12 +60,12 @@ pub struct BridgePlan {
     pub outputs: Vec<String>,
 }
 
-pub(super) fn formulas(source: Source<'_>, prefix: &str) -> Vec<FormulaPlan> {
+pub(super) fn formulas(source: Source<'_>) -> Vec<FormulaPlan> {
     let devices = source.devices(|kind| matches!(kind, Kind::Analog(_)));
     let plan = |device: &Device| {
         Some(FormulaPlan {
-            prefix: format!("{prefix}_{}", device.name.value),
             field: device.name.value.clone(),
+            ident: snake(&device.name.value),
             formula: bus::symbol(source.protocol.formula?),
             output: device.coding.output?,
             parameters: source.protocol.parameters.clone(),
@@ -76,6 +81,7 @@ pub(super) fn trains(source: Source<'_>) -> Vec<TrainPlan> {
         let ticks = |us: u64| u64::from(tick_hz) * us / 1_000_000;
         Some(TrainPlan {
             field: device.name.value.clone(),
+            ident: snake(&device.name.value),
             tick_hz,
             gap_ticks: ticks(TRAIN_GAP_US),
             min_ticks: ticks(TRAIN_MIN_US),
@@ -92,6 +98,7 @@ pub(super) fn bridges(source: Source<'_>) -> Vec<BridgePlan> {
         });
         Some(BridgePlan {
             field: device.name.value.clone(),
+            ident: snake(&device.name.value),
             mode: match device.coding.drive? {
                 Drive::DirectionPins => "UP_DRIVE_DIRECTION_PINS",
                 Drive::TwoPwm => "UP_DRIVE_TWO_PWM",

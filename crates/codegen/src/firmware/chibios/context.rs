@@ -170,7 +170,7 @@ fn kernel_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
 pub(super) fn alternate_mode(number: u8, drive: Drive) -> String {
     let extra = match drive {
         Drive::Plain => "",
-        Drive::OpenDrain => " | PAL_STM32_OTYPE_OPENDRAIN",
+        Drive::OpenDrain => " | PAL_STM32_OTYPE_OPENDRAIN | PAL_STM32_PUPDR_PULLUP",
         Drive::Fast => " | PAL_STM32_OSPEED_HIGHEST",
         Drive::Resting(true) => " | PAL_STM32_PUPDR_PULLUP",
         Drive::Resting(false) => " | PAL_STM32_PUPDR_PULLDOWN",

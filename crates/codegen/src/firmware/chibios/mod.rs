@@ -7,6 +7,7 @@
 
 mod adc;
 mod board;
+mod chips;
 mod context;
 mod digital;
 mod doctor;
@@ -26,6 +27,7 @@ mod runtime;
 mod section;
 mod settings;
 mod timers;
+mod spi;
 mod uart;
 
 use sensedsl_board::catalog;
@@ -51,6 +53,7 @@ const PERIPHERALS: &[&Peripheral] = &[
     &digital::PERIPHERAL,
     &pwm::PERIPHERAL,
     &pulse::PERIPHERAL,
+    &spi::PERIPHERAL,
     &uart::PERIPHERAL,
 ];
 

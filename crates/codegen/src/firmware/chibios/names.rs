@@ -164,6 +164,9 @@ pub(super) struct Group {
     options: Vec<[String; 2]>,
     /// The option for how many milliseconds the driver holds the processor while a bus is busy.
     pub(super) busy_option: Option<String>,
+    /// The option that chooses what drives the unit, and the value that the profile's clock is true for; none where the
+    /// tree has a constant for the unit's own clock.
+    clock_source: Option<[String; 2]>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -206,6 +209,7 @@ struct Unit {
     remap: Option<String>,
     /// How its options name a stream, with `{controller}` and `{stream}`.
     stream: Option<String>,
+    clock_source: Option<[String; 2]>,
     /// Options that must be on as well.
     #[serde(default)]
     needs: Vec<String>,
@@ -324,6 +328,19 @@ impl Names {
     /// The options that keep the cache away from buffers.
     pub(super) fn memory_settings(&self) -> impl Iterator<Item = Setting> {
         self.memory.options.iter().map(|[name, value]| Setting::new(name, value))
+    }
+
+    /// The option that chooses what drives a unit, and what it must be.
+    pub(super) fn clock_source(&self, unit: &str) -> Option<[String; 2]> {
+        let own = self.own(unit).and_then(|own| own.clock_source.as_ref());
+        let source = own.or(self.group(unit).and_then(|group| group.clock_source.as_ref()))?;
+        Some(source.each_ref().map(|text| apply(text, unit)))
+    }
+
+    /// Whether a unit has its streams at the basic DMA controller, which reaches the memory of its own domain alone.
+    pub(super) fn has_basic_dma(&self, unit: &str) -> bool {
+        let request = format!("{unit}_RX");
+        self.stream(unit, &request, "0,0").is_some_and(|option| option.name.contains("_BDMA_"))
     }
 
     /// The names of a USB device.

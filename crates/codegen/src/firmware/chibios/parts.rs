@@ -1,16 +1,18 @@
 //! What parts say in tables of the runtime, beside their wires: chips, messages, formulas, filters.
 
 use sensedsl_model::design::Device;
+use sensedsl_model::kind::KindName;
 
 use super::context::Context;
-use crate::job::{JobDevice, JobPart};
+use super::spi;
+use crate::job::{JobConnection, JobDevice, JobPart};
 
 /// All tables, and which fields have a filter.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartsPlan {
     /// The C of the tables of each part.
     pub(super) tables: Vec<String>,
-    /// One for each field, in order; empty where no field has a filter.
+    /// What each field's filter is called, in order; empty where no field has a filter.
     pub(super) filters: Vec<Option<String>>,
 }
 
@@ -20,18 +22,28 @@ pub(super) fn plan(context: &Context<'_>) -> PartsPlan {
         job.devices.iter().map(|one| filter(one, &job.parts)).collect();
     let has_any = filtered.iter().any(Option::is_some);
     PartsPlan {
-        tables: job.parts.iter().filter_map(tables).collect(),
+        tables: job.parts.iter().map(|one| tables(context, one)).collect(),
         filters: if has_any { filtered } else { Vec::new() },
     }
 }
 
-/// The tables of a part. What I2C devices by themselves need is in their bus's section.
-fn tables(one: &JobPart<'_>) -> Option<String> {
+/// The tables of a part, with what only the wiring says: where the buffers of its bus lie, and its chip select.
+fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
     let mut plan = one.plan.clone();
-    if one.part.chip.is_none() {
-        plan.bus = None;
+    let of_part = |other: &&JobConnection<'_>| {
+        let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
+        is_bus && other.connection.part == one.index
+    };
+    let unit = context.job.connections.iter().find(of_part).and_then(|other| other.unit);
+    if let Some(bus) = &mut plan.bus {
+        if unit.is_some_and(|unit| context.names.has_basic_dma(unit)) {
+            bus.memory = "UP_BDMA_BUFFER";
+        }
+        if let Some(number) = spi::number_of(context.job, one.index) {
+            bus.selected_by(number);
+        }
     }
-    (!plan.is_empty()).then(|| plan.c())
+    plan.c()
 }
 
 /// The name of a device's filter, where it has one.
@@ -39,5 +51,5 @@ fn filter(one: &JobDevice<'_>, parts: &[JobPart<'_>]) -> Option<String> {
     let Device { part, name, .. } = one.device;
     let plan = &parts.iter().find(|other| other.index == *part)?.plan;
     let has_one = plan.filters.iter().any(|filter| filter.field == name.value);
-    has_one.then(|| name.value.clone())
+    has_one.then(|| one.ident.clone())
 }

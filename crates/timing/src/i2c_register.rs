@@ -1,0 +1,186 @@
+//! The timing register of an I2C unit (`TIMINGR`): the unit's clock and the bus clock that devices stand come in, the
+//! five fields and the clock that the bus gets go out.
+//!
+//! A part of a bus clock is as long as its count of prescaled clocks, and then as long as it takes the unit to see the
+//! edge: the analog filter (50 ns to 260 ns) and two to three clocks. The shortest of these is counted with, and no time
+//! for the slopes of the wires: so a real bus is a little slower than what is said here, never faster, and its low and
+//! high parts are never shorter than the specification allows (UM10204, table 10). The formulas are those of the
+//! reference manuals (RM0091, 26.4.9).
+
+use sensedsl_board::profile::I2cTiming;
+
+use crate::SECOND_NS;
+
+/// The fields of the register, as they are written into it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TimingRegister {
+    /// `PRESC`: the prescaler less one.
+    pub prescaler: u32,
+    /// `SCLDEL`: from data to the clock's rise.
+    pub data_setup: u32,
+    /// `SDADEL`: from the clock's fall to data.
+    pub data_hold: u32,
+    /// `SCLH`: the high part less one.
+    pub high: u32,
+    /// `SCLL`: the low part less one.
+    pub low: u32,
+    /// Bus clocks a second, to the next lower hertz.
+    pub speed_hz: u32,
+}
+
+/// What the specification asks of a mode.
+struct Mode {
+    low_ns: u64,
+    high_ns: u64,
+    /// Setup of data, with the longest rise of the wire before it.
+    setup_ns: u64,
+    /// The latest that data may be valid, less the longest rise.
+    valid_ns: u64,
+}
+
+const STANDARD: Mode =
+    Mode { low_ns: 4_700, high_ns: 4_000, setup_ns: 250 + 1_000, valid_ns: 3_450 - 1_000 };
+const FAST: Mode = Mode { low_ns: 1_300, high_ns: 600, setup_ns: 100 + 300, valid_ns: 900 - 300 };
+
+/// The fastest bus clock of the standard mode.
+const STANDARD_HZ: u32 = 100_000;
+/// The longest fall of a wire, in both modes.
+const FALL_NS: u64 = 300;
+/// What the analog filter takes at least, and at most.
+const FILTER_NS: [u64; 2] = [50, 260];
+/// Clocks until the unit sees an edge, at least.
+const EDGE_CLOCKS: u64 = 2;
+/// Greatest counts of the fields.
+const COUNT_MAX: u64 = 256;
+const DELAY_MAX: u64 = 15;
+
+/// The fastest register up to a clock; none where the unit has none.
+pub(crate) fn fastest(
+    facts: I2cTiming,
+    unit_hz: u32,
+    speed_max_hz: u32,
+) -> Option<TimingRegister> {
+    let prescalers = 1..=u64::from(facts.prescaler_max);
+    let all = prescalers.filter_map(|prescaler| register(prescaler, unit_hz, speed_max_hz));
+    // Of equals the finest steps.
+    all.reduce(|best, one| if one.speed_hz > best.speed_hz { one } else { best })
+}
+
+/// The slowest clock that the register reaches.
+pub(crate) fn slowest_hz(facts: I2cTiming, unit_hz: u32) -> u32 {
+    // Rounded up, so that who asks for it gets it.
+    speed_hz(u64::from(facts.prescaler_max) * 2 * COUNT_MAX, unit_hz).saturating_add(1)
+}
+
+/// The bus clock of so many counted clocks, with what the edges add.
+fn speed_hz(clocks: u64, unit_hz: u32) -> u32 {
+    let unit_hz = u64::from(unit_hz);
+    let period = (clocks + 2 * EDGE_CLOCKS) * SECOND_NS + 2 * FILTER_NS[0] * unit_hz;
+    u32::try_from(SECOND_NS * unit_hz / period).unwrap_or(u32::MAX)
+}
+
+/// The fastest register with a prescaler.
+fn register(prescaler: u64, unit_hz: u32, speed_max_hz: u32) -> Option<TimingRegister> {
+    let mode = if speed_max_hz <= STANDARD_HZ { STANDARD } else { FAST };
+    let hz = u64::from(unit_hz);
+    // Steps of the prescaled clock that last so long, after so many clocks of the unit by themselves.
+    let steps = |ns: u64, clocks: u64| {
+        let whole = (ns * hz).div_ceil(SECOND_NS);
+        whole.saturating_sub(clocks).div_ceil(prescaler)
+    };
+    let part = |ns: u64| steps(ns - FILTER_NS[0], EDGE_CLOCKS).max(1);
+    let (low_min, high_min) = (part(mode.low_ns), part(mode.high_ns));
+    let period_ns = SECOND_NS.div_ceil(u64::from(speed_max_hz.max(1)));
+    let whole = steps(period_ns.saturating_sub(2 * FILTER_NS[0]), 2 * EDGE_CLOCKS);
+    // What the speed leaves over beside the least parts goes to both alike.
+    let spare = whole.saturating_sub(low_min + high_min);
+    let mut low = low_min + spare.div_ceil(2);
+    let mut high = high_min + spare / 2;
+    if low > COUNT_MAX {
+        high += low - COUNT_MAX;
+        low = COUNT_MAX;
+    }
+    let setup = steps(mode.setup_ns, 0).max(1);
+    // Data stays as long as the clock may take to fall; where that would make it late, as long as can be.
+    let hold = steps(FALL_NS - FILTER_NS[0], 3);
+    let late = (mode.valid_ns.saturating_sub(FILTER_NS[1]) * hz / SECOND_NS).saturating_sub(4);
+    let hold = hold.min(late / prescaler);
+    let fits = high <= COUNT_MAX && setup <= DELAY_MAX + 1 && hold <= DELAY_MAX;
+    let speed_hz = speed_hz(prescaler * (low + high), unit_hz);
+    // The filter must be done in a quarter of the low part.
+    let keeps_up = 4 * SECOND_NS < hz * (mode.low_ns - FILTER_NS[1]);
+    let field = |count: u64| u32::try_from(count).unwrap_or(u32::MAX);
+    (fits && keeps_up && speed_hz <= speed_max_hz).then(|| TimingRegister {
+        prescaler: field(prescaler - 1),
+        data_setup: field(setup - 1),
+        data_hold: field(hold),
+        high: field(high - 1),
+        low: field(low - 1),
+        speed_hz,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FACTS: I2cTiming = I2cTiming { prescaler_max: 16 };
+
+    /// What the manual asks, computed in another way: in picoseconds, part by part.
+    fn check(register: TimingRegister, unit_hz: u32, asked_hz: u32) {
+        let TimingRegister { prescaler, data_setup, data_hold, high, low, speed_hz } = register;
+        let clock_ps = 1e12 / f64::from(unit_hz);
+        let step_ps = clock_ps * f64::from(prescaler + 1);
+        let edge_ps = 50_000.0 + 2.0 * clock_ps;
+        let part = |field: u32| f64::from(field + 1) * step_ps + edge_ps;
+        let is_fast = asked_hz > 100_000;
+        let (least_low, least_high, setup) =
+            if is_fast { (1.3e6, 0.6e6, 0.4e6) } else { (4.7e6, 4.0e6, 1.25e6) };
+        let told = format!("{unit_hz} {asked_hz}: {register:?}");
+        assert!(part(low) >= least_low - 1.0 && part(high) >= least_high - 1.0, "{told}");
+        let real_hz = 1e12 / (part(low) + part(high));
+        assert!(real_hz <= f64::from(asked_hz) + 1e-3, "{told}");
+        assert!((real_hz - f64::from(speed_hz)).abs() <= 1.0, "{told}");
+        assert!(f64::from(data_setup + 1) * step_ps >= setup - 1.0, "{told}");
+        let hold_ps = f64::from(data_hold) * step_ps + 260_000.0 + 4.0 * clock_ps;
+        let late_ps = if is_fast { 0.6e6 } else { 2.45e6 };
+        assert!(data_hold == 0 || hold_ps <= late_ps + 1.0, "{told}");
+        assert!(prescaler <= 15 && data_setup <= 15 && data_hold <= 15 && high <= 255 && low <= 255);
+    }
+
+    #[test]
+    fn every_register_keeps_the_specification() {
+        let units = [8, 16, 32, 36, 48, 54, 64, 72, 80, 85, 100, 110, 120, 130, 240];
+        for unit_hz in units.map(|mhz| mhz * 1_000_000) {
+            for asked_hz in (20_000..=400_000).step_by(1_000) {
+                let found = fastest(FACTS, unit_hz, asked_hz);
+                let found = found.unwrap_or_else(|| panic!("{asked_hz} of {unit_hz}"));
+                check(found, unit_hz, asked_hz);
+                // No more than two steps away from what is asked, where the mode allows that.
+                let step = f64::from(asked_hz) * (1.0 / f64::from(unit_hz)) * f64::from(asked_hz);
+                let slow = f64::from(asked_hz) - f64::from(found.speed_hz);
+                let is_tight = (95_000..=100_000).contains(&asked_hz) || asked_hz > 380_000;
+                let coarse = f64::from(found.prescaler + 1);
+                assert!(is_tight || slow <= 2.0 * coarse * step + 1.0, "{asked_hz} {unit_hz} {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_slowest_is_reached() {
+        for unit_hz in [8_000_000, 48_000_000, 120_000_000] {
+            let slowest = slowest_hz(FACTS, unit_hz);
+            let found = fastest(FACTS, unit_hz, slowest).unwrap();
+            assert_eq!((found.high, found.low, found.prescaler), (255, 255, 15));
+            assert_eq!(fastest(FACTS, unit_hz, slowest - 2), None);
+        }
+    }
+
+    #[test]
+    fn a_clock_of_the_internal_oscillator() {
+        // STM32F0: HSI of 8 MHz. The manual's example (RM0091, table 77) is 0, 9, 3 with longer edges.
+        let found = fastest(FACTS, 8_000_000, 400_000).unwrap();
+        assert_eq!((found.prescaler, found.low + found.high + 2), (0, 16));
+        assert_eq!(found.speed_hz, 384_615);
+    }
+}
