@@ -146,6 +146,13 @@ void up_i2c_start(const up_i2c_port_t *port) {
   port->state->ended = chVTGetSystemTime();
 }
 
+bool up_i2c_answers(const void *bus, uint8_t address) {
+  /* Every DMA controller reaches what the basic one does. */
+  static UP_BDMA_BUFFER uint8_t unread[UP_I2C_READ_BYTES_MIN];
+
+  return transfer(bus, address, NULL, 0U, unread, sizeof unread) == UP_BUS_DONE;
+}
+
 up_bus_result_t up_i2c_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
   return transfer(context, address, bytes, count, NULL, 0U);
 }

@@ -31,6 +31,9 @@ typedef struct {
 /* Starts the driver, behind the pads. */
 void up_i2c_start(const up_i2c_port_t *port);
 
+/* Whether anybody has the address, for an up_probe_t whose bus is an up_i2c_port_t: reads as little as it can. */
+bool up_i2c_answers(const void *bus, uint8_t address);
+
 /* For an up_bus_t whose context is an up_i2c_port_t. */
 up_bus_result_t up_i2c_write(void *context, uint8_t address, const uint8_t *bytes, size_t count);
 up_bus_result_t up_i2c_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,

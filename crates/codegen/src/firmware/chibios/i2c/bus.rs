@@ -13,7 +13,7 @@ use sensedsl_timing::i2c_clock::{self, BusClock};
 use crate::firmware::chibios::chips;
 use crate::firmware::chibios::context::{Context, Drive, PadPlan};
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{Counter, GuardPlan, Section, Size};
+use crate::firmware::chibios::section::{Counter, GuardPlan, Probe, Section, Size};
 use crate::job::JobConnection;
 use crate::print::{block, snake};
 
@@ -78,6 +78,7 @@ pub(super) fn plan(
         let tables = block(&Tables { p: &port, config, threads });
         section.tables.push_str(if section.tables.is_empty() { "" } else { "\n\n" });
         section.tables.push_str(tables.trim_start());
+        section.probes.push(probe(context, &port, &on_bus));
         section.units.insert(unit);
         ports.push(port);
     }
@@ -97,6 +98,20 @@ pub(super) fn plan(
         ports.iter().map(|port| format!("up_i2c_start(&{}_port);", port.ident)).collect();
     section.counters = ports.iter().flat_map(Port::counters).collect();
     section
+}
+
+/// The addresses that devices have, for the self test.
+fn probe(context: &Context<'_>, port: &Port, on_bus: &[&JobConnection<'_>]) -> Probe {
+    let plans = on_bus.iter().filter_map(|one| chips::plan_of(context.job, one));
+    let mut expected: Vec<String> = plans.map(|plan| plan.address.clone()).collect();
+    expected.sort();
+    expected.dedup();
+    Probe {
+        title: port.unit.clone(),
+        function: "up_i2c_answers",
+        table: format!("{}_port", port.ident),
+        expected,
+    }
 }
 
 /// While a bus is busy the driver holds the processor, and no thread of its priority or a lower one runs. The runtime
