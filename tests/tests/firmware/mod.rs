@@ -12,4 +12,7 @@ mod chibios;
 mod codecs;
 mod core;
 mod emulated;
+mod facts;
+mod mutants;
+mod stubs;
 mod tools;

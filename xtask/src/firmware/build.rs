@@ -28,11 +28,8 @@ pub(super) struct Built {
 impl Built {
     pub(super) fn sizes(&self) -> String {
         let Self { text, data, bss, warnings } = self;
-        let count = if warnings.is_empty() {
-            String::new()
-        } else {
-            format!(", {} warnings", warnings.len())
-        };
+        let count =
+            if warnings.is_empty() { String::new() } else { format!(", {} W", warnings.len()) };
         format!("{text}/{data}/{bss}{count}")
     }
 }

@@ -1,0 +1,201 @@
+//! Mistakes put into generated files, one at a time, and who notices: the second reader (`facts`), a compiler
+//! with the stub headers (`stubs`), and a compiler with the real tree (`CHIBIOS`), which evaluates our guards.
+//! Golden files see every change, so they say nothing here.
+//!
+//! Outside the quick tests: `cargo test --workspace --test all -- --ignored firmware::mutants --nocapture`
+//! prints the table, and fails where nobody notices a mutant that is not known to stay unseen.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::applications::{CAR, FIG2};
+use super::facts::{self, Folder};
+use super::tools::scratch;
+use super::{chibios, stubs};
+
+const HARDWARE: &str = "generated/sense_hw.c";
+const MODEL: &str = "generated/sense_model.c";
+const MODEL_H: &str = "generated/sense_model.h";
+const MCU: &str = "cfg/mcuconf.h";
+const CONF: &str = "cfg/up_conf.h";
+
+/// What is wrong, in which file, and the text that is replaced: the first one that there is.
+type Mutant = (&'static str, &'static str, &'static str, &'static str);
+
+/// Of Fig. 2.
+const MUTANTS: &[Mutant] = &[
+    ("pad of another number", HARDWARE, "PAL_LINE(GPIOB, 1U)", "PAL_LINE(GPIOB, 2U)"),
+    ("pad of another port", HARDWARE, "PAL_LINE(GPIOB, 4U)", "PAL_LINE(GPIOC, 4U)"),
+    ("alternate function of a capture", HARDWARE, "PAL_MODE_ALTERNATE(2)", "PAL_MODE_ALTERNATE(3)"),
+    ("alternate function of a bus", HARDWARE, "PAL_MODE_ALTERNATE(4)", "PAL_MODE_ALTERNATE(9)"),
+    (
+        "alternate function of the link",
+        HARDWARE,
+        "PAL_MODE_ALTERNATE(10)",
+        "PAL_MODE_ALTERNATE(11)",
+    ),
+    ("a bus is driven", HARDWARE, " | PAL_STM32_OTYPE_OPENDRAIN", ""),
+    ("an input that is not analog", HARDWARE, "PAL_MODE_INPUT_ANALOG", "PAL_MODE_INPUT"),
+    ("a pad that is left out", HARDWARE, "    /* PB1 */", "    // /* PB1 */"),
+    ("converter channel", HARDWARE, "ADC_CHANNEL_IN9", "ADC_CHANNEL_IN8"),
+    ("channel of the sampling time", HARDWARE, "_SMP_AN9", "_SMP_AN7"),
+    ("length of the sequence", HARDWARE, "ADC_SQR1_NUM_CH(1U)", "ADC_SQR1_NUM_CH(2U)"),
+    ("another converter", HARDWARE, ".driver = &ADCD1", ".driver = &ADCD2"),
+    (
+        "field of a conversion",
+        HARDWARE,
+        ".field = SENSE_FIELD_IRFrontRight",
+        ".field = SENSE_FIELD_IRFront",
+    ),
+    ("samples", HARDWARE, ".samples = 32U", ".samples = 31U"),
+    ("address", HARDWARE, ".address = 0x73U", ".address = 0x72U"),
+    ("register", HARDWARE, ".reg = 0x02U", ".reg = 0x03U"),
+    ("trigger", HARDWARE, "{0x00U, 0x51U}", "{0x00U, 0x50U}"),
+    ("order of a trigger's bytes", HARDWARE, "{0x00U, 0x51U}", "{0x51U, 0x00U}"),
+    ("byte order", HARDWARE, ".little_endian = false", ".little_endian = true"),
+    ("wait", HARDWARE, ".wait_ms = 65U", ".wait_ms = 6U"),
+    ("length of a reading", HARDWARE, ".length = 2U", ".length = 1U"),
+    ("another bus", HARDWARE, ".driver = &I2CD3", ".driver = &I2CD1"),
+    ("clock of a bus", HARDWARE, ".clock_speed = 400000U", ".clock_speed = 40000U"),
+    ("duty cycle of a bus", HARDWARE, "FAST_DUTY_CYCLE_2", "STD_DUTY_CYCLE"),
+    (
+        "SCL and SDA for the recovery",
+        HARDWARE,
+        ".scl = PAL_LINE(GPIOA, 8U)",
+        ".scl = PAL_LINE(GPIOC, 9U)",
+    ),
+    ("time-out of a bus", HARDWARE, ".timeout_ms = 11U", ".timeout_ms = 1U"),
+    ("buffer of a bus", HARDWARE, "_work[3]", "_work[2]"),
+    ("another timer", HARDWARE, ".driver = &ICUD3", ".driver = &ICUD4"),
+    ("capture channel", HARDWARE, "ICU_CHANNEL_1", "ICU_CHANNEL_2"),
+    ("edge", HARDWARE, "ICU_INPUT_ACTIVE_HIGH", "ICU_INPUT_ACTIVE_LOW"),
+    ("both edges", HARDWARE, ".both_edges = false", ".both_edges = true"),
+    ("divider of a timer", HARDWARE, ".frequency = 10000U", ".frequency = 11000U"),
+    ("ticks that the runtime computes with", HARDWARE, ".tick_hz = 10000U", ".tick_hz = 1000U"),
+    ("cycle time", HARDWARE, ".delay_ms = 60U", ".delay_ms = 600U"),
+    ("priority", HARDWARE, ".prio = 2", ".prio = -2"),
+    ("work of another thread", HARDWARE, ".work = &adc_0", ".work = &adc_1"),
+    ("a driver that is not started", HARDWARE, "  up_i2c_start(", "  // up_i2c_start("),
+    ("a capture that nobody looks at", HARDWARE, "  up_icu_poll(", "  // up_icu_poll("),
+    ("level of the button", HARDWARE, ".button_pressed = PAL_HIGH", ".button_pressed = PAL_LOW"),
+    ("invalid value of a filter", HARDWARE, ".low.u = UINT64_C(0)", ".low.u = UINT64_C(1)"),
+    ("filter of another field", HARDWARE, "    {NULL, NULL},\n    {&filter", "    {&filter"),
+    ("identifier", MODEL, ".id = 18U", ".id = 21U"),
+    ("type", MODEL, "UP_TYPE_UINT32", "UP_TYPE_INT32"),
+    ("width of a type", MODEL, "UP_TYPE_UINT8", "UP_TYPE_UINT16"),
+    ("direction", MODEL, "UP_TO_HOST", "UP_TO_BOARD"),
+    (
+        "place of a value",
+        MODEL,
+        "offsetof(sense_values_t, SENSE_IRFrontRight)",
+        "offsetof(sense_values_t, SENSE_IRFront)",
+    ),
+    ("schema hash", MODEL, ".hash = 0xb2d2a70bU", ".hash = 0xb2d2a70cU"),
+    ("checksum", MODEL, ".checksum_crc16 = false", ".checksum_crc16 = true"),
+    ("number of fields", MODEL, ".fields_count = 4U", ".fields_count = 3U"),
+    ("number of a field", MODEL_H, "SENSE_FIELD_USRear = 2", "SENSE_FIELD_USRear = 1"),
+    (
+        "type of a stored value",
+        MODEL_H,
+        "uint32_t SENSE_WheelEncoder",
+        "uint16_t SENSE_WheelEncoder",
+    ),
+    ("DMA stream of another unit", MCU, "STM32_DMA_STREAM_ID(2, 4)", "STM32_DMA_STREAM_ID(1, 2)"),
+    (
+        "DMA stream without the request",
+        MCU,
+        "STM32_DMA_STREAM_ID(2, 4)",
+        "STM32_DMA_STREAM_ID(2, 1)",
+    ),
+    ("the kernel's timer", MCU, "STM32_ST_USE_TIMER 2", "STM32_ST_USE_TIMER 3"),
+    ("a unit that is off", MCU, "STM32_ICU_USE_TIM3 TRUE", "STM32_ICU_USE_TIM3 FALSE"),
+    ("watchdog's clock", MCU, "STM32_LSI_ENABLED TRUE", "STM32_LSI_ENABLED FALSE"),
+    ("length of a report", CONF, "MAX_TO_HOST 17U", "MAX_TO_HOST 16U"),
+    ("number of fields in the sizes", CONF, "UP_FIELDS_COUNT 4U", "UP_FIELDS_COUNT 3U"),
+    ("number of threads", CONF, "UP_TASKS_COUNT 3U", "UP_TASKS_COUNT 2U"),
+];
+
+/// Those that none of the three notices, by name: what a board on the bench would have to show.
+const UNSEEN: &[&str] = &[];
+
+/// The files compiled with the tree: ours, and those of the tree that read our settings.
+const OBJECTS: [&str; 7] =
+    ["sense_hw", "sense_model", "up_rt", "up_report", "hal_st_lld", "hal_adc_lld", "hal_icu_lld"];
+
+fn write(folder: &Path, files: &Folder) {
+    for (path, text) in files {
+        let path = folder.join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        // What has not changed keeps its time, so that make compiles what has.
+        if std::fs::read_to_string(&path).is_ok_and(|there| there == *text) {
+            continue;
+        }
+        std::fs::write(path, text).unwrap();
+    }
+}
+
+/// Whether the real tree's compiler, or a guard, stops or warns.
+fn tree_notices(tree: &Path, folder: &Path) -> bool {
+    let mut make = Command::new("make");
+    make.current_dir(folder).arg("-j2").arg(format!("CHIBIOS={}", tree.display()));
+    make.args(OBJECTS.map(|name| format!("./build/development/obj/{name}.o")));
+    let output = make.output().unwrap();
+    !output.status.success() || String::from_utf8_lossy(&output.stderr).contains("warning")
+}
+
+#[test]
+#[ignore = "compiles a hundred times"]
+fn mutants_of_generated_files_are_noticed() {
+    let tree = chibios::tree();
+    let (mut lines, mut seen) = (String::new(), [0, 0, 0]);
+    let mut unseen = Vec::new();
+    facts::with(FIG2, |design, wiring, folder| {
+        let macros = stubs::macros_of("STM32F4DiscoveryBoard");
+        let place = scratch("mutants");
+        write(&place, &folder);
+        assert_eq!(stubs::compile(&place, &macros, "development"), "");
+        if let Some(tree) = &tree {
+            assert!(!tree_notices(tree, &place), "the files are wrong without a mutant");
+        }
+        for (what, path, find, with) in MUTANTS {
+            let mut mutated = folder.clone();
+            let text = mutated.get_mut(*path).unwrap();
+            assert!(text.contains(find), "{what}: {path} has no `{find}`");
+            *text = text.replacen(find, with, 1);
+            write(&place, &mutated);
+            let notices = [
+                // What it cannot read at all it has noticed as well.
+                std::panic::catch_unwind(|| {
+                    !facts::differences(design, wiring, &mutated).is_empty()
+                })
+                .unwrap_or(true),
+                !stubs::compile(&place, &macros, "development").is_empty(),
+                tree.as_ref().is_some_and(|tree| tree_notices(tree, &place)),
+            ];
+            for (count, noticed) in seen.iter_mut().zip(notices) {
+                *count += usize::from(noticed);
+            }
+            let marks = notices.map(|noticed| if noticed { "yes" } else { "-" });
+            lines.push_str(&format!("| {what} | {} |\n", marks.join(" | ")));
+            if !notices.contains(&true) {
+                unseen.push(*what);
+            }
+        }
+    });
+    eprintln!("| mutant | facts | stubs | tree |\n| --- | --- | --- | --- |\n{lines}");
+    eprintln!("{} mutants: facts {}, stubs {}, tree {}", MUTANTS.len(), seen[0], seen[1], seen[2]);
+    eprintln!("nobody notices: {unseen:?}");
+    let new: Vec<&&str> = unseen.iter().filter(|what| !UNSEEN.contains(what)).collect();
+    assert!(new.is_empty(), "{new:?}");
+}
+
+/// Each mutant is of a text that is there, so that the list follows the templates.
+#[test]
+fn mutants_are_of_texts_that_are_there() {
+    facts::with(FIG2, |_, _, folder| {
+        for (what, path, find, _) in MUTANTS {
+            assert!(folder[*path].contains(find), "{what}: {path} has no `{find}`");
+        }
+    });
+    facts::with(CAR, |_, _, folder| assert!(folder.contains_key(HARDWARE)));
+}
