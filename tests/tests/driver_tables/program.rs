@@ -122,7 +122,7 @@ fn unit_field(plan: &PartPlan, name: &str) -> String {
     let train = plan.trains.iter().find(|one| one.field == name);
     let train = train.map_or("NULL".to_owned(), |one| format!("&{}_train", one.ident));
     let bridge = plan.bridges.iter().find(|one| one.field == name);
-    let bridge = bridge.map_or("NULL".to_owned(), |one| format!("&{}_bridge", one.ident));
+    let bridge = bridge.map_or("NULL".to_owned(), |one| format!("&{}_drive", one.ident));
     format!("{filter}, {formula}, {train}, {bridge}")
 }
 

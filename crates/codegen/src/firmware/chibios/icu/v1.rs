@@ -128,7 +128,7 @@ impl Input {
             has_period: any(|mode| mode != Mode::Width),
             // A counter has none: with it, the driver would keep an edge after each wrap to itself.
             has_overflow: any(|mode| mode != Mode::Count),
-            train: train.map(|(device, _)| device.name().to_owned()),
+            train: train.map(|(device, _)| device.ident.clone()),
         })
     }
 }
