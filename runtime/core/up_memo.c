@@ -163,15 +163,17 @@ static uint8_t *place_at(const up_decoder_t *decoder, const up_walk_t *walk, siz
 
 static bool has_place(const up_decoder_t *decoder, const up_walk_t *walk, size_t place) {
   uint8_t bit;
+  const uint8_t *byte = place_at(decoder, walk, place, &bit);
 
-  return (*place_at(decoder, walk, place, &bit) & bit) != 0U;
+  return (*byte & bit) != 0U;
 }
 
 /* The identifier that it ends with, and where the next one stands. */
 static void lengthen(const up_decoder_t *decoder, up_walk_t *walk, uint8_t id, size_t next) {
   uint8_t bit;
+  uint8_t *byte = place_at(decoder, walk, walk->head, &bit);
 
-  *place_at(decoder, walk, walk->head, &bit) |= bit;
+  *byte = (uint8_t)(*byte | bit);
   walk->ids[id / 32U] |= (uint32_t)1U << (id % 32U);
   walk->head = next;
 }
@@ -281,7 +283,7 @@ static void keep(up_decoder_t *decoder, const uint8_t *bytes) {
     return;
   }
   decoder->has_walks = true;
-  decoder->walks_put = (uint8_t)((decoder->walks_put + 1U) % UP_DECODER_WALKS);
+  decoder->walks_put = (uint8_t)((decoder->walks_put + 1U < UP_DECODER_WALKS) ? decoder->walks_put + 1U : 0U);
   memset(walk->places, 0, decoder->ring_bytes / 8U);
   memset(walk->ids, 0, sizeof walk->ids);
   walk->tail = decoder->items_start;
