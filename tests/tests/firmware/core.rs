@@ -153,7 +153,12 @@ fn runs_on_an_emulated_cortex_m4() {
         "-Wl,--section-start=.isr_vector=0x0",
         "-Wl,-Tdata=0x20000000",
     ];
-    compile("arm-none-eabi-gcc", &flags, &[sources(), tests_with_codecs(), vec![start]].concat(), &program);
+    compile(
+        "arm-none-eabi-gcc",
+        &flags,
+        &[sources(), tests_with_codecs(), vec![start]].concat(),
+        &program,
+    );
     // Semihosting hands on arguments and opens the vector files of the host.
     let arguments = vectors().iter().fold(String::from("arg=core"), |all, path| {
         let name = path.file_name().unwrap().to_string_lossy();
@@ -208,7 +213,11 @@ fn notices_a_broken_core() {
         ("up_formula_tsl2561.c", "0x02D1U", "0x02C1U"),
         ("up_chip.c", "now_ms - when_ms", "now_ms > when_ms ? 0U : 0x80000000U"),
         ("up_chip.c", "    restart(state);\n    return false;", "    return false;"),
-        ("up_chip.c", "state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;", ""),
+        (
+            "up_chip.c",
+            "state->is_stranger = state->counts.causes[UP_WRONG_IDENTITY] % LOOKS != 0U;",
+            "",
+        ),
         ("up_chip.c", "% LOOKS != 0U", "!= 0U"),
         ("up_message.c", "(uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U", "false"),
         ("up_formula_tsl2561.c", "? parameters[0] : NOMINAL_MS", "? parameters[0] : 101"),

@@ -124,7 +124,8 @@ impl WirePlan {
             has_checksum: schema.checksum == Checksum::Crc16,
             has_stamp,
             has_memo: false,
-            is_packed: !items.is_empty() && (role == Role::Both || is_to_host == (role == Role::Board)),
+            is_packed: !items.is_empty()
+                && (role == Role::Both || is_to_host == (role == Role::Board)),
             is_taken,
             items,
         };
@@ -188,11 +189,16 @@ impl FieldPlan {
         let at = format!("up_put_8(at, {}U)", self.id);
         let value = format!("values->SENSE_{}", self.name);
         if self.is_array {
-            return format!("up_put_array({at}, {value}, {}U, {}U)", self.element_bytes, self.count);
+            return format!(
+                "up_put_array({at}, {value}, {}U, {}U)",
+                self.element_bytes, self.count
+            );
         }
         let bits = match self.scalar {
             ScalarType::Bool => format!("{value} ? 1U : 0U"),
-            ScalarType::Uint8 | ScalarType::Uint16 | ScalarType::Uint32 | ScalarType::Uint64 => value,
+            ScalarType::Uint8 | ScalarType::Uint16 | ScalarType::Uint32 | ScalarType::Uint64 => {
+                value
+            }
             ScalarType::Int8 | ScalarType::Int16 | ScalarType::Int32 | ScalarType::Int64 => {
                 format!("({}){value}", self.bits_type())
             }

@@ -82,7 +82,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 fn cycle_ms(device: &JobDevice<'_>) -> u32 {
-    let is_event = device.device.kind.name() == KindName::Icu || device.device.direction == Direction::Actuator;
+    let is_event = device.device.kind.name() == KindName::Icu
+        || device.device.direction == Direction::Actuator;
     if is_event { 0 } else { device.cycle.delay_ms }
 }
 
