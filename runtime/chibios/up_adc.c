@@ -48,13 +48,18 @@ static up_result_t finish(const up_adc_group_t *one) {
 
 static void store_mean(const up_adc_group_t *group, const up_adc_input_t *input, uint8_t type, void *element) {
   const size_t stride = group->group->num_channels;
-  uint64_t sum = 0U;
+  uint64_t sum = 0U, count = input->samples;
   size_t row;
 
   for (row = 0U; row < input->samples; row++) {
     sum += group->samples[row * stride + input->column];
   }
-  up_store_ratio(type, sum * RAW_FULL, (uint64_t)input->samples * group->full, element);
+  /* Twelve bits are what they are: numbers of 32 bits divide faster. */
+  if (group->full != RAW_FULL) {
+    sum *= RAW_FULL;
+    count *= group->full;
+  }
+  up_store_ratio(type, sum, count, element);
 }
 
 /* The formula takes the mean as two bytes, the most significant first. */

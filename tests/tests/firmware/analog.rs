@@ -33,7 +33,8 @@ fn an_array_over_two_converters_is_one_thread() {
     ];
     let mut rest = text.as_str();
     for one in elements {
-        let at = rest.find(one).unwrap_or_else(|| panic!("{one} is missing or misplaced in\n{text}"));
+        let at =
+            rest.find(one).unwrap_or_else(|| panic!("{one} is missing or misplaced in\n{text}"));
         rest = &rest[at..];
     }
 }
@@ -49,7 +50,10 @@ fn a_formula_is_computed_on_the_board() {
 #[test]
 fn an_output_starts_where_it_falls_back_to() {
     let text = hardware(SPREAD, "Spread");
-    assert!(text.contains("/* Out at PA4 (DAC1_OUT1) */\nstatic const DACConfig out_config"), "{text}");
+    assert!(
+        text.contains("/* Out at PA4 (DAC1_OUT1) */\nstatic const DACConfig out_config"),
+        "{text}"
+    );
     assert!(text.contains("    .init = 2048U,\n"), "{text}");
     assert!(text.contains("  (void)dacStart(&DACD1, &out_config);\n"), "{text}");
     assert!(text.contains("      up_dac_set(&DACD1, field, value, 0U);\n"), "{text}");
@@ -95,7 +99,8 @@ fn runtime_says(scratch_name: &str, change: Option<(&str, &str)>) -> Option<(boo
     std::fs::write(folder.join("up_adc.c"), changed).unwrap();
     let core = ["convert", "schema", "value", "checksum", "formula_ntc", "text"];
     let core = core.map(|name| root.join(format!("runtime/core/up_{name}.c")));
-    let warnings = ["-Wall", "-Wextra", "-Wundef", "-Wstrict-prototypes", "-Wconversion", "-Wshadow"];
+    let warnings =
+        ["-Wall", "-Wextra", "-Wundef", "-Wstrict-prototypes", "-Wconversion", "-Wshadow"];
     let mut compiler = Command::new("gcc");
     compiler.args(["-std=c11", "-Werror", "-fsanitize=address,undefined"]).args(warnings);
     for include in ["tests/firmware/analog", "runtime/core", "runtime/chibios"] {
@@ -121,13 +126,15 @@ fn a_broken_thread_is_noticed() {
         ("    adcStopConversion(one->driver);\n", ""),
         ("  adcReleaseBus(one->driver);\n", ""),
         ("  one->driver->up_errors = 0U;\n", ""),
-        ("sum * RAW_FULL, (uint64_t)input->samples * group->full", "sum, (uint64_t)input->samples"),
+        ("    sum *= RAW_FULL;\n", ""),
+        ("    count *= group->full;\n", ""),
         ("adc->inputs[i + 1U].field != input->field", "true"),
         ("(result == UP_FRESH) ? own : result", "own"),
         ("if (one->driver->state == ADC_ACTIVE) {", "{"),
     ];
     for (at, change) in changes.into_iter().enumerate() {
-        let Some((is_well, said)) = runtime_says(&format!("analog-broken-{at}"), Some(change)) else {
+        let Some((is_well, said)) = runtime_says(&format!("analog-broken-{at}"), Some(change))
+        else {
             return;
         };
         assert!(!is_well, "{change:?} is not noticed: {said}");

@@ -231,9 +231,11 @@ fn an_application_runs_on_an_emulated_board() {
     assert!(board.ask("mem").contains("core free memory"));
     assert!(board.ask("print Wheel").contains("  3 Wheel                    7 ("));
     assert!(board.ask("print Nobody").contains("no such sensor: Nobody"));
-    // Nothing was measured, so nothing is shown: no zero out of thin air.
+    // The emulator has no DMA: a conversion that never ends is given up and told. Nothing was measured, so nothing is
+    // shown: no zero out of thin air.
     let sensors = board.ask("sensors");
-    assert!(sensors.contains("  1 IR                       -\r\n"), "{sensors}");
+    let given_up = sensors.split("  1 IR                       - ").nth(1);
+    assert!(given_up.is_some_and(|rest| number_before(rest, "errors") > 0), "{sensors}");
     assert!(number_before(&sensors, "errors") > 0, "{sensors}");
     assert!(number_before(&board.ask("link"), "times") > 0);
     // The very text that the schema hash is made of: hosts compare theirs with it.

@@ -5,22 +5,48 @@
 /* ---- pads ---- */
 
 static const up_pad_t pads[] = {
-    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN},
-    /* PA11 */ {PAL_LINE(GPIOA, 11U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST},
-    /* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST},
-    /* PB0 */ {PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG},
-    /* PB1 */ {PAL_LINE(GPIOB, 1U), PAL_MODE_INPUT_ANALOG},
-    /* PB4 */ {PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2)},
-    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN},
+    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+    /* PA11 */ {PAL_LINE(GPIOA, 11U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
+    /* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
+    /* PB0 */ {PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
+    /* PB1 */ {PAL_LINE(GPIOB, 1U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
+    /* PB4 */ {PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2), PAL_LOW},
+    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+};
+
+/* ---- USRear: srf08 ---- */
+
+static const up_range_t invalid_USRear[] = {
+    {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
+};
+static const up_filter_t filter_USRear = {
+    .invalid = invalid_USRear,
+    .invalid_count = 1U,
+    .median = 0U,
+    .smooth_ms = 0U,
+};
+static up_filter_state_t filter_state_USRear = {
+    .memory = NULL,
+};
+
+/* ---- what becomes of values before they are reported ---- */
+
+static const up_filtered_t filters[] = {
+    {NULL, NULL},
+    {NULL, NULL},
+    {&filter_USRear, &filter_state_USRear},
+    {NULL, NULL},
 };
 
 /* ---- analog sensors ---- */
 
-/* ADC1 60 ms: IRFrontRight */
-static adcsample_t adc_0_buffer[32U * 1U];
-static const ADCConversionGroup adc_0_group = {
+/* ADC1 60 ms:
+ * IRFrontRight at PB1 (ADC12-IN9) */
+static UP_DMA_BUFFER adcsample_t adc1_60ms_samples[32U * 1U];
+static const ADCConversionGroup adc1_60ms_group = {
     .circular = FALSE,
     .num_channels = 1U,
+    .error_cb = up_adc_on_error,
     .cr2 = ADC_CR2_SWSTART,
     .smpr1 = 0U,
     .smpr2 = ADC_SMPR2_SMP_AN9(ADC_SAMPLE_84),
@@ -28,23 +54,38 @@ static const ADCConversionGroup adc_0_group = {
     .sqr2 = 0U,
     .sqr3 = ADC_SQR3_SQ1_N(ADC_CHANNEL_IN9),
 };
-static const up_analog_t adc_0_sensors[] = {
-    {.field = SENSE_FIELD_IRFrontRight, .samples = 32U, .column = 0U},
+
+/* ADC1 60 ms */
+static const up_adc_group_t adc1_60ms_groups[] = {
+    {
+        .driver = &ADCD1,
+        .group = &adc1_60ms_group,
+        .samples = adc1_60ms_samples,
+        .depth = 32U,
+        .full = 4095U,
+        .timeout_ms = 3U,
+    },
 };
-static const up_adc_t adc_0 = {
-    .driver = &ADCD1,
-    .group = &adc_0_group,
-    .buffer = adc_0_buffer,
-    .depth = 32U,
-    .sensors = adc_0_sensors,
-    .sensors_count = 1U,
+static const up_adc_input_t adc1_60ms_inputs[] = {
+    /* IRFrontRight at PB1 (ADC12-IN9) */
+    {.field = SENSE_FIELD_IRFrontRight, .element = 0U, .samples = 32U, .group = 0U, .column = 0U},
+};
+static uint64_t adc1_60ms_value[1];
+static const up_adc_t adc1_60ms = {
+    .groups = adc1_60ms_groups,
+    .groups_count = 1U,
+    .inputs = adc1_60ms_inputs,
+    .inputs_count = 1U,
+    .value = adc1_60ms_value,
 };
 
-/* ADC1 1000 ms: IRFront */
-static adcsample_t adc_1_buffer[32U * 1U];
-static const ADCConversionGroup adc_1_group = {
+/* ADC1 1000 ms:
+ * IRFront at PB0 (ADC12-IN8) */
+static UP_DMA_BUFFER adcsample_t adc1_1000ms_samples[32U * 1U];
+static const ADCConversionGroup adc1_1000ms_group = {
     .circular = FALSE,
     .num_channels = 1U,
+    .error_cb = up_adc_on_error,
     .cr2 = ADC_CR2_SWSTART,
     .smpr1 = 0U,
     .smpr2 = ADC_SMPR2_SMP_AN8(ADC_SAMPLE_84),
@@ -52,20 +93,29 @@ static const ADCConversionGroup adc_1_group = {
     .sqr2 = 0U,
     .sqr3 = ADC_SQR3_SQ1_N(ADC_CHANNEL_IN8),
 };
-static const up_analog_t adc_1_sensors[] = {
-    {.field = SENSE_FIELD_IRFront, .samples = 32U, .column = 0U},
-};
-static const up_adc_t adc_1 = {
-    .driver = &ADCD1,
-    .group = &adc_1_group,
-    .buffer = adc_1_buffer,
-    .depth = 32U,
-    .sensors = adc_1_sensors,
-    .sensors_count = 1U,
-};
 
-static ADCDriver *const adcs[] = {
-    &ADCD1,
+/* ADC1 1000 ms */
+static const up_adc_group_t adc1_1000ms_groups[] = {
+    {
+        .driver = &ADCD1,
+        .group = &adc1_1000ms_group,
+        .samples = adc1_1000ms_samples,
+        .depth = 32U,
+        .full = 4095U,
+        .timeout_ms = 3U,
+    },
+};
+static const up_adc_input_t adc1_1000ms_inputs[] = {
+    /* IRFront at PB0 (ADC12-IN8) */
+    {.field = SENSE_FIELD_IRFront, .element = 0U, .samples = 32U, .group = 0U, .column = 0U},
+};
+static uint64_t adc1_1000ms_value[1];
+static const up_adc_t adc1_1000ms = {
+    .groups = adc1_1000ms_groups,
+    .groups_count = 1U,
+    .inputs = adc1_1000ms_inputs,
+    .inputs_count = 1U,
+    .value = adc1_1000ms_value,
 };
 
 /* ---- I2C buses ---- */
@@ -153,39 +203,70 @@ static const up_icu_t icus[] = {
     },
 };
 
+/* ---- what the runtime calls ---- */
+
+/* Starts the drivers: once, behind the pads and before any thread. */
+void sense_start(void) {
+  (void)adcStart(&ADCD1, NULL);
+  up_i2c_start(&ports[0]);
+  up_icu_start(&icus[0]);
+}
+
+/* Looks at what interrupts have gathered: the reporter, in each cycle. */
+void sense_poll(void) {
+  up_icu_poll(&icus[0]);
+}
+
+/* The host has set an actuator; those that threads serve see it by themselves. */
+void sense_apply(size_t field, const void *value) {
+  (void)field;
+  (void)value;
+}
+
+/* The host is silent. */
+void sense_failsafe(void) {
+}
+
 /* ---- threads ---- */
 
-static THD_WORKING_AREA(task_0_stack, 768);
-static THD_WORKING_AREA(task_1_stack, 768);
-static THD_WORKING_AREA(task_2_stack, 768);
+static THD_WORKING_AREA(adc1_60ms_stack, 768);
+static THD_WORKING_AREA(adc1_1000ms_stack, 768);
+static THD_WORKING_AREA(i2c_0_stack, 768);
 static const up_task_t tasks[] = {
     {
         .name = "ADC1 60 ms",
         .cycle = up_adc_cycle,
-        .work = &adc_0,
-        .stack = task_0_stack,
-        .stack_bytes = sizeof task_0_stack,
+        .work = &adc1_60ms,
+        .stack = adc1_60ms_stack,
+        .stack_bytes = sizeof adc1_60ms_stack,
         .delay_ms = 60U,
         .prio = 0,
+        .device = 18U,
     },
     {
         .name = "ADC1 1000 ms",
         .cycle = up_adc_cycle,
-        .work = &adc_1,
-        .stack = task_1_stack,
-        .stack_bytes = sizeof task_1_stack,
+        .work = &adc1_1000ms,
+        .stack = adc1_1000ms_stack,
+        .stack_bytes = sizeof adc1_1000ms_stack,
         .delay_ms = 1000U,
         .prio = 0,
+        .device = 17U,
     },
     {
         .name = "I2C3 40 ms +2",
         .cycle = up_i2c_cycle,
         .work = &i2c_0,
-        .stack = task_2_stack,
-        .stack_bytes = sizeof task_2_stack,
+        .stack = i2c_0_stack,
+        .stack_bytes = sizeof i2c_0_stack,
         .delay_ms = 40U,
         .prio = 2,
+        .device = 19U,
     },
+};
+
+static const up_counter_t counters[] = {
+    {"I2C3 was freed", &i2c_recoveries[0]},
 };
 
 /* ---- the application ---- */
@@ -199,12 +280,10 @@ const up_config_t up_config = {
     .pads_count = sizeof pads / sizeof pads[0],
     .tasks = tasks,
     .tasks_count = sizeof tasks / sizeof tasks[0],
-    .adcs = adcs,
-    .adcs_count = sizeof adcs / sizeof adcs[0],
-    .ports = ports,
-    .ports_count = sizeof ports / sizeof ports[0],
-    .icus = icus,
-    .icus_count = sizeof icus / sizeof icus[0],
+    .filters = filters,
+    .filter = up_filter_apply,
+    .counters = counters,
+    .counters_count = sizeof counters / sizeof counters[0],
     .button = PAL_LINE(GPIOA, 0U),
     .button_pressed = PAL_HIGH,
     .report_ms = 10U,

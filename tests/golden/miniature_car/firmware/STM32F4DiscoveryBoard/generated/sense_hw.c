@@ -5,29 +5,96 @@
 /* ---- pads ---- */
 
 static const up_pad_t pads[] = {
-    /* PA1 */ {PAL_LINE(GPIOA, 1U), PAL_MODE_ALTERNATE(1)},
-    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN},
-    /* PA11 */ {PAL_LINE(GPIOA, 11U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST},
-    /* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST},
-    /* PB0 */ {PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG},
-    /* PB1 */ {PAL_LINE(GPIOB, 1U), PAL_MODE_INPUT_ANALOG},
-    /* PB4 */ {PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2)},
-    /* PB7 */ {PAL_LINE(GPIOB, 7U), PAL_MODE_ALTERNATE(2)},
-    /* PB14 */ {PAL_LINE(GPIOB, 14U), PAL_MODE_ALTERNATE(9)},
-    /* PC1 */ {PAL_LINE(GPIOC, 1U), PAL_MODE_INPUT_ANALOG},
-    /* PC6 */ {PAL_LINE(GPIOC, 6U), PAL_MODE_ALTERNATE(3)},
-    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN},
-    /* PE5 */ {PAL_LINE(GPIOE, 5U), PAL_MODE_ALTERNATE(3)},
-    /* PE9 */ {PAL_LINE(GPIOE, 9U), PAL_MODE_ALTERNATE(1)},
+    /* PA1 */ {PAL_LINE(GPIOA, 1U), PAL_MODE_ALTERNATE(1), PAL_LOW},
+    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+    /* PA11 */ {PAL_LINE(GPIOA, 11U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
+    /* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
+    /* PB0 */ {PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
+    /* PB1 */ {PAL_LINE(GPIOB, 1U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
+    /* PB4 */ {PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2), PAL_LOW},
+    /* PB7 */ {PAL_LINE(GPIOB, 7U), PAL_MODE_ALTERNATE(2), PAL_LOW},
+    /* PB14 */ {PAL_LINE(GPIOB, 14U), PAL_MODE_ALTERNATE(9), PAL_LOW},
+    /* PC1 */ {PAL_LINE(GPIOC, 1U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
+    /* PC6 */ {PAL_LINE(GPIOC, 6U), PAL_MODE_ALTERNATE(3), PAL_LOW},
+    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+    /* PE5 */ {PAL_LINE(GPIOE, 5U), PAL_MODE_ALTERNATE(3), PAL_LOW},
+    /* PE9 */ {PAL_LINE(GPIOE, 9U), PAL_MODE_ALTERNATE(1), PAL_LOW},
+};
+
+/* ---- USFront: srf08 ---- */
+
+static const up_range_t invalid_USFront[] = {
+    {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
+};
+static const up_filter_t filter_USFront = {
+    .invalid = invalid_USFront,
+    .invalid_count = 1U,
+    .median = 0U,
+    .smooth_ms = 0U,
+};
+static up_filter_state_t filter_state_USFront = {
+    .memory = NULL,
+};
+
+/* ---- USFrontRight: srf08 ---- */
+
+static const up_range_t invalid_USFrontRight[] = {
+    {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
+};
+static const up_filter_t filter_USFrontRight = {
+    .invalid = invalid_USFrontRight,
+    .invalid_count = 1U,
+    .median = 0U,
+    .smooth_ms = 0U,
+};
+static up_filter_state_t filter_state_USFrontRight = {
+    .memory = NULL,
+};
+
+/* ---- USRear: srf08 ---- */
+
+static const up_range_t invalid_USRear[] = {
+    {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
+};
+static const up_filter_t filter_USRear = {
+    .invalid = invalid_USRear,
+    .invalid_count = 1U,
+    .median = 0U,
+    .smooth_ms = 0U,
+};
+static up_filter_state_t filter_state_USRear = {
+    .memory = NULL,
+};
+
+/* ---- what becomes of values before they are reported ---- */
+
+static const up_filtered_t filters[] = {
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
+    {&filter_USFront, &filter_state_USFront},
+    {&filter_USFrontRight, &filter_state_USFrontRight},
+    {&filter_USRear, &filter_state_USRear},
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
+    {NULL, NULL},
 };
 
 /* ---- analog sensors ---- */
 
-/* ADC1 60 ms +12: IRFrontRight, IRRearRight, IRRear */
-static adcsample_t adc_0_buffer[32U * 3U];
-static const ADCConversionGroup adc_0_group = {
+/* ADC1 60 ms +12:
+ * IRFrontRight at PB0 (ADC12-IN8),
+ * IRRearRight at PB1 (ADC12-IN9),
+ * IRRear at PC1 (ADC123-IN11) */
+static UP_DMA_BUFFER adcsample_t adc1_60ms_prio_12_samples[32U * 3U];
+static const ADCConversionGroup adc1_60ms_prio_12_group = {
     .circular = FALSE,
     .num_channels = 3U,
+    .error_cb = up_adc_on_error,
     .cr2 = ADC_CR2_SWSTART,
     .smpr1 = ADC_SMPR1_SMP_AN11(ADC_SAMPLE_84),
     .smpr2 = ADC_SMPR2_SMP_AN8(ADC_SAMPLE_84) |
@@ -38,22 +105,33 @@ static const ADCConversionGroup adc_0_group = {
              ADC_SQR3_SQ2_N(ADC_CHANNEL_IN9) |
              ADC_SQR3_SQ3_N(ADC_CHANNEL_IN11),
 };
-static const up_analog_t adc_0_sensors[] = {
-    {.field = SENSE_FIELD_IRFrontRight, .samples = 32U, .column = 0U},
-    {.field = SENSE_FIELD_IRRearRight, .samples = 32U, .column = 1U},
-    {.field = SENSE_FIELD_IRRear, .samples = 32U, .column = 2U},
-};
-static const up_adc_t adc_0 = {
-    .driver = &ADCD1,
-    .group = &adc_0_group,
-    .buffer = adc_0_buffer,
-    .depth = 32U,
-    .sensors = adc_0_sensors,
-    .sensors_count = 3U,
-};
 
-static ADCDriver *const adcs[] = {
-    &ADCD1,
+/* ADC1 60 ms +12 */
+static const up_adc_group_t adc1_60ms_prio_12_groups[] = {
+    {
+        .driver = &ADCD1,
+        .group = &adc1_60ms_prio_12_group,
+        .samples = adc1_60ms_prio_12_samples,
+        .depth = 32U,
+        .full = 4095U,
+        .timeout_ms = 3U,
+    },
+};
+static const up_adc_input_t adc1_60ms_prio_12_inputs[] = {
+    /* IRFrontRight at PB0 (ADC12-IN8) */
+    {.field = SENSE_FIELD_IRFrontRight, .element = 0U, .samples = 32U, .group = 0U, .column = 0U},
+    /* IRRearRight at PB1 (ADC12-IN9) */
+    {.field = SENSE_FIELD_IRRearRight, .element = 0U, .samples = 32U, .group = 0U, .column = 1U},
+    /* IRRear at PC1 (ADC123-IN11) */
+    {.field = SENSE_FIELD_IRRear, .element = 0U, .samples = 32U, .group = 0U, .column = 2U},
+};
+static uint64_t adc1_60ms_prio_12_value[1];
+static const up_adc_t adc1_60ms_prio_12 = {
+    .groups = adc1_60ms_prio_12_groups,
+    .groups_count = 1U,
+    .inputs = adc1_60ms_prio_12_inputs,
+    .inputs_count = 3U,
+    .value = adc1_60ms_prio_12_value,
 };
 
 /* ---- I2C buses ---- */
@@ -312,29 +390,71 @@ static const up_icu_t icus[] = {
     },
 };
 
+/* ---- what the runtime calls ---- */
+
+/* Starts the drivers: once, behind the pads and before any thread. */
+void sense_start(void) {
+  (void)adcStart(&ADCD1, NULL);
+  up_i2c_start(&ports[0]);
+  up_icu_start(&icus[0]);
+  up_icu_start(&icus[1]);
+  up_icu_start(&icus[2]);
+  up_icu_start(&icus[3]);
+  up_icu_start(&icus[4]);
+  up_icu_start(&icus[5]);
+  up_icu_start(&icus[6]);
+}
+
+/* Looks at what interrupts have gathered: the reporter, in each cycle. */
+void sense_poll(void) {
+  up_icu_poll(&icus[0]);
+  up_icu_poll(&icus[1]);
+  up_icu_poll(&icus[2]);
+  up_icu_poll(&icus[3]);
+  up_icu_poll(&icus[4]);
+  up_icu_poll(&icus[5]);
+  up_icu_poll(&icus[6]);
+}
+
+/* The host has set an actuator; those that threads serve see it by themselves. */
+void sense_apply(size_t field, const void *value) {
+  (void)field;
+  (void)value;
+}
+
+/* The host is silent. */
+void sense_failsafe(void) {
+}
+
 /* ---- threads ---- */
 
-static THD_WORKING_AREA(task_0_stack, 768);
-static THD_WORKING_AREA(task_1_stack, 768);
+static THD_WORKING_AREA(adc1_60ms_prio_12_stack, 768);
+static THD_WORKING_AREA(i2c_0_stack, 768);
 static const up_task_t tasks[] = {
     {
         .name = "ADC1 60 ms +12",
         .cycle = up_adc_cycle,
-        .work = &adc_0,
-        .stack = task_0_stack,
-        .stack_bytes = sizeof task_0_stack,
+        .work = &adc1_60ms_prio_12,
+        .stack = adc1_60ms_prio_12_stack,
+        .stack_bytes = sizeof adc1_60ms_prio_12_stack,
         .delay_ms = 60U,
         .prio = 12,
+        .device = 1U,
     },
     {
         .name = "I2C3 70 ms +10",
         .cycle = up_i2c_cycle,
         .work = &i2c_0,
-        .stack = task_1_stack,
-        .stack_bytes = sizeof task_1_stack,
+        .stack = i2c_0_stack,
+        .stack_bytes = sizeof i2c_0_stack,
         .delay_ms = 70U,
         .prio = 10,
+        .device = 4U,
     },
+};
+
+static const up_counter_t counters[] = {
+    {"I2C3 was freed", &i2c_recoveries[0]},
 };
 
 /* ---- the application ---- */
@@ -348,12 +468,10 @@ const up_config_t up_config = {
     .pads_count = sizeof pads / sizeof pads[0],
     .tasks = tasks,
     .tasks_count = sizeof tasks / sizeof tasks[0],
-    .adcs = adcs,
-    .adcs_count = sizeof adcs / sizeof adcs[0],
-    .ports = ports,
-    .ports_count = sizeof ports / sizeof ports[0],
-    .icus = icus,
-    .icus_count = sizeof icus / sizeof icus[0],
+    .filters = filters,
+    .filter = up_filter_apply,
+    .counters = counters,
+    .counters_count = sizeof counters / sizeof counters[0],
     .button = PAL_LINE(GPIOA, 0U),
     .button_pressed = PAL_HIGH,
     .report_ms = 10U,
