@@ -76,7 +76,8 @@ pub(crate) fn at_most(dividers: &Dividers, unit_hz: u32, asked_hz: u32) -> Optio
 /// What an SPI unit divides its clock by, so that a device can follow; none where it cannot go so slow.
 #[must_use]
 pub fn spi_divider(profile: &TargetProfile, unit_hz: u32, asked_hz: u32) -> Option<u32> {
-    divider_at_most(profile.spi_dividers.as_ref()?, unit_hz, asked_hz).filter(|divider| *divider > 0)
+    divider_at_most(profile.spi_dividers.as_ref()?, unit_hz, asked_hz)
+        .filter(|divider| *divider > 0)
 }
 
 /// How often a clock is halved by a divider, which is a power of two.

@@ -55,11 +55,7 @@ const COUNT_MAX: u64 = 256;
 const DELAY_MAX: u64 = 15;
 
 /// The fastest register up to a clock; none where the unit has none.
-pub(crate) fn fastest(
-    facts: I2cTiming,
-    unit_hz: u32,
-    speed_max_hz: u32,
-) -> Option<TimingRegister> {
+pub(crate) fn fastest(facts: I2cTiming, unit_hz: u32, speed_max_hz: u32) -> Option<TimingRegister> {
     let prescalers = 1..=u64::from(facts.prescaler_max);
     let all = prescalers.filter_map(|prescaler| register(prescaler, unit_hz, speed_max_hz));
     // Of equals the finest steps.
@@ -145,7 +141,9 @@ mod tests {
         let hold_ps = f64::from(data_hold) * step_ps + 260_000.0 + 4.0 * clock_ps;
         let late_ps = if is_fast { 0.6e6 } else { 2.45e6 };
         assert!(data_hold == 0 || hold_ps <= late_ps + 1.0, "{told}");
-        assert!(prescaler <= 15 && data_setup <= 15 && data_hold <= 15 && high <= 255 && low <= 255);
+        assert!(
+            prescaler <= 15 && data_setup <= 15 && data_hold <= 15 && high <= 255 && low <= 255
+        );
     }
 
     #[test]
@@ -161,7 +159,10 @@ mod tests {
                 let slow = f64::from(asked_hz) - f64::from(found.speed_hz);
                 let is_tight = (95_000..=100_000).contains(&asked_hz) || asked_hz > 380_000;
                 let coarse = f64::from(found.prescaler + 1);
-                assert!(is_tight || slow <= 2.0 * coarse * step + 1.0, "{asked_hz} {unit_hz} {found:?}");
+                assert!(
+                    is_tight || slow <= 2.0 * coarse * step + 1.0,
+                    "{asked_hz} {unit_hz} {found:?}"
+                );
             }
         }
     }
