@@ -37,7 +37,7 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
             device: index,
             start_ms: 0,
             period_ms,
-            measuring_ms: Design::measuring_us(device).div_ceil(1_000) + GAP_MS,
+            measuring_ms: measuring_ms(device),
             overlaps: false,
         };
         let others = || turns.iter().filter(|other| other.group == turn.group);
@@ -45,6 +45,8 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
             Some(start_ms) => turn.start_ms = start_ms,
             None => turn.overlaps = true,
         }
+        // An array has its turn for itself, and needs a cycle that is long enough.
+        turn.overlaps |= device.value.value.length > Some(1) && turn.measuring_ms > period_ms;
         turns.push(turn);
     }
     turns
@@ -54,6 +56,14 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
 fn period_ms(device: &Device) -> Option<u32> {
     let of_i2c = device.kind.i2c().map(|i2c| i2c_period_ms(device.delay_ms, i2c.wait_us));
     of_i2c.or_else(|| device.kind.icu()?.pulse_us.map(|_| device.delay_ms.max(1)))
+}
+
+/// How long a device has its turn: the elements of an array that measures when it is told to, one after the other.
+fn measuring_ms(device: &Device) -> u32 {
+    let each_ms = Design::measuring_us(device).div_ceil(1_000) + GAP_MS;
+    let is_told = device.kind.icu().is_some_and(|icu| icu.pulse_us.is_some());
+    let elements = device.value.value.length.filter(|_| is_told).map_or(1, u32::from);
+    each_ms.saturating_mul(elements)
 }
 
 /// The earliest start that keeps clear of all others.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::applications::{self, CAR, FIG2, ODD, TWO};
+use super::applications::{self, CAR, FIG2, ODD, PINS, TWO};
 use super::tools::{has, run, scratch};
 
 /// The tree, where the machine has one. No registry has ChibiOS, so that its absence is no failure.
@@ -68,6 +68,11 @@ fn words_of_c_as_names_and_every_property_build() {
 #[test]
 fn two_boards_build() {
     builds("two", TWO, &["Front", "Rear"]);
+}
+
+#[test]
+fn timers_and_pins_build() {
+    builds("pins", PINS, &["Pins"]);
 }
 
 /// The guards are there for trees that are not what the wiring was made for.

@@ -37,6 +37,9 @@ pub struct Names {
     #[serde(default)]
     pub(super) memory: Memory,
     timers: Timers,
+    /// Timers whose interrupts the system's port does not serve: with the option that says so, pulses need none.
+    #[serde(default)]
+    without_interrupt: Vec<String>,
     adcs: Group,
     pub(super) i2cs: Group,
     spis: Group,
@@ -274,10 +277,13 @@ impl Names {
         switch.into_iter().chain(own.iter().flat_map(|own| own.needs.clone())).collect()
     }
 
-    /// The driver object of a timer's outputs, and the option that turns it on.
-    pub(super) fn pwm(&self, timer: &str) -> (String, String) {
+    /// The driver object of a timer's outputs, and the options that turn it on.
+    pub(super) fn pwm(&self, timer: &str) -> (String, Vec<String>) {
         let pwm = &self.timers.pwm;
-        (apply(&pwm.driver, timer), apply(&pwm.switch, timer))
+        let lacks = self.without_interrupt.iter().any(|one| one == timer);
+        let suppress = lacks.then(|| format!("STM32_{timer}_SUPPRESS_ISR"));
+        let switches = std::iter::once(apply(&pwm.switch, timer)).chain(suppress);
+        (apply(&pwm.driver, timer), switches.collect())
     }
 
     /// The option that names the stream of a request, and the stream's name; none where the tree

@@ -33,7 +33,8 @@ pub(super) fn wires<'a>(
     let job = context.job;
     let indices = device.device.connections.iter();
     let connections = indices.filter_map(|index| job.design.connection(*index));
-    let wired = |one: &Connection| job.connections.iter().find(|wired| std::ptr::eq(wired.connection, one));
+    let wired =
+        |one: &Connection| job.connections.iter().find(|wired| std::ptr::eq(wired.connection, one));
     connections.filter_map(wired).collect()
 }
 

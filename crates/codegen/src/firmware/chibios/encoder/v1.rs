@@ -116,7 +116,11 @@ impl Counter {
 fn filter(clock_hz: u32) -> u8 {
     let clocks = u64::from(clock_hz) * FILTER_NS / 1_000_000_000;
     let lengths = (0_u8..).zip(FILTERS);
-    lengths.take_while(|(_, length)| *length <= clocks).map(|(number, _)| number).last().unwrap_or(0)
+    lengths
+        .take_while(|(_, length)| *length <= clocks)
+        .map(|(number, _)| number)
+        .last()
+        .unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -104,9 +104,15 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 impl Input {
-    fn new(context: &Context<'_>, wired: &JobConnection<'_>, channel: &Channel<'_>) -> Option<Self> {
-        let own: Vec<(&JobDevice<'_>, &Icu)> =
-            context.devices_of(wired).filter_map(|one| Some((one, one.device.kind.icu()?))).collect();
+    fn new(
+        context: &Context<'_>,
+        wired: &JobConnection<'_>,
+        channel: &Channel<'_>,
+    ) -> Option<Self> {
+        let own: Vec<(&JobDevice<'_>, &Icu)> = context
+            .devices_of(wired)
+            .filter_map(|one| Some((one, one.device.kind.icu()?)))
+            .collect();
         let icu = own.first().map(|(_, icu)| *icu).or_else(|| wired.connection.kind.icu())?;
         let any = |is_wanted: fn(Mode) -> bool| own.iter().any(|(_, icu)| is_wanted(icu.mode));
         let train = own.iter().find(|(_, icu)| icu.mode == Mode::Ppm);

@@ -50,7 +50,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let mut section = Section::default();
     let mut classes: BTreeMap<(Cycle, u32), (u8, Vec<Line>)> = BTreeMap::new();
     for (device, wires) in timers::devices(context, KindName::Icu) {
-        let Some(pulse_us) = device.device.kind.icu().and_then(|icu| icu.pulse_us) else { continue };
+        let Some(pulse_us) = device.device.kind.icu().and_then(|icu| icu.pulse_us) else {
+            continue;
+        };
         for wired in wires {
             let Some(pad) = wired.pad(Role::Trigger) else { continue };
             let plan = context.pad(pad, "PAL_MODE_OUTPUT_PUSHPULL", diagnostics);
@@ -68,11 +70,16 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         }
     }
     let several = |cycle: &Cycle| classes.keys().filter(|(other, _)| other == cycle).count() > 1;
-    let names: Vec<String> = classes.keys().map(|(cycle, pulse_us)| name(*cycle, *pulse_us, several(cycle))).collect();
+    let names: Vec<String> =
+        classes.keys().map(|(cycle, pulse_us)| name(*cycle, *pulse_us, several(cycle))).collect();
     let pulses = classes.into_iter().zip(names);
     let pulses: Vec<Pulse> = pulses
-        .map(|(((cycle, pulse_us), (id, lines)), ident)| {
-            Pulse { ident, cycle, pulse_us, id, lines: apart(lines) }
+        .map(|(((cycle, pulse_us), (id, lines)), ident)| Pulse {
+            ident,
+            cycle,
+            pulse_us,
+            id,
+            lines: apart(lines),
         })
         .collect();
     section.work = pulses.iter().map(Pulse::work).collect();

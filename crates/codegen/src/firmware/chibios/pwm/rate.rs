@@ -70,7 +70,10 @@ mod tests {
             for frequency_hz in [1, 3, 49, 50, 333, 400, 1_000, 24_999, 1_000_000] {
                 let Some(rate) = Rate::new(clock_hz, frequency_hz) else {
                     // Primes in a clock leave gaps between its dividers.
-                    assert!(clock_hz == 79_960_000 && frequency_hz == 1, "{clock_hz} {frequency_hz}");
+                    assert!(
+                        clock_hz == 79_960_000 && frequency_hz == 1,
+                        "{clock_hz} {frequency_hz}"
+                    );
                     continue;
                 };
                 assert!(clock_hz % rate.tick_hz == 0 && clock_hz / rate.tick_hz <= 65_536);
@@ -84,6 +87,9 @@ mod tests {
     #[test]
     fn pulses_are_rounded_and_no_longer_than_the_period() {
         let rate = Rate { tick_hz: 3_000_000, period_ticks: 60_000 };
-        assert_eq!([0, 1_000, 2_000, 20_000, 30_000].map(|us| rate.ticks(us)), [0, 3_000, 6_000, 60_000, 60_000]);
+        assert_eq!(
+            [0, 1_000, 2_000, 20_000, 30_000].map(|us| rate.ticks(us)),
+            [0, 3_000, 6_000, 60_000, 60_000]
+        );
     }
 }

@@ -79,7 +79,10 @@ struct Bridge {
 enum BridgeInput {
     /// Which of the outputs.
     Pwm(usize),
-    Pin { line: String, is_low_active: bool },
+    Pin {
+        line: String,
+        is_low_active: bool,
+    },
 }
 
 impl BridgeInput {
@@ -136,18 +139,16 @@ fn timer(
     let clock_hz = context.chibios.clocks_hz.get(&timer.clock).copied().unwrap_or(0);
     let frequency_hz = pwm.frequency_hz;
     let Some(rate) = Rate::new(clock_hz, frequency_hz) else {
-        let message = format!(
-            "{} cannot make {frequency_hz} Hz of its clock of {clock_hz} Hz",
-            timer.name
-        );
+        let message =
+            format!("{} cannot make {frequency_hz} Hz of its clock of {clock_hz} Hz", timer.name);
         let help = "choose another `frequency`, or another timer with `unit`";
         let span = wired.part.name.span;
         diagnostics.push(e0506_hardware_limit::hardware_limit(span, &message, help));
         return None;
     };
-    let (driver, switch) = context.names.pwm(&timer.name);
+    let (driver, switches) = context.names.pwm(&timer.name);
     let ident = snake(&timer.name);
-    section.switches.push(switch);
+    section.switches.extend(switches);
     section.clocks.insert(timer.clock.clone());
     section.guards.push(timers::divides(timer, rate.tick_hz));
     section.starts.push(format!("(void)pwmStart(&{driver}, &{ident}_pwm_config);"));
