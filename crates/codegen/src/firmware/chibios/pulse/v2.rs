@@ -57,7 +57,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             let Some(pad) = wired.pad(Role::Trigger) else { continue };
             let plan = context.pad(pad, "PAL_MODE_OUTPUT_PUSHPULL", diagnostics);
             let Some(plan) = plan else { continue };
-            let first = || (device.device.id.value, Vec::new());
+            let first = || (context.id_of(wired), Vec::new());
             let (_, lines) = classes.entry((device.cycle, pulse_us)).or_insert_with(first);
             lines.push(Line {
                 place: wired.place(),
