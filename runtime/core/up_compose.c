@@ -9,7 +9,7 @@
 #define CHECKSUM_BYTES_MAX 3U
 
 static uint8_t digit(uint8_t number) {
-  return (uint8_t)((number < 10U) ? ('0' + number) : ('A' + number - 10U));
+  return (uint8_t)((number < 10U) ? (48U + number) : (55U + number)); /* '0' and 'A' - 10 */
 }
 
 /* Writes the checksum of the first `at` bytes behind them, and returns its bytes. */

@@ -15,7 +15,7 @@ const REPORT_MS: u32 = 10;
 #[derive(Clone, Debug)]
 pub(super) enum LinkPlan {
     /// A USB device: its driver and the options that it needs.
-    Usb { driver: String, switches: Vec<String> },
+    Usb { driver: String, switches: Vec<String>, is_always_connected: bool },
     /// A serial port.
     Uart { unit: String, driver: String, switches: Vec<String>, baud: u32 },
 }
@@ -31,6 +31,11 @@ pub(super) struct ButtonPlan {
 impl LinkPlan {
     pub(super) fn is_usb(&self) -> bool {
         matches!(self, Self::Usb { .. })
+    }
+
+    /// A USB device that a host sees as long as the cable is in.
+    pub(super) fn is_always_connected(&self) -> bool {
+        matches!(self, Self::Usb { is_always_connected: true, .. })
     }
 
     /// The driver object.
@@ -103,7 +108,11 @@ fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
     let vbus = usb.vbus.as_ref().filter(|_| !context.job.board.link.vbus);
     let without = vbus.and(names.without_vbus.as_ref());
     let switches = std::iter::once(&names.switch).chain(&names.needs).chain(without).cloned();
-    Some(LinkPlan::Usb { driver: names.driver.clone(), switches: switches.collect() })
+    Some(LinkPlan::Usb {
+        driver: names.driver.clone(),
+        switches: switches.collect(),
+        is_always_connected: names.is_always_connected,
+    })
 }
 
 fn uart(

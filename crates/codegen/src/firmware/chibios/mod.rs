@@ -8,6 +8,7 @@
 mod adc;
 mod board;
 mod chips;
+mod can;
 mod context;
 mod digital;
 mod doctor;
@@ -55,6 +56,7 @@ const PERIPHERALS: &[&Peripheral] = &[
     &pulse::PERIPHERAL,
     &spi::PERIPHERAL,
     &uart::PERIPHERAL,
+    &can::PERIPHERAL,
 ];
 
 /// The target `chibios`.

@@ -192,6 +192,10 @@ pub struct Usb {
     /// Options that must be on as well.
     #[serde(default)]
     pub(super) needs: Vec<String>,
+    /// The MCU has no resistor of its own by which a host sees it: one on the board is always there, unless the
+    /// board's folder says how to switch it.
+    #[serde(default)]
+    pub(super) is_always_connected: bool,
     /// The option under which it takes a host for granted and leaves the VBUS pin alone.
     pub(super) without_vbus: Option<String>,
 }
@@ -260,6 +264,11 @@ impl Names {
     pub(super) fn driver(&self, unit: &str) -> Option<String> {
         let own = self.own(unit).and_then(|own| own.driver.as_ref());
         Some(apply(own.or(self.group(unit).map(|group| &group.driver))?, unit))
+    }
+
+    /// The option that chooses the clock of a unit's group, and its value.
+    pub(super) fn group_clock(&self, unit: &str) -> Option<&[String; 2]> {
+        self.group(unit)?.clock_option.as_ref()
     }
 
     /// The field that moves a unit to other pins, where pins have no choice of their own.

@@ -50,7 +50,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let mut titles = Vec::new();
     for (unit, blocks) in blocks(context) {
         let block = blocks.first();
-        let Some(field) = context.names.remap(unit.as_str()) else {
+        // Tables may call the only one of a kind without its number.
+        let name = context.profile.unit(unit.as_str()).map_or(unit.as_str(), |unit| &unit.name);
+        let Some(field) = context.names.remap(name) else {
             diagnostics.extend((block > 0).then(|| unknown(context, &unit, block)));
             continue;
         };
