@@ -213,7 +213,26 @@ static const SerialUSBConfig channel_config = {
     .int_in = NOTIFY_ENDPOINT,
 };
 
+/* The oscillator of 48 MHz is too coarse for USB unless it follows the host's frames, one each millisecond. */
+static void follow_host(void) {
+#if defined(CRS)
+#if defined(RCC_APB1ENR1_CRSEN)
+  RCC->APB1ENR1 |= RCC_APB1ENR1_CRSEN;
+#elif defined(RCC_APBENR1_CRSEN)
+  RCC->APBENR1 |= RCC_APBENR1_CRSEN;
+#elif defined(RCC_APB1HENR_CRSEN)
+  RCC->APB1HENR |= RCC_APB1HENR_CRSEN;
+  (void)RCC->APB1HENR;
+  CRS->CFGR |= CRS_CFGR_SYNCSRC; /* the second device, which has the usual pins */
+#else
+  RCC->APB1ENR |= RCC_APB1ENR_CRSEN;
+#endif
+  CRS->CR |= CRS_CR_AUTOTRIMEN | CRS_CR_CEN;
+#endif
+}
+
 void up_channel_start(void) {
+  follow_host();
   sduObjectInit(&channel);
   (void)sduStart(&channel, &channel_config);
   /* A pause long enough for a host to notice, so that a restart of the MCU alone is seen as well. */

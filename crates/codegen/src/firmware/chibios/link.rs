@@ -6,6 +6,7 @@ use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use sensedsl_model::design::Transport;
 
 use super::context::{Context, Drive, PadPlan, alternate_mode};
+use super::names::Setting;
 use super::plan::TaskPlan;
 
 /// The reporter's cycle where nothing asks for another.
@@ -15,7 +16,7 @@ const REPORT_MS: u32 = 10;
 #[derive(Clone, Debug)]
 pub(super) enum LinkPlan {
     /// A USB device: its driver and the options that it needs.
-    Usb { driver: String, switches: Vec<String>, is_always_connected: bool },
+    Usb { driver: String, switches: Vec<String>, settings: Vec<Setting>, is_always_connected: bool },
     /// A serial port.
     Uart { unit: String, driver: String, switches: Vec<String>, baud: u32 },
 }
@@ -36,6 +37,14 @@ impl LinkPlan {
     /// A USB device that a host sees as long as the cable is in.
     pub(super) fn is_always_connected(&self) -> bool {
         matches!(self, Self::Usb { is_always_connected: true, .. })
+    }
+
+    /// The options that choose its clock.
+    pub(super) fn settings(&self) -> &[Setting] {
+        match self {
+            Self::Usb { settings, .. } => settings,
+            Self::Uart { .. } => &[],
+        }
     }
 
     /// The driver object.
@@ -111,6 +120,7 @@ fn usb(context: &Context<'_>, pads: &mut Vec<PadPlan>) -> Option<LinkPlan> {
     Some(LinkPlan::Usb {
         driver: names.driver.clone(),
         switches: switches.collect(),
+        settings: names.settings.iter().map(|(name, value)| Setting::new(name, value)).collect(),
         is_always_connected: names.is_always_connected,
     })
 }

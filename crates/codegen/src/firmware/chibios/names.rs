@@ -192,6 +192,9 @@ pub struct Usb {
     /// Options that must be on as well.
     #[serde(default)]
     pub(super) needs: Vec<String>,
+    /// Options that choose its clock, and their values.
+    #[serde(default)]
+    pub(super) settings: BTreeMap<String, String>,
     /// The MCU has no resistor of its own by which a host sees it: one on the board is always there, unless the
     /// board's folder says how to switch it.
     #[serde(default)]

@@ -79,6 +79,7 @@ pub(super) fn plan(context: &Context<'_>, sections: &[Section], link: &LinkPlan)
         let number = timer.trim_start_matches("TIM");
         mcu.push(Setting::new(&context.names.kernel_option, number));
     }
+    mcu.extend(link.settings().iter().cloned());
     mcu.extend(used.iter().map(|switch| Setting::new(switch, "TRUE")));
     // The watchdog and its oscillator.
     mcu.extend(["STM32_WDG_USE_IWDG", "STM32_LSI_ENABLED"].map(|one| Setting::new(one, "TRUE")));
