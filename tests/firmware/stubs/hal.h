@@ -37,6 +37,20 @@
   extern type name##1, name##2, name##3, name##4, name##5, name##6, name##7, name##8, name##9, name##10,     \
       name##11, name##12, name##13, name##14, name##15, name##16, name##17, name##20
 
+/* Clocks that a board's facts may leave out: what a demo has is then not known here. */
+#if !defined(STM32_HCLK)
+#define STM32_HCLK 64000000U
+#endif
+#if !defined(STM32_TIM1CLK)
+#define STM32_TIM1CLK 64000000U
+#endif
+#if !defined(STM32_TIMCLK1)
+#define STM32_TIMCLK1 64000000U
+#endif
+#if !defined(STM32_TIMCLK2)
+#define STM32_TIMCLK2 64000000U
+#endif
+
 void halInit(void);
 void cacheBufferFlush(const void *address, size_t bytes);
 void cacheBufferInvalidate(const void *address, size_t bytes);

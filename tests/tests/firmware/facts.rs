@@ -85,7 +85,7 @@ pub(crate) fn differences(design: &Design, wiring: &Assignment, folder: &Folder)
     units(design, on, hardware, &mut differences);
     buses(design, on, hardware, &mut differences);
     captures(design, on, hardware, &mut differences);
-    threads(design, on, hardware, &mut differences);
+    threads(design, on, folder, &mut differences);
     schema(design, on, folder, &mut differences);
     streams(on, &folder["cfg/mcuconf.h"], &mut differences);
     differences.0
@@ -146,6 +146,8 @@ fn units(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     let inputs: BTreeSet<i64> = inputs.flat_map(|signal| numbers(signal, "IN")).collect();
     differences.same("channels", set(&numbers(hardware, "ADC_CHANNEL_IN")), inputs.clone());
     differences.same("sampling times", set(&numbers(hardware, "_SMP_AN")), inputs);
+    let lengths = numbers(hardware, "ADC_SQR1_NUM_CH(");
+    differences.same("lengths of sequences", lengths, numbers(hardware, ".num_channels = "));
     let mut captured: Vec<i64> = on
         .connections
         .iter()
@@ -217,6 +219,12 @@ fn captures(design: &Design, on: &BoardAssignment, hardware: &str, differences: 
     let mut told = numbers(hardware, ".tick_hz = ");
     told.sort_unstable();
     differences.same("ticks of the runtime", told, ticks);
+    let both = hardware.matches(".both_edges = true").count();
+    let wanted = on.devices.iter().filter(|one| {
+        matches!(&design.device(one.device).unwrap().kind, Kind::Icu(icu)
+            if icu.edge == sensedsl_model::kind::icu::Edge::Both)
+    });
+    differences.same("both edges", both, wanted.count());
     let falling = hardware.matches("ICU_INPUT_ACTIVE_LOW").count();
     let wanted = on.devices.iter().filter(|one| {
         matches!(&design.device(one.device).unwrap().kind, Kind::Icu(icu)
@@ -226,7 +234,8 @@ fn captures(design: &Design, on: &BoardAssignment, hardware: &str, differences: 
 }
 
 /// A thread a class, with its cycle and priority.
-fn threads(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mut Differences) {
+fn threads(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &mut Differences) {
+    let (hardware, conf) = (&folder["generated/sense_hw.c"], &folder["cfg/up_conf.h"]);
     let devices = on.devices.iter().filter_map(|one| design.device(one.device));
     let cyclic: Vec<_> = devices.filter(|one| !matches!(one.kind, Kind::Icu(_))).collect();
     let pairs: BTreeSet<(i64, i64)> =
@@ -238,6 +247,15 @@ fn threads(design: &Design, on: &BoardAssignment, hardware: &str, differences: &
         .collect();
     let pulses = hardware.contains("up_pulse_cycle");
     differences.same("cycles and priorities", pulses || found == pairs, true);
+    let tasks = i64::try_from(hardware.matches("        .cycle = ").count()).unwrap();
+    differences.same("number of threads", numbers(conf, "UP_TASKS_COUNT "), vec![tasks]);
+    // Each sensor is read in one place.
+    let names = on.devices.iter().filter_map(|one| design.device(one.device));
+    let mut names: Vec<&str> = names.map(|one| one.name.value.as_str()).collect();
+    let mut read = after(hardware, ".field = SENSE_FIELD_");
+    names.sort_unstable();
+    read.sort_unstable();
+    differences.same("who is read", read, names);
 }
 
 /// Identifiers, types and directions in the file's order.
@@ -260,12 +278,33 @@ fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &
         offsets.iter().map(|one| (*one).to_owned()).collect(),
         names.clone(),
     );
+    let to_host = |item: &sensedsl_wire::Item| item.direction == sensedsl_wire::Direction::Sensor;
+    let directions: Vec<bool> = schema.items.iter().map(to_host).collect();
+    let found = after(model, ".direction = UP_TO_");
+    differences.same("directions", found.iter().map(|one| *one == "HOST").collect(), directions);
+    let checked = schema.checksum != sensedsl_wire::Checksum::None;
+    differences.same(
+        "checksum",
+        after(model, ".checksum_crc16 = "),
+        vec![if checked { "true" } else { "false" }],
+    );
+    let count = vec![i64::try_from(names.len()).unwrap()];
+    differences.same("number of fields", numbers(model, ".fields_count = "), count.clone());
+    differences.same(
+        "fields in the sizes",
+        numbers(&folder["cfg/up_conf.h"], "UP_FIELDS_COUNT "),
+        count,
+    );
     let hash = after(model, ".hash = ");
     differences.same("hash", hash[0].to_owned(), format!("{:#010x}U", schema.hash()));
     let header = &folder["generated/sense_model.h"];
     for (at, name) in names.iter().enumerate() {
         let found = numbers(header, &format!("SENSE_FIELD_{name} = "));
         differences.same(&format!("number of {name}"), found, vec![i64::try_from(at).unwrap()]);
+        let scalar = schema.items[at].value.scalar.name();
+        let declared = header.contains(&format!("  {scalar}_t SENSE_{name}"))
+            || !(scalar.starts_with("int") || scalar.starts_with("uint"));
+        differences.same(&format!("stored type of {name}"), declared, true);
     }
 }
 
