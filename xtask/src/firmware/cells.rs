@@ -114,12 +114,12 @@ fn together<'a>(board: &str, kinds: impl Iterator<Item = &'a &'static str>) -> M
                 let _ = taken.pop();
                 left_out.push(kind);
             }
-            other => made = other,
+            other @ (Made::Files(..) | Made::Refused(_) | Made::NotOffered) => made = other,
         }
     }
     match made {
         Made::Files(files, _) => Made::Files(files, left_out),
-        other => other,
+        other @ (Made::NotOffered | Made::NoWiring(_) | Made::Refused(_)) => other,
     }
 }
 

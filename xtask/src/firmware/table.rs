@@ -83,24 +83,22 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
             let _ = write!(text, "\n## {title}\n\n{}", lines.concat());
         }
     };
-    list("Failed", &|one| match &one.outcome {
-        Outcome::Failed(why) => Some(format!("`{}`", why.replace('`', "'"))),
-        _ => None,
+    list("Failed", &|one| {
+        let Outcome::Failed(why) = &one.outcome else { return None };
+        Some(format!("`{}`", why.replace('`', "'")))
     });
-    list("Warnings of our files", &|one| match &one.outcome {
-        Outcome::Built(built, _) => {
-            let first = built.warnings.first()?;
-            Some(format!("{}, the first `{}`", built.warnings.len(), first.replace('`', "'")))
-        }
-        _ => None,
+    list("Warnings of our files", &|one| {
+        let Outcome::Built(built, _) = &one.outcome else { return None };
+        let first = built.warnings.first()?;
+        Some(format!("{}, the first `{}`", built.warnings.len(), first.replace('`', "'")))
     });
-    list("Without a wiring", &|one| match &one.outcome {
-        Outcome::NoWiring(why) => Some(why.clone()),
-        _ => None,
+    list("Without a wiring", &|one| {
+        let Outcome::NoWiring(why) = &one.outcome else { return None };
+        Some(why.clone())
     });
-    list("Left out of `all`", &|one| match &one.outcome {
-        Outcome::Built(_, left_out) if !left_out.is_empty() => Some(left_out.join(", ")),
-        _ => None,
+    list("Left out of `all`", &|one| {
+        let Outcome::Built(_, left_out) = &one.outcome else { return None };
+        (!left_out.is_empty()).then(|| left_out.join(", "))
     });
     text
 }
