@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use askama::Template;
+use sensedsl_board::profile::Cycles;
 use sensedsl_board::signal::{Function, UnitName};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{Kind, KindName, Role};
@@ -144,7 +145,7 @@ fn timeout_ms(context: &Context<'_>, group: &Group) -> u64 {
     let clocks = &context.chibios.clocks_hz;
     let hz = facts.clock.as_ref().and_then(|name| clocks.get(name.as_str()));
     let hz = hz.map_or(SLOWEST_HZ, |hz| u64::from(*hz) / u64::from(facts.clock_divider.max(1)));
-    let conversion = facts.conversion_cycles.map_or(40, |cycles| cycles.halves());
+    let conversion = facts.conversion_cycles.map_or(40, Cycles::halves);
     let halves = group.inputs.iter().map(|input| u64::from(input.cycles.halves() + conversion));
     let halves = halves.sum::<u64>() * u64::from(group.depth());
     (halves * 1_000).div_ceil(hz.max(1)) + PATIENCE_MS
