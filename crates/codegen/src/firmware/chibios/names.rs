@@ -269,9 +269,10 @@ impl Names {
         Some(apply(own.or(self.group(unit).map(|group| &group.driver))?, unit))
     }
 
-    /// The option that chooses the clock of a unit's group, and its value.
-    pub(super) fn group_clock(&self, unit: &str) -> Option<&[String; 2]> {
-        self.group(unit)?.clock_option.as_ref()
+    /// The options that choose the clock of a unit's group, and their values.
+    pub(super) fn group_options(&self, unit: &str) -> impl Iterator<Item = Setting> {
+        let options = self.group(unit).into_iter().flat_map(|group| &group.options);
+        options.map(|[name, value]| Setting::new(name, value))
     }
 
     /// The field that moves a unit to other pins, where pins have no choice of their own.
@@ -353,12 +354,6 @@ impl Names {
         let own = self.own(unit).and_then(|own| own.clock_source.as_ref());
         let source = own.or(self.group(unit).and_then(|group| group.clock_source.as_ref()))?;
         Some(source.each_ref().map(|text| apply(text, unit)))
-    }
-
-    /// Whether a unit has its streams at the basic DMA controller, which reaches the memory of its own domain alone.
-    pub(super) fn has_basic_dma(&self, unit: &str) -> bool {
-        let request = format!("{unit}_RX");
-        self.stream(unit, &request, "0,0").is_some_and(|option| option.name.contains("_BDMA_"))
     }
 
     /// The names of a USB device.

@@ -34,10 +34,10 @@ fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
         let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
         is_bus && other.connection.part == one.index
     };
-    let unit = context.job.connections.iter().find(of_part).and_then(|other| other.unit);
+    let wired = context.job.connections.iter().find(of_part);
     if let Some(bus) = &mut plan.bus {
-        if unit.is_some_and(|unit| context.names.has_basic_dma(unit)) {
-            bus.memory = "UP_BDMA_BUFFER";
+        if let Some(wired) = wired {
+            bus.memory = context.names.buffer(&wired.streams);
         }
         if let Some(number) = spi::number_of(context.job, one.index) {
             bus.selected_by(number);

@@ -102,8 +102,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             Setting::new("CAN_USE_SLEEP_MODE", "FALSE"),
             Setting::new("CAN_ENFORCE_USE_CALLBACKS", "FALSE"),
         ];
-        let option = context.names.group_clock(&first.unit);
-        section.mcu.extend(option.map(|[name, value]| Setting::new(name, value)));
+        section.mcu.extend(context.names.group_options(&first.unit));
     }
     if !all.filters.is_empty() {
         let count = all.filters.len();
