@@ -9,7 +9,7 @@ mod streams;
 use std::path::{Path, PathBuf};
 
 /// Those beside the one in Rust. The one in C knows neither stamps nor health yet.
-const OTHERS: [&str; 1] = ["cpp"];
+const OTHERS: [&str; 2] = ["c", "cpp"];
 
 /// A folder of a test's own.
 fn scratch(name: &str) -> PathBuf {

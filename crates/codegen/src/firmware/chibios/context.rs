@@ -82,12 +82,6 @@ impl<'a> Context<'a> {
         self.device_of(connection).map_or(0, |one| one.device.id.value)
     }
 
-    /// The devices of a kind, in the file's order.
-    pub(super) fn devices(&self, kind: KindName) -> impl Iterator<Item = &'a JobDevice<'a>> {
-        let of_kind = move |one: &&JobDevice<'_>| one.device.kind.name() == kind;
-        self.job.devices.iter().filter(of_kind)
-    }
-
     /// A pad in a mode. A pin whose port is not known is reported.
     pub(super) fn pad(
         &self,

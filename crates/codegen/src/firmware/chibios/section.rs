@@ -24,7 +24,7 @@ pub(super) struct Peripheral {
     pub(super) version: fn(&Drivers) -> &str,
     /// The versions that code is made for.
     pub(super) versions: &'static [Version],
-    /// What a connection needs and is not made: [`plain_only`] until everything is.
+    /// What a connection needs and is not made: [`nothing`] where everything is.
     pub(super) lacks: Lacks,
     /// Its hand-written files: path below `uproxy/`, and text.
     pub(super) runtime: &'static [(&'static str, &'static str)],
@@ -167,23 +167,6 @@ pub(super) fn unserved(drivers: &Drivers) -> Option<String> {
         (missing.version)(drivers),
         known.join(" and ")
     ))
-}
-
-/// Of a driver that serves devices by themselves and no coded values.
-pub(super) fn plain_only(
-    job: &BoardJob<'_>,
-    connection: &JobConnection<'_>,
-) -> Option<&'static str> {
-    let own = connection.devices.iter().filter_map(|field| job.devices.get(*field));
-    if connection.part.chip.is_some() {
-        Some("chips")
-    } else if connection.connection.element.is_some() {
-        Some("arrays with a wire for each element")
-    } else if own.map(|one| one.device).any(|device| !device.coding.is_plain()) {
-        Some("values that are part of a word, packed, in a text or with checksums")
-    } else {
-        None
-    }
 }
 
 /// Of a driver that serves whatever the language has.

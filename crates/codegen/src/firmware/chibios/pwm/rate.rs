@@ -32,7 +32,7 @@ impl Rate {
         let mut rates = dividers.filter_map(ticks);
         let finest = rates.next()?;
         let near = rates.take_while(|rate| rate.tick_hz >= finest.tick_hz / COARSER);
-        let is_exact = |rate: &Self| rate.tick_hz % frequency_hz.max(1) == 0;
+        let is_exact = |rate: &Self| rate.tick_hz.is_multiple_of(frequency_hz.max(1));
         Some(std::iter::once(finest).chain(near).find(is_exact).unwrap_or(finest))
     }
 
@@ -76,7 +76,7 @@ mod tests {
                     );
                     continue;
                 };
-                assert!(clock_hz % rate.tick_hz == 0 && clock_hz / rate.tick_hz <= 65_536);
+                assert!(clock_hz.is_multiple_of(rate.tick_hz) && clock_hz / rate.tick_hz <= 65_536);
                 assert!((2..=65_535).contains(&rate.period_ticks), "{rate:?}");
                 let made = rate.tick_hz / rate.period_ticks;
                 assert!(made.abs_diff(frequency_hz) <= frequency_hz / 5, "{rate:?} {frequency_hz}");

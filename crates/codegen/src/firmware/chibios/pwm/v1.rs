@@ -230,13 +230,12 @@ fn bridge_inputs(
     drive: Bridged,
 ) -> Vec<BridgeInput> {
     let mut pwms = 0..;
-    let input = |wired: &&JobConnection<'_>| match &wired.connection.kind {
-        Kind::Pwm(_) => pwms.next().map(BridgeInput::Pwm),
-        Kind::Digital(digital) => Some(BridgeInput::Pin {
-            line: context.line(&wired.pad(Role::Out)?.pin.name)?,
-            is_low_active: digital.active_low,
-        }),
-        _ => None,
+    let input = |wired: &&JobConnection<'_>| {
+        if let Kind::Digital(digital) = &wired.connection.kind {
+            let line = context.line(&wired.pad(Role::Out)?.pin.name)?;
+            return Some(BridgeInput::Pin { line, is_low_active: digital.active_low });
+        }
+        pwms.next().map(BridgeInput::Pwm)
     };
     let wanted = match drive {
         Bridged::DirectionPins => 3,
