@@ -9,28 +9,20 @@
 
 #include "ch.h"
 #include "hal.h"
-#include "stm32_tim.h"
 
 #include "up_conf.h"
 #include "up_dma.h" /* before the core's headers: they take its UP_DMA_BUFFER */
 
 #include "up_adc.h"
-#include "up_capture.h"
-#include "up_chip.h"
-#include "up_count.h"
-#include "up_debounce.h"
-#include "up_drive.h"
-#include "up_elements.h"
+#include "up_chips.h"
 #include "up_dac.h"
+#include "up_digital.h"
+#include "up_encoder.h"
 #include "up_filter.h"
 #include "up_health.h"
-#include "up_i2c.h"
-#include "up_ppm.h"
-#include "up_pulse_width.h"
-#include "up_chips.h"
-#include "up_conf.h"
-#include "up_dma.h"
-#include "up_filter.h"
+#include "up_icu.h"
+#include "up_pulse.h"
+#include "up_pwm.h"
 #include "up_report.h"
 
 #if HAL_USE_I2C == TRUE
@@ -73,223 +65,6 @@ typedef struct {
   const char *title; /* "I2C1 was freed" */
   const uint32_t *count;
 } up_counter_t;
-
-#if HAL_USE_I2C == TRUE
-/* One bus, shared by all that use its driver. */
-typedef struct {
-  I2CDriver *driver;
-  const I2CConfig *config;
-  ioline_t scl, sda;
-  iomode_t scl_mode, sda_mode; /* set again after a recovery */
-  uint32_t timeout_ms;
-  uint32_t *recoveries;
-} up_i2c_port_t;
-
-typedef struct {
-  uint16_t field;
-  up_i2c_script_t script;
-} up_i2c_device_t;
-
-/* The devices of one bus with one cycle time: what up_i2c_cycle() works on. */
-typedef struct {
-  const up_i2c_port_t *port;
-  const up_i2c_device_t *devices;
-  up_i2c_state_t *states; /* one a device */
-  uint8_t *work;          /* as large as the largest up_i2c_work_bytes() */
-  uint64_t *scratch;      /* as large as the largest value */
-  uint8_t devices_count;
-} up_i2c_t;
-
-void up_i2c_start(const up_i2c_port_t *port);
-void up_i2c_cycle(const void *work);
-#if HAL_USE_ADC == TRUE
-/* One sensor of a conversion group. */
-typedef struct {
-  uint16_t field;
-  uint16_t samples; /* the mean of so many, at most the group's depth */
-  uint8_t column;   /* place in the group's sequence */
-} up_analog_t;
-
-/* One conversion group: what up_adc_cycle() works on. */
-typedef struct {
-  ADCDriver *driver;
-  const ADCConversionGroup *group;
-  adcsample_t *buffer; /* depth rows of num_channels columns */
-  size_t depth;
-  const up_analog_t *sensors;
-  uint8_t sensors_count;
-} up_adc_t;
-
-void up_adc_cycle(const void *work);
-#endif
-
-#if HAL_USE_ICU == TRUE
-/* One captured wire. */
-typedef struct {
-  ICUDriver *driver;
-  up_capture_raw_t *raw;
-} up_icu_input_t;
-
-/* A sensor of captured wires: what up_icu_poll() works on. */
-typedef struct {
-  const up_icu_input_t *inputs; /* one an element */
-  up_capture_config_t capture;
-  up_capture_state_t *states; /* one an element */
-  uint8_t *flags;             /* of an array: one an element */
-  uint64_t *latest;           /* of an array: what each element was last; else NULL */
-  uint64_t *value;            /* as large as the value */
-  uint16_t field;
-  uint8_t inputs_count;
-  bool is_complete; /* an array is told when each element is new */
-} up_icu_t;
-
-/* The channels of a model receiver: what up_train_poll() works on. */
-typedef struct {
-  const up_ppm_config_t *config;
-  const up_ppm_raw_t *raw;
-  uint32_t *trains_seen;
-  uint64_t *value; /* as large as the value */
-  uint16_t field;
-} up_train_t;
-
-void up_icu_start(ICUDriver *driver, const ICUConfig *config);
-void up_icu_poll(const up_icu_t *icu);
-void up_train_poll(const up_train_t *train);
-
-/* Makes the driver notice that its timer wrapped, so that it leaves out the capture; needs no action here. */
-void up_icu_on_overflow(ICUDriver *driver);
-#endif
-
-/* What is kept of a timer that counts; all zero at the start. */
-typedef struct {
-  virtual_timer_t timer; /* of a counter of 16 bits: reads it in time */
-  up_count_t count;
-  int32_t told;
-} up_encoder_state_t;
-
-/* A timer that counts the edges of two tracks. No driver of ChibiOS knows it. */
-typedef struct {
-  stm32_tim_t *timer;
-  up_encoder_state_t *state;
-  uint8_t filter; /* of both inputs: IC1F and IC2F */
-  bool is_wide;   /* the counter has 32 bits */
-} up_encoder_counter_t;
-
-/* A sensor of such timers: what up_encoder_poll() works on. */
-typedef struct {
-  const up_encoder_counter_t *counters; /* one an element */
-  up_repeat_t *repeat;
-  uint64_t *value; /* as large as the value */
-  uint16_t field;
-  uint8_t counters_count;
-} up_encoder_t;
-
-void up_encoder_start(const up_encoder_counter_t *counter);
-void up_encoder_poll(const up_encoder_t *encoder);
-
-#if HAL_USE_PWM == TRUE
-typedef struct {
-  PWMDriver *driver;
-  pwmchannel_t channel; /* from 0 */
-  up_pulse_width_t width;
-} up_pwm_output_t;
-
-/* An actuator of such outputs. */
-typedef struct {
-  const up_pwm_output_t *outputs; /* one an element */
-  uint16_t field;
-  uint8_t outputs_count;
-} up_pwm_t;
-
-/* One input of an H-bridge: an output of a timer, or a pin. */
-typedef struct {
-  const up_pwm_output_t *pwm; /* NULL for a pin */
-  ioline_t line;
-  bool is_low_active;
-} up_bridge_output_t;
-
-typedef struct {
-  const up_drive_t *drive;
-  up_drive_state_t *state;
-  const up_bridge_output_t *outputs; /* in the order of up_drive_mode_t */
-  uint16_t field;
-} up_bridge_t;
-
-/* From the next period on: what the host has set, or 0 to 10000 for all outputs. */
-void up_pwm_set(const up_pwm_t *pwm, const void *value);
-void up_pwm_set_level(const up_pwm_t *pwm, uint32_t level);
-
-/* What the host has set, or -10000 to 10000. */
-void up_bridge_set(const up_bridge_t *bridge, const void *value);
-void up_bridge_set_level(const up_bridge_t *bridge, int32_t level);
-#endif
-
-/* An actuator of plain pins. */
-typedef struct {
-  const ioline_t *lines; /* one an element */
-  uint16_t field;
-  uint8_t lines_count;
-  bool is_low_active;
-} up_digital_output_t;
-
-/* What is kept of an input; all zero at the start. */
-typedef struct {
-  up_contact_t contact;
-  up_contact_told_t told;
-} up_digital_state_t;
-
-typedef struct {
-  ioline_t line;
-  const up_contact_config_t *config; /* NULL: its level as it is */
-  up_digital_state_t *state;         /* NULL likewise */
-} up_digital_input_t;
-
-/* A sensor of plain pins. */
-typedef struct {
-  const up_digital_input_t *inputs; /* one an element */
-  uint64_t *value;                  /* as large as the value */
-  up_repeat_t *repeat;              /* with edges: told when something happens, and then again */
-  uint32_t repeat_ms;
-  uint16_t field;
-  uint8_t inputs_count;
-  bool is_low_active;
-} up_digital_t;
-
-/* The sensors that one thread reads: what up_digital_cycle() works on. */
-typedef struct {
-  const up_digital_t *sensors;
-  uint8_t sensors_count;
-} up_digital_class_t;
-
-/* `lasting` of a contact, in ticks of the kernel, at least one. */
-#define UP_LASTING_US(us) ((uint32_t)(((uint64_t)(us) * CH_CFG_ST_FREQUENCY + 999999U) / 1000000U))
-
-void up_digital_set(const up_digital_output_t *output, const void *value);
-void up_digital_cycle(const void *work);
-
-/* Looks at contacts that are to be still: at the start, and in each cycle of the reporter. */
-void up_digital_look(const up_digital_t *sensor);
-
-#if PAL_USE_CALLBACKS == TRUE
-/* Sensors with edges: an interrupt for each, and what came of them. */
-void up_digital_start(const up_digital_t *sensor);
-void up_digital_poll(const up_digital_t *sensor);
-#endif
-
-/* A line that gets a pulse. */
-typedef struct {
-  ioline_t line;
-  uint32_t apart_ms; /* from it to the next line's, which would hear its answer; 0: that follows at once */
-} up_pulse_line_t;
-
-/* Lines that get a pulse each cycle: what up_pulse_cycle() works on. */
-typedef struct {
-  const up_pulse_line_t *lines;
-  uint32_t pulse_us;
-  uint8_t lines_count;
-} up_pulse_t;
-
-void up_pulse_cycle(const void *work);
 
 #if UP_SHELL == TRUE
 /* What the self test looks at. */

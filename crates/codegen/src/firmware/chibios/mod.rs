@@ -7,14 +7,14 @@
 
 mod adc;
 mod board;
-mod chips;
 mod can;
+mod chips;
 mod context;
+mod dac;
 mod digital;
 mod doctor;
 mod encoder;
 mod gpio;
-mod dac;
 mod i2c;
 mod icu;
 mod link;
@@ -27,8 +27,8 @@ mod render;
 mod runtime;
 mod section;
 mod settings;
-mod timers;
 mod spi;
+mod timers;
 mod uart;
 
 use sensedsl_board::catalog;
@@ -46,17 +46,17 @@ use section::Peripheral;
 /// All drivers, in the order in which their sections are printed and their threads are numbered.
 const PERIPHERALS: &[&Peripheral] = &[
     &gpio::PERIPHERAL,
-    &adc::PERIPHERAL, //
+    &adc::PERIPHERAL,
     &dac::PERIPHERAL,
     &i2c::PERIPHERAL,
+    &spi::PERIPHERAL,
+    &uart::PERIPHERAL,
+    &can::PERIPHERAL,
     &icu::PERIPHERAL,
     &encoder::PERIPHERAL,
     &digital::PERIPHERAL,
     &pwm::PERIPHERAL,
     &pulse::PERIPHERAL,
-    &spi::PERIPHERAL,
-    &uart::PERIPHERAL,
-    &can::PERIPHERAL,
 ];
 
 /// The target `chibios`.
