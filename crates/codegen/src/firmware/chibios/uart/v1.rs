@@ -101,13 +101,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 
 /// How the port of a connection is set.
 fn uart<'a>(context: &Context<'a>, wired: &JobConnection<'a>) -> Option<&'a Uart> {
-    match &wired.connection.kind {
-        Kind::Uart(uart) => Some(uart),
-        _ => match &context.device_of(wired)?.device.kind {
-            Kind::Uart(uart) => Some(uart),
-            _ => None,
-        },
-    }
+    let own = wired.connection.kind.uart();
+    own.or_else(|| context.device_of(wired)?.device.kind.uart())
 }
 
 /// A port that cannot do what the device needs.
