@@ -16,13 +16,7 @@ fn generate(body: &str, arguments: &[&str]) -> Ran {
 #[test]
 fn what_firmware_would_ignore_is_an_error() {
     for (body, what) in [
-        ("chip Imu { driver = mpu6050; id = 1; }", "chips"),
-        ("sensor Imu returns int16[3] { driver = mpu6050; id = 1; reading = rate; }", "chips"),
         ("sensor Line returns uint16[3] { id = 1; type = analog; }", "arrays"),
-        (
-            "sensor A returns uint16 { id = 1; type = i2c; address = 0x20; register = 0; bits = 7..0; }",
-            "part of a word",
-        ),
         ("sensor A returns uint16 { id = 1; type = analog; invalid = 4095; }", "`invalid`"),
         ("sensor A returns uint16 { id = 1; type = analog; median = 5; }", "`median`"),
         ("sensor A returns uint16 { id = 1; type = analog; change = 3; }", "`change`"),
@@ -35,11 +29,16 @@ fn what_firmware_would_ignore_is_an_error() {
     }
 }
 
-/// What a driver of the first edition says is served as before, and so is a curve, which is the host's.
+/// What a driver of the first edition says is served as before, and so are chips and parts of words on buses, and a
+/// curve, which is the host's.
 #[test]
-fn plain_devices_are_served() {
+fn what_is_made_is_served() {
     let ranger = "sensor A returns uint16 { id = 1; driver = srf08; address = 0xE0; }";
     let _ = generate(ranger, &[]).exits(0);
+    let chip = "chip Imu { driver = mpu6050; id = 1; }";
+    let _ = generate(chip, &[]).exits(0);
+    let part = "sensor A returns uint16 { id = 1; type = i2c; address = 0x20; register = 0; bits = 7..0; }";
+    let _ = generate(part, &[]).exits(0);
     let curve = "sensor A returns uint16 { id = 1; driver = gp2y0a21; }";
     let _ = generate(curve, &[]).exits(0);
 }
