@@ -50,7 +50,7 @@ typedef struct {
   size_t work_bytes;
   const up_message_t *message;
   up_message_state_t *message_state;
-  const up_chip_init_t *message_init;
+  const up_message_init_t *message_init;
 } unit_t;
 
 #include "tables.c"

@@ -237,7 +237,10 @@ fn an_application_runs_on_an_emulated_board() {
     let given_up = sensors.split("  1 IR                       - ").nth(1);
     assert!(given_up.is_some_and(|rest| number_before(rest, "errors") > 0), "{sensors}");
     assert!(number_before(&sensors, "errors") > 0, "{sensors}");
-    assert!(number_before(&board.ask("link"), "times") > 0);
+    // The emulator's pads read low, so that a bus that timed out is not free after it.
+    let link = board.ask("link");
+    let (_, stuck) = link.split_once("stayed stuck").unwrap();
+    assert!(number_before(stuck, "times") > 0, "{link}");
     // The very text that the schema hash is made of: hosts compare theirs with it.
     let text = schema().canonical_text().replace('\n', "\r\n");
     assert!(board.ask("schema").contains(&text));
