@@ -34,7 +34,7 @@ fn every_generator_has_a_name_of_its_own_and_a_profile() {
     for target in TARGETS {
         let name = target.name();
         assert!(systems.contains(name), "targets/ has no profile for {name}");
-        let lines = profile::lines(&profile::full_name(name).unwrap().to_owned()).unwrap();
+        let lines = profile::lines(profile::full_name(name).unwrap()).unwrap();
         let serves = lines.iter().any(|line| !target.kinds(&line.profile).is_empty());
         assert!(serves, "{name} serves no kind");
     }

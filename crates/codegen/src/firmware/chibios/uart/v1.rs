@@ -4,7 +4,7 @@ use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
 use sensedsl_model::kind::uart::{Parity, Uart};
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 
 use crate::firmware::chibios::context::{Context, Drive};
 use crate::firmware::chibios::names::Setting;

@@ -23,14 +23,15 @@
 /* The longest message that a serial device is sent. */
 #define UP_UART_SEND_BYTES_MAX 1U
 
-/* How long the rest of a frame may take once its first byte was accepted. */
-#define UP_LINK_FINISH_MS 50U
+/* CAN buses. */
+#define UP_CAN_BUSES 1U
+
+/* After so long without a frame of the host actuators fall back; 0: never. */
+#define UP_SILENCE_MS 0U
 
 #define UP_INPUTS_COUNT 5U
 #define UP_TASKS_COUNT 3U
 #define UP_FIELDS_COUNT 4U
 #define UP_VALUE_BYTES_MAX 4U
-#define UP_FRAME_BYTES_MAX_TO_HOST 91U
-#define UP_FRAME_BYTES_MAX_TO_BOARD 5U
 
 #endif

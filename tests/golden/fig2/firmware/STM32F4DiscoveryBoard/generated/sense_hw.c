@@ -1,31 +1,77 @@
 /* Written by SenseDSL: the wiring of STM32F4DiscoveryBoard as tables for the runtime. */
 #include "sense_model.h"
+#include "up_can.h"
 #include "up_rt.h"
+#include "up_uart.h"
 
 /* ---- pads ---- */
 
 static const up_pad_t pads[] = {
-    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+    /* PA8 */ {PAL_LINE(GPIOA, 8U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN | PAL_STM32_PUPDR_PULLUP, PAL_LOW},
     /* PA11 */ {PAL_LINE(GPIOA, 11U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
     /* PA12 */ {PAL_LINE(GPIOA, 12U), PAL_MODE_ALTERNATE(10) | PAL_STM32_OSPEED_HIGHEST, PAL_LOW},
     /* PB0 */ {PAL_LINE(GPIOB, 0U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
     /* PB1 */ {PAL_LINE(GPIOB, 1U), PAL_MODE_INPUT_ANALOG, PAL_LOW},
     /* PB4 */ {PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2), PAL_LOW},
-    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN, PAL_LOW},
+    /* PC9 */ {PAL_LINE(GPIOC, 9U), PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN | PAL_STM32_PUPDR_PULLUP, PAL_LOW},
 };
 
 /* ---- USRear: srf08 ---- */
 
-static const up_range_t invalid_USRear[] = {
+static const uint8_t us_rear_trigger_0[] = {0x00U, 0x51U};
+static const uint8_t us_rear_select_0[] = {0x02U};
+static const up_chip_transfer_t us_rear_transfers[] = {
+    {
+        .trigger = us_rear_trigger_0,
+        .trigger_count = 2U,
+        .select = us_rear_select_0,
+        .select_count = 1U,
+        .cycle_ms = 40U,
+        .wait_ms = 65U,
+        .length = 2U,
+    },
+};
+static up_chip_transfer_state_t us_rear_transfer_states[1];
+
+static const up_chip_reading_t us_rear_readings[] = {
+    {
+        .field = SENSE_FIELD_USRear,
+        .offset = 0U,
+        .transfer = 0U,
+        .value =
+            {
+                .code = UP_CODE_INTEGER,
+                .word_bytes = 2U,
+            },
+    },
+};
+
+static const up_chip_t us_rear_chip = {
+    .transfers = us_rear_transfers,
+    .transfers_count = 1U,
+    .readings = us_rear_readings,
+    .readings_count = 1U,
+    .cycle_ms = 40U,
+    .address = 0x73U,
+};
+static UP_DMA_BUFFER uint8_t us_rear_work[3];
+static uint64_t us_rear_scratch[1];
+static up_chip_state_t us_rear_chip_state = {
+    .transfers = us_rear_transfer_states,
+    .work = us_rear_work,
+    .scratch = us_rear_scratch,
+};
+
+static const up_range_t us_rear_invalid[] = {
     {.low.u = UINT64_C(0), .high.u = UINT64_C(0)},
 };
-static const up_filter_t filter_USRear = {
-    .invalid = invalid_USRear,
+static const up_filter_t us_rear_filter = {
+    .invalid = us_rear_invalid,
     .invalid_count = 1U,
     .median = 0U,
     .smooth_ms = 0U,
 };
-static up_filter_state_t filter_state_USRear = {
+static up_filter_state_t us_rear_filter_state = {
     .memory = NULL,
 };
 
@@ -34,7 +80,7 @@ static up_filter_state_t filter_state_USRear = {
 static const up_filtered_t filters[] = {
     {NULL, NULL},
     {NULL, NULL},
-    {&filter_USRear, &filter_state_USRear},
+    {&us_rear_filter, &us_rear_filter_state},
     {NULL, NULL},
 };
 
@@ -118,89 +164,73 @@ static const up_adc_t adc1_1000ms = {
     .value = adc1_1000ms_value,
 };
 
-/* ---- I2C buses ---- */
+/* ---- I2C3: SCL PA8, SDA PC9 ---- */
 
-static uint32_t i2c_recoveries[1];
-
-static const I2CConfig i2c_port_0_config = {
+static const I2CConfig i2c3_config = {
     .op_mode = OPMODE_I2C,
     .clock_speed = 400000U,
     .duty_cycle = FAST_DUTY_CYCLE_2,
 };
-
-static const up_i2c_port_t ports[] = {
-    /* I2C3: SCL PA8, SDA PC9 */
-    {
-        .driver = &I2CD3,
-        .config = &i2c_port_0_config,
-        .scl = PAL_LINE(GPIOA, 8U),
-        .sda = PAL_LINE(GPIOC, 9U),
-        .scl_mode = PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN,
-        .sda_mode = PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN,
-        .timeout_ms = 11U,
-        .recoveries = &i2c_recoveries[0],
-    },
+static up_i2c_state_t i2c3_state;
+static const up_i2c_port_t i2c3_port = {
+    .driver = &I2CD3,
+    .config = &i2c3_config,
+    .state = &i2c3_state,
+    .scl = PAL_LINE(GPIOA, 8U),
+    .sda = PAL_LINE(GPIOC, 9U),
+    .scl_mode = PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN | PAL_STM32_PUPDR_PULLUP,
+    .sda_mode = PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN | PAL_STM32_PUPDR_PULLUP,
+    .timeout_ms = 11U,
+};
+static const up_bus_t i2c3_bus = {
+    .write = up_i2c_write,
+    .write_read = up_i2c_write_read,
+    .context = (void *)&i2c3_port,
 };
 
 /* I2C3 40 ms +2: USRear */
-static uint8_t i2c_0_trigger_0[] = {0x00U, 0x51U};
-static const up_i2c_device_t i2c_0_devices[] = {
-    {
-        .field = SENSE_FIELD_USRear,
-        .script =
-            {
-                .trigger = i2c_0_trigger_0,
-                .trigger_count = 2U,
-                .wait_ms = 65U,
-                .address = 0x73U,
-                .reg = 0x02U,
-                .has_register = true,
-                .little_endian = false,
-                .length = 2U,
-            },
-    },
+static const up_served_t i2c3_40ms_prio_2_chips[] = {
+    {&us_rear_chip, &us_rear_chip_state, NULL},
 };
-static up_i2c_state_t i2c_0_states[1];
-static uint8_t i2c_0_work[3];
-static uint64_t i2c_0_scratch[1];
-static const up_i2c_t i2c_0 = {
-    .port = &ports[0],
-    .devices = i2c_0_devices,
-    .states = i2c_0_states,
-    .work = i2c_0_work,
-    .scratch = i2c_0_scratch,
-    .devices_count = 1U,
+static const up_chips_t i2c3_40ms_prio_2 = {
+    .bus = &i2c3_bus,
+    .chips = i2c3_40ms_prio_2_chips,
+    .cycle_ms = 40U,
+    .chips_count = 1U,
 };
 
 /* ---- input capture ---- */
 
-static up_capture_raw_t icu_raw[1];
-static up_capture_state_t icu_states[1];
-
-/* TIM3: WheelEncoder */
-UP_ICU_PERIOD_CALLBACK(icu_0_period, icu_raw[0])
-static const ICUConfig icu_0_config = {
+/* WheelEncoder at PB4 (TIM3_CH1): rising edges are counted */
+static up_capture_raw_t wheel_encoder_raw;
+static void wheel_encoder_on_period(ICUDriver *driver) {
+  up_capture_on_period(&wheel_encoder_raw, (uint32_t)icuGetPeriodX(driver));
+}
+static const ICUConfig wheel_encoder_icu_config = {
     .mode = ICU_INPUT_ACTIVE_HIGH,
     .frequency = 10000U,
-    .period_cb = icu_0_period,
+    .period_cb = wheel_encoder_on_period,
     .channel = ICU_CHANNEL_1,
 };
 
-static const up_icu_t icus[] = {
-    {
-        .driver = &ICUD3,
-        .config = &icu_0_config,
-        .capture =
-            {
-                .mode = UP_CAPTURE_COUNT,
-                .both_edges = false,
-                .tick_hz = 10000U,
-                .silent_ms = 1000U,
-            },
-        .raw = &icu_raw[0],
-        .state = &icu_states[0],
-        .field = SENSE_FIELD_WheelEncoder,
-    },
+static const up_icu_input_t wheel_encoder_inputs[] = {
+    {.driver = &ICUD3, .raw = &wheel_encoder_raw},
+};
+static up_capture_state_t wheel_encoder_states[1];
+static uint64_t wheel_encoder_value[1];
+static const up_icu_t wheel_encoder_icu = {
+    .inputs = wheel_encoder_inputs,
+    .capture =
+        {
+            .mode = UP_CAPTURE_COUNT,
+            .both_edges = false,
+            .tick_hz = 10000U,
+            .silent_ms = 1000U,
+        },
+    .states = wheel_encoder_states,
+    .value = wheel_encoder_value,
+    .field = SENSE_FIELD_WheelEncoder,
+    .inputs_count = 1U,
 };
 
 /* ---- what the runtime calls ---- */
@@ -208,13 +238,13 @@ static const up_icu_t icus[] = {
 /* Starts the drivers: once, behind the pads and before any thread. */
 void sense_start(void) {
   (void)adcStart(&ADCD1, NULL);
-  up_i2c_start(&ports[0]);
-  up_icu_start(&icus[0]);
+  up_i2c_start(&i2c3_port);
+  up_icu_start(&ICUD3, &wheel_encoder_icu_config);
 }
 
 /* Looks at what interrupts have gathered: the reporter, in each cycle. */
 void sense_poll(void) {
-  up_icu_poll(&icus[0]);
+  up_icu_poll(&wheel_encoder_icu);
 }
 
 /* The host has set an actuator; those that threads serve see it by themselves. */
@@ -231,7 +261,7 @@ void sense_failsafe(void) {
 
 static THD_WORKING_AREA(adc1_60ms_stack, 768);
 static THD_WORKING_AREA(adc1_1000ms_stack, 768);
-static THD_WORKING_AREA(i2c_0_stack, 768);
+static THD_WORKING_AREA(i2c3_40ms_prio_2_stack, 768);
 static const up_task_t tasks[] = {
     {
         .name = "ADC1 60 ms",
@@ -255,18 +285,47 @@ static const up_task_t tasks[] = {
     },
     {
         .name = "I2C3 40 ms +2",
-        .cycle = up_i2c_cycle,
-        .work = &i2c_0,
-        .stack = i2c_0_stack,
-        .stack_bytes = sizeof i2c_0_stack,
+        .cycle = up_chips_cycle,
+        .work = &i2c3_40ms_prio_2,
+        .stack = i2c3_40ms_prio_2_stack,
+        .stack_bytes = sizeof i2c3_40ms_prio_2_stack,
         .delay_ms = 40U,
         .prio = 2,
         .device = 19U,
     },
 };
 
+/* ---- what the self test looks at ---- */
+
+#if UP_SHELL == TRUE
+static const up_input_t inputs[] = {
+    {"I2C3 at PA8 (I2C3-SCL)", PAL_LINE(GPIOA, 8U), true},
+    {"IRFront at PB0 (ADC12-IN8)", PAL_LINE(GPIOB, 0U), false},
+    {"IRFrontRight at PB1 (ADC12-IN9)", PAL_LINE(GPIOB, 1U), false},
+    {"WheelEncoder at PB4 (TIM3_CH1)", PAL_LINE(GPIOB, 4U), false},
+    {"I2C3 at PC9 (I2C3-SDA)", PAL_LINE(GPIOC, 9U), true},
+};
+static const uint8_t expected_0[] = {0x73U};
+static const up_probe_t probes[] = {
+    {"I2C3", up_i2c_answers, &i2c3_port, expected_0, sizeof expected_0},
+};
+static const up_edges_t edges[] = {
+    {"WheelEncoder at PB4 (TIM3_CH1)", SENSE_FIELD_WheelEncoder},
+};
+#endif
+
 static const up_counter_t counters[] = {
-    {"I2C3 was freed", &i2c_recoveries[0]},
+    {"I2C3 was freed", &i2c3_state.freed},
+    {"I2C3 stayed stuck", &i2c3_state.kept},
+};
+
+/* ---- how often each value comes; 0: when something happens ---- */
+
+static const uint32_t cycles_ms[] = {
+    1000U,
+    60U,
+    40U,
+    0U,
 };
 
 /* ---- the application ---- */
@@ -275,6 +334,7 @@ const up_config_t up_config = {
     .board = "STM32F4DiscoveryBoard",
     .schema = &sense_schema,
     .values = &sense_values,
+    .cycles_ms = cycles_ms,
     .transforms = sense_transforms,
     .pads = pads,
     .pads_count = sizeof pads / sizeof pads[0],
@@ -287,6 +347,14 @@ const up_config_t up_config = {
     .button = PAL_LINE(GPIOA, 0U),
     .button_pressed = PAL_HIGH,
     .report_ms = 10U,
+#if UP_SHELL == TRUE
+    .inputs = inputs,
+    .inputs_count = sizeof inputs / sizeof inputs[0],
+    .probes = probes,
+    .probes_count = sizeof probes / sizeof probes[0],
+    .edges = edges,
+    .edges_count = sizeof edges / sizeof edges[0],
+#endif
 };
 
 /* ---- what the compiler alone would not notice ---- */
@@ -306,9 +374,11 @@ _Static_assert(STM32_PCLK1 % (3U * 400000U) == 0U && STM32_PCLK1 / (3U * 400000U
 _Static_assert(STM32_TIMCLK1 % 10000U == 0U && STM32_TIMCLK1 / 10000U <= 65536U,
                "the clock of TIM3 does not divide to 10000 Hz");
 _Static_assert(STM32_TIM3_CHANNELS >= 2,
-               "TIM3 cannot measure with channel 1");
+               "TIM3 has no channel 2");
 _Static_assert(STM32_HCLK == 168000000U,
                "STM32_HCLK is not what this wiring was made for");
+_Static_assert(STM32_PCLK1 == 42000000U,
+               "STM32_PCLK1 is not what this wiring was made for");
 _Static_assert(STM32_PCLK2 == 84000000U,
                "STM32_PCLK2 is not what this wiring was made for");
 _Static_assert(STM32_TIMCLK1 == 84000000U,

@@ -1,4 +1,4 @@
-/* Written by SenseDSL: the schema of the link. */
+/* Written by SenseDSL: the schema of the link of STM32F4DiscoveryBoard. */
 #include "sense_model.h"
 
 sense_values_t sense_values;
