@@ -2,6 +2,7 @@
  * Analog sensors: a thread starts the groups of its units together, waits for each no longer than it may take, and
  * puts the mean of each input's samples.
  */
+#include "up_adc.h"
 #include "up_rt.h"
 
 #if HAL_USE_ADC == TRUE

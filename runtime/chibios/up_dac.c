@@ -1,4 +1,5 @@
 /* Voltages of DAC outputs: from a value to the converter's code. */
+#include "up_dac.h"
 #include "up_rt.h"
 
 #if HAL_USE_DAC == TRUE

@@ -1,4 +1,5 @@
 /* Levels of pins: outputs, inputs that a thread reads each cycle, and inputs whose edges interrupt. */
+#include "up_digital.h"
 #include "up_rt.h"
 
 static uint32_t ticks_now(void) {

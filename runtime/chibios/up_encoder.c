@@ -1,4 +1,5 @@
 /* Quadrature encoders: a timer counts, and its 16 bits are made 32 before they wrap. */
+#include "up_encoder.h"
 #include "up_rt.h"
 
 /* So often a counter of 16 bits is read: 32767 counts in 10 ms are 3.2 million a second. */

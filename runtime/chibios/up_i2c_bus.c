@@ -4,6 +4,8 @@
 
 #if HAL_USE_I2C == TRUE
 
+#include "up_i2c_bus.h"
+
 /* A device that was cut off in the middle of a byte lets go after at most so many clocks. */
 #define RECOVERY_CLOCKS 9U
 #define RECOVERY_HALF_CLOCK_US 100U

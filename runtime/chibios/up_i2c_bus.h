@@ -8,6 +8,7 @@
 #include "hal.h"
 
 #include "up_bus.h"
+#include "up_chips.h"
 
 /* Of one bus; all zero at the start. */
 typedef struct {

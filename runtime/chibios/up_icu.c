@@ -1,4 +1,5 @@
 /* Input capture: the interrupts count, the reporter looks; no thread of its own. */
+#include "up_icu.h"
 #include "up_rt.h"
 
 #if HAL_USE_ICU == TRUE

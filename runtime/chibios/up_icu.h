@@ -8,6 +8,7 @@
 #include "hal.h"
 
 #include "up_capture.h"
+#include "up_elements.h"
 #include "up_ppm.h"
 
 #if HAL_USE_ICU == TRUE

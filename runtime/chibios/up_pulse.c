@@ -1,4 +1,5 @@
 /* Pulses on lines of their own that make a device measure (the trigger of an ultrasonic ranger). */
+#include "up_pulse.h"
 #include "up_rt.h"
 #include "up_wait.h"
 

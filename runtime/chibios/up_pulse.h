@@ -7,7 +7,6 @@
 #include "ch.h"
 #include "hal.h"
 
-
 /* A line that gets a pulse. */
 typedef struct {
   ioline_t line;

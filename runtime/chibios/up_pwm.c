@@ -1,4 +1,5 @@
 /* PWM outputs, and the bridges of motors behind them. Values change at the end of a period. */
+#include "up_pwm.h"
 #include "up_rt.h"
 
 #if HAL_USE_PWM == TRUE

@@ -13,24 +13,10 @@
 #include "up_conf.h"
 #include "up_dma.h" /* before the core's headers: they take its UP_DMA_BUFFER */
 
-#include "up_adc.h"
-#include "up_chips.h"
-#include "up_dac.h"
-#include "up_digital.h"
-#include "up_encoder.h"
+#include "up_chip.h"
 #include "up_filter.h"
 #include "up_health.h"
-#include "up_icu.h"
-#include "up_pulse.h"
-#include "up_pwm.h"
 #include "up_report.h"
-
-#if HAL_USE_I2C == TRUE
-#include "up_i2c_bus.h"
-#endif
-#if HAL_USE_SPI == TRUE
-#include "up_spi_bus.h"
-#endif
 
 /* ---- tables ---- */
 

@@ -4,6 +4,8 @@
 
 #if HAL_USE_SPI == TRUE
 
+#include "up_spi_bus.h"
+
 /* What is sent while nothing has to be: the wire stays high. */
 #define FILLER 0xFF
 

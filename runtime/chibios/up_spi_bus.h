@@ -11,6 +11,7 @@
 #include "hal.h"
 
 #include "up_bus.h"
+#include "up_chips.h"
 
 /* One bus, shared by all threads with devices on it. */
 typedef struct {

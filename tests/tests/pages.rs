@@ -9,10 +9,11 @@ use sensedsl_tests::{read, root, text};
 /// The firmware page names the families that there is firmware for, without `STM32`, and no other.
 #[test]
 fn the_firmware_page_names_its_families() {
-    let page = text("docs/firmware.md");
+    let page = words_of("docs/firmware.md");
     let limits = page.split("## Limits").nth(1).unwrap();
     let named = limits.split("every STM32 family with a profile (").nth(1).unwrap();
-    let named: BTreeSet<&str> = named.split(')').next().unwrap().split(", ").collect();
+    let named = named.split(')').next().unwrap().split(',');
+    let named: BTreeSet<&str> = named.map(str::trim).collect();
     let mut served = BTreeSet::new();
     for line in profile::lines(profile::DEFAULT).unwrap() {
         assert!(chibios::is_served(&line.profile), "{}", line.profile.line);

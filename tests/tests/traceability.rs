@@ -141,10 +141,13 @@ fn columns(design: &str) -> BTreeMap<&'static str, String> {
         let lines = pads.lines().filter(|line| line.contains(mark));
         lines.collect::<Vec<_>>().join("\n")
     };
-    let part = |title: &str, mark: &str| {
-        let section = section(&hardware, title);
-        assert!(!section.is_empty(), "no section {title}");
-        format!("{}\n{}", pads(mark), code(section))
+    // A bus and what is on it have sections of their own.
+    let part = |titles: &[&str], mark: &str| {
+        let all = hardware.split("/* ---- ").filter_map(|one| one.split_once(" ---- */"));
+        let own = all.filter(|(title, _)| titles.iter().any(|wanted| title.contains(wanted)));
+        let own: String = own.map(|(_, section)| code(section)).collect();
+        assert!(!own.is_empty(), "no section {titles:?}");
+        format!("{}\n{own}", pads(mark))
     };
     let host: String = tree(&out.join("host"))
         .into_iter()
@@ -154,9 +157,9 @@ fn columns(design: &str) -> BTreeMap<&'static str, String> {
     let model = |name: &str| code(&read(&firmware.join("generated").join(name)));
     let all = [
         pins.join("\n"),
-        part("analog sensors", "ANALOG"),
-        part("I2C buses", "OPENDRAIN"),
-        part("input capture", "ALTERNATE(2)"),
+        part(&["analog sensors"], "ANALOG"),
+        part(&["I2C", ": srf08", "USRear"], "OPENDRAIN"),
+        part(&["input capture"], "ALTERNATE(2)"),
         model("sense_model.h"),
         model("sense_model.c"),
         code(section(&hardware, "threads")),

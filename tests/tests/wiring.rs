@@ -128,21 +128,20 @@ fn a_conflict_names_the_rules_it_needs_and_what_helps() {
     assert_eq!(repairs[..2], ["run D1 at 60 Hz", "run D2 at 50 Hz"]);
 }
 
-/// On the F303, I2C3 takes the only stream of ADC1.
+/// On the F103, the streams of I2C2 are those of SPI2.
 #[test]
-fn converters_and_buses_share_the_streams() {
-    let rows = "# mcu = STM32F303RET6\nPin,ADC,I2C,Other\nPA0,UNITS_IN1,-,-\n\
-                PA8,-,I2C3_SCL@3,-\nPC9,-,I2C3_SDA@8,-\nPB6,-,I2C1_SCL@4,X\nPB7,-,I2C1_SDA@4,X\n";
-    let text = design("t", &["analog", "i2c: address = 0x20;"]);
-    let text = text.replacen('{', "{ link { transport = usb; }", 1);
-    let units = |converters: &str| {
-        let (_table, path) = table(&rows.replace("UNITS", converters));
-        let answer = solve(text.clone(), &["--board", &path]).exits(0).json();
-        let devices = answer["boards"][0]["devices"].as_array().unwrap().clone();
-        devices.iter().map(|one| one["unit"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+fn buses_share_the_streams() {
+    let rows = "# mcu = STM32F103RBT6\nPin,I2C,SPI,Other\nPB10,I2C2_SCL,-,-\nPB11,I2C2_SDA,-,-\n\
+                PB6,I2C1_SCL,-,X\nPB7,I2C1_SDA,-,X\nPB13,-,SPI2_SCK,-\nPB14,-,SPI2_MISO,-\n\
+                PB15,-,SPI2_MOSI,-\nPC0,-,-,-\n";
+    let unit = |devices: &[&str]| {
+        let text = design("t", devices).replacen('{', "{ link { transport = usb; }", 1);
+        let (_table, path) = table(rows);
+        let answer = solve(text, &["--board", &path]).exits(0).json();
+        answer["boards"][0]["devices"][0]["unit"].as_str().unwrap().to_owned()
     };
-    assert_eq!(units("ADC12"), ["ADC2", "I2C3"], "another converter before another bus");
-    assert_eq!(units("ADC1"), ["ADC1", "I2C1"], "another bus where there is no other converter");
+    assert_eq!(unit(&["i2c: address = 0x20;"]), "I2C2", "the cheaper one");
+    assert_eq!(unit(&["i2c: address = 0x20;", "spi"]), "I2C1", "another bus beside SPI2");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 #ifndef UP_CONF_H
 #define UP_CONF_H
 
+#define UP_SHELL FALSE
+
 #define UP_LINK_USB TRUE
 #define UP_HAS_BUTTON FALSE
 

@@ -120,7 +120,7 @@ fn unit_field(plan: &PartPlan, name: &str) -> String {
         format!("&{}, {}_parameters, {}U", one.formula, one.ident, one.output)
     });
     let train = plan.trains.iter().find(|one| one.field == name);
-    let train = train.map_or("NULL".to_owned(), |one| format!("&{}_train", one.ident));
+    let train = train.map_or("NULL".to_owned(), |one| format!("&{}_train_config", one.ident));
     let bridge = plan.bridges.iter().find(|one| one.field == name);
     let bridge = bridge.map_or("NULL".to_owned(), |one| format!("&{}_drive", one.ident));
     format!("{filter}, {formula}, {train}, {bridge}")

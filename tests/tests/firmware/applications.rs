@@ -217,7 +217,10 @@ fn a_bus_gets_a_clock_that_the_driver_accepts() {
     }";
     let files = files(text);
     let hardware = &files["STM32F4DiscoveryBoard/generated/sense_hw.c"];
-    assert!(hardware.contains("/* 300000 Hz were asked for;"), "{hardware}");
+    assert!(
+        hardware.contains("/* 280000 Hz: the fastest that the unit makes, up to 300000 Hz. */"),
+        "{hardware}"
+    );
     assert!(hardware.contains(".clock_speed = 280000U,"), "{hardware}");
     assert!(hardware.contains("STM32_PCLK1 % (3U * 280000U) == 0U"), "{hardware}");
     let settings = &files["STM32F4DiscoveryBoard/cfg/mcuconf.h"];
@@ -231,7 +234,7 @@ fn timers_and_pins_read_as_written_by_hand() {
     for expected in [
         // Both edges of the wheel, and a train that a wrap of the timer ends.
         "up_capture_on_width(&wheel_encoder_raw, (uint32_t)icuGetWidthX(driver), true);",
-        "up_ppm_on_interval(&train_Rc, &rc_raw, UINT32_MAX);",
+        "up_ppm_on_interval(&rc_train_config, &rc_raw, UINT32_MAX);",
         "up_icu_start(&ICUD2, &wheel_encoder_icu_config);",
         // An encoder has its timer by registers; 16 bits are read in time.
         "  rccEnableTIM4(true);\n  rccResetTIM4();\n  up_encoder_start(&position_counters[0]);",

@@ -74,8 +74,6 @@ fn adapt(board: &Path, user: &str) {
     };
     let base = "#include UP_BASE_CHCONF";
     let kernel = [
-        "CH_CFG_ST_TIMEDELTA 0",
-        "CH_CFG_ST_FREQUENCY 1000",
         "CH_DBG_SYSTEM_STATE_CHECK TRUE",
         "CH_DBG_ENABLE_CHECKS TRUE",
         "CH_DBG_ENABLE_ASSERTS TRUE",
@@ -84,6 +82,8 @@ fn adapt(board: &Path, user: &str) {
     ];
     let kernel = kernel.map(|setting| format!("#define {setting}\n")).concat();
     change("cfg/chconf.h", base, &format!("{kernel}{base}"));
+    change("cfg/chconf.h", "CH_CFG_ST_TIMEDELTA 2", "CH_CFG_ST_TIMEDELTA 0");
+    change("cfg/chconf.h", "CH_CFG_ST_FREQUENCY 10000", "CH_CFG_ST_FREQUENCY 1000");
     let base = "#include UP_BASE_MCUCONF";
     let clocks = "\n#undef STM32_NO_INIT\n#define STM32_NO_INIT TRUE";
     change("cfg/mcuconf.h", base, &format!("{base}{clocks}"));

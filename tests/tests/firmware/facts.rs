@@ -177,8 +177,8 @@ fn buses(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
     differences.same("addresses", found(".address = "), of(&|one| i64::from(one.address)));
     differences.same(
         "registers",
-        found(".reg = "),
-        of(&|one| i64::from(one.register.unwrap_or(0))),
+        set(&numbers(&hardware.replace("_select_0[] = {", "\nselect "), "\nselect ")),
+        all.iter().filter_map(|one| one.register.map(i64::from)).collect(),
     );
     differences.same("lengths", found(".length = "), of(&|one| i64::from(one.length_bytes)));
     differences.same(
@@ -186,12 +186,11 @@ fn buses(design: &Design, on: &BoardAssignment, hardware: &str, differences: &mu
         found(".wait_ms = "),
         of(&|one| i64::from(one.wait_us.div_ceil(1000))),
     );
-    let little = |one: &sensedsl_model::kind::i2c::I2c| {
-        i64::from(one.order == sensedsl_model::kind::i2c::ByteOrder::Little)
+    let is_little = |one: &&&sensedsl_model::kind::i2c::I2c| {
+        one.order == sensedsl_model::kind::i2c::ByteOrder::Little
     };
-    let words = after(hardware, ".little_endian = ");
-    let words: BTreeSet<i64> = words.iter().map(|word| i64::from(*word == "true")).collect();
-    differences.same("byte order", words, of(&little));
+    let found_little = hardware.matches(".little_endian = true").count();
+    differences.same("byte order", found_little, all.iter().filter(is_little).count());
     let triggers: BTreeSet<Vec<u8>> = all.iter().map(|one| one.trigger.clone()).collect();
     let text = hardware.split("_trigger_").filter_map(|rest| rest.split_once("[] = {"));
     let bytes = text.filter(|(name, _)| name.len() < 4).map(|(_, rest)| {

@@ -156,7 +156,8 @@ fn every_family_and_kind_compiles_with_the_stubs() {
                 Made::Files(files) => files,
                 Made::NoWiring => continue,
                 Made::Refused(codes) => {
-                    let gap = codes.iter().all(|code| ["E0501", "E0504"].contains(code));
+                    // A unit that is too fast for a device, even at its slowest, is told as E0620.
+                    let gap = codes.iter().all(|code| ["E0501", "E0504", "E0620"].contains(code));
                     assert!(gap, "{} {kind}: {codes:?}", entry.name);
                     let _ = not_made.insert(format!("{} {kind}", profile.family));
                     continue;

@@ -135,7 +135,9 @@ class Case:
         if self.stream is not None:
             value = "nothing"
             for body in messages(driver, self.stream):
-                if "field" in part["properties"]:
+                if body is None:
+                    value = "invalid" if value == "nothing" else value
+                elif "field" in part["properties"]:
                     found = field(part, driver, body)
                     value = value if found is NOTHING else found
                 else:

@@ -280,7 +280,7 @@ def checksum(kind, body):
 
 
 def messages(driver, stream):
-    """The messages in the stream: their bytes between start and checksum or end."""
+    """The messages in the stream: their bytes between start and checksum or end; None where the checksum is wrong."""
     give = driver["properties"].get
     start, end = bytes_of(give("start", [])), bytes_of(give("end", []))
     kind = str(give("checksum", "none"))
@@ -295,6 +295,7 @@ def messages(driver, stream):
             if kind == "nmea":
                 body, star, said = body.rpartition(b"*")
                 if not star or said.upper() != checksum(kind, body):
+                    yield None
                     continue
             yield body
             continue
@@ -305,6 +306,7 @@ def messages(driver, stream):
         if kind != "none":
             wanted = checksum(kind, (start + body)[give("checksum_from", 0):])
             if stream[last:last + len(wanted)] != wanted:
+                yield None
                 at += 1
                 continue
             last += len(wanted)

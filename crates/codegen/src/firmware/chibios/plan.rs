@@ -93,6 +93,15 @@ impl BoardPlan {
         self.sections.iter().flat_map(|section| &section.sizes)
     }
 
+    /// The headers of the drivers in use.
+    pub(super) fn headers(&self) -> Vec<&'static str> {
+        let all = self.sections.iter().flat_map(|section| section.headers.iter().copied());
+        let mut all: Vec<&str> = all.collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
     /// What drivers count.
     pub(super) fn counters(&self) -> Vec<&Counter> {
         self.sections.iter().flat_map(|section| &section.counters).collect()

@@ -64,6 +64,8 @@ pub(super) struct Section {
     pub(super) guards: Vec<GuardPlan>,
     /// The clocks whose frequencies were computed with.
     pub(super) clocks: BTreeSet<String>,
+    /// The headers that its tables need; [`sections`] fills them in.
+    pub(super) headers: Vec<&'static str>,
     /// The C of its tables.
     pub(super) tables: String,
     /// Lines of C that start it, after the pads.
@@ -177,6 +179,15 @@ pub(super) fn nothing(_: &BoardJob<'_>, _: &JobConnection<'_>) -> Option<&'stati
 /// The sections of a board.
 pub(super) fn sections(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Section> {
     let drivers = &context.names.drivers;
-    let serving = PERIPHERALS.iter().filter_map(|peripheral| peripheral.serving(drivers));
-    serving.map(|version| (version.plan)(context, diagnostics)).collect()
+    let serving = PERIPHERALS.iter().filter_map(|one| Some((one, one.serving(drivers)?)));
+    let section = |(peripheral, version): (&&Peripheral, &Version)| {
+        let mut section = (version.plan)(context, diagnostics);
+        if !section.tables.is_empty() {
+            let files = peripheral.runtime.iter();
+            let names = files.filter_map(|(path, _)| path.strip_prefix("chibios/"));
+            section.headers = names.filter(|name| name.ends_with(".h")).collect();
+        }
+        section
+    };
+    serving.map(section).collect()
 }

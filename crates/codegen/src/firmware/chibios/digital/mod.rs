@@ -21,5 +21,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         ("core/up_debounce.c", include_str!("../../../../../../runtime/core/up_debounce.c")),
         ("core/up_debounce.h", include_str!("../../../../../../runtime/core/up_debounce.h")),
         ("chibios/up_digital.c", include_str!("../../../../../../runtime/chibios/up_digital.c")),
+        ("chibios/up_digital.h", include_str!("../../../../../../runtime/chibios/up_digital.h")),
     ],
 };

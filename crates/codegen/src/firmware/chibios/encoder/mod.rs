@@ -17,5 +17,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         ("core/up_count.c", include_str!("../../../../../../runtime/core/up_count.c")),
         ("core/up_count.h", include_str!("../../../../../../runtime/core/up_count.h")),
         ("chibios/up_encoder.c", include_str!("../../../../../../runtime/chibios/up_encoder.c")),
+        ("chibios/up_encoder.h", include_str!("../../../../../../runtime/chibios/up_encoder.h")),
     ],
 };

@@ -21,5 +21,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         ("core/up_elements.c", include_str!("../../../../../../runtime/core/up_elements.c")),
         ("core/up_elements.h", include_str!("../../../../../../runtime/core/up_elements.h")),
         ("chibios/up_icu.c", include_str!("../../../../../../runtime/chibios/up_icu.c")),
+        ("chibios/up_icu.h", include_str!("../../../../../../runtime/chibios/up_icu.h")),
     ],
 };

@@ -16,8 +16,8 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "GPIOv3", plan: v2::plan },
     ],
     lacks: nothing,
-    runtime: &[(
-        "chibios/up_pulse.c",
-        include_str!("../../../../../../runtime/chibios/up_pulse.c"),
-    )],
+    runtime: &[
+        ("chibios/up_pulse.c", include_str!("../../../../../../runtime/chibios/up_pulse.c")),
+        ("chibios/up_pulse.h", include_str!("../../../../../../runtime/chibios/up_pulse.h")),
+    ],
 };

@@ -18,5 +18,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         ("core/up_pulse_width.c", include_str!("../../../../../../runtime/core/up_pulse_width.c")),
         ("core/up_pulse_width.h", include_str!("../../../../../../runtime/core/up_pulse_width.h")),
         ("chibios/up_pwm.c", include_str!("../../../../../../runtime/chibios/up_pwm.c")),
+        ("chibios/up_pwm.h", include_str!("../../../../../../runtime/chibios/up_pwm.h")),
     ],
 };
