@@ -56,7 +56,7 @@ const ROWS: &[Row] = &[
         element: "identifier",
         changes: &[("id = 17", "id = 27"), ("id = 18", "id = 28")],
         paper: ".....#..",
-        ours: ".....#.+",
+        ours: ".....#++",
     },
     // The order of fields in memory is that of the file and stays. Captures have no cycle, and the host
     // knows by the cycle when a value is overdue.
@@ -75,13 +75,13 @@ const ROWS: &[Row] = &[
         element: "delay",
         changes: &[("delay = 60", "delay = 1000"), ("delay = 40", "delay = 45")],
         paper: "......#.",
-        ours: ".+....#+",
+        ours: ".++...#+",
     },
     Row {
         element: "prio",
         changes: &[("prio = +2", "prio = +3")],
         paper: "......#.",
-        ours: "......#.",
+        ours: "..+...#.",
     },
     // The pins move by rules only. Threads are named after their units.
     Row {

@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "up_adc.h"
+#include "up_dac.h"
 #include "up_rt.h"
 
 #define CHECK(condition) check((condition), #condition, __LINE__)

@@ -222,6 +222,9 @@ typedef struct {
 struct stub_adc {
   int state;
   thread_reference_t thread;
+#if defined(ADC_DRIVER_EXT_FIELDS)
+  ADC_DRIVER_EXT_FIELDS
+#endif
 };
 STUB_DRIVERS(ADCDriver, ADCD);
 msg_t adcStart(ADCDriver *driver, const ADCConfig *config);

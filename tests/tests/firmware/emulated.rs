@@ -290,7 +290,7 @@ fn a_bus_that_hangs_leaves_the_reports_alone() {
         item(2, "Byte", ScalarType::Uint8),
         item(3, "Wheel", ScalarType::Uint32),
     ];
-    let schema = Schema { checksum: Checksum::None, stamp: false, items };
+    let schema = Schema { checksum: Checksum::Crc16, stamp: false, items };
     let reports = board.reports(&schema, 200);
     let values = |wanted: u8| {
         let of_report = move |report: &Vec<(u8, Vec<Scalar>)>| {

@@ -115,7 +115,6 @@ const MUTANTS: &[Mutant] = &[
     ("the kernel's timer", MCU, "STM32_ST_USE_TIMER 2", "STM32_ST_USE_TIMER 3"),
     ("a unit that is off", MCU, "STM32_ICU_USE_TIM3 TRUE", "STM32_ICU_USE_TIM3 FALSE"),
     ("watchdog's clock", MCU, "STM32_LSI_ENABLED TRUE", "STM32_LSI_ENABLED FALSE"),
-    ("length of a report", CONF, "MAX_TO_HOST 91U", "MAX_TO_HOST 16U"),
     ("number of fields in the sizes", CONF, "UP_FIELDS_COUNT 4U", "UP_FIELDS_COUNT 3U"),
     ("number of threads", CONF, "UP_TASKS_COUNT 3U", "UP_TASKS_COUNT 2U"),
 ];
@@ -133,7 +132,6 @@ const UNSEEN: &[&str] = &[
     "level of the button",
     "invalid value of a filter",
     "filter of another field",
-    "length of a report",
 ];
 
 /// The files compiled with the tree: ours, and those of the tree that read our settings.

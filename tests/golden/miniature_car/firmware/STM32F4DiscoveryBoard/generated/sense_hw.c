@@ -1,8 +1,9 @@
 /* Written by SenseDSL: the wiring of STM32F4DiscoveryBoard as tables for the runtime. */
 #include "sense_model.h"
-#include "up_can.h"
 #include "up_rt.h"
-#include "up_uart.h"
+#include "up_adc.h"
+#include "up_i2c_bus.h"
+#include "up_icu.h"
 
 /* ---- pads ---- */
 
