@@ -198,6 +198,7 @@ extern stm32_tim_t stub_timers[21];
 typedef uint16_t adcsample_t;
 typedef uint16_t adc_channels_num_t;
 typedef uint32_t adcerror_t;
+#define ADC_ACTIVE 3
 typedef struct stub_adc ADCDriver;
 typedef void (*adccallback_t)(ADCDriver *driver);
 typedef void (*adcerrorcallback_t)(ADCDriver *driver, adcerror_t error);

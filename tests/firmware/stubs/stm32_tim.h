@@ -1,13 +1,8 @@
-/* A timer as our code sees it; see README.md. */
+/* Bits of a timer that our code sets; see README.md. */
 #ifndef STUB_STM32_TIM_H
 #define STUB_STM32_TIM_H
 
-#include <stdint.h>
-
-typedef struct {
-  volatile uint32_t CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR;
-  volatile uint32_t CCR[4];
-} stm32_tim_t;
+#include "hal.h"
 
 #define STM32_TIM_CCMR1_CC1S(n) ((uint32_t)(n))
 #define STM32_TIM_CCMR1_CC2S(n) ((uint32_t)(n) << 8)

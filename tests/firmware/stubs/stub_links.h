@@ -35,6 +35,28 @@ typedef struct {
 STUB_DRIVERS(SerialDriver, SD);
 extern SerialDriver LPSD1;
 msg_t sdStart(SerialDriver *driver, const SerialConfig *config);
+size_t sdWrite(SerialDriver *driver, const uint8_t *bytes, size_t count);
+size_t sdWriteTimeout(SerialDriver *driver, const uint8_t *bytes, size_t count, sysinterval_t timeout);
+size_t sdReadTimeout(SerialDriver *driver, uint8_t *bytes, size_t count, sysinterval_t timeout);
+
+/* ---- events of a channel ---- */
+
+typedef uint32_t eventmask_t, eventflags_t;
+typedef struct {
+  int stub;
+} event_source_t;
+typedef struct {
+  eventflags_t flags;
+} event_listener_t;
+#define EVENT_MASK(n) ((eventmask_t)1U << (n))
+#define SD_PARITY_ERROR 1U
+#define SD_FRAMING_ERROR 2U
+#define SD_OVERRUN_ERROR 4U
+#define SD_QUEUE_FULL_ERROR 8U
+event_source_t *chnGetEventSource(void *channel);
+void chEvtRegisterMaskWithFlags(event_source_t *source, event_listener_t *listener, eventmask_t mask,
+                                eventflags_t flags);
+eventflags_t chEvtGetAndClearFlags(event_listener_t *listener);
 
 /* ---- USB ---- */
 
