@@ -171,7 +171,7 @@ static void start_tasks(void) {
   for (i = 0U; i < up_config.tasks_count; i++) {
     const up_task_t *task = &up_config.tasks[i];
     /* The argument is a const table; the kernel's signature knows only void pointers. */
-    (void)chThdCreateStatic(task->stack, task->stack_bytes, (tprio_t)(NORMALPRIO + task->prio), run_task,
+    (void)chThdCreateStatic(task->stack, task->stack_bytes, (tprio_t)((int)NORMALPRIO + task->prio), run_task,
                             (void *)(uintptr_t)task);
   }
 }
