@@ -34,30 +34,87 @@ impl Built {
     }
 }
 
-/// Writes and builds the firmware of one board, and removes what was built.
+/// Writes and builds the firmware of one board. What an earlier build in the folder left is used
+/// again where nothing that it is made of has changed: the kernel, mostly.
 pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Built> {
-    let mut board = None;
-    for (path, entry) in files.iter() {
-        let to = folder.join(path);
-        if let Some(parent) = to.parent() {
-            std::fs::create_dir_all(parent)?;
-        }
-        std::fs::write(&to, &entry.bytes).with_context(|| to.display().to_string())?;
-        if path.ends_with("/Makefile") {
-            board = to.parent().map(Path::to_path_buf);
-        }
-    }
-    let board = board.context("no Makefile was generated")?;
-    let output = make(&board, tree).output().context("make")?;
+    let board = write(files, folder)?;
+    let mut make = make(&board, tree);
+    make.args(modules(&board, tree)?);
+    let output = make.output().context("make")?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     if !output.status.success() {
-        let error = said.lines().find(|line| line.contains("error") || line.contains("***"));
+        let is_error = |line: &&str| {
+            ["error: ", "undefined reference", "***"].iter().any(|word| line.contains(word))
+        };
+        let error = said.lines().find(is_error);
         bail!("{}", error.or(said.lines().next()).unwrap_or("make failed and says nothing").trim());
     }
     let mut built = sizes(&board.join("build/development/sense.elf"))?;
     built.warnings = ours(&said);
-    std::fs::remove_dir_all(folder)?;
     Ok(built)
+}
+
+/// Makes the folder hold these files and what was built, and nothing else; gives that of the Makefile.
+fn write(files: &FileSet, folder: &Path) -> Result<PathBuf> {
+    let mut board = None;
+    for (path, entry) in files.iter() {
+        let to = folder.join(path);
+        if path.ends_with("/Makefile") {
+            board = to.parent().map(Path::to_path_buf);
+        }
+        if std::fs::read(&to).is_ok_and(|bytes| bytes == entry.bytes) {
+            continue;
+        }
+        if let Some(parent) = to.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        std::fs::write(&to, &entry.bytes).with_context(|| to.display().to_string())?;
+    }
+    let board = board.context("no Makefile was generated")?;
+    let wanted: BTreeSet<PathBuf> = files.iter().map(|(path, _)| folder.join(path)).collect();
+    remove_others(&board, &wanted)?;
+    Ok(board)
+}
+
+/// Removes the sources of an earlier design.
+fn remove_others(folder: &Path, wanted: &BTreeSet<PathBuf>) -> Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() && !path.ends_with("build") {
+            remove_others(&path, wanted)?;
+        } else if path.is_file() && !wanted.contains(&path) {
+            std::fs::remove_file(&path)?;
+        }
+    }
+    Ok(())
+}
+
+/// Leaves out the sources of the tree that would compile to nothing. The tree can do so by itself where
+/// it can read the switches; it does not follow the includes of ours, so the preprocessor reads them.
+fn modules(board: &Path, tree: &Path) -> Result<Vec<String>> {
+    let makefile = std::fs::read_to_string(board.join("Makefile"))?;
+    let base = makefile.lines().find_map(|line| line.strip_prefix("BASE_CFG := $(CHIBIOS)/"));
+    let base = tree.join(base.context("the Makefile names no configuration")?);
+    let read = |name: &str, define: &str| {
+        let mut compiler = Command::new("arm-none-eabi-gcc");
+        let path = base.join(name);
+        compiler.args(["-E", "-dM", "-DTRUE=TRUE", "-DFALSE=FALSE", "-I", "."]);
+        compiler.arg(format!("-D{define}=\"{}\"", path.display()));
+        compiler.arg("-DUP_SHELL=TRUE").arg(format!("cfg/{name}")).current_dir(board);
+        let output = compiler.output().context("arm-none-eabi-gcc")?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let is_switch = |line: &&str| line.ends_with(" TRUE") && !line.contains('"');
+        let switches: Vec<&str> = text.lines().filter(is_switch).collect();
+        anyhow::ensure!(!switches.is_empty(), "{name} switches nothing on");
+        Ok(switches.join(" ").replace('#', ""))
+    };
+    let kernel = read("chconf.h", "UP_BASE_CHCONF")?;
+    Ok(vec![
+        "USE_SMART_BUILD=yes".to_owned(),
+        format!("HALCONF={}", read("halconf.h", "UP_BASE_HALCONF")?),
+        format!("CHCONF={kernel}"),
+        format!("CHLIBCONF={kernel}"),
+    ])
 }
 
 fn make(board: &Path, tree: &Path) -> Command {
