@@ -17,7 +17,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context as _, Result, bail, ensure};
 
-use build::Built;
+use build::{Built, Came};
 use cells::{Cell, Made};
 
 use crate::say;
@@ -76,6 +76,8 @@ enum Outcome {
     NoWiring(String),
     /// Built; without the kinds that did not fit beside the others.
     Built(Built, Vec<&'static str>),
+    /// Larger than the MCU's memory.
+    TooLarge(String),
     /// Neither generated nor built, and why.
     Failed(String),
 }
@@ -142,7 +144,8 @@ fn outcome(cell: &Cell, tree: &Path, folder: &Path) -> Outcome {
         Made::NoWiring(why) => Outcome::NoWiring(why),
         Made::Refused(why) => Outcome::Failed(why),
         Made::Files(files, left_out) => match build::build(&files, tree, folder) {
-            Ok(built) => Outcome::Built(built, left_out),
+            Ok(Came::Built(built)) => Outcome::Built(built, left_out),
+            Ok(Came::TooLarge(why)) => Outcome::TooLarge(why),
             Err(error) => Outcome::Failed(format!("{error:#}")),
         },
     }
@@ -155,6 +158,7 @@ fn tell(cell: &Cell, outcome: &Outcome, at: usize, all: usize) {
         Outcome::NotOffered => "not offered".to_owned(),
         Outcome::NoWiring(_) => "no wiring".to_owned(),
         Outcome::Built(built, _) => built.sizes(),
+        Outcome::TooLarge(why) => format!("too large: {why}"),
         Outcome::Failed(why) => format!("FAILED: {why}"),
     };
     let (board, kind) = (&cell.board, &cell.kind);
