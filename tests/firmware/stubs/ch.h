@@ -25,8 +25,12 @@
 #if !defined(CH_DBG_STACK_FILL_VALUE)
 #define CH_DBG_STACK_FILL_VALUE 0x55
 #endif
-#define PORT_SUPPORTS_RT TRUE
 #define CORTEX_MODEL STUB_CORTEX
+#if CORTEX_MODEL >= 3
+#define PORT_SUPPORTS_RT TRUE
+#else
+#define PORT_SUPPORTS_RT FALSE
+#endif
 
 #if CH_CFG_ST_RESOLUTION == 32
 typedef uint32_t systime_t;

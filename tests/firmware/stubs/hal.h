@@ -28,14 +28,21 @@
 #if !defined(HAL_USE_PWM)
 #define HAL_USE_PWM FALSE
 #endif
+#if !defined(HAL_USE_SERIAL)
+#define HAL_USE_SERIAL FALSE
+#endif
+#if !defined(HAL_USE_SERIAL_USB)
+#define HAL_USE_SERIAL_USB FALSE
+#endif
 #if !defined(HAL_USE_SPI)
 #define HAL_USE_SPI FALSE
 #endif
-
-/* Eight objects of a driver, numbered from 1, as far as any MCU has them. */
-#define STUB_DRIVERS(type, name)                                                                             \
-  extern type name##1, name##2, name##3, name##4, name##5, name##6, name##7, name##8, name##9, name##10,     \
-      name##11, name##12, name##13, name##14, name##15, name##16, name##17, name##20
+#if !defined(HAL_USE_USB)
+#define HAL_USE_USB FALSE
+#endif
+#if !defined(PAL_USE_CALLBACKS)
+#define PAL_USE_CALLBACKS FALSE
+#endif
 
 /* Clocks that a board's facts may leave out: what a demo has is then not known here. */
 #if !defined(STM32_HCLK)
@@ -50,6 +57,36 @@
 #if !defined(STM32_TIMCLK2)
 #define STM32_TIMCLK2 64000000U
 #endif
+#if defined(STUB_FDCAN) && !defined(STM32_FDCANCLK)
+#define STM32_FDCANCLK 80000000U
+#endif
+#if defined(STUB_H7) && !defined(STM32_CORE_CK)
+#define STM32_CORE_CK 400000000U
+#endif
+
+/* What drives a bus, as the demos have it; the families that have no constant for the bus's own clock. */
+#if defined(STUB_G0)
+#define STM32_I2C1SEL_PCLK 0U
+#define STM32_I2C1SEL STM32_I2C1SEL_PCLK
+#elif defined(STUB_G4)
+#define STM32_I2C1SEL_PCLK1 0U
+#define STM32_I2C1SEL STM32_I2C1SEL_PCLK1
+#define STM32_I2C2SEL_PCLK1 0U
+#define STM32_I2C2SEL STM32_I2C2SEL_PCLK1
+#define STM32_I2C3SEL_PCLK1 0U
+#define STM32_I2C3SEL STM32_I2C3SEL_PCLK1
+#define STM32_I2C4SEL_PCLK1 0U
+#define STM32_I2C4SEL STM32_I2C4SEL_PCLK1
+#elif defined(STUB_L4) && STUB_I2C == 4
+#define STM32_I2C1SEL_SYSCLK 1U
+#define STM32_I2C1SEL STM32_I2C1SEL_SYSCLK
+#define STM32_I2C2SEL_SYSCLK 1U
+#define STM32_I2C2SEL STM32_I2C2SEL_SYSCLK
+#define STM32_I2C3SEL_SYSCLK 1U
+#define STM32_I2C3SEL STM32_I2C3SEL_SYSCLK
+#define STM32_I2C4SEL_SYSCLK 1U
+#define STM32_I2C4SEL STM32_I2C4SEL_SYSCLK
+#endif
 
 void halInit(void);
 void cacheBufferFlush(const void *address, size_t bytes);
@@ -58,32 +95,7 @@ msg_t osalThreadSuspendTimeoutS(thread_reference_t *reference, sysinterval_t tim
 void osalSysLock(void);
 void osalSysUnlock(void);
 
-/* ---- registers of the core and the clock ---- */
-
-typedef struct {
-  volatile uint32_t CR, CFGR, CSR, RSR, APB1ENR, APB2ENR, AHBENR;
-} stub_rcc_t;
-extern stub_rcc_t stub_rcc;
-#define RCC (&stub_rcc)
-#if STUB_H7 == 1
-#define RCC_RSR_RMVF 1U
-#define RCC_RSR_IWDG1RSTF 2U
-#define RCC_RSR_WWDG1RSTF 4U
-#define RCC_RSR_SFTRSTF 8U
-#define RCC_RSR_LPWRRSTF 16U
-#define RCC_RSR_PORRSTF 32U
-#define RCC_RSR_BORRSTF 64U
-#define RCC_RSR_PINRSTF 128U
-#else
-#define RCC_CSR_RMVF 1U
-#define RCC_CSR_IWDGRSTF 2U
-#define RCC_CSR_WWDGRSTF 4U
-#define RCC_CSR_SFTRSTF 8U
-#define RCC_CSR_LPWRRSTF 16U
-#define RCC_CSR_PORRSTF 32U
-#define RCC_CSR_PINRSTF 128U
-#endif
-void NVIC_SystemReset(void);
+#include "stub_core.h"
 
 /* ---- pads ---- */
 
@@ -121,9 +133,33 @@ typedef void (*palcallback_t)(void *parameter);
 #define PAL_MODE_STM32_ALTERNATE_OPENDRAIN 17U
 typedef struct {
   volatile uint32_t EVCR, MAPR, EXTICR[4], MAPR2;
-} stub_afio_t;
-extern stub_afio_t stub_afio;
+} AFIO_TypeDef;
+extern AFIO_TypeDef stub_afio;
 #define AFIO (&stub_afio)
+#define AFIO_MAPR_SWJ_CFG 0x7000000U
+#define AFIO_MAPR_SWJ_CFG_JTAGDISABLE 0x2000000U
+/* A field and where it begins. */
+#define STUB_FIELD(bits, position) ((uint32_t)(bits) << (position))
+#define AFIO_MAPR_SPI1_REMAP_Pos 0U
+#define AFIO_MAPR_SPI1_REMAP STUB_FIELD(1U, AFIO_MAPR_SPI1_REMAP_Pos)
+#define AFIO_MAPR_I2C1_REMAP_Pos 1U
+#define AFIO_MAPR_I2C1_REMAP STUB_FIELD(1U, AFIO_MAPR_I2C1_REMAP_Pos)
+#define AFIO_MAPR_USART1_REMAP_Pos 2U
+#define AFIO_MAPR_USART1_REMAP STUB_FIELD(1U, AFIO_MAPR_USART1_REMAP_Pos)
+#define AFIO_MAPR_USART2_REMAP_Pos 3U
+#define AFIO_MAPR_USART2_REMAP STUB_FIELD(1U, AFIO_MAPR_USART2_REMAP_Pos)
+#define AFIO_MAPR_USART3_REMAP_Pos 4U
+#define AFIO_MAPR_USART3_REMAP STUB_FIELD(3U, AFIO_MAPR_USART3_REMAP_Pos)
+#define AFIO_MAPR_TIM1_REMAP_Pos 6U
+#define AFIO_MAPR_TIM1_REMAP STUB_FIELD(3U, AFIO_MAPR_TIM1_REMAP_Pos)
+#define AFIO_MAPR_TIM2_REMAP_Pos 8U
+#define AFIO_MAPR_TIM2_REMAP STUB_FIELD(3U, AFIO_MAPR_TIM2_REMAP_Pos)
+#define AFIO_MAPR_TIM3_REMAP_Pos 10U
+#define AFIO_MAPR_TIM3_REMAP STUB_FIELD(3U, AFIO_MAPR_TIM3_REMAP_Pos)
+#define AFIO_MAPR_TIM4_REMAP_Pos 12U
+#define AFIO_MAPR_TIM4_REMAP STUB_FIELD(1U, AFIO_MAPR_TIM4_REMAP_Pos)
+#define AFIO_MAPR_CAN_REMAP_Pos 13U
+#define AFIO_MAPR_CAN_REMAP STUB_FIELD(3U, AFIO_MAPR_CAN_REMAP_Pos)
 #else
 #define PAL_MODE_ALTERNATE(n) (8U | ((uint32_t)(n) << 7))
 #define PAL_STM32_OTYPE_OPENDRAIN 0x1000U
@@ -184,6 +220,19 @@ extern stm32_tim_t stub_timers[21];
 #define STM32_TIM_CCMR1_OC1PE 8U
 #define STM32_TIM_CCMR1_OC2PE 0x800U
 
+void rccEnableTIM1(bool in_sleep);
+void rccResetTIM1(void);
+void rccEnableTIM2(bool in_sleep);
+void rccResetTIM2(void);
+void rccEnableTIM3(bool in_sleep);
+void rccResetTIM3(void);
+void rccEnableTIM4(bool in_sleep);
+void rccResetTIM4(void);
+void rccEnableTIM5(bool in_sleep);
+void rccResetTIM5(void);
+void rccEnableTIM8(bool in_sleep);
+void rccResetTIM8(void);
+
 /* ---- DMA ---- */
 
 #define STM32_DMA_STREAM_ID(controller, stream) (8U * ((controller) - 1U) + (stream))
@@ -227,7 +276,6 @@ struct stub_adc {
   ADC_DRIVER_EXT_FIELDS
 #endif
 };
-STUB_DRIVERS(ADCDriver, ADCD);
 msg_t adcStart(ADCDriver *driver, const ADCConfig *config);
 msg_t adcConvert(ADCDriver *driver, const ADCConversionGroup *group, adcsample_t *samples, size_t depth);
 void adcStartConversion(ADCDriver *driver, const ADCConversionGroup *group, adcsample_t *samples, size_t depth);
@@ -250,53 +298,8 @@ typedef struct {
   dacdhrmode_t datamode;
   uint32_t cr;
 } DACConfig;
-STUB_DRIVERS(DACDriver, DACD);
 msg_t dacStart(DACDriver *driver, const DACConfig *config);
 msg_t dacPutChannelX(DACDriver *driver, uint32_t channel, dacsample_t sample);
-#endif
-
-/* ---- I2C ---- */
-
-#if HAL_USE_I2C == TRUE
-typedef uint16_t i2caddr_t;
-typedef uint32_t i2cflags_t;
-typedef struct stub_i2c {
-  int state;
-} I2CDriver;
-typedef struct {
-#if STUB_I2C == 1
-  int op_mode;
-  uint32_t clock_speed;
-  int duty_cycle;
-#else
-  uint32_t timingr, cr1, cr2;
-#endif
-} I2CConfig;
-#define OPMODE_I2C 1
-#define STD_DUTY_CYCLE 1
-#define FAST_DUTY_CYCLE_2 2
-#define FAST_DUTY_CYCLE_16_9 3
-#define STM32_TIMINGR_PRESC(n) ((uint32_t)(n) << 28)
-#define STM32_TIMINGR_SCLDEL(n) ((uint32_t)(n) << 20)
-#define STM32_TIMINGR_SDADEL(n) ((uint32_t)(n) << 16)
-#define STM32_TIMINGR_SCLH(n) ((uint32_t)(n) << 8)
-#define STM32_TIMINGR_SCLL(n) ((uint32_t)(n))
-#define I2C_NO_ERROR 0U
-#define I2C_BUS_ERROR 1U
-#define I2C_ARBITRATION_LOST 2U
-#define I2C_ACK_FAILURE 4U
-#define I2C_OVERRUN 8U
-#define I2C_TIMEOUT 32U
-STUB_DRIVERS(I2CDriver, I2CD);
-msg_t i2cStart(I2CDriver *driver, const I2CConfig *config);
-void i2cStop(I2CDriver *driver);
-i2cflags_t i2cGetErrors(I2CDriver *driver);
-msg_t i2cMasterTransmitTimeout(I2CDriver *driver, i2caddr_t address, const uint8_t *out, size_t out_bytes,
-                               uint8_t *in, size_t in_bytes, sysinterval_t timeout);
-msg_t i2cMasterReceiveTimeout(I2CDriver *driver, i2caddr_t address, uint8_t *in, size_t in_bytes,
-                              sysinterval_t timeout);
-void i2cAcquireBus(I2CDriver *driver);
-void i2cReleaseBus(I2CDriver *driver);
 #endif
 
 /* ---- capture and pulses ---- */
@@ -321,7 +324,6 @@ struct stub_icu {
   const ICUConfig *config;
   stm32_tim_t *tim;
 };
-STUB_DRIVERS(ICUDriver, ICUD);
 msg_t icuStart(ICUDriver *driver, const ICUConfig *config);
 void icuStartCapture(ICUDriver *driver);
 void icuEnableNotifications(ICUDriver *driver);
@@ -357,97 +359,13 @@ struct stub_pwm {
 #define PWM_OUTPUT_ACTIVE_LOW 2U
 #define PWM_COMPLEMENTARY_OUTPUT_ACTIVE_HIGH 16U
 #define PWM_COMPLEMENTARY_OUTPUT_ACTIVE_LOW 32U
-STUB_DRIVERS(PWMDriver, PWMD);
 msg_t pwmStart(PWMDriver *driver, const PWMConfig *config);
 void pwmEnableChannel(PWMDriver *driver, pwmchannel_t channel, pwmcnt_t width);
 void pwmEnableChannelI(PWMDriver *driver, pwmchannel_t channel, pwmcnt_t width);
 #endif
 
-/* ---- SPI ---- */
-
-#if HAL_USE_SPI == TRUE
-typedef struct stub_spi {
-  int state;
-} SPIDriver;
-typedef struct {
-  bool circular, slave;
-  void (*data_cb)(SPIDriver *driver);
-  void (*error_cb)(SPIDriver *driver);
-  ioline_t ssline;
-#if STUB_SPI == 3
-  uint32_t cfg1, cfg2;
-#else
-  uint32_t cr1, cr2;
-#endif
-} SPIConfig;
-#define SPI_SELECT_MODE_LINE 2
-#define SPI_CR1_CPHA 1U
-#define SPI_CR1_CPOL 2U
-#define SPI_CR1_BR_Pos 3U
-STUB_DRIVERS(SPIDriver, SPID);
-msg_t spiStart(SPIDriver *driver, const SPIConfig *config);
-void spiSelect(SPIDriver *driver);
-void spiUnselect(SPIDriver *driver);
-msg_t spiExchange(SPIDriver *driver, size_t bytes, const void *out, void *in);
-msg_t spiSend(SPIDriver *driver, size_t bytes, const void *out);
-msg_t spiReceive(SPIDriver *driver, size_t bytes, void *in);
-void spiAcquireBus(SPIDriver *driver);
-void spiReleaseBus(SPIDriver *driver);
-#endif
-
+#include "stub_buses.h"
 #include "stub_links.h"
-
-/* ---- CAN ---- */
-
-#if HAL_USE_CAN == TRUE
-typedef struct stub_can {
-  int state;
-} CANDriver;
-#if STUB_CAN == 1
-typedef struct {
-  uint32_t mcr, btr;
-} CANConfig;
-typedef struct {
-  uint8_t DLC, RTR, IDE;
-  union {
-    uint32_t SID, EID;
-  };
-  union {
-    uint8_t data8[8];
-    uint32_t data32[2];
-  };
-} CANTxFrame, CANRxFrame;
-#else
-typedef struct {
-  uint32_t NBTP, DBTP, CCCR, TEST, GFC, RXGFC;
-} CANConfig;
-typedef struct {
-  struct {
-    union {
-      struct {
-        uint32_t EID : 29, RTR : 1, XTD : 1, ESI : 1;
-      } ext;
-      struct {
-        uint32_t stub : 18, SID : 11, RTR : 1, XTD : 1, ESI : 1;
-      } std;
-      struct {
-        uint32_t stub : 29, RTR : 1, XTD : 1, ESI : 1;
-      } common;
-    };
-    uint32_t DLC, BRS, FDF;
-  };
-  union {
-    uint8_t data8[64];
-    uint32_t data32[16];
-  };
-} CANTxFrame, CANRxFrame;
-#endif
-#define CAN_ANY_MAILBOX 0U
-STUB_DRIVERS(CANDriver, CAND);
-msg_t canStart(CANDriver *driver, const CANConfig *config);
-msg_t canTransmitTimeout(CANDriver *driver, uint32_t mailbox, const CANTxFrame *frame, sysinterval_t timeout);
-msg_t canReceiveTimeout(CANDriver *driver, uint32_t mailbox, CANRxFrame *frame, sysinterval_t timeout);
-#endif
 
 /* ---- watchdog ---- */
 
@@ -465,5 +383,7 @@ typedef struct {
 extern WDGDriver WDGD1;
 msg_t wdgStart(WDGDriver *driver, const WDGConfig *config);
 void wdgReset(WDGDriver *driver);
+
+#include "stub_units.h"
 
 #endif

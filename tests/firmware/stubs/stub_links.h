@@ -17,12 +17,21 @@ typedef struct {
 size_t chnReadTimeout(void *channel, uint8_t *bytes, size_t count, sysinterval_t timeout);
 size_t chnWriteTimeout(void *channel, const uint8_t *bytes, size_t count, sysinterval_t timeout);
 typedef struct {
-  size_t count;
-} stub_queue_t, input_queue_t, output_queue_t, input_buffers_queue_t, output_buffers_queue_t;
+  size_t stub;
+} input_queue_t;
+typedef struct {
+  size_t stub;
+} output_queue_t;
+typedef struct {
+  size_t bcounter;
+  uint8_t *ptr;
+} io_buffers_queue_t, input_buffers_queue_t, output_buffers_queue_t;
 bool ibqIsEmptyI(const input_buffers_queue_t *queue);
 bool obqIsEmptyI(const output_buffers_queue_t *queue);
+size_t bqSpaceI(const io_buffers_queue_t *queue);
 size_t oqGetEmptyI(const output_queue_t *queue);
 size_t oqGetFullI(const output_queue_t *queue);
+#if HAL_USE_SERIAL == TRUE
 typedef struct {
   uint32_t speed;
   uint32_t cr1, cr2, cr3;
@@ -32,12 +41,18 @@ typedef struct {
   input_queue_t iqueue;
   output_queue_t oqueue;
 } SerialDriver;
-STUB_DRIVERS(SerialDriver, SD);
-extern SerialDriver LPSD1;
 msg_t sdStart(SerialDriver *driver, const SerialConfig *config);
 size_t sdWrite(SerialDriver *driver, const uint8_t *bytes, size_t count);
 size_t sdWriteTimeout(SerialDriver *driver, const uint8_t *bytes, size_t count, sysinterval_t timeout);
 size_t sdReadTimeout(SerialDriver *driver, uint8_t *bytes, size_t count, sysinterval_t timeout);
+#define USART_CR1_PS 0x200U
+#define USART_CR1_PCE 0x400U
+#define USART_CR2_STOP_1 0x2000U
+#if STUB_USART > 1
+#define USART_CR2_RXINV 0x10000U
+#define USART_CR2_TXINV 0x20000U
+#endif
+#endif
 
 /* ---- events of a channel ---- */
 
@@ -59,6 +74,14 @@ void chEvtRegisterMaskWithFlags(event_source_t *source, event_listener_t *listen
 eventflags_t chEvtGetAndClearFlags(event_listener_t *listener);
 
 /* ---- USB ---- */
+
+#if HAL_USE_USB == TRUE
+#if !defined(SERIAL_USB_BUFFERS_SIZE)
+#define SERIAL_USB_BUFFERS_SIZE 256U
+#endif
+#if !defined(SERIAL_USB_BUFFERS_NUMBER)
+#define SERIAL_USB_BUFFERS_NUMBER 2U
+#endif
 
 typedef struct stub_usb USBDriver;
 typedef enum { USB_UNINIT, USB_STOP, USB_READY, USB_SELECTED, USB_ACTIVE, USB_SUSPENDED } usbstate_t;
@@ -92,7 +115,6 @@ struct stub_usb {
   usbstate_t state;
   uint8_t setup[8];
 };
-STUB_DRIVERS(USBDriver, USBD);
 typedef struct {
   USBDriver *usbp;
   usbep_t bulk_in, bulk_out, int_in;
@@ -136,5 +158,6 @@ bool sduRequestsHook(USBDriver *usb);
 void sduDataTransmitted(USBDriver *usb, usbep_t endpoint);
 void sduDataReceived(USBDriver *usb, usbep_t endpoint);
 void sduInterruptTransmitted(USBDriver *usb, usbep_t endpoint);
+#endif
 
 #endif

@@ -169,7 +169,7 @@ fn mutants_of_generated_files_are_noticed() {
         let macros = stubs::macros_of("STM32F4DiscoveryBoard");
         let place = scratch("mutants");
         write(&place, &folder);
-        assert_eq!(stubs::compile(&place, &macros, "development"), "");
+        assert_eq!(stubs::compile(&place, &macros, "development", &stubs::sources(&folder)), "");
         if let Some(tree) = &tree {
             assert!(!tree_notices(tree, &place), "the files are wrong without a mutant");
         }
@@ -185,7 +185,8 @@ fn mutants_of_generated_files_are_noticed() {
                     !facts::differences(design, wiring, &mutated).is_empty()
                 })
                 .unwrap_or(true),
-                !stubs::compile(&place, &macros, "development").is_empty(),
+                !stubs::compile(&place, &macros, "development", &stubs::sources(&mutated))
+                    .is_empty(),
                 tree.as_ref().is_some_and(|tree| tree_notices(tree, &place)),
             ];
             for (count, noticed) in seen.iter_mut().zip(notices) {

@@ -1,0 +1,74 @@
+//! From a design's text to the files of its firmware.
+
+use sensedsl_codegen::fileset::FileEntry;
+use sensedsl_codegen::host::HOSTS;
+use sensedsl_codegen::{Selection, project};
+use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_session::{Ask, On, Workspace};
+
+use super::super::facts::Folder;
+
+/// What becomes of a design.
+pub(super) enum Made {
+    /// The firmware of each board, by its name, and how many files the hosts have.
+    Firmware(Vec<(String, Folder)>, usize),
+    /// What says why there is no wiring.
+    NoWiring(Vec<&'static str>),
+    /// The codes of what firmware lacks.
+    Refused(Vec<&'static str>),
+}
+
+/// No design here names another file.
+struct Alone;
+
+impl Files for Alone {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+/// Solves and generates, on the boards of the text.
+pub(super) fn make(text: &str) -> Made {
+    let mut workspace = Workspace::default();
+    workspace.open("stub.sense", text);
+    let snapshot = workspace.snapshot("stub.sense", On::default(), &Alone);
+    let answer = snapshot.solve(&Ask::default());
+    let Some((design, wiring)) = answer.wired() else {
+        return Made::NoWiring(errors(&answer.diagnostics));
+    };
+    let made = project("stub", design, wiring, &Selection { firmware: true, hosts: HOSTS });
+    if !made.gaps.is_empty() {
+        return Made::Refused(errors(&made.gaps));
+    }
+    let mut boards: Vec<(String, Folder)> = Vec::new();
+    let mut host_files = 0;
+    for (path, entry) in made.files.iter() {
+        host_files += usize::from(path.starts_with("host/"));
+        let Some((board, path)) =
+            path.strip_prefix("firmware/").and_then(|path| path.split_once('/'))
+        else {
+            continue;
+        };
+        let text = text_of(entry);
+        match boards.iter_mut().find(|(name, _)| name == board) {
+            Some((_, folder)) => {
+                let _ = folder.insert(path.to_owned(), text);
+            }
+            None => boards.push((board.to_owned(), Folder::from([(path.to_owned(), text)]))),
+        }
+    }
+    Made::Firmware(boards, host_files)
+}
+
+fn text_of(entry: &FileEntry) -> String {
+    String::from_utf8(entry.bytes.clone()).unwrap()
+}
+
+fn errors(diagnostics: &[Diagnostic]) -> Vec<&'static str> {
+    let errors = diagnostics.iter().filter(|one| one.severity == Severity::Error);
+    let mut codes: Vec<_> = errors.map(|one| one.code.info().code).collect();
+    codes.sort_unstable();
+    codes.dedup();
+    codes
+}

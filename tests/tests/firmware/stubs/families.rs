@@ -1,0 +1,96 @@
+//! Every family of MCUs with every kind, and with what no design of one kind has.
+
+use std::collections::BTreeSet;
+
+use sensedsl_board::catalog;
+use sensedsl_tests::{files, is_thorough, read};
+
+use super::super::tools::root;
+use super::compiler::{Firmware, compile_all, is_here, macros_of, profile_of};
+use super::designs::{Made, make};
+
+/// What is not made for the first board of each family, with its codes: without a wiring (E0401) where the MCU lacks the
+/// unit or the board the pins, where its clocks do not fit (E0620), or where its link cannot be had (E0504).
+const NOT_MADE: [&str; 15] = [
+    "BLACKPILL_F401CC kinds/can E0401",
+    "BLACKPILL_F401CC kinds/dac E0401",
+    "BLUEPILL_F103C8 kinds/can E0401",
+    "BLUEPILL_F103C8 kinds/dac E0401",
+    "NUCLEO_F030R8 kinds/can E0401",
+    "NUCLEO_F030R8 kinds/dac E0401",
+    "NUCLEO_F030R8 mixed/motors E0401",
+    "NUCLEO_F030R8 mixed/usb E0504",
+    "NUCLEO_G0B1RE kinds/can E0401",
+    "NUCLEO_H7A3ZI_Q kinds/spi E0620",
+    "NUCLEO_H7A3ZI_Q mixed/chips E0620",
+    "NUCLEO_H7A3ZI_Q mixed/usb E0504",
+    "NUCLEO_L432KC kinds/icu E0620",
+    "NUCLEO_L432KC mixed/messages E0620",
+    "NUCLEO_L432KC mixed/motors E0620",
+];
+
+/// A board of each family and each choice of drivers in it: the first in the catalog, or all where everything is asked
+/// for.
+fn boards() -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    let mut boards = Vec::new();
+    for entry in catalog::all() {
+        let Some(profile) = profile_of(entry.mcu) else { continue };
+        if entry.board().is_ok_and(|board| board.chibios.is_some()) {
+            let name = entry.name.replace('-', "_");
+            let mut drivers = macros_of(&name);
+            drivers.retain(|one| one.starts_with("-DSTUB_"));
+            if is_thorough() || seen.insert((profile.family.clone(), drivers)) {
+                boards.push(name);
+            }
+        }
+    }
+    boards
+}
+
+/// The designs, by the names of their files.
+fn designs() -> Vec<(String, String)> {
+    let mut designs = Vec::new();
+    for folder in ["kinds", "mixed"] {
+        for path in files(&root().join("tests/firmware").join(folder), "sense") {
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            designs.push((format!("{folder}/{name}"), read(&path)));
+        }
+    }
+    designs
+}
+
+#[test]
+fn every_family_and_kind_compiles_with_the_stubs() {
+    if !is_here() {
+        return;
+    }
+    let designs = designs();
+    let (mut all, mut not_made) = (Vec::new(), Vec::new());
+    for name in boards() {
+        let macros = macros_of(&name);
+        for (design, text) in &designs {
+            let title = format!("{name} {design}");
+            match make(&text.replace("BOARD", &name)) {
+                Made::Firmware(boards, _) => {
+                    let of_board = |(_, files)| Firmware {
+                        title: title.clone(),
+                        macros: macros.clone(),
+                        files,
+                    };
+                    all.extend(boards.into_iter().map(of_board));
+                }
+                Made::NoWiring(codes) | Made::Refused(codes) => {
+                    not_made.push(format!("{title} {}", codes.join(" ")));
+                }
+            }
+        }
+    }
+    let (said, read) = compile_all("families", &all);
+    eprintln!("{} firmwares, {read} files read", all.len());
+    assert!(said.is_empty(), "{} of {}:\n{}", said.len(), all.len(), said.concat());
+    if !is_thorough() {
+        assert_eq!(not_made, NOT_MADE);
+    }
+    assert!(all.len() >= 140 && read >= 500, "{} firmwares, {read} files", all.len());
+}
