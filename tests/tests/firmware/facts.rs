@@ -11,6 +11,7 @@ use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment};
 
 use super::applications::{CAR, FIG2};
+use super::details;
 
 /// The files of one board, by path in its folder.
 pub(crate) type Folder = BTreeMap<String, String>;
@@ -41,7 +42,7 @@ pub(crate) fn with<T>(text: &str, then: impl FnOnce(&Design, &Assignment, Folder
 }
 
 /// What stands after each `prefix`, up to the first sign that is not of a number or a word.
-fn after<'a>(text: &'a str, prefix: &str) -> Vec<&'a str> {
+pub(super) fn after<'a>(text: &'a str, prefix: &str) -> Vec<&'a str> {
     let rest = text.split(prefix).skip(1);
     let word = |rest: &'a str| {
         let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '-');
@@ -51,7 +52,7 @@ fn after<'a>(text: &'a str, prefix: &str) -> Vec<&'a str> {
 }
 
 /// The same as numbers: `17U`, `0x73U`, `-3`.
-fn numbers(text: &str, prefix: &str) -> Vec<i64> {
+pub(super) fn numbers(text: &str, prefix: &str) -> Vec<i64> {
     let number = |word: &str| {
         let word = word.trim_end_matches('U');
         word.strip_prefix("0x")
@@ -66,10 +67,10 @@ fn set<T: Ord + Clone>(all: &[T]) -> BTreeSet<T> {
 }
 
 /// Notes what differs.
-struct Differences(Vec<String>);
+pub(super) struct Differences(Vec<String>);
 
 impl Differences {
-    fn same<T: PartialEq + std::fmt::Debug>(&mut self, what: &str, found: T, wanted: T) {
+    pub(super) fn same<T: PartialEq + std::fmt::Debug>(&mut self, what: &str, found: T, wanted: T) {
         if found != wanted {
             self.0.push(format!("{what}: {found:?}, should be {wanted:?}"));
         }
@@ -88,6 +89,7 @@ pub(crate) fn differences(design: &Design, wiring: &Assignment, folder: &Folder)
     threads(design, on, folder, &mut differences);
     schema(design, on, folder, &mut differences);
     streams(on, &folder["cfg/mcuconf.h"], &mut differences);
+    details::details(design, on, folder, &mut differences);
     differences.0
 }
 

@@ -11,6 +11,7 @@ mod building;
 mod chibios;
 mod codecs;
 mod core;
+mod details;
 mod emulated;
 mod facts;
 mod mutants;

@@ -149,7 +149,6 @@ pub(super) fn compile_all(name: &str, all: &[Firmware]) -> (Vec<String>, usize) 
     });
     let mut said = said.into_inner().unwrap();
     said.sort();
-    let mut h=std::collections::BTreeMap::new(); for k in SEEN.lock().unwrap().iter() { *h.entry(k.split(' ').next().unwrap().to_owned()).or_insert(0)+=1; } eprintln!("HIST {h:#?}");
     (said, read.into_inner())
 }
 

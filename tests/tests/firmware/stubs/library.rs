@@ -1,10 +1,15 @@
 //! Every driver of the library and every example: wired, generated for board and hosts, and compiled.
 
+use std::collections::BTreeSet;
+
 use sensedsl_model::facts::{self, EXAMPLE_BOARD};
-use sensedsl_tests::{files, read};
+use sensedsl_tests::{files, is_thorough, read};
 
 use super::super::facts::Folder;
-use super::super::tools::root;
+use super::super::{
+    chibios,
+    tools::{root, scratch},
+};
 use super::compiler::{Firmware, compile_all, is_here, macros_of};
 use super::designs::{Made, make};
 
@@ -22,6 +27,65 @@ pub(super) fn designs() -> Vec<(String, String)> {
         (format!("examples/{name}"), read(&path))
     });
     drivers.chain(examples).collect()
+}
+
+/// A board of each family.
+const BOARDS: [&str; 9] = [
+    "NUCLEO_F446RE",
+    "NUCLEO_F303RE",
+    "NUCLEO_L476RG",
+    "NUCLEO_F767ZI",
+    "NUCLEO_G474RE",
+    "NUCLEO_F103RB",
+    "NUCLEO_F072RB",
+    "NUCLEO_G071RB",
+    "NUCLEO_H743ZI",
+];
+
+/// What the real tree is asked to build: all examples, and a driver of each kind, each on a board of the next family
+/// that has firmware for it; every driver where everything is asked for.
+fn with_the_tree() -> Vec<(String, Vec<(String, Folder)>)> {
+    let mut made = Vec::new();
+    for (name, text) in designs() {
+        let is_asked = name.starts_with("examples/") || is_thorough();
+        if let (true, Made::Firmware(boards, _)) = (is_asked, make(&text)) {
+            made.push((name, boards));
+        }
+    }
+    let mut kinds = BTreeSet::new();
+    let mut turn = 0;
+    for part in facts::all() {
+        if kinds.is_superset(&part.kinds.iter().copied().collect()) {
+            continue;
+        }
+        let on = |board: &&str| match make(&facts::example_on(&part, board)) {
+            Made::Firmware(boards, _) => Some((format!("{} on {board}", part.name), boards)),
+            Made::NoWiring(_) | Made::Refused(_) => None,
+        };
+        if let Some(one) = BOARDS.iter().cycle().skip(turn).take(BOARDS.len()).find_map(on) {
+            made.push(one);
+            kinds.extend(part.kinds.iter().copied());
+            turn += 1;
+        }
+    }
+    made
+}
+
+#[test]
+fn examples_and_a_driver_of_each_kind_build_with_the_tree() {
+    let Some(tree) = chibios::tree() else { return };
+    for (index, (name, boards)) in with_the_tree().into_iter().enumerate() {
+        for (board, files) in boards {
+            let folder = scratch(&format!("library-tree/{index}-{board}"));
+            for (path, text) in files {
+                let path = folder.join(path);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, text).unwrap();
+            }
+            let size = chibios::build(&tree, &folder, "development");
+            eprintln!("{name} {board}: text/data/bss {size}");
+        }
+    }
 }
 
 /// The board of the catalog that a board of a file stands on.

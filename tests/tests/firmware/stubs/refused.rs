@@ -79,7 +79,7 @@ const MISTAKES: &[Mistake] = &[
     (F4, "kinds/analog", "uproxy/chibios/up_life.c", ".rlr =", ".reload ="),
     (F4, "mixed/usb", "uproxy/chibios/up_link_usb.c", "sduStart(&channel,", "sduStart(channel,"),
     (F4, "mixed/uart", HARDWARE, ".link_config = &link_config", ".link_config = link_config"),
-    (F4, "kinds/spi", SETTINGS, "STM32_SPI_USE_SPI1 TRUE", "STM32_SPI_USE_SPI1 FALSE"),
+    (F4, "kinds/spi", SETTINGS, "STM32_SPI_USE_SPI2 TRUE", "STM32_SPI_USE_SPI2 FALSE"),
     (F4, "kinds/pwm", SETTINGS, "#define STM32_PWM_USE_TIM", "#define STM32_PWM_USES_TIM"),
 ];
 
