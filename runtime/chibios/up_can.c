@@ -7,11 +7,14 @@
 
 /* Steps of a bit: one to synchronise, those before the sample, those behind it. */
 #define STEPS_MIN 8U
-#define STEPS_MAX 25U
+#define STEPS_MAX 21U
 #define BEFORE_MAX 16U
 #define BEHIND_MAX 8U
-/* No controller here divides its clock by more in its classic mode. */
+#if defined(CAN_MCR_ABOM)
+#define PRESCALER_MAX 1024U
+#else
 #define PRESCALER_MAX 512U
+#endif
 
 typedef struct {
   uint32_t prescaler;
@@ -21,15 +24,16 @@ typedef struct {
 
 /* ---- the bit time ---- */
 
-/* The nearest bit rate, within 0.2 %; the sample at 87.5 % of the bit or as little before as the steps allow, and not
- * before 80 %. */
+/* The nearest bit rate, within 0.5 % as the generator allows; the sample at 87.5 % of the bit or as little before as the
+ * steps allow, and not before 77 %. */
 static bool divide(uint32_t clock_hz, uint32_t bitrate_hz, bit_time_t *time) {
-  uint32_t best_error = bitrate_hz / 500U + 1U;
+  uint32_t best_error = bitrate_hz / 200U + 1U;
   uint32_t best_sample = 0U;
   uint32_t steps;
 
   for (steps = STEPS_MIN; steps <= STEPS_MAX; steps++) {
-    const uint32_t before = steps * 7U / 8U - 1U;
+    const uint32_t wanted = steps * 7U / 8U - 1U;
+    const uint32_t before = (wanted < BEFORE_MAX) ? wanted : BEFORE_MAX;
     const uint32_t behind = steps - 1U - before;
     const uint32_t sample = (before + 1U) * 1000U / steps;
     const uint32_t prescaler = (clock_hz + bitrate_hz * steps / 2U) / (bitrate_hz * steps);
@@ -37,7 +41,7 @@ static bool divide(uint32_t clock_hz, uint32_t bitrate_hz, bit_time_t *time) {
     const uint32_t error = (made_hz > bitrate_hz) ? made_hz - bitrate_hz : bitrate_hz - made_hz;
     const bool is_better = error < best_error || (error == best_error && sample > best_sample);
 
-    if (is_better && prescaler <= PRESCALER_MAX && before <= BEFORE_MAX && behind <= BEHIND_MAX && sample >= 800U) {
+    if (is_better && prescaler <= PRESCALER_MAX && behind <= BEHIND_MAX && sample >= 770U) {
       best_error = error;
       best_sample = sample;
       time->prescaler = prescaler;

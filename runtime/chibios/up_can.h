@@ -55,7 +55,7 @@ typedef struct {
   uint8_t sent_count;
 } up_can_t;
 
-/* Sets the bit time (sample point at 80 to 87.5 %) and starts. */
+/* Sets the bit time (sample point at 77 to 87.5 %) and starts. */
 void up_can_start(const up_can_t *bus);
 
 /* Takes the frames that come in the time of a cycle, and looks at what went wrong. */

@@ -13,8 +13,8 @@ bool up_elements_are_due(uint8_t *flags, size_t count, bool is_complete) {
   size_t i;
 
   for (i = 0U; i < count; i++) {
-    with_value += (flags[i] & HAS_VALUE) != 0U;
-    fresh += (flags[i] & IS_NEW) != 0U;
+    with_value += ((flags[i] & HAS_VALUE) != 0U) ? 1U : 0U;
+    fresh += ((flags[i] & IS_NEW) != 0U) ? 1U : 0U;
   }
   if (with_value < count || fresh == 0U || (is_complete && fresh < count)) {
     return false;

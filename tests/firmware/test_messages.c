@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "up_compose.h"
 #include "up_message.h"
 #include "up_parse.h"
 
@@ -350,6 +351,73 @@ static void test_degrees(void) {
   CHECK(up_parse_hex(junk, UP_TYPE_UINT64, &number) == UP_INVALID);
 }
 
+/* ---- what is sent ---- */
+
+#define COMPOSED_MAX 16U
+
+/* Composes in a buffer that ends with guards, and compares. */
+static bool composes(const up_compose_t *how, uint8_t type, const void *value, const char *wanted, size_t count) {
+  const up_field_t field = {"Sent", 1U, type, UP_TO_BOARD, true, 1U, 0U};
+  uint8_t bytes[COMPOSED_MAX + 1U];
+  size_t room;
+
+  for (room = 0U; room <= COMPOSED_MAX; room++) {
+    size_t made;
+
+    memset(bytes, 0xEE, sizeof bytes);
+    made = up_compose(how, &field, value, bytes, room);
+    if (made > room || bytes[room] != 0xEEU || (made != 0U && made != count)) {
+      return false;
+    }
+  }
+  return up_compose(how, &field, value, bytes, COMPOSED_MAX) == count && memcmp(bytes, wanted, count) == 0;
+}
+
+static void test_composing(void) {
+  static const uint8_t digits[] = "12345678";
+  static const uint8_t head[] = {0x5AU, 0x05U};
+  static const uint8_t servo[] = {0x20U, 0x40U};
+  const uint16_t word = 0x1234U, width = 1500U;
+  const uint8_t nine = '9', letter = 'A';
+  up_compose_t how;
+
+  memset(&how, 0, sizeof how);
+  how.value.code = UP_CODE_INTEGER;
+  how.value.word_bytes = 2U;
+  how.checksum = UP_CHECKSUM_NONE;
+  CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x12\x34", 2U));
+  how.value.little_endian = true;
+  how.start = head;
+  how.start_count = 2U;
+  how.checksum = UP_CHECKSUM_SUM8;
+  CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\xA5", 5U));
+  /* From the second byte on, and with an end behind the checksum. */
+  how.checksum = UP_CHECKSUM_XOR8;
+  how.checksum_from = 1U;
+  how.end = line_end;
+  how.end_count = 2U;
+  CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\x23\r\n", 7U));
+  /* A first byte behind the whole message: nothing is summed. */
+  how.checksum_from = 200U;
+  CHECK(composes(&how, UP_TYPE_UINT16, &word, "\x5A\x05\x34\x12\x00\r\n", 7U));
+  how.checksum = UP_CHECKSUM_IBUS;
+  how.checksum_from = 0U;
+  how.start = servo;
+  how.end_count = 0U;
+  CHECK(composes(&how, UP_TYPE_UINT16, &width, "\x20\x40\xDC\x05\xBE\xFE", 6U));
+  /* The check value that every list of checksums gives for CRC-8/DVB-S2. */
+  how.checksum = UP_CHECKSUM_CRC8_DVB_S2;
+  how.start = digits;
+  how.start_count = 8U;
+  how.value.word_bytes = 1U;
+  CHECK(composes(&how, UP_TYPE_UINT8, &nine, "123456789\xBC", 10U));
+  how.checksum = UP_CHECKSUM_NMEA;
+  how.start = dollar;
+  how.start_count = 1U;
+  how.end_count = 2U;
+  CHECK(composes(&how, UP_TYPE_UINT8, &letter, "$A*41\r\n", 7U));
+}
+
 void test_messages(void) {
   test_tfmini();
   test_sbus();
@@ -362,4 +430,5 @@ void test_messages(void) {
   test_too_small();
   test_decimals();
   test_degrees();
+  test_composing();
 }

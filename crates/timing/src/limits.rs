@@ -84,9 +84,11 @@ fn of_tick(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu) -> Option<Diagno
         format!("{name} of {device} runs at {clock_hz} Hz, which does not divide to {tick_hz} Hz");
     let least = clock_hz.div_ceil(PRESCALER_MAX);
     let nearest = tick.nearest()?;
+    let microsecond = Tick { clock_hz, tick_hz: 1_000_000 };
+    let usual = if microsecond.is_possible() { ": 1 us does" } else { "" };
     let help = format!(
         "write `resolution = {nearest} Hz;`, the nearest that it can make, or another from {least} Hz on that divides \
-         {clock_hz} Hz: 1 us does"
+         {clock_hz} Hz{usual}"
     );
     let span = icu.tick_span.unwrap_or(wired.device.kind_span);
     Some(clock_out_of_reach(span, &message, &help))

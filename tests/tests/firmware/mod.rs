@@ -8,6 +8,7 @@
 mod analog;
 mod applications;
 mod building;
+mod can_bits;
 mod chibios;
 mod codecs;
 mod core;
@@ -15,5 +16,6 @@ mod details;
 mod emulated;
 mod facts;
 mod mutants;
+mod pins_and_clocks;
 mod stubs;
 mod tools;

@@ -283,7 +283,7 @@ fn mutants_are_noticed_by_the_tree() {
     let whole = chibios::write("mutants-none", FIG2).join("STM32F4DiscoveryBoard");
     assert!(!tree_notices(&tree, &whole), "the files are wrong without a mutant");
     eprintln!("the tree notices {seen} of {}", MUTANTS.len());
-    assert!(seen > MUTANTS.len() / 4, "{seen}");
+    assert!(seen >= 8, "{seen}");
 }
 
 /// Each mutant is of a text that is there, so that the list follows the templates.

@@ -25,7 +25,7 @@ pub(super) struct Firmware {
 pub(super) const MODES: [&str; 2] = ["development", "production"];
 
 /// The profile of an MCU, where there is one.
-pub(super) fn profile_of(mcu: &str) -> Option<TargetProfile> {
+pub(crate) fn profile_of(mcu: &str) -> Option<TargetProfile> {
     match profile::find(profile::DEFAULT, mcu) {
         Ok(Target::Profile(profile)) => Some((*profile).clone()),
         Ok(Target::None) | Err(_) => None,

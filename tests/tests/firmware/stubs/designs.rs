@@ -61,6 +61,14 @@ pub(super) fn make(text: &str) -> Made {
     Made::Firmware(boards, host_files)
 }
 
+/// The codes of why there is no firmware of a design; none where there is.
+pub(crate) fn codes(text: &str) -> Vec<&'static str> {
+    match make(text) {
+        Made::Firmware(..) => Vec::new(),
+        Made::NoWiring(codes) | Made::Refused(codes) => codes,
+    }
+}
+
 fn text_of(entry: &FileEntry) -> String {
     String::from_utf8(entry.bytes.clone()).unwrap()
 }
