@@ -69,10 +69,12 @@ static void describe(void *context, up_health_board_t *board) {
   board->stack_left_bytes = up_stack_left();
 }
 
+#if UP_SHELL == TRUE
 static bool intercept(void *context, uint8_t byte) {
   (void)context;
   return up_shell_wants(byte);
 }
+#endif
 
 static void lock(void *context) {
   (void)context;
@@ -86,9 +88,7 @@ static void unlock(void *context) {
 
 /* Microseconds since the start, which do not wrap. */
 static uint64_t now_us(void) {
-  const uint64_t ticks = chVTGetTimeStamp();
-
-  return ticks / CH_CFG_ST_FREQUENCY * 1000000U + ticks % CH_CFG_ST_FREQUENCY * 1000000U / CH_CFG_ST_FREQUENCY;
+  return (uint64_t)chVTGetTimeStamp() * UP_STEP_US;
 }
 
 void up_link_start(void) {
@@ -103,9 +103,11 @@ void up_link_start(void) {
       .silence_ms = UP_SILENCE_MS,
       .failsafe = failsafe,
       .describe = describe,
-      .intercept = intercept,
       .lock = lock,
       .unlock = unlock,
+#if UP_SHELL == TRUE
+      .intercept = intercept,
+#endif
 #if defined(SENSE_HAS_COMMANDS)
       .received = &received,
       .apply = apply,

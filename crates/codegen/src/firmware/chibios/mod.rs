@@ -28,6 +28,7 @@ mod runtime;
 mod section;
 mod settings;
 mod spi;
+mod stacks;
 mod timers;
 mod uart;
 

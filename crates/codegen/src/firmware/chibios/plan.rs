@@ -11,7 +11,7 @@ use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
-use crate::firmware::c::{Role, SchemaPlan};
+use crate::firmware::c::{self, Role, SchemaPlan};
 use crate::job::JobDevice;
 
 /// The firmware of one board.
@@ -21,6 +21,8 @@ pub(super) struct BoardPlan {
     pub(super) tree: TreePlan,
     pub(super) settings: SettingsPlan,
     pub(super) schema: SchemaPlan,
+    /// What no value needs of the core, as the compiler is told.
+    pub(super) left_out: Vec<&'static str>,
     pub(super) pads: Vec<PadPlan>,
     pub(super) parts: PartsPlan,
     pub(super) doctor: DoctorPlan,
@@ -60,12 +62,13 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     pads.sort();
     pads.dedup();
     let work = sections.iter().flat_map(|section| &section.work);
-    let tasks: Vec<TaskPlan> = work.map(TaskPlan::new).collect();
+    let tasks: Vec<TaskPlan> = work.map(|work| TaskPlan::new(context, work)).collect();
     let settings = settings::plan(context, &sections, &link);
     Some(BoardPlan {
         name: context.job.board.name.value.clone(),
         tree: board::plan(context),
         schema: SchemaPlan::new(&context.job.schema, Role::Board),
+        left_out: c::left_out(context.job),
         report_ms: link::report_ms(context, &tasks),
         cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
@@ -138,7 +141,7 @@ impl BoardPlan {
 }
 
 impl TaskPlan {
-    fn new(work: &Work) -> Self {
+    fn new(context: &Context<'_>, work: &Work) -> Self {
         Self {
             name: work.cycle.title(&work.unit),
             function: work.function,
@@ -147,7 +150,7 @@ impl TaskPlan {
             prio: work.cycle.prio,
             start_ms: work.cycle.start_ms,
             device: work.device,
-            stack_bytes: work.stack_bytes,
+            stack_bytes: work.depth.stack_bytes(context),
         }
     }
 }
