@@ -44,14 +44,18 @@ static const up_channel_t channel = {
 #if defined(SENSE_HAS_COMMANDS)
 static sense_values_t received;
 
-static void apply(void *context, size_t field, const void *value) {
+void up_fall_back(size_t field, const void *value) {
   static uint64_t changed[(UP_VALUE_BYTES_MAX + 7U) / 8U];
 
-  (void)context;
   /* The user's transform works on a value of its own. */
   memcpy(changed, value, up_field_bytes(&up_config.schema->fields[field]));
   up_put(field, changed);
   sense_apply(field, changed);
+}
+
+static void apply(void *context, size_t field, const void *value) {
+  (void)context;
+  up_fall_back(field, value);
   up_user_received(field);
 }
 #endif

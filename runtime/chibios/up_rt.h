@@ -136,6 +136,9 @@ void sense_apply(size_t field, const void *value);
 /* The host has been silent for too long: brings the actuators that have a failsafe there. From the reporter. */
 void sense_failsafe(void);
 
+/* An actuator takes a value as if the host had sent it. From sense_failsafe(). */
+void up_fall_back(size_t field, const void *value);
+
 /* ---- time ---- */
 
 /* Microseconds of one of the kernel's steps. */

@@ -14,6 +14,7 @@ mod dac;
 mod digital;
 mod doctor;
 mod encoder;
+mod fallback;
 mod gpio;
 mod i2c;
 mod icu;

@@ -7,6 +7,7 @@ use sensedsl_wire::Direction;
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
 use super::doctor::{self, DoctorPlan};
+use super::fallback::{self, FallBackPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
@@ -34,6 +35,8 @@ pub(super) struct BoardPlan {
     /// How often each value comes; 0 where only something that happens brings one.
     pub(super) cycles_ms: Vec<u32>,
     pub(super) silence_ms: u32,
+    /// What is set when the host is silent, beside what sections do.
+    pub(super) fall_backs: Vec<FallBackPlan>,
     pub(super) guards: Vec<GuardPlan>,
 }
 
@@ -72,6 +75,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         report_ms: link::report_ms(context, &tasks),
         cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
+        fall_backs: fallback::plan(context),
         button: link::button(context),
         guards: settings::guards(context, &sections, &settings),
         settings,
