@@ -224,6 +224,20 @@ fn a_failsafe_is_a_value_of_the_type() {
     assert!(files["NUCLEO_F446RE/cfg/up_conf.h"].contains("#define UP_SILENCE_MS 500U"));
 }
 
+/// An element of an array is called what a device may be called as well.
+#[test]
+fn names_of_elements_and_devices_differ() {
+    let text = "board STM32F407G_DISC1 {
+        sensor Wheels returns uint32[2] { type = icu; }
+        sensor Wheels_0 returns uint32 { type = icu; }
+    }";
+    let hardware = &files(text)["STM32F407G_DISC1/generated/sense_hw.c"];
+    for name in ["wheels_0", "wheels_0_", "wheels_1"] {
+        let config = format!("static const ICUConfig {name}_icu_config = ");
+        assert_eq!(hardware.matches(&config).count(), 1, "{name} in\n{hardware}");
+    }
+}
+
 #[test]
 fn files_end_with_a_line_end_and_have_no_empty_runs() {
     for text in [FIG2, CAR, ODD, TWO, PINS] {
