@@ -126,17 +126,15 @@ pub(crate) fn failsafe(
 
 /// What a type can hold, where that is not the number.
 fn unheld(scalar: ScalarType, number: f64) -> Option<String> {
-    let (least, greatest) = match scalar {
-        ScalarType::Bool => {
-            let is_held = number == 0.0 || number == 1.0;
-            return (!is_held).then(|| "`true`, `false`, 1 or 0".to_owned());
-        }
-        ScalarType::Float32 => {
-            let is_held = number.abs() <= f64::from(f32::MAX);
-            return (!is_held).then(|| "a number that a float32 can hold".to_owned());
-        }
-        other => other.integer_range()?,
-    };
+    if scalar == ScalarType::Bool {
+        let is_held = number == 0.0 || number == 1.0;
+        return (!is_held).then(|| "`true`, `false`, 1 or 0".to_owned());
+    }
+    if scalar == ScalarType::Float32 {
+        let is_held = number.abs() <= f64::from(f32::MAX);
+        return (!is_held).then(|| "a number that a float32 can hold".to_owned());
+    }
+    let (least, greatest) = scalar.integer_range()?;
     #[expect(
         clippy::cast_precision_loss,
         reason = "the ends of 64 bits are as near as a number gets"

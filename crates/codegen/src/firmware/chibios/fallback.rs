@@ -32,17 +32,22 @@ impl FallBackPlan {
 }
 
 /// The number as the type has it; the model has seen to it that the type holds it.
-#[expect(clippy::cast_possible_truncation, reason = "the type holds the number")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
 fn literal(scalar: ScalarType, number: f64) -> String {
     match scalar {
         ScalarType::Bool => (number != 0.0).to_string(),
         ScalarType::Float32 => format!("{:?}F", number as f32),
         ScalarType::Float64 => format!("{number:?}"),
-        _ => match (number as i128, scalar.integer_range()) {
-            (whole, Some((0, greatest))) => format!("UINT64_C({})", whole.clamp(0, greatest)),
-            (whole, _) if whole <= i128::from(i64::MIN) => "INT64_MIN".to_owned(),
-            (whole, _) => format!("INT64_C({})", whole.min(i128::from(i64::MAX))),
-        },
+        ScalarType::Uint8 | ScalarType::Uint16 | ScalarType::Uint32 | ScalarType::Uint64 => {
+            format!("UINT64_C({})", number as u64)
+        }
+        ScalarType::Int8 | ScalarType::Int16 | ScalarType::Int32 | ScalarType::Int64 => {
+            match number as i64 {
+                // The least one is not spelled as it is written.
+                i64::MIN => "INT64_MIN".to_owned(),
+                whole => format!("INT64_C({whole})"),
+            }
+        }
     }
 }
 
