@@ -32,7 +32,7 @@ static up_result_t finish(const up_adc_group_t *one) {
 
   osalSysLock();
   if (one->driver->state == ADC_ACTIVE) {
-    (void)osalThreadSuspendTimeoutS(&one->driver->thread, TIME_MS2I(one->timeout_ms));
+    (void)osalThreadSuspendTimeoutS(&one->driver->thread, UP_MS2I(one->timeout_ms));
   }
   is_late = one->driver->state == ADC_ACTIVE;
   has_failed = one->driver->up_errors != 0U;
@@ -49,18 +49,21 @@ static up_result_t finish(const up_adc_group_t *one) {
 
 static void store_mean(const up_adc_group_t *group, const up_adc_input_t *input, uint8_t type, void *element) {
   const size_t stride = group->group->num_channels;
-  uint64_t sum = 0U, count = input->samples;
+  const uint32_t count = input->samples;
+  uint32_t sum = 0U;
   size_t row;
 
   for (row = 0U; row < input->samples; row++) {
     sum += group->samples[row * stride + input->column];
   }
-  /* Twelve bits are what they are: numbers of 32 bits divide faster. */
-  if (group->full != RAW_FULL) {
-    sum *= RAW_FULL;
-    count *= group->full;
+  /* Twelve bits are what they are, and numbers of 32 bits divide in no time. */
+  if (UP_ADC_WIDE && group->full != RAW_FULL) {
+    up_store_ratio(type, (uint64_t)sum * RAW_FULL, (uint64_t)count * group->full, element);
+  } else if (UP_USES_REALS && (type == (uint8_t)UP_TYPE_FLOAT32 || type == (uint8_t)UP_TYPE_FLOAT64)) {
+    up_store_ratio(type, sum, count, element);
+  } else {
+    up_store_unsigned(type, (sum + count / 2U) / count, element);
   }
-  up_store_ratio(type, sum, count, element);
 }
 
 /* The formula takes the mean as two bytes, the most significant first. */

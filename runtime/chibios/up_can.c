@@ -167,7 +167,7 @@ void up_can_start(const up_can_t *bus) {
 
 static void take(const up_can_t *bus, const CANRxFrame *frame) {
   static const up_result_t late = UP_NOTHING;
-  uint64_t value[(UP_VALUE_BYTES_MAX + 7U) / 8U];
+  uint64_t *value = bus->value;
   const uint32_t now_ms = up_now_ms();
   bool is_extended;
   const uint32_t identifier = identifier_of(frame, &is_extended);
@@ -240,7 +240,7 @@ void up_can_cycle(const void *work) {
   while (passed_ms + 1U < bus->cycle_ms) {
     CANRxFrame frame;
 
-    if (canReceiveTimeout(bus->driver, CAN_ANY_MAILBOX, &frame, TIME_MS2I(bus->cycle_ms - 1U - passed_ms)) ==
+    if (canReceiveTimeout(bus->driver, CAN_ANY_MAILBOX, &frame, UP_MS2I(bus->cycle_ms - 1U - passed_ms)) ==
         MSG_OK) {
       take(bus, &frame);
     }

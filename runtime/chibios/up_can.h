@@ -45,6 +45,7 @@ typedef struct {
   uint32_t bitrate_hz;
   up_can_state_t *state;
   const up_can_value_t *values; /* that come in */
+  uint64_t *value;              /* as large as the largest of these */
   uint32_t *told_ms;            /* when each was put last */
   bool *is_told;                /* at all */
   const up_can_frame_t *frames; /* that go out */

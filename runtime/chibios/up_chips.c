@@ -10,7 +10,7 @@ static void say_fault(const up_served_t *served) {
   if (state->is_running || state->is_pausing || state->fault == (uint8_t)UP_NOTHING) {
     return;
   }
-  for (i = 0U; i < served->chip->commands_count; i++) {
+  for (i = 0U; UP_USES_CHIP_COMMANDS && i < served->chip->commands_count; i++) {
     up_result(served->chip->commands[i].field, (up_result_t)state->fault, NULL);
   }
 }
@@ -47,7 +47,7 @@ static void step(const up_chips_t *work) {
 
     up_chip_step(served->chip, served->state, work->bus, up_config.schema, up_now_ms(), &up_values);
     say_fault(served);
-    while (served->state->is_running && command < served->chip->commands_count &&
+    while (UP_USES_CHIP_COMMANDS && served->state->is_running && command < served->chip->commands_count &&
            write_command(work->bus, served, command)) {
       command++;
     }
@@ -83,6 +83,6 @@ void up_chips_cycle(const void *work) {
     if (now_ms - start_ms + wait_ms >= chips->cycle_ms) {
       return;
     }
-    chThdSleepMilliseconds(wait_ms);
+    chThdSleep(UP_MS2I(wait_ms));
   }
 }

@@ -103,7 +103,7 @@ static bool is_ready(const up_i2c_port_t *port) {
 
 static msg_t run(const up_i2c_port_t *port, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
                  size_t rx_count) {
-  const sysinterval_t timeout = TIME_MS2I(port->timeout_ms);
+  const sysinterval_t timeout = UP_MS2I(port->timeout_ms);
 
   if (tx_count == 0U) {
     return i2cMasterReceiveTimeout(port->driver, address, rx, rx_count, timeout);

@@ -44,14 +44,18 @@ static const up_channel_t channel = {
 #if defined(SENSE_HAS_COMMANDS)
 static sense_values_t received;
 
-static void apply(void *context, size_t field, const void *value) {
+void up_fall_back(size_t field, const void *value) {
   static uint64_t changed[(UP_VALUE_BYTES_MAX + 7U) / 8U];
 
-  (void)context;
   /* The user's transform works on a value of its own. */
   memcpy(changed, value, up_field_bytes(&up_config.schema->fields[field]));
   up_put(field, changed);
   sense_apply(field, changed);
+}
+
+static void apply(void *context, size_t field, const void *value) {
+  (void)context;
+  up_fall_back(field, value);
   up_user_received(field);
 }
 #endif
@@ -69,10 +73,12 @@ static void describe(void *context, up_health_board_t *board) {
   board->stack_left_bytes = up_stack_left();
 }
 
+#if UP_SHELL == TRUE
 static bool intercept(void *context, uint8_t byte) {
   (void)context;
   return up_shell_wants(byte);
 }
+#endif
 
 static void lock(void *context) {
   (void)context;
@@ -86,9 +92,7 @@ static void unlock(void *context) {
 
 /* Microseconds since the start, which do not wrap. */
 static uint64_t now_us(void) {
-  const uint64_t ticks = chVTGetTimeStamp();
-
-  return ticks / CH_CFG_ST_FREQUENCY * 1000000U + ticks % CH_CFG_ST_FREQUENCY * 1000000U / CH_CFG_ST_FREQUENCY;
+  return (uint64_t)chVTGetTimeStamp() * UP_STEP_US;
 }
 
 void up_link_start(void) {
@@ -103,9 +107,11 @@ void up_link_start(void) {
       .silence_ms = UP_SILENCE_MS,
       .failsafe = failsafe,
       .describe = describe,
-      .intercept = intercept,
       .lock = lock,
       .unlock = unlock,
+#if UP_SHELL == TRUE
+      .intercept = intercept,
+#endif
 #if defined(SENSE_HAS_COMMANDS)
       .received = &received,
       .apply = apply,

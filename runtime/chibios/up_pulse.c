@@ -8,7 +8,7 @@
 
 static void wait_us(uint32_t pulse_us) {
   if (pulse_us >= SLEEP_US) {
-    chThdSleepMicroseconds(pulse_us);
+    chThdSleep((pulse_us + UP_STEP_US - 1U) / UP_STEP_US);
   } else {
     up_wait_us(pulse_us);
   }
@@ -23,7 +23,7 @@ void up_pulse_cycle(const void *work) {
     wait_us(pulse->pulse_us);
     palClearLine(pulse->lines[i].line);
     if (pulse->lines[i].apart_ms > 0U) {
-      chThdSleepMilliseconds(pulse->lines[i].apart_ms);
+      chThdSleep(UP_MS2I(pulse->lines[i].apart_ms));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "up_divide.h"
 #include "up_doctor.h"
 #include "up_life.h"
 #include "up_link.h"
@@ -25,7 +26,7 @@ __attribute__((weak)) void up_user_received(size_t field) {
 
 /* From the 64-bit time stamp: the system time wraps after days, and at no power of two of milliseconds. */
 uint32_t up_now_ms(void) {
-  return (uint32_t)((uint64_t)chVTGetTimeStamp() * 1000U / CH_CFG_ST_FREQUENCY);
+  return up_divide(chVTGetTimeStamp(), CH_CFG_ST_FREQUENCY / 1000U);
 }
 
 void up_put(size_t field, void *value) {
@@ -141,7 +142,7 @@ static THD_FUNCTION(run_task, argument) {
 
   chRegSetThreadName(task->name);
   if (task->start_ms > 0U) {
-    const systime_t first = chTimeAddX(start, TIME_MS2I(task->start_ms));
+    const systime_t first = chTimeAddX(start, UP_MS2I(task->start_ms));
 
     (void)chThdSleepUntilWindowed(start, first);
     previous = first;
@@ -149,7 +150,7 @@ static THD_FUNCTION(run_task, argument) {
   for (;;) {
     task->cycle(task->work);
     up_life_beat((size_t)(task - up_config.tasks));
-    sleep_cycle(&previous, TIME_MS2I(task->delay_ms));
+    sleep_cycle(&previous, UP_MS2I(task->delay_ms));
   }
 }
 
@@ -204,6 +205,6 @@ int main(void) {
   for (;;) {
     report_cycle();
     up_life_cycle();
-    sleep_cycle(&previous, TIME_MS2I(up_config.report_ms));
+    sleep_cycle(&previous, UP_MS2I(up_config.report_ms));
   }
 }

@@ -136,6 +136,19 @@ void sense_apply(size_t field, const void *value);
 /* The host has been silent for too long: brings the actuators that have a failsafe there. From the reporter. */
 void sense_failsafe(void);
 
+/* An actuator takes a value as if the host had sent it. From sense_failsafe(). */
+void up_fall_back(size_t field, const void *value);
+
+/* ---- time ---- */
+
+/* Microseconds of one of the kernel's steps. */
+#define UP_STEP_US (1000000U / CH_CFG_ST_FREQUENCY)
+
+/* Milliseconds in the kernel's steps: these are 1 or 10 a millisecond, and nothing has to be divided. */
+#define UP_MS2I(ms) ((sysinterval_t)(ms) * ((sysinterval_t)CH_CFG_ST_FREQUENCY / 1000U))
+_Static_assert(CH_CFG_ST_FREQUENCY % 1000U == 0U && 1000000U % CH_CFG_ST_FREQUENCY == 0U,
+               "the kernel's time has whole steps in a millisecond, and whole microseconds in a step");
+
 /* ---- values ---- */
 
 /* Milliseconds since the start, from a thread; wraps at 2^32. */

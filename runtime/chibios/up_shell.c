@@ -320,9 +320,4 @@ bool up_shell_cycle(void) {
   return false;
 }
 
-bool up_shell_wants(uint8_t byte) {
-  (void)byte;
-  return false;
-}
-
 #endif

@@ -13,7 +13,7 @@ static up_bus_result_t run(const up_spi_port_t *port, const uint8_t *tx, uint8_t
   msg_t message = spiStartExchange(port->driver, count, tx, rx);
 
   if (message == MSG_OK) {
-    message = spiSynchronize(port->driver, TIME_MS2I(port->timeout_ms));
+    message = spiSynchronize(port->driver, UP_MS2I(port->timeout_ms));
   }
   if (message == MSG_TIMEOUT) {
     (void)spiStopTransfer(port->driver, NULL);

@@ -62,7 +62,7 @@ static void take(const up_uart_t *port, const uint8_t *bytes, size_t count) {
 /* Waits for a byte, but no longer than `wait_ms`, and takes all that is there. */
 static void listen(const up_uart_t *port, uint32_t wait_ms) {
   uint8_t bytes[CHUNK_BYTES];
-  size_t count = sdReadTimeout(port->driver, bytes, 1U, TIME_MS2I(wait_ms));
+  size_t count = sdReadTimeout(port->driver, bytes, 1U, UP_MS2I(wait_ms));
 
   if (count == 0U) {
     if (port->gap_ms > 0U && !port->state->is_silent && wait_ms >= port->gap_ms) {

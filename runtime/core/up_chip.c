@@ -92,6 +92,9 @@ static const uint8_t *exchange_bytes(const step_t *step, const uint8_t *bytes, s
 static bool initialise(const step_t *step) {
   up_chip_state_t *state = step->state;
 
+  if (!UP_USES_CHIP_INIT) {
+    return true;
+  }
   if (state->is_pausing && !is_reached(step->now_ms, state->pause_until_ms)) {
     return false;
   }
@@ -118,7 +121,7 @@ static bool identify(const step_t *step) {
   const uint8_t *found;
   size_t i;
 
-  if (identity == NULL) {
+  if (!UP_USES_CHIP_IDENTITY || identity == NULL) {
     return true;
   }
   found = read_bytes(step, identity->select, identity->select_count, identity->count);
@@ -142,7 +145,7 @@ static bool calibrate(const step_t *step) {
   uint8_t *to = step->state->calibration;
   size_t i;
 
-  for (i = 0U; i < step->chip->calibration_count; i++) {
+  for (i = 0U; UP_USES_CHIP_FORMULAS && i < step->chip->calibration_count; i++) {
     const up_chip_calibration_t *block = &step->chip->calibration[i];
     const uint8_t *bytes = read_bytes(step, block->select, block->select_count, block->count);
     if (bytes == NULL) {
@@ -168,7 +171,7 @@ static void begin_transfers(const step_t *step) {
 
 /* A stranger is not written to before it is known to be the right part after all. */
 static void start(const step_t *step) {
-  if (step->state->is_stranger) {
+  if (UP_USES_CHIP_IDENTITY && step->state->is_stranger) {
     if (!identify(step)) {
       return;
     }
@@ -253,7 +256,7 @@ static void say_values(const step_t *step, size_t transfer, const uint8_t *bytes
     if (reading->transfer != transfer) {
       continue;
     }
-    result = reading->computed ? compute(step, reading, field, bytes, length, &computed)
+    result = (UP_USES_CHIP_FORMULAS && reading->computed) ? compute(step, reading, field, bytes, length, &computed)
                                : decode(step, reading, field, bytes, length);
     if (result != UP_FRESH) {
       count_fault(step->state, result);
@@ -294,7 +297,7 @@ static void set_next(const step_t *step, size_t transfer) {
 
 static bool fetch(const step_t *step, size_t transfer) {
   const up_chip_transfer_t *table = &step->chip->transfers[transfer];
-  const uint8_t *bytes = table->exchange ? exchange_bytes(step, table->select, table->length)
+  const uint8_t *bytes = (UP_USES_CHIP_EXCHANGES && table->exchange) ? exchange_bytes(step, table->select, table->length)
                                          : read_bytes(step, table->select, table->select_count, table->length);
 
   if (bytes == NULL) {

@@ -51,7 +51,7 @@ static bool is_signed(uint8_t type) {
 }
 
 static bool is_real(uint8_t type) {
-  return type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64;
+  return UP_USES_REALS && (type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64);
 }
 
 static void store_number(uint8_t type, bool is_negative, uint64_t raw, void *element) {
@@ -137,10 +137,10 @@ uint64_t up_load_magnitude(uint8_t type, const void *element, bool *is_negative)
   const uint64_t sign = (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
 
   *is_negative = (is_real(type) || is_signed(type)) && (bits & sign) != 0U;
-  if (type == UP_TYPE_FLOAT32) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     return round_real(bits & ~sign, 23U, 127);
   }
-  if (type == UP_TYPE_FLOAT64) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
     return round_real(bits & ~sign, 52U, 1023);
   }
   return *is_negative ? 0U - ((bits ^ sign) - sign) : bits;

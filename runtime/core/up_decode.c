@@ -41,12 +41,16 @@ bool up_decoder_init(up_decoder_t *decoder, const up_wire_t *wire, uint8_t *buff
   return true;
 }
 
-bool up_decoder_is_idle(const up_decoder_t *decoder) {
-  return decoder->size == 0U;
-}
-
 static bool is_digit(uint8_t byte) {
   return byte >= (uint8_t)'0' && byte <= (uint8_t)'9';
+}
+
+bool up_decoder_is_idle(const up_decoder_t *decoder) {
+  size_t i;
+
+  for (i = 0U; i < decoder->size && is_digit(decoder->buffer[decoder->start + i]); i++) {
+  }
+  return i == decoder->size;
 }
 
 /* Bytes of the longest payload but health, without a checksum. */

@@ -100,7 +100,7 @@ bool up_decoder_init(up_decoder_t *decoder, const up_wire_t *wire, uint8_t *buff
 /* Takes the next bytes of the stream and hands each whole frame to the sink, which must not feed the decoder. */
 void up_decoder_feed(up_decoder_t *decoder, const uint8_t *bytes, size_t size);
 
-/* True when no frame has begun: what comes next is the first byte of a frame, or garbage. */
+/* True when no frame has begun but for digits of its length: a letter that comes next belongs to none. */
 bool up_decoder_is_idle(const up_decoder_t *decoder);
 
 #endif

@@ -41,7 +41,7 @@ uint32_t up_filter_decay(uint32_t elapsed_ms, uint32_t constant_ms) {
 /* ---- numbers that compare ---- */
 
 static bool is_real(uint8_t type) {
-  return type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64;
+  return UP_USES_REALS && (type == UP_TYPE_FLOAT32 || type == UP_TYPE_FLOAT64);
 }
 
 static bool is_signed(uint8_t type) {
@@ -71,11 +71,11 @@ static uint64_t bits_of_number(uint8_t type, const up_number_t *number) {
   uint32_t single;
   uint64_t wide;
 
-  if (type == UP_TYPE_FLOAT32) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     memcpy(&single, &number->f, sizeof single);
     return single;
   }
-  if (type == UP_TYPE_FLOAT64) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
     memcpy(&wide, &number->d, sizeof wide);
     return wide;
   }
@@ -222,9 +222,9 @@ static void smooth_single(uint64_t *state, uint32_t decay, void *element) {
 }
 
 static void smooth_element(const up_filter_t *filter, uint8_t type, uint64_t *state, uint32_t decay, void *element) {
-  if (type == UP_TYPE_FLOAT32) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     smooth_single(state, decay, element);
-  } else if (type == UP_TYPE_FLOAT64) {
+  } else if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
     if (filter->wide != NULL) {
       filter->wide->smooth(state, decay, element);
     }
@@ -252,12 +252,12 @@ static void smooth(const up_filter_t *filter, up_filter_state_t *state, const up
 static bool is_far(const up_filter_t *filter, uint8_t type, uint64_t from, uint64_t to) {
   const uint64_t from_key = key_of(type, from), to_key = key_of(type, to);
 
-  if (type == UP_TYPE_FLOAT32) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT32) {
     const float distance = single_of(from) - single_of(to);
     /* Not a number is far from all others. */
     return !(distance < filter->change.f && distance > -filter->change.f);
   }
-  if (type == UP_TYPE_FLOAT64) {
+  if (UP_USES_REALS && type == UP_TYPE_FLOAT64) {
     return filter->wide == NULL || filter->wide->is_far(from, to, filter->change.d);
   }
   return ((from_key > to_key) ? from_key - to_key : to_key - from_key) >= filter->change.u;
@@ -287,8 +287,9 @@ static bool is_heartbeat(const up_filter_t *filter, const up_filter_state_t *sta
 up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state, const up_field_t *field,
                             uint32_t now_ms, void *value) {
   const size_t count = field->count;
-  const size_t smooth_words = (filter->smooth_ms > 0U) ? UP_FILTER_SMOOTH_WORDS(count) : 0U;
-  const size_t told_words = filter->has_change ? UP_FILTER_VALUE_WORDS(count, up_type_bytes(field->type)) : 0U;
+  const size_t smooth_words = (UP_USES_SMOOTH && filter->smooth_ms > 0U) ? UP_FILTER_SMOOTH_WORDS(count) : 0U;
+  const bool has_change = UP_USES_CHANGE && filter->has_change;
+  const size_t told_words = has_change ? UP_FILTER_VALUE_WORDS(count, up_type_bytes(field->type)) : 0U;
   uint64_t *told = (smooth_words > 0U) ? &state->memory[smooth_words] : state->memory;
   uint64_t *window = (told_words > 0U) ? &told[told_words] : told;
   bool is_told = true;
@@ -296,13 +297,13 @@ up_result_t up_filter_apply(const up_filter_t *filter, up_filter_state_t *state,
   if (is_invalid(filter, field, value)) {
     return UP_INVALID;
   }
-  if (filter->median > 1U) {
+  if (UP_USES_MEDIAN && filter->median > 1U) {
     take_median(filter, state, field, (uint8_t *)window, value);
   }
-  if (filter->smooth_ms > 0U) {
+  if (smooth_words > 0U) {
     smooth(filter, state, field, now_ms, value);
   }
-  if (filter->has_change) {
+  if (has_change) {
     is_told = !state->has_told || has_changed(filter, field, (uint8_t *)told, value) ||
               is_heartbeat(filter, state, now_ms);
     if (is_told) {

@@ -1,5 +1,7 @@
 #include "up_reporter.h"
 
+#include "up_divide.h"
+
 /* Bytes that are read at a time, and in a cycle: a host that sends without end must not keep reports waiting. */
 #define READ_BYTES 64U
 #define READS_MAX 16U
@@ -7,7 +9,7 @@
 #define FRESH_CYCLES 2U
 
 static uint32_t now_ms(const up_reporter_t *reporter) {
-  return (uint32_t)(reporter->now_us / 1000U);
+  return up_divide(reporter->now_us, 1000U);
 }
 
 static void lock(const up_reporter_t *reporter) {

@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "up_uses.h"
+
 /* Identifiers that belong to the link itself. */
 #define UP_ID_HELLO 0U
 #define UP_ID_HEALTH 255U /* as the first byte of a payload */

@@ -37,6 +37,7 @@ static size_t put_signed(char *text, int64_t number) {
   return 1U + put_unsigned(&text[1], 0U - (uint64_t)number);
 }
 
+#if UP_USES_REALS
 static size_t put_real(char *text, double number) {
   size_t at = 0U;
   uint64_t whole, rest, place;
@@ -68,6 +69,7 @@ static size_t put_real(char *text, double number) {
   text[at] = '\0';
   return at;
 }
+#endif
 
 static int64_t load_signed(uint8_t type, const void *element) {
   const uint64_t sign = (uint64_t)1U << (8U * up_type_bytes(type) - 1U);
@@ -79,9 +81,11 @@ static int64_t load_signed(uint8_t type, const void *element) {
 }
 
 size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTES]) {
+#if UP_USES_REALS
   float single;
   double real;
 
+#endif
   switch ((up_type_t)type) {
   case UP_TYPE_BOOL:
     return put(text, (up_element_load(type, element) != 0U) ? "true" : "false");
@@ -90,12 +94,17 @@ size_t up_text_element(uint8_t type, const void *element, char text[UP_TEXT_BYTE
   case UP_TYPE_INT32:
   case UP_TYPE_INT64:
     return put_signed(text, load_signed(type, element));
+#if UP_USES_REALS
   case UP_TYPE_FLOAT32:
     memcpy(&single, element, sizeof single);
     return put_real(text, (double)single);
   case UP_TYPE_FLOAT64:
     memcpy(&real, element, sizeof real);
     return put_real(text, real);
+#else
+  case UP_TYPE_FLOAT32:
+  case UP_TYPE_FLOAT64:
+#endif
   case UP_TYPE_UINT8:
   case UP_TYPE_UINT16:
   case UP_TYPE_UINT32:

@@ -13,29 +13,38 @@ static size_t words_of(const up_value_t *how, uint16_t count) {
   return (how->words != 0U) ? how->words : count;
 }
 
+/* All codes but whole numbers can be left out. */
+static bool is_code(const up_value_t *how, up_code_t code) {
+  return UP_USES_CODES && how->code == (uint8_t)code;
+}
+
+static bool has_crc(const up_value_t *how) {
+  return UP_USES_WORD_CRC && how->crc == (uint8_t)UP_CRC_SENSIRION;
+}
+
 /* Bytes of the words alone. */
 static size_t data_bytes(const up_value_t *how, uint16_t count) {
   const size_t words = words_of(how, count);
 
-  return (how->code == UP_CODE_PACKED) ? (words * how->bits + 7U) / 8U : words * how->word_bytes;
+  return is_code(how, UP_CODE_PACKED) ? (words * how->bits + 7U) / 8U : words * how->word_bytes;
 }
 
 size_t up_value_bytes(const up_value_t *how, uint16_t count) {
   const size_t data = data_bytes(how, count);
 
-  return (how->crc == UP_CRC_SENSIRION) ? data + data / 2U : data;
+  return has_crc(how) ? data + data / 2U : data;
 }
 
 /* Where byte `at` of the words stands on the wire. */
 static size_t place(const up_value_t *how, size_t at) {
-  return (how->crc == UP_CRC_SENSIRION) ? at + at / 2U : at;
+  return has_crc(how) ? at + at / 2U : at;
 }
 
 bool up_value_crc_is_right(const up_value_t *how, uint16_t count, const uint8_t *bytes) {
   const size_t bytes_count = up_value_bytes(how, count);
   size_t at;
 
-  if (how->crc == UP_CRC_SENSIRION) {
+  if (has_crc(how)) {
     for (at = 0U; at + 3U <= bytes_count; at += 3U) {
       if (up_crc8(SENSIRION_POLYNOMIAL, SENSIRION_START, &bytes[at], 2U) != bytes[at + 2U]) {
         return false;
@@ -53,7 +62,7 @@ static uint64_t mask_of(unsigned bits) {
 static unsigned bits_of(const up_value_t *how) {
   const unsigned word_bits = 8U * how->word_bytes;
 
-  if (how->code == UP_CODE_PACKED) {
+  if (is_code(how, UP_CODE_PACKED)) {
     return (how->bits <= PACKED_BITS_MAX) ? how->bits : 0U;
   }
   if (how->word_bytes == 0U || how->word_bytes > 8U || how->low >= word_bits) {
@@ -139,19 +148,16 @@ static bool decode_element(const up_value_t *how, uint8_t type, const uint8_t *b
   if (bits == 0U) {
     return false;
   }
-  number = (how->code == UP_CODE_PACKED) ? packed_word(how, bytes, word, bits) : whole_word(how, bytes, word);
+  number = is_code(how, UP_CODE_PACKED) ? packed_word(how, bytes, word, bits) : whole_word(how, bytes, word);
   number &= mask_of(bits);
-  switch ((up_code_t)how->code) {
-  case UP_CODE_BCD:
+  if (is_code(how, UP_CODE_BCD)) {
     return store_bcd(type, number, element);
-  case UP_CODE_FLOAT:
-    return store_float(type, number, how->word_bytes, element);
-  case UP_CODE_INTEGER:
-  case UP_CODE_PACKED:
-  default:
-    store_integer(how, type, number, bits, element);
-    return true;
   }
+  if (is_code(how, UP_CODE_FLOAT)) {
+    return store_float(type, number, how->word_bytes, element);
+  }
+  store_integer(how, type, number, bits, element);
+  return true;
 }
 
 up_result_t up_value_decode(const up_value_t *how, const up_field_t *field, const uint8_t *bytes, size_t bytes_count,
@@ -198,10 +204,10 @@ static uint64_t encode_element(const up_value_t *how, uint8_t type, const void *
   bool is_negative;
   const uint64_t magnitude = up_load_magnitude(type, element, &is_negative);
 
-  if (how->code == UP_CODE_FLOAT) {
+  if (is_code(how, UP_CODE_FLOAT)) {
     return up_element_load(type, element);
   }
-  if (how->code == UP_CODE_BCD) {
+  if (is_code(how, UP_CODE_BCD)) {
     return is_negative ? 0U : to_bcd(magnitude, mask);
   }
   if (!is_negative) {
@@ -241,7 +247,7 @@ size_t up_value_encode(const up_value_t *how, const up_field_t *field, const voi
   const uint8_t *memory = value;
   size_t i;
 
-  if (bits == 0U || bytes_count > bytes_room || (how->code == UP_CODE_FLOAT && how->word_bytes != element_bytes)) {
+  if (bits == 0U || bytes_count > bytes_room || (is_code(how, UP_CODE_FLOAT) && how->word_bytes != element_bytes)) {
     return 0U;
   }
   memset(bytes, 0, bytes_count);
@@ -251,13 +257,13 @@ size_t up_value_encode(const up_value_t *how, const up_field_t *field, const voi
     if (word >= words_of(how, field->count)) {
       return 0U;
     }
-    if (how->code == UP_CODE_PACKED) {
+    if (is_code(how, UP_CODE_PACKED)) {
       put_packed(bytes, word, bits, number);
     } else {
       put_word(how, bytes, word, number << how->low);
     }
   }
-  if (how->crc == UP_CRC_SENSIRION) {
+  if (has_crc(how)) {
     for (i = 0U; i + 3U <= bytes_count; i += 3U) {
       bytes[i + 2U] = up_crc8(SENSIRION_POLYNOMIAL, SENSIRION_START, &bytes[i], 2U);
     }

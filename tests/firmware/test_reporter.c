@@ -182,6 +182,10 @@ static void test_receiving(void) {
   desk.in_size = 19U;
   CHECK(cycle(&desk, 10U, NULL, 0U) && desk.applied == 2U && desk.motor == 5 && desk.intercepted == 2U);
   CHECK(desk.reporter.decoder.dropped_bytes == 5U);
+  /* After digits nothing but a digit or a colon is of a frame. */
+  memcpy(desk.in, "12q", 3U);
+  desk.in_size = 3U;
+  CHECK(cycle(&desk, 11U, NULL, 0U) && desk.intercepted == 3U);
   CHECK(cycle(&desk, 109U, NULL, 0U) && desk.failsafes == 0U && cycle(&desk, 110U, NULL, 0U) && desk.failsafes == 1U);
   /* Whoever has the channel, actuators fall back; a byte that somebody else has read counts. */
   CHECK(!up_reporter_peek(&desk.reporter, '1') && !up_reporter_peek(&desk.reporter, ':'));

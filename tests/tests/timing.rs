@@ -113,6 +113,13 @@ fn clocks_that_cannot_be_made_are_refused_with_one_that_can() {
     for device in [i2c("300 kHz"), i2c("5250 Hz"), i2c("1 MHz"), icu("84 MHz")] {
         assert_eq!(said(&discovery(&device).1), [], "{device}");
     }
+    // 79.96 MHz have no exact microsecond: one of 999,500 in a second are near enough.
+    for (tick, codes) in [("1 us", &[][..]), ("900 kHz", &["E0620"])] {
+        let wheel = sensor(1, "uint32", &format!("icu; mode = width; resolution = {tick};"));
+        let (_, diagnostics) = on("NUCLEO_L432KC", &wheel);
+        let found: Vec<&str> = diagnostics.iter().map(|one| one.code.info().code).collect();
+        assert_eq!(found, codes, "{tick}");
+    }
     for baud in ["10000000", "3000000"] {
         let link = format!("link {{ transport = uart; unit = USART2; baud = {baud}; }}");
         let (_, diagnostics) = on("STM32F407G_DISC1", &(link + &sensor(1, "uint16", "analog;")));

@@ -72,7 +72,8 @@ class Board:
             self.symbols = [(s["st_value"], s["st_size"], s.name) for s in elf.get_section_by_name(".symtab").iter_symbols()]
         named = {name: (value, size) for value, size, name in self.symbols}
         self.idle_range = range(named["__idle_thread"][0] & ~1, (named["__idle_thread"][0] & ~1) + named["__idle_thread"][1])
-        self.halt = named["chSysHalt"][0] & ~1
+        # The linker may have put it into its only caller.
+        self.halt = named.get("chSysHalt", (0, 0))[0] & ~1
         self.stacks = [(value, value + size, name) for value, size, name in self.symbols if name.startswith("task_") and name.endswith("_stack")]
         self.process = (named["__process_stack_base__"][0], named["__process_stack_end__"][0])
         sp, pc = (int.from_bytes(uc.mem_read(0x08000000 + at, 4), "little") for at in (0, 4))
@@ -111,7 +112,7 @@ class Board:
             uc.emu_stop()
             return
         self.fresh = False
-        if address == self.halt:
+        if self.halt and address == self.halt:
             at = uc.reg_read(arm.UC_ARM_REG_R0)
             raise RuntimeError("the kernel halts: " + bytes(uc.mem_read(at, 40)).split(b"\0")[0].decode())
         self.now += number

@@ -37,6 +37,9 @@ pub struct Silicon {
     /// What its pins stand.
     #[serde(default)]
     pub volts: Vec<Volts>,
+    /// Serial ports that lack what most have.
+    #[serde(default)]
+    pub serials: Vec<Serials>,
     /// What files may call a unit, and what the data sheet calls it; `#` is a number.
     #[serde(default)]
     pub units: BTreeMap<String, String>,
@@ -52,6 +55,16 @@ pub struct AnalogOnly {
     pub names: Vec<String>,
     /// Where it was read.
     pub source: String,
+}
+
+/// What the serial ports of some MCUs of a family lack.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Serials {
+    /// Starts of the part numbers.
+    pub parts: Vec<String>,
+    /// Wires that are low at rest: no channels.
+    pub invert: Ability,
 }
 
 /// What the pins of some MCUs of a family stand.
@@ -163,6 +176,14 @@ pub fn analog_only(mcu: &str) -> BTreeSet<PinName> {
     let all = of(mcu).into_iter().flat_map(|silicon| &silicon.analog);
     let of_part = all.filter(|analog| covers(&analog.parts, &name));
     of_part.flat_map(|analog| &analog.names).filter_map(|name| PinName::parse(name)).collect()
+}
+
+/// Why the serial ports of an MCU cannot invert their wires; none where they can, or where it is not known.
+#[must_use]
+pub fn inversion(mcu: &str) -> Option<&'static Ability> {
+    let name = mcu::normalise(mcu);
+    let serials = of(mcu)?.serials.iter().find(|serials| covers(&serials.parts, &name))?;
+    Some(&serials.invert)
 }
 
 /// What the pins of an MCU stand: the first entry that has its part.

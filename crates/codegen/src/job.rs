@@ -5,6 +5,8 @@
 //! tables, the link, and the schema whose items are the devices in the same order. How a system spells any of it is
 //! the target's.
 
+use std::collections::BTreeSet;
+
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
@@ -147,6 +149,18 @@ pub fn jobs<'a>(
     wiring.used(design).map(|(on, board)| BoardJob::new(design, board, on))
 }
 
+/// What code calls the second element of an array `Wheels` is what it calls a device `Wheels_1`: the element is renamed.
+fn tell_apart(connections: &mut [JobConnection<'_>], devices: &[JobDevice<'_>]) {
+    let mut taken: BTreeSet<String> = devices.iter().map(|one| one.ident.clone()).collect();
+    for one in connections {
+        // The wire of a device by itself is called like the device.
+        let is_own = one.connection.name.is_none() && one.connection.element.is_none();
+        while !is_own && !taken.insert(one.ident.clone()) {
+            one.ident.push('_');
+        }
+    }
+}
+
 impl<'a> BoardJob<'a> {
     /// Gathers everything about one board.
     #[must_use]
@@ -167,7 +181,9 @@ impl<'a> BoardJob<'a> {
         let devices = wiring.devices.iter().filter_map(|wiring| job.device(wiring, &starts));
         let devices: Vec<JobDevice<'a>> = devices.collect();
         let connections = wiring.connections.iter();
-        let connections = connections.filter_map(|one| job.connection(one, &devices)).collect();
+        let connections = connections.filter_map(|one| job.connection(one, &devices));
+        let mut connections: Vec<JobConnection<'a>> = connections.collect();
+        tell_apart(&mut connections, &devices);
         let link = wiring.link.as_ref();
         let link = link.map(|link| SerialLink { unit: &link.unit, pads: job.pads(&link.wires) });
         Self { parts: job.tables(&devices), devices, connections, link, ..job }

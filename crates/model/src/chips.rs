@@ -38,7 +38,7 @@ use values::Given;
 /// The properties of a chip beside those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
-const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading"];
+const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe"];
 
 /// A chip, or a device that is the only value of one, and its driver.
 struct Whole<'a> {
@@ -381,6 +381,7 @@ impl Whole<'_> {
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
         let mut coding = coding::coding(&mut fields, given.value, formula);
         coding.reading = Some(given.name.clone());
+        coding.failsafe = coding::failsafe(&mut fields, direction, value.value);
         let level = devices::level(&mut fields);
         drop(fields);
         let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);

@@ -3,10 +3,10 @@
 
 use sensedsl_diagnostics::Span;
 use sensedsl_diagnostics::codes::{e0211_out_of_range, e0229_wrong_driver};
-use sensedsl_wire::ValueType;
+use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::Spanned;
-use crate::fields::{Fields, plain_integer, plain_number};
+use crate::fields::{Fields, name_or_text, plain_integer, plain_number};
 use crate::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Protocol, TextField,
 };
@@ -30,6 +30,7 @@ pub(crate) const CODING: &[&str] = &[
     "exchange",
     "output",
     "drive",
+    "failsafe",
     "via",
 ];
 /// The properties of a chip's protocol.
@@ -86,7 +87,60 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
         exchange,
         output,
         drive,
+        failsafe: None,
     }
+}
+
+/// Reads what an actuator falls back to, unless its kind has done so: a value that the type holds.
+pub(crate) fn failsafe(
+    fields: &mut Fields<'_>,
+    direction: Direction,
+    of: ValueType,
+) -> Option<f64> {
+    if !fields.rest().iter().any(|field| field.name == "failsafe") {
+        return None;
+    }
+    let field = fields.take("failsafe")?;
+    if direction == Direction::Sensor {
+        fields.needs_direction(field.value_span, "failsafe", Direction::Actuator);
+        return None;
+    }
+    let word = name_or_text(&field.value);
+    let number = match word.as_deref() {
+        Some("true") if of.scalar == ScalarType::Bool => Some(1.0),
+        Some("false") if of.scalar == ScalarType::Bool => Some(0.0),
+        _ => plain_number(&field.value),
+    };
+    let Some(number) = number else {
+        let takes = if of.scalar == ScalarType::Bool { "`true` or `false`" } else { "a number" };
+        fields.wrong(&field, takes);
+        return None;
+    };
+    if let Some(range) = unheld(of.scalar, number) {
+        let (at, found) = (field.value_span, number.to_string());
+        fields.say(e0211_out_of_range::out_of_range(at, "failsafe", &found, &range));
+        return None;
+    }
+    Some(number)
+}
+
+/// What a type can hold, where that is not the number.
+fn unheld(scalar: ScalarType, number: f64) -> Option<String> {
+    if scalar == ScalarType::Bool {
+        let is_held = number == 0.0 || number == 1.0;
+        return (!is_held).then(|| "`true`, `false`, 1 or 0".to_owned());
+    }
+    if scalar == ScalarType::Float32 {
+        let is_held = number.abs() <= f64::from(f32::MAX);
+        return (!is_held).then(|| "a number that a float32 can hold".to_owned());
+    }
+    let (least, greatest) = scalar.integer_range()?;
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "the ends of 64 bits are as near as a number gets"
+    )]
+    let is_held = number.fract() == 0.0 && (least as f64..=greatest as f64).contains(&number);
+    (!is_held).then(|| format!("a whole number from {least} to {greatest}"))
 }
 
 fn elements(fields: &mut Fields<'_>, of: ValueType) -> Vec<u8> {

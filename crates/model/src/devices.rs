@@ -79,7 +79,8 @@ pub(crate) fn read(
     let kind = kind_name.value.read(&mut fields, direction, value.value);
     let own = own(&mut fields);
     let placements = placement::read(&mut fields, &kind, direction, value.value);
-    let coding = coding::coding(&mut fields, value.value, None);
+    let mut coding = coding::coding(&mut fields, value.value, None);
+    coding.failsafe = coding::failsafe(&mut fields, direction, value.value);
     let level = level(&mut fields);
     let shown = divided(own.shown, level.as_ref());
     if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {

@@ -11,7 +11,7 @@ use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::Checksum;
 
 use crate::constants::Constants;
-use crate::design::{BoardIndex, Design, Link, Spanned, Transport};
+use crate::design::{BoardIndex, Design, Device, Link, Spanned, Transport};
 use crate::fields::{Fields, span};
 use crate::kind::Kind;
 
@@ -193,11 +193,13 @@ pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnost
         matches!(kind, Kind::Pwm(pwm) if pwm.failsafe.is_some())
             || matches!(kind, Kind::Dac(dac) if dac.failsafe.is_some())
     };
+    let board_of = |device: &Device| design.part(device.part).and_then(|part| part.board);
     let falling: Vec<Option<BoardIndex>> = design
         .connections
         .iter()
         .filter(|connection| falls_back(&connection.kind))
         .map(|connection| connection.board)
+        .chain(design.devices.iter().filter(|one| one.coding.failsafe.is_some()).map(board_of))
         .collect();
     for (index, board) in design.boards.iter_mut().enumerate() {
         let link = &mut board.link;

@@ -127,14 +127,23 @@ pub struct Coding {
     pub output: Option<u8>,
     /// How one value becomes several outputs.
     pub drive: Option<Drive>,
+    /// The value that an actuator takes when the host falls silent, for all elements; none to keep the last one. A pwm
+    /// or dac device by itself has its own.
+    pub failsafe: Option<f64>,
 }
 
 impl Coding {
     /// Whether the bytes are the value, one element after the other.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let Self { reading, of, byte, .. } = self;
-        let plain = Self { reading: reading.clone(), of: *of, byte: *byte, ..Self::default() };
+        let Self { reading, of, byte, failsafe, .. } = self;
+        let plain = Self {
+            reading: reading.clone(),
+            of: *of,
+            byte: *byte,
+            failsafe: *failsafe,
+            ..Self::default()
+        };
         *self == plain
     }
 }

@@ -24,6 +24,16 @@ impl Tick {
         divides && self.clock_hz / self.tick_hz <= PRESCALER_MAX
     }
 
+    /// The tick that is taken: the very one where the prescaler makes it, otherwise the nearest within a thousandth. The
+    /// drivers take whole ticks a second only.
+    #[must_use]
+    pub fn made(self) -> Option<u32> {
+        if self.is_possible() {
+            return Some(self.tick_hz);
+        }
+        self.nearest().filter(|hz| hz.abs_diff(self.tick_hz) <= self.tick_hz / TICK_PARTS)
+    }
+
     /// The possible tick that is nearest.
     #[must_use]
     pub fn nearest(self) -> Option<u32> {
@@ -35,6 +45,9 @@ impl Tick {
             .min_by_key(|hz| (hz.abs_diff(self.tick_hz), u32::MAX - hz))
     }
 }
+
+/// A tick may be off by one part in so many: clocks such as 79.96 MHz have no exact one.
+const TICK_PARTS: u32 = 1_000;
 
 /// The sampling time that a device gets: rather a little longer than asked, since too short a time spoils the
 /// reading; none where the converter has none so long.

@@ -76,7 +76,7 @@ fn of_tick(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu) -> Option<Diagno
     let timer = timer(context, wired)?;
     let clock_hz = timer_hz(context, timer)?;
     let tick = Tick { clock_hz, tick_hz: icu.tick_hz };
-    if tick.is_possible() {
+    if tick.made().is_some() {
         return None;
     }
     let (name, device, tick_hz) = (&timer.name, &wired.device.name.value, icu.tick_hz);

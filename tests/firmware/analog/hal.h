@@ -15,7 +15,7 @@
 #define HAL_USE_DAC TRUE
 #define HAL_USE_I2C FALSE
 #define HAL_USE_ICU FALSE
-#define TIME_MS2I(ms) (ms)
+#define CH_CFG_ST_FREQUENCY 1000
 
 typedef int msg_t;
 typedef uint32_t ioline_t, iomode_t, sysinterval_t, adcerror_t;

@@ -7,4 +7,6 @@
 #define UP_LINK_USB TRUE
 #define UP_HAS_BUTTON FALSE
 
+#define UP_ADC_WIDE 1
+
 #endif

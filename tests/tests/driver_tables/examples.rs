@@ -6,11 +6,12 @@ use sensedsl_wiring::{Solved, Wiring};
 use super::library::{NoFiles, examples};
 
 /// Boards of different families, and the drivers that they cannot carry, with the reason's code: an RP2040 decodes no
-/// quadrature, and its pins stand no 5 V (the message names the resistors that help).
+/// quadrature, and its pins stand no 5 V (the message names the resistors that help); the serial ports of F1 and F4 do not
+/// invert.
 const BOARDS: [(&str, &[(&str, &str)]); 4] = [
-    ("NUCLEO_F446RE", &[]),
+    ("NUCLEO_F446RE", &[("sbus", "E0320"), ("maxsonar_serial", "E0320")]),
     ("NUCLEO_G474RE", &[]),
-    ("BLUEPILL_F103C8", &[]),
+    ("BLUEPILL_F103C8", &[("sbus", "E0320"), ("maxsonar_serial", "E0320")]),
     (
         "RASPBERRYPI_PICO",
         &[

@@ -189,6 +189,55 @@ fn the_kernel_takes_the_tick_when_devices_have_its_timers() {
     assert!(odd["Odd/cfg/chconf.h"].contains("#define CH_CFG_ST_TIMEDELTA 0\n"));
 }
 
+/// What an actuator falls back to goes the way of a value from the host, whatever it is connected to.
+#[test]
+fn a_failsafe_is_a_value_of_the_type() {
+    let text = "board NUCLEO_F446RE {
+        link { transport = uart; }
+        actuator Relays accepts bool[2] { driver = relay_active_low; initial = true; failsafe = false; }
+        actuator Level accepts uint16 { type = i2c; address = 0x20; register = 1; failsafe = 300; }
+        actuator Torque accepts int16 { type = can; frame = 0x121; failsafe = -5; }
+        chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 { failsafe = 7; } }
+        actuator Voltage accepts float32 { type = spi; failsafe = 0.5; }
+        actuator Free accepts bool { type = digital; }
+    }";
+    let files = files(text);
+    let hardware = &files["NUCLEO_F446RE/generated/sense_hw.c"];
+    let (_, body) = hardware.split_once("void sense_failsafe(void) {\n").unwrap();
+    let (body, _) = body.split_once("\n}").unwrap();
+    let expected = [
+        "static const bool value_0[] = {false, false};",
+        "static const uint16_t value_1[] = {UINT64_C(300)};",
+        "static const int16_t value_2[] = {INT64_C(-5)};",
+        "static const int16_t value_3[] = {INT64_C(7)};",
+        "static const float value_4[] = {0.5F};",
+        "up_fall_back(SENSE_FIELD_Relays, value_0);",
+        "up_fall_back(SENSE_FIELD_Level, value_1);",
+        "up_fall_back(SENSE_FIELD_Torque, value_2);",
+        "up_fall_back(SENSE_FIELD_Speed, value_3);",
+        "up_fall_back(SENSE_FIELD_Voltage, value_4);",
+    ];
+    for line in expected {
+        assert!(body.contains(line), "{line} is missing in\n{body}");
+    }
+    assert!(!body.contains("Free"), "{body}");
+    assert!(files["NUCLEO_F446RE/cfg/up_conf.h"].contains("#define UP_SILENCE_MS 500U"));
+}
+
+/// An element of an array is called what a device may be called as well.
+#[test]
+fn names_of_elements_and_devices_differ() {
+    let text = "board STM32F407G_DISC1 {
+        sensor Wheels returns uint32[2] { type = icu; }
+        sensor Wheels_0 returns uint32 { type = icu; }
+    }";
+    let hardware = &files(text)["STM32F407G_DISC1/generated/sense_hw.c"];
+    for name in ["wheels_0", "wheels_0_", "wheels_1"] {
+        let config = format!("static const ICUConfig {name}_icu_config = ");
+        assert_eq!(hardware.matches(&config).count(), 1, "{name} in\n{hardware}");
+    }
+}
+
 #[test]
 fn files_end_with_a_line_end_and_have_no_empty_runs() {
     for text in [FIG2, CAR, ODD, TWO, PINS] {

@@ -210,6 +210,11 @@ fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
 }
 
 impl BusPlan {
+    /// Whether a formula makes any of its values.
+    pub(crate) fn is_computed(&self) -> bool {
+        self.formula.is_some() || !self.calibration.is_empty()
+    }
+
     /// The same behind a chip select.
     pub(crate) fn selected_by(&mut self, number: u8) {
         self.address = format!("{number}U");

@@ -7,6 +7,8 @@ use crate::kind::{Kind, KindName, Sharing};
 
 /// The board of examples: one that many have.
 pub const EXAMPLE_BOARD: &str = "NUCLEO_F446RE";
+/// The same for a part with inverted wires, which the serial ports of the other cannot have.
+const INVERTING_BOARD: &str = "NUCLEO_F303RE";
 /// Most lines of an example.
 const LINES_MAX: usize = 10;
 /// Cycle time of the sensors in examples, and of those that take longer to measure.
@@ -16,7 +18,9 @@ const DELAYS_MS: [u32; 3] = [100, 200, 1_000];
 /// device where there is one.
 #[must_use]
 pub fn example(part: &PartFacts) -> String {
-    example_on(part, EXAMPLE_BOARD)
+    let is_inverted = |one: &ValueFacts| one.kind.uart().is_some_and(|uart| uart.is_inverted);
+    let inverts = part.values.iter().any(is_inverted);
+    example_on(part, if inverts { INVERTING_BOARD } else { EXAMPLE_BOARD })
 }
 
 /// As [`example`], on another board.

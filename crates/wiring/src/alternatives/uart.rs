@@ -1,7 +1,9 @@
 //! `uart`: TX and RX of one unit, which is taken; RX alone where nothing is sent.
 
 use sensedsl_board::signal::{Function, UartLine, UnitName};
+use sensedsl_board::silicon::{self, Ability};
 use sensedsl_board::table::Usage;
+use sensedsl_model::design::Board;
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::uart::Uart;
 
@@ -10,7 +12,15 @@ use super::{Made, Maker, Served};
 
 impl Served for Uart {
     fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+        if self.ability(maker.offer.board).is_some() {
+            return Vec::new();
+        }
         maker.units(&Bus { wire, gpios: &[], sharing: Sharing::Exclusive, address: None })
+    }
+
+    /// Ports that cannot invert their wires serve no device that wants that.
+    fn ability(&self, board: &Board) -> Option<&'static Ability> {
+        board.mcu.as_deref().filter(|_| self.is_inverted).and_then(silicon::inversion)
     }
 }
 

@@ -8,10 +8,14 @@ use askama::Template;
 use sensedsl_model::design::PartIndex;
 
 use super::context::Context;
-use super::section::{STACK_BYTES, Work};
+use super::section::Work;
+use super::stacks::Depth;
 use crate::job::{BoardJob, Cycle, JobConnection};
 use crate::part::BusPlan;
 use crate::print::{block, snake};
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [560, 444], filtered: [688, 472] };
 
 /// What one thread does on one bus.
 pub(super) struct Thread {
@@ -97,7 +101,7 @@ impl Thread {
             function: "up_chips_cycle",
             table: self.ident.clone(),
             device: self.chips.first().map_or(0, |one| one.id),
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         }
     }
 

@@ -14,6 +14,7 @@ mod dac;
 mod digital;
 mod doctor;
 mod encoder;
+mod fallback;
 mod gpio;
 mod i2c;
 mod icu;
@@ -28,6 +29,7 @@ mod runtime;
 mod section;
 mod settings;
 mod spi;
+mod stacks;
 mod timers;
 mod uart;
 

@@ -7,11 +7,12 @@ use sensedsl_wire::Direction;
 use super::board::{self, TreePlan};
 use super::context::{Context, PadPlan};
 use super::doctor::{self, DoctorPlan};
+use super::fallback::{self, FallBackPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
-use crate::firmware::c::{Role, SchemaPlan};
+use crate::firmware::c::{self, Role, SchemaPlan};
 use crate::job::JobDevice;
 
 /// The firmware of one board.
@@ -21,6 +22,8 @@ pub(super) struct BoardPlan {
     pub(super) tree: TreePlan,
     pub(super) settings: SettingsPlan,
     pub(super) schema: SchemaPlan,
+    /// What no value needs of the core, as the compiler is told.
+    pub(super) left_out: Vec<&'static str>,
     pub(super) pads: Vec<PadPlan>,
     pub(super) parts: PartsPlan,
     pub(super) doctor: DoctorPlan,
@@ -32,6 +35,8 @@ pub(super) struct BoardPlan {
     /// How often each value comes; 0 where only something that happens brings one.
     pub(super) cycles_ms: Vec<u32>,
     pub(super) silence_ms: u32,
+    /// What is set when the host is silent, beside what sections do.
+    pub(super) fall_backs: Vec<FallBackPlan>,
     pub(super) guards: Vec<GuardPlan>,
 }
 
@@ -60,15 +65,17 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     pads.sort();
     pads.dedup();
     let work = sections.iter().flat_map(|section| &section.work);
-    let tasks: Vec<TaskPlan> = work.map(TaskPlan::new).collect();
+    let tasks: Vec<TaskPlan> = work.map(|work| TaskPlan::new(context, work)).collect();
     let settings = settings::plan(context, &sections, &link);
     Some(BoardPlan {
         name: context.job.board.name.value.clone(),
         tree: board::plan(context),
         schema: SchemaPlan::new(&context.job.schema, Role::Board),
+        left_out: c::left_out(context.job),
         report_ms: link::report_ms(context, &tasks),
         cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
+        fall_backs: fallback::plan(context),
         button: link::button(context),
         guards: settings::guards(context, &sections, &settings),
         settings,
@@ -138,7 +145,7 @@ impl BoardPlan {
 }
 
 impl TaskPlan {
-    fn new(work: &Work) -> Self {
+    fn new(context: &Context<'_>, work: &Work) -> Self {
         Self {
             name: work.cycle.title(&work.unit),
             function: work.function,
@@ -147,7 +154,7 @@ impl TaskPlan {
             prio: work.cycle.prio,
             start_ms: work.cycle.start_ms,
             device: work.device,
-            stack_bytes: work.stack_bytes,
+            stack_bytes: work.depth.stack_bytes(context),
         }
     }
 }

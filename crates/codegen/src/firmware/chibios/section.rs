@@ -12,6 +12,7 @@ use sensedsl_model::kind::KindName;
 use super::PERIPHERALS;
 use super::context::{Context, PadPlan};
 use super::names::{Drivers, Setting};
+use super::stacks::Depth;
 use crate::job::{BoardJob, Cycle, JobConnection};
 
 /// A driver of the system that code is made for.
@@ -131,12 +132,8 @@ pub(super) struct Work {
     pub(super) table: String,
     /// The identifier of the first device that it serves.
     pub(super) device: u8,
-    pub(super) stack_bytes: u32,
+    pub(super) depth: Depth,
 }
-
-/// Bytes of a thread's stack: the deepest path of the runtime, interrupts' frames, and room for a user's transform
-/// that calls a mathematical function.
-pub(super) const STACK_BYTES: u32 = 768;
 
 /// `_Static_assert(condition, message)`
 #[derive(Clone, Debug)]

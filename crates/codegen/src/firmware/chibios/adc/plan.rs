@@ -15,10 +15,14 @@ use sensedsl_timing::sampling;
 use super::group::{Group, Input};
 use crate::firmware::chibios::context::Context;
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{STACK_BYTES, Section, Work};
+use crate::firmware::chibios::section::{Section, Size, Work};
+use crate::firmware::chibios::stacks::Depth;
 use crate::job::{Cycle, JobConnection};
 use crate::part::FormulaPlan;
 use crate::print::block;
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [440, 320], filtered: [472, 344] };
 
 /// The slowest converter there is, for the time-out of those whose clock is not known.
 const SLOWEST_HZ: u64 = 4_000_000;
@@ -67,6 +71,9 @@ struct Column {
 /// The C of a conversion group, as a version of the driver has it.
 pub(super) type GroupText = fn(&Group) -> String;
 
+/// The greatest sample of most converters.
+const TWELVE_BITS: u32 = 4_095;
+
 /// The section, for a version whose samples go from 0 to `full`.
 pub(super) fn plan(
     context: &Context<'_>,
@@ -104,6 +111,10 @@ pub(super) fn plan(
     let drivers: BTreeSet<_> = groups.map(|(_, group)| (&group.unit, &group.driver)).collect();
     let start = |(_, driver): &(&UnitName, &String)| format!("(void)adcStart(&{driver}, NULL);");
     section.starts = drivers.iter().map(start).collect();
+    section.sizes = vec![Size {
+        comment: "Converters with more than 12 bits.",
+        setting: Setting::new("UP_ADC_WIDE", if full > TWELVE_BITS { "TRUE" } else { "FALSE" }),
+    }];
     section.tables = block(&Tables { tasks: &tasks, full });
     section
 }
@@ -236,7 +247,7 @@ impl Task {
             function: "up_adc_cycle",
             table: self.ident.clone(),
             device: self.device,
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         }
     }
 }

@@ -13,10 +13,14 @@ use sensedsl_wire::Direction;
 
 use crate::firmware::chibios::context::{Context, Drive};
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{Apply, Counter, STACK_BYTES, Section, Size, Work};
+use crate::firmware::chibios::section::{Apply, Counter, Section, Size, Work};
+use crate::firmware::chibios::stacks::Depth;
 use crate::job::{Cycle, JobConnection, JobDevice};
 use crate::part::ValuePlan;
 use crate::print::{block, snake};
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [416, 268], filtered: [496, 352] };
 
 #[derive(Template)]
 #[template(path = "firmware/chibios/can/frames.c.txt", escape = "none")]
@@ -55,6 +59,8 @@ struct Value {
     /// One behind its last byte.
     end: u16,
     cycle_ms: u32,
+    /// Bytes of the value in memory.
+    bytes: usize,
     how: ValuePlan,
 }
 
@@ -234,8 +240,13 @@ impl Bus {
             function: "up_can_cycle",
             table: format!("{ident}_bus"),
             device: self.id,
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         });
+    }
+
+    /// 64-bit words of the largest value that comes in.
+    fn value_words(&self) -> usize {
+        self.values.iter().map(|value| value.bytes.div_ceil(8)).max().unwrap_or(0).max(1)
     }
 
     /// The values of all frames that are sent.
@@ -254,6 +265,7 @@ impl Value {
             byte: can.byte,
             end: u16::from(can.byte).saturating_add(words.wire_bytes()),
             cycle_ms: one.cycle.delay_ms,
+            bytes: one.device.value.value.size_bytes(),
             how: ValuePlan::new(&words),
         })
     }

@@ -10,10 +10,14 @@ use sensedsl_wire::Direction;
 
 use crate::firmware::chibios::context::{Context, PadPlan};
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{Apply, STACK_BYTES, Section, Work};
+use crate::firmware::chibios::section::{Apply, Section, Work};
+use crate::firmware::chibios::stacks::Depth;
 use crate::firmware::chibios::timers;
 use crate::job::{Cycle, JobConnection, JobDevice};
 use crate::print::block;
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [224, 192], filtered: [416, 296] };
 
 #[derive(Template)]
 #[template(path = "firmware/chibios/digital/v1.c.txt", escape = "none")]
@@ -203,7 +207,7 @@ impl Class {
             function: "up_digital_cycle",
             table: self.ident.clone(),
             device: self.sensors.first().map_or(0, |one| one.id),
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         }
     }
 }

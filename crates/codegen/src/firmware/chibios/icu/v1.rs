@@ -5,6 +5,7 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use sensedsl_model::kind::{KindName, Role};
+use sensedsl_timing::Tick;
 
 use crate::firmware::chibios::context::{Context, Drive};
 use crate::firmware::chibios::names::Setting;
@@ -118,17 +119,20 @@ impl Input {
         let train = own.iter().find(|(_, icu)| icu.mode == Mode::Ppm);
         let counts_both_edges = icu.mode == Mode::Count && icu.edge == Edge::Both;
         channel.timer.icu.as_ref()?;
+        let clock_hz = context.chibios.clocks_hz.get(&channel.timer.clock).copied();
+        let made = clock_hz.and_then(|clock_hz| Tick { clock_hz, tick_hz: icu.tick_hz }.made());
+        let tick_hz = made.unwrap_or(icu.tick_hz);
         Some(Self {
             ident: wired.ident.clone(),
             place: wired.place(),
-            what: what(icu),
+            what: what(icu) + &off(icu.tick_hz, tick_hz),
             driver: context.names.driver(&channel.timer.name)?,
             channel: channel.number,
             level: match icu.edge {
                 Edge::Rising | Edge::Both => "ICU_INPUT_ACTIVE_HIGH",
                 Edge::Falling => "ICU_INPUT_ACTIVE_LOW",
             },
-            tick_hz: icu.tick_hz,
+            tick_hz,
             counts_both_edges,
             has_width: counts_both_edges || any(|mode| matches!(mode, Mode::Width | Mode::Duty)),
             has_period: any(|mode| mode != Mode::Width),
@@ -137,6 +141,16 @@ impl Input {
             train: train.map(|(device, _)| device.ident.clone()),
         })
     }
+}
+
+/// For a comment: what the ticks are, where the clock does not divide to those asked for.
+fn off(asked_hz: u32, made_hz: u32) -> String {
+    if asked_hz == made_hz {
+        return String::new();
+    }
+    let ppm = u64::from(asked_hz.abs_diff(made_hz)) * 1_000_000 / u64::from(asked_hz.max(1));
+    let direction = if made_hz < asked_hz { "less" } else { "more" };
+    format!("; {made_hz} ticks a second, {ppm} ppm {direction} than {asked_hz}")
 }
 
 /// For a comment.

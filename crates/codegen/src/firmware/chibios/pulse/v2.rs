@@ -8,10 +8,14 @@ use sensedsl_model::design::Design;
 use sensedsl_model::kind::{KindName, Role};
 
 use crate::firmware::chibios::context::Context;
-use crate::firmware::chibios::section::{STACK_BYTES, Section, Work};
+use crate::firmware::chibios::section::{Section, Work};
+use crate::firmware::chibios::stacks::Depth;
 use crate::firmware::chibios::timers;
 use crate::job::Cycle;
 use crate::print::block;
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [168, 152], filtered: [168, 152] };
 
 #[derive(Template)]
 #[template(path = "firmware/chibios/pulse/v2.c.txt", escape = "none")]
@@ -116,7 +120,7 @@ impl Pulse {
             function: "up_pulse_cycle",
             table: self.ident.clone(),
             device: self.id,
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         }
     }
 }

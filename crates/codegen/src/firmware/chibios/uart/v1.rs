@@ -8,11 +8,15 @@ use sensedsl_model::kind::{KindName, Role};
 
 use crate::firmware::chibios::context::{Context, Drive};
 use crate::firmware::chibios::names::Setting;
-use crate::firmware::chibios::section::{Apply, STACK_BYTES, Section, Size, Work};
+use crate::firmware::chibios::section::{Apply, Section, Size, Work};
+use crate::firmware::chibios::stacks::Depth;
 use crate::job::{Cycle, JobConnection};
 use crate::part::MessagePlan;
 use crate::print::block;
 use sensedsl_board::signal::UnitName;
+
+/// How deep its thread gets.
+const DEPTH: Depth = Depth { plain: [560, 488], filtered: [656, 500] };
 
 #[derive(Template)]
 #[template(path = "firmware/chibios/uart/v1.c.txt", escape = "none")]
@@ -162,7 +166,7 @@ impl Port {
             function: "up_uart_cycle",
             table: self.table(),
             device: self.id,
-            stack_bytes: STACK_BYTES,
+            depth: DEPTH,
         })
     }
 }

@@ -19,6 +19,15 @@
 #define CH_DBG_ENABLE_STACK_CHECK TRUE
 #endif
 
+/* Parts of the kernel that neither the runtime nor the drivers call; -DCH_CFG_USE_...=TRUE in user/user.mk brings one
+ * back. */
+#if !defined(CH_CFG_USE_TM)
+#define CH_CFG_USE_TM FALSE
+#endif
+#if !defined(CH_CFG_USE_FACTORY)
+#define CH_CFG_USE_FACTORY FALSE
+#endif
+
 #include UP_BASE_CHCONF
 
 #if !defined(_FROM_ASM_)

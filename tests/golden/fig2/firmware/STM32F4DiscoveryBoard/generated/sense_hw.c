@@ -260,9 +260,9 @@ void sense_failsafe(void) {
 
 /* ---- threads ---- */
 
-static THD_WORKING_AREA(adc1_60ms_stack, 768);
-static THD_WORKING_AREA(adc1_1000ms_stack, 768);
-static THD_WORKING_AREA(i2c3_40ms_prio_2_stack, 768);
+static THD_WORKING_AREA(adc1_60ms_stack, 400U + UP_TRANSFORM_BYTES);
+static THD_WORKING_AREA(adc1_1000ms_stack, 400U + UP_TRANSFORM_BYTES);
+static THD_WORKING_AREA(i2c3_40ms_prio_2_stack, 560U + UP_TRANSFORM_BYTES);
 static const up_task_t tasks[] = {
     {
         .name = "ADC1 60 ms",

@@ -17,6 +17,9 @@
 /* Clock of the core's cycle counter, in Hz. */
 #define UP_CORE_HZ STM32_HCLK
 
+/* Converters with more than 12 bits. */
+#define UP_ADC_WIDE FALSE
+
 /* The shortest read the I2C driver accepts. */
 #define UP_I2C_READ_BYTES_MIN 1
 
@@ -28,6 +31,12 @@
 
 /* After so long without a frame of the host actuators fall back; 0: never. */
 #define UP_SILENCE_MS 0U
+
+/* What each thread's stack has for the transforms of user/: enough for one that calls a mathematical function of float.
+ * -DUP_TRANSFORM_BYTES=512 in user/user.mk makes it more. */
+#if !defined(UP_TRANSFORM_BYTES)
+#define UP_TRANSFORM_BYTES 128U
+#endif
 
 #define UP_INPUTS_COUNT 12U
 #define UP_TASKS_COUNT 2U

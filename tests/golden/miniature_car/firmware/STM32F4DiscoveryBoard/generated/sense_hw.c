@@ -573,8 +573,8 @@ void sense_failsafe(void) {
 
 /* ---- threads ---- */
 
-static THD_WORKING_AREA(adc1_60ms_prio_12_stack, 768);
-static THD_WORKING_AREA(i2c3_70ms_prio_10_stack, 768);
+static THD_WORKING_AREA(adc1_60ms_prio_12_stack, 400U + UP_TRANSFORM_BYTES);
+static THD_WORKING_AREA(i2c3_70ms_prio_10_stack, 560U + UP_TRANSFORM_BYTES);
 static const up_task_t tasks[] = {
     {
         .name = "ADC1 60 ms +12",

@@ -1,0 +1,42 @@
+/*
+ * What the values of a program need of the core. What none of them needs can be left out of it: set these to 0 for the
+ * compiler. The tables of a program must then not ask for it.
+ */
+#ifndef UP_USES_H
+#define UP_USES_H
+
+#ifndef UP_USES_REALS
+#define UP_USES_REALS 1 /* fields of float32 and float64 */
+#endif
+#ifndef UP_USES_CODES
+#define UP_USES_CODES 1 /* words that are floats, BCD or packed */
+#endif
+#ifndef UP_USES_WORD_CRC
+#define UP_USES_WORD_CRC 1 /* checksums between words */
+#endif
+#ifndef UP_USES_MEDIAN
+#define UP_USES_MEDIAN 1
+#endif
+#ifndef UP_USES_SMOOTH
+#define UP_USES_SMOOTH 1
+#endif
+#ifndef UP_USES_CHANGE
+#define UP_USES_CHANGE 1
+#endif
+#ifndef UP_USES_CHIP_INIT
+#define UP_USES_CHIP_INIT 1 /* chips that are written to before they measure */
+#endif
+#ifndef UP_USES_CHIP_IDENTITY
+#define UP_USES_CHIP_IDENTITY 1
+#endif
+#ifndef UP_USES_CHIP_FORMULAS
+#define UP_USES_CHIP_FORMULAS 1 /* and calibration */
+#endif
+#ifndef UP_USES_CHIP_COMMANDS
+#define UP_USES_CHIP_COMMANDS 1
+#endif
+#ifndef UP_USES_CHIP_EXCHANGES
+#define UP_USES_CHIP_EXCHANGES 1
+#endif
+
+#endif
