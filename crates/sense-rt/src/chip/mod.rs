@@ -18,7 +18,7 @@ mod time;
 
 use core::ops::{Deref, DerefMut};
 
-use crate::bytes::{copy, part, part_mut, split};
+use crate::bytes::{copy, part, part_mut};
 use crate::outcome::{Outcome, Sink};
 use crate::schema::Schema;
 

@@ -301,7 +301,7 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
     let mut now_us = 0_u64;
     let speed = random.below(80);
     for _ in 0..60 {
-        let now_ms = now_us / 1000;
+        let now_ms = (now_us / 1000) as u32;
         for (index, size) in SIZES {
             if random.below(3) == 0 {
                 all.push(format!("put {index} {}", hex(&bytes(random, size))));
