@@ -48,15 +48,18 @@ fn some_bytes(random: &mut Random, count: usize) -> Vec<u8> {
 /// A part on a bus that says the right identity now and then, answers anything, and fails.
 fn on_bus(index: usize, unit: &Unit, random: &mut Random) -> String {
     let mut lines = vec![format!("unit {index}")];
-    let Some(protocol) = unit.protocol() else { return String::new() };
-    let (size, mask) = (protocol.register_bytes, protocol.read_mask);
-    lines.push(format!("registers {size} {mask} 0"));
+    let protocol = unit.protocol();
+    if let Some(protocol) = protocol {
+        let (size, mask) = (protocol.register_bytes, protocol.read_mask);
+        lines.push(format!("registers {size} {mask} 0"));
+    }
     for turn in 0..6 {
         for (at, count) in [(0, 256), (0x80, 128)] {
             lines.push(format!("register {at} {}", hex(&some_bytes(random, count))));
         }
         lines.push(format!("answer - {}", hex(&some_bytes(random, 32))));
-        if let Some(identity) = protocol.identity.as_ref().filter(|_| turn % 3 != 1) {
+        let identity = protocol.and_then(|one| one.identity.as_ref()).filter(|_| turn % 3 != 1);
+        if let Some(identity) = identity {
             lines.push(format!("register {} {}", identity.register, hex(&identity.expected)));
         }
         for device in unit.devices().filter(|device| !device.coding.exchange.is_empty()) {
