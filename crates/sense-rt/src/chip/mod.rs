@@ -276,14 +276,19 @@ impl Chip {
             return self.pause_until_ms.map_or(self.table.cycle_ms, |until| left_ms(now_ms, until));
         }
         let ready_ms = |transfer: usize| left_ms(now_ms, ready_ms(&self.memory, transfer));
-        let free = self.table.transfers.iter().enumerate().filter_map(|(transfer, table)| {
+        let mut idle_ms = self.in_flight.map(ready_ms);
+        for (transfer, table) in self.table.transfers.iter().enumerate() {
             let due_ms = left_ms(now_ms, due_ms(&self.memory, transfer));
-            if table.trigger.is_empty() {
-                return Some(due_ms.max(ready_ms(transfer)));
-            }
-            self.in_flight.is_none().then_some(due_ms)
-        });
-        free.chain(self.in_flight.map(ready_ms)).min().unwrap_or(self.table.cycle_ms)
+            let wait_ms = if table.trigger.is_empty() {
+                due_ms.max(ready_ms(transfer))
+            } else if self.in_flight.is_none() {
+                due_ms
+            } else {
+                continue;
+            };
+            idle_ms = Some(idle_ms.map_or(wait_ms, |idle_ms| idle_ms.min(wait_ms)));
+        }
+        idle_ms.unwrap_or(self.table.cycle_ms)
     }
 
     // ---- going on ----

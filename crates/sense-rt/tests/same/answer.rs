@@ -193,10 +193,14 @@ impl Desk {
     fn begin_filter(&mut self, words: &mut Words<'_>) {
         self.item = words.item();
         let scalar = self.item.scalar;
-        let number = |bits: u64| match scalar {
-            Scalar::Float32 => Number::float32(f32::from_bits(bits as u32)),
-            Scalar::Float64 => Number::float64(f64::from_bits(bits)),
-            _ => Number::unsigned(bits),
+        let number = |bits: u64| {
+            if scalar == Scalar::Float32 {
+                Number::float32(f32::from_bits(bits as u32))
+            } else if scalar == Scalar::Float64 {
+                Number::float64(f64::from_bits(bits))
+            } else {
+                Number::unsigned(bits)
+            }
         };
         let wide = words.flag().then_some(WIDE);
         let (median, smooth_ms) = (words.number() as u8, words.small());
@@ -208,7 +212,7 @@ impl Desk {
         let change = has_change.then_some(change);
         let table = FilterTable { invalid, wide, median, smooth_ms, change, heartbeat_ms };
         assert!(table.bytes(&self.item) <= 4096);
-        self.filter = Box::new(Filter::new(Box::leak(Box::new(table))));
+        *self.filter = Filter::new(Box::leak(Box::new(table)));
     }
 
     fn apply(&mut self, words: &mut Words<'_>, out: &mut String) {

@@ -2,7 +2,6 @@
 //!
 //! `core.c` and `reporter.c` are the C as a program under sanitizers; `answer` asks the Rust the same
 //! way, and `questions` makes them up.
-#![expect(clippy::disallowed_methods, reason = "a test builds and runs a program")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 mod answer;

@@ -61,17 +61,16 @@ fn scalar(random: &mut Random) -> usize {
 /// Bits of an element: reals of all sizes, with those that are no numbers.
 fn element(random: &mut Random, scalar: usize) -> u64 {
     let wide = number(random);
-    match SCALARS[scalar] {
-        Scalar::Bool => wide % 2,
-        Scalar::Float32 => {
-            let near = (random.below(200_000) as f32 - 100_000.0) / 8.0;
-            u64::from(if random.below(3) > 0 { near.to_bits() } else { wide as u32 })
-        }
-        Scalar::Float64 => {
-            let near = (random.below(200_000) as f64 - 100_000.0) / 8.0;
-            if random.below(3) > 0 { near.to_bits() } else { wide }
-        }
-        other => wide & (u64::MAX >> (64 - 8 * other.bytes())),
+    let one = SCALARS[scalar];
+    let is_near = random.below(3) > 0;
+    if one == Scalar::Bool {
+        wide % 2
+    } else if one == Scalar::Float32 && is_near {
+        u64::from(((random.below(200_000) as f32 - 100_000.0) / 8.0).to_bits())
+    } else if one == Scalar::Float64 && is_near {
+        ((random.below(200_000) as f64 - 100_000.0) / 8.0).to_bits()
+    } else {
+        wide & (u64::MAX >> (64 - 8 * one.bytes()))
     }
 }
 
@@ -215,10 +214,12 @@ fn filters(random: &mut Random, all: &mut Vec<String>) {
     let real = SCALARS[one].is_real();
     let median = [0, 0, 3, 5, 15][random.below(5)];
     let smooth = [0, 5, 100, 4000][random.below(4)];
-    let change = match SCALARS[one] {
-        Scalar::Float32 => u64::from((random.below(1000) as f32).to_bits()),
-        Scalar::Float64 => (random.below(1000) as f64).to_bits(),
-        _ => number(random) >> random.below(64),
+    let change = if SCALARS[one] == Scalar::Float32 {
+        u64::from((random.below(1000) as f32).to_bits())
+    } else if SCALARS[one] == Scalar::Float64 {
+        (random.below(1000) as f64).to_bits()
+    } else {
+        number(random) >> random.below(64)
     };
     let (has_change, beat) = (random.below(2), [0, 50, 1000][random.below(3)]);
     let ranges = if random.below(3) == 0 { random.below(3) } else { 0 };
