@@ -73,8 +73,26 @@ impl Store {
         self.values.get(at..at.wrapping_add(item.bytes()))
     }
 
-    /// What a reading came to: keeps a fresh value, which is then due, and notes how the device is.
+    /// What a reading came to: puts a fresh value through the filter, if there is one, keeps what is
+    /// to be reported, which is then due, and notes how the device is.
+    #[inline]
     pub fn tell(
+        &mut self,
+        health: &mut Health,
+        filter: Option<&mut Filter>,
+        index: usize,
+        outcome: Outcome,
+        value: &mut [u8],
+        now_ms: u32,
+    ) {
+        match filter {
+            Some(filter) => self.tell_filtered(health, filter, index, outcome, value, now_ms),
+            None => self.tell_plain(health, index, outcome, value, now_ms),
+        }
+    }
+
+    /// The same without a filter: who has none anywhere calls this, and nothing of filters is linked.
+    pub fn tell_plain(
         &mut self,
         health: &mut Health,
         index: usize,
@@ -88,8 +106,7 @@ impl Store {
         health.note(index, outcome, now_ms);
     }
 
-    /// The same through the filter of the item.
-    pub fn tell_filtered(
+    fn tell_filtered(
         &mut self,
         health: &mut Health,
         filter: &mut Filter,
@@ -106,7 +123,7 @@ impl Store {
             // A measurement all the same, which the host has no need of.
             health.note(index, outcome, now_ms);
         } else {
-            self.tell(health, index, told, value, now_ms);
+            self.tell_plain(health, index, told, value, now_ms);
         }
     }
 
