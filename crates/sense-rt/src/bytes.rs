@@ -1,6 +1,8 @@
-//! Copies that cannot fail: what does not fit is left out.
+//! Copies that cannot fail: what does not fit is left out. Small cores want one of each, not one
+//! wherever they are called.
 
 /// Copies as much as both have.
+#[inline(never)]
 pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
@@ -8,6 +10,7 @@ pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
 }
 
 /// Moves what stands in `[from, end)` to the front.
+#[inline(never)]
 pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
     if from == 0 {
         return;
@@ -22,16 +25,19 @@ pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
 }
 
 /// The part `[from, from + count)`; empty where it is not whole.
+#[inline(never)]
 pub(crate) fn part(bytes: &[u8], from: usize, count: usize) -> &[u8] {
     bytes.get(from..).and_then(|rest| rest.get(..count)).unwrap_or_default()
 }
 
 /// The same to write to.
+#[inline(never)]
 pub(crate) fn part_mut(bytes: &mut [u8], from: usize, count: usize) -> &mut [u8] {
     bytes.get_mut(from..).and_then(|rest| rest.get_mut(..count)).unwrap_or_default()
 }
 
 /// Splits where there is something to split.
+#[inline(never)]
 pub(crate) fn split(bytes: &mut [u8], at: usize) -> (&mut [u8], &mut [u8]) {
     let at = at.min(bytes.len());
     bytes.split_at_mut_checked(at).unwrap_or_default()
@@ -43,6 +49,7 @@ pub(crate) fn at(bytes: &[u8], place: usize) -> u8 {
 }
 
 /// 32 bits in network byte order.
+#[inline(never)]
 pub(crate) fn word(bytes: &[u8], place: usize) -> u32 {
     let wanted = bytes.get(place..).and_then(<[u8]>::first_chunk);
     wanted.copied().map_or(0, u32::from_be_bytes)
@@ -60,6 +67,7 @@ impl<'a> Writer<'a> {
         Self { bytes, size: 0, is_full: false }
     }
 
+    #[inline(never)]
     pub(crate) fn put(&mut self, bytes: &[u8]) {
         let end = self.size.wrapping_add(bytes.len());
         match self.bytes.get_mut(self.size..end) {

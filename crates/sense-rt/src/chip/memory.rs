@@ -36,6 +36,7 @@ pub(super) struct Memory<'a> {
 }
 
 impl<'a> Memory<'a> {
+    #[inline(never)]
     pub(super) fn split(memory: &'a mut [u8], sizes: &Sizes) -> Self {
         let (_, rest) = split(memory, sizes.states);
         let (calibration, rest) = split(rest, sizes.calibration);
@@ -45,20 +46,24 @@ impl<'a> Memory<'a> {
 }
 
 /// When a transfer is to be triggered, or read.
+#[inline(never)]
 pub(super) fn due_ms(memory: &[u8], transfer: usize) -> u32 {
     word(memory, transfer.wrapping_mul(STATE_BYTES))
 }
 
 /// When a transfer may be read.
+#[inline(never)]
 pub(super) fn ready_ms(memory: &[u8], transfer: usize) -> u32 {
     word(memory, transfer.wrapping_mul(STATE_BYTES).wrapping_add(4))
 }
 
+#[inline(never)]
 pub(super) fn set_due_ms(memory: &mut [u8], transfer: usize, due_ms: u32) {
     let place = transfer.wrapping_mul(STATE_BYTES);
     copy(part_mut(memory, place, 4), &due_ms.to_be_bytes());
 }
 
+#[inline(never)]
 pub(super) fn set_ready_ms(memory: &mut [u8], transfer: usize, ready_ms: u32) {
     let place = transfer.wrapping_mul(STATE_BYTES).wrapping_add(4);
     copy(part_mut(memory, place, 4), &ready_ms.to_be_bytes());
