@@ -283,8 +283,8 @@ impl Tables {
         let port = plan.and_then(|plan| plan.message.as_ref());
         Self {
             schema,
-            chip: table.map(|table| &*table),
-            message: port.map(|port| &*fixed(message(port, index))),
+            chip: table,
+            message: port.map(|port| fixed(message(port, index))),
             own: names
                 .iter()
                 .map(|name| plan.map_or(Own::default(), |plan| own(plan, name)))
