@@ -1,0 +1,212 @@
+//! The byte stream of a serial device: from bytes to messages, from messages to values.
+//!
+//! A message is `start`, the body, a checksum, `end`; the body has `length` bytes, or ends where
+//! checksum and `end` do. A candidate that cannot become a message loses its first byte only, and the
+//! rest is looked at again: so the first whole message is found wherever it starts, however the
+//! stream is cut. A body without length and checksum has no `start` in it.
+
+mod start;
+mod table;
+
+use core::ops::{Deref, DerefMut};
+
+use crate::bytes::{move_down, split};
+use crate::outcome::{Outcome, Sink};
+use crate::schema::Schema;
+
+pub use self::start::MessageStart;
+use self::table::Verdict;
+pub use self::table::{FieldFormat, MessageChecksum, MessageField, MessageTable};
+
+/// What came of a stream; all of it wraps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StreamCounts {
+    /// Whole messages.
+    pub messages: u32,
+    /// Bytes that were in no message.
+    pub dropped_bytes: u32,
+    /// Candidates with a start, a length and an end, but not the checksum.
+    pub wrong_checksum: u32,
+    /// Fresh values.
+    pub values: u32,
+    /// Values that were none.
+    pub invalid: u32,
+}
+
+/// The stream of a device, with its memory in `[u8; TABLE.stream_bytes(&SCHEMA)]`.
+#[derive(Debug)]
+pub struct MessageStream<B: ?Sized = [u8]> {
+    table: &'static MessageTable,
+    schema: &'static Schema,
+    size: usize,
+    is_aligned: bool,
+    counts: StreamCounts,
+    /// A candidate, then a value.
+    memory: B,
+}
+
+impl<const BYTES: usize> MessageStream<[u8; BYTES]> {
+    /// At the start. `BYTES` is [`MessageTable::stream_bytes`].
+    #[must_use]
+    pub const fn new(table: &'static MessageTable, schema: &'static Schema) -> Self {
+        let counts = StreamCounts {
+            messages: 0,
+            dropped_bytes: 0,
+            wrong_checksum: 0,
+            values: 0,
+            invalid: 0,
+        };
+        Self { table, schema, size: 0, is_aligned: false, counts, memory: [0; BYTES] }
+    }
+}
+
+impl<const BYTES: usize> Deref for MessageStream<[u8; BYTES]> {
+    type Target = MessageStream;
+
+    fn deref(&self) -> &MessageStream {
+        self
+    }
+}
+
+impl<const BYTES: usize> DerefMut for MessageStream<[u8; BYTES]> {
+    fn deref_mut(&mut self) -> &mut MessageStream {
+        self
+    }
+}
+
+impl MessageStream {
+    /// What came of the stream so far.
+    #[must_use]
+    pub fn counts(&self) -> &StreamCounts {
+        &self.counts
+    }
+
+    /// Takes the next bytes of the stream, and says the values of each whole message. `Nothing`: the
+    /// field is empty. `WrongCrc`: the checksum of its message does not fit.
+    pub fn feed(&mut self, bytes: &[u8], sink: &mut Sink<'_>) {
+        let least = self.table.frame_bytes() + usize::from(self.table.length);
+        let room = usize::from(self.table.bytes_max).min(self.memory.len());
+        for byte in bytes {
+            match self.memory.get_mut(..room).and_then(|room| room.get_mut(self.size)) {
+                Some(place) if least <= room => {
+                    *place = *byte;
+                    self.size += 1;
+                    self.take(sink);
+                }
+                // No message fits into the buffer.
+                _ => self.counts.dropped_bytes = self.counts.dropped_bytes.wrapping_add(1),
+            }
+        }
+    }
+
+    /// The line was silent for longer than within a message (an idle line tells): what has begun is
+    /// dropped, and the next byte is taken for the first of a message. Devices with a weak start and
+    /// no checksum need it: with SBUS a byte of the channels can look like the start, in every
+    /// message at the same place.
+    pub fn gap(&mut self) {
+        self.drop_bytes(self.size);
+        self.is_aligned = true;
+    }
+
+    fn held(&self) -> &[u8] {
+        self.memory.get(..self.size).unwrap_or_default()
+    }
+
+    fn drop_bytes(&mut self, count: usize) {
+        let count = count.min(self.size);
+        move_down(&mut self.memory, count, self.size);
+        self.size -= count;
+        self.counts.dropped_bytes = self.counts.dropped_bytes.wrapping_add(count as u32);
+    }
+
+    /// Takes off the first byte, and what follows it up to the next that a message could begin with.
+    fn drop_candidate(&mut self) {
+        let count = match self.table.start.first() {
+            None => 1,
+            Some(first) => {
+                let rest = self.held().get(1..).unwrap_or_default();
+                rest.iter().position(|byte| byte == first).unwrap_or(rest.len()) + 1
+            }
+        };
+        self.drop_bytes(count);
+    }
+
+    /// Before the first end nobody knows where a message began. True when the byte was taken.
+    fn align(&mut self) -> bool {
+        if self.is_aligned || !self.table.needs_alignment() {
+            return false;
+        }
+        let end = self.table.end;
+        if self.table.length == 0 && !end.is_empty() && self.held().ends_with(end) {
+            self.drop_bytes(self.size);
+            self.is_aligned = true;
+        } else if self.size >= end.len() {
+            // Enough stays to recognise the end.
+            self.drop_bytes(1);
+        }
+        true
+    }
+
+    fn take(&mut self, sink: &mut Sink<'_>) {
+        if self.align() {
+            return;
+        }
+        while self.size > 0 {
+            match self.table.judge(self.held()) {
+                Verdict::More => return,
+                Verdict::Whole => {
+                    self.counts.messages = self.counts.messages.wrapping_add(1);
+                    self.say_values(sink);
+                    self.size = 0;
+                    return;
+                }
+                Verdict::Damaged => {
+                    self.counts.wrong_checksum = self.counts.wrong_checksum.wrapping_add(1);
+                    self.say_damaged(sink);
+                }
+                Verdict::Bad => {}
+            }
+            if self.table.needs_alignment() {
+                // Either too long, and its end is still to come, or at its end and wrong.
+                self.is_aligned = self.held().ends_with(self.table.end);
+                self.drop_bytes(self.size);
+            } else {
+                self.drop_candidate();
+            }
+        }
+    }
+
+    /// A damaged message is told of all values that it has. Without a start or an end nobody knows
+    /// that it is one.
+    fn say_damaged(&self, sink: &mut Sink<'_>) {
+        if self.table.start.is_empty() && self.table.end.is_empty() {
+            return;
+        }
+        let body = self.table.body(self.held());
+        for field in self.table.fields.iter().filter(|field| field.is_of(body)) {
+            sink(field.item.into(), Outcome::WrongCrc, &mut []);
+        }
+    }
+
+    fn say_values(&mut self, sink: &mut Sink<'_>) {
+        let (message, value) = split(&mut self.memory, usize::from(self.table.bytes_max));
+        let body = self.table.body(message.get(..self.size).unwrap_or_default());
+        for field in self.table.fields {
+            let index = usize::from(field.item);
+            let Some(item) = self.schema.items.get(index) else { continue };
+            let value = value.get_mut(..item.bytes()).unwrap_or_default();
+            match field.read(item, body, value) {
+                None => {}
+                Some(Outcome::Fresh) => {
+                    self.counts.values = self.counts.values.wrapping_add(1);
+                    sink(index, Outcome::Fresh, value);
+                }
+                Some(outcome) => {
+                    let is_wrong = matches!(outcome, Outcome::Invalid | Outcome::WrongCrc);
+                    self.counts.invalid = self.counts.invalid.wrapping_add(u32::from(is_wrong));
+                    sink(index, outcome, &mut []);
+                }
+            }
+        }
+    }
+}

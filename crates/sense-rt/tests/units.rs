@@ -1,0 +1,164 @@
+//! What the C has no counterpart of, or in another form: the watch over tasks, the setting up of a
+//! serial device, a store with its filter, memory that is too small.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
+
+use sense_rt::{
+    Channel, Chip, ChipTable, Coding, Command, Filter, FilterTable, Health, Host, InitStep, Item,
+    MessageStart, Number, Outcome, Record, Reporter, ReporterConfig, Scalar, Schema, Status, Step,
+    Store, Watch,
+};
+
+static SCHEMA: Schema = Schema {
+    items: &[Item::sensor(17, Scalar::Uint16, 1), Item::actuator(33, Scalar::Int16, 1)],
+    hash: 1,
+    stamp: false,
+    checksum: false,
+};
+
+#[test]
+fn a_task_that_hangs_is_found() {
+    let watch = Watch::new(&[10, 500]);
+    assert_eq!(watch.hanging(1010), None);
+    assert_eq!(watch.hanging(1011), Some(0));
+    watch.beat(0, 1500);
+    assert_eq!(watch.hanging(1500), None);
+    assert_eq!(watch.hanging(1501), Some(1));
+    // A beat that came while somebody asked, and a clock that has come round.
+    watch.beat(1, 1600);
+    watch.beat(0, 1600);
+    assert_eq!(watch.hanging(1599), None);
+    watch.beat(0, u32::MAX);
+    watch.beat(1, u32::MAX);
+    assert_eq!(watch.hanging(900), None);
+    assert_eq!(watch.hanging(1010), Some(0));
+}
+
+#[test]
+fn a_serial_device_is_set_up_with_its_pauses() {
+    const INIT: &[InitStep] = &[
+        InitStep { bytes: b"a", pause_ms: 0 },
+        InitStep { bytes: b"b", pause_ms: 20 },
+        InitStep { bytes: b"c", pause_ms: 0 },
+    ];
+    let mut start = MessageStart::NEW;
+    let sent = |start: &mut MessageStart, now_ms: u32| -> Vec<u8> {
+        let mut all = Vec::new();
+        while let Some(step) = start.next(INIT, now_ms) {
+            all.extend(step.bytes);
+        }
+        all
+    };
+    // The clock wraps within the pause.
+    let now_ms = u32::MAX - 5;
+    assert_eq!(sent(&mut start, now_ms), b"ab");
+    assert_eq!(sent(&mut start, now_ms.wrapping_add(20)), b"");
+    assert_eq!(sent(&mut start, now_ms.wrapping_add(21)), b"c");
+    assert_eq!(sent(&mut start, now_ms.wrapping_add(5000)), b"");
+}
+
+#[test]
+fn what_a_filter_keeps_back_is_a_measurement_all_the_same() {
+    static TABLE: FilterTable =
+        FilterTable { change: Some(Number::unsigned(5)), ..FilterTable::NEW };
+    const BYTES: usize = FilterTable { change: Some(Number::unsigned(5)), ..FilterTable::NEW }
+        .bytes(&Item::sensor(17, Scalar::Uint16, 1));
+    let mut filter = Filter::<[u8; BYTES]>::new(&TABLE);
+    let mut store = Store::<[u8; 4]>::new(&SCHEMA);
+    let mut health = Health::<[Record; 2]>::new(&[100]);
+    let mut tell = |value: u16, now_ms| {
+        let mut value = value.to_be_bytes();
+        let outcome = Outcome::Fresh;
+        store.tell(&mut health, Some(&mut filter), 0, outcome, &mut value, now_ms);
+        let told = store.get(0).unwrap().to_vec();
+        let is_due = store.has_due(0);
+        store.forget(0);
+        (told, is_due, health.row(0, now_ms).status, health.row(0, now_ms).age_ms)
+    };
+    assert_eq!(tell(300, 0), (vec![1, 44], true, Status::Good, 0));
+    assert_eq!(tell(302, 1000), (vec![1, 44], false, Status::Good, 0));
+    assert_eq!(tell(305, 2000), (vec![1, 49], true, Status::Good, 0));
+}
+
+#[test]
+fn a_transfer_whose_end_nobody_told_is_lost() {
+    static COMMANDS: [Command; 1] =
+        [Command { prefix: &[7], item: 1, value: Coding { word_bytes: 2, ..Coding::NEW } }];
+    static TABLE: ChipTable = ChipTable {
+        init: &[InitStep { bytes: &[1, 2], pause_ms: 0 }],
+        commands: &COMMANDS,
+        cycle_ms: 10,
+        ..ChipTable::NEW
+    };
+    let mut chip = Chip::<[u8; 64]>::new(&TABLE, &SCHEMA);
+    let none = &mut |_: usize, _: Outcome, _: &mut [u8]| panic!("it has no readings");
+    assert_eq!(chip.write(&COMMANDS[0], &[0, 5]).err(), Some(Outcome::Nothing));
+    assert_eq!(chip.next(0), Step::Write(&[1, 2]));
+    // Begun again instead of ended: from the start.
+    assert_eq!(chip.next(3), Step::Write(&[1, 2]));
+    chip.done(Outcome::Fresh, none);
+    assert_eq!(chip.next(3), Step::Wait(10));
+    assert_eq!(chip.write(&COMMANDS[0], &[0, 5]), Ok(Step::Write(&[7, 0, 5])));
+    chip.done(Outcome::NotAcknowledged, none);
+    assert!(!chip.is_running() && chip.fault() == Outcome::NotAcknowledged);
+    // At once, not a cycle later.
+    assert_eq!(chip.next(4), Step::Write(&[1, 2]));
+    chip.done(Outcome::Fresh, none);
+    assert_eq!(chip.next(4), Step::Wait(10));
+    assert_eq!((chip.counts().starts, chip.counts().written), (2, 0));
+}
+
+/// A channel that takes all, and a board that has nothing.
+struct Line(Vec<u8>, Vec<u8>);
+
+impl Channel for Line {
+    fn is_open(&mut self) -> bool {
+        true
+    }
+
+    fn read(&mut self, bytes: &mut [u8]) -> usize {
+        let size = bytes.len().min(self.0.len());
+        bytes[..size].copy_from_slice(&self.0[..size]);
+        self.0.drain(..size);
+        size
+    }
+
+    fn room(&mut self) -> usize {
+        64
+    }
+
+    fn is_empty(&mut self) -> bool {
+        true
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> bool {
+        self.1.extend(bytes);
+        true
+    }
+}
+
+struct Board(Store<[u8; 4]>, Health<[Record; 2]>, usize);
+
+impl Host for Board {
+    fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health)) {
+        task(&mut self.0, &mut self.1);
+    }
+
+    fn apply(&mut self, _: usize, _: &[u8]) {
+        self.2 += 1;
+    }
+}
+
+#[test]
+fn with_too_little_memory_nothing_is_said_and_nothing_breaks() {
+    let config = ReporterConfig { schema: &SCHEMA, cycle_ms: 10, silence_ms: 0 };
+    let mut board = Board(Store::new(&SCHEMA), Health::new(&[]), 0);
+    board.0.put(0, &[1, 2]);
+    let mut line = Line(b"3:!\x00\x05,".repeat(3), Vec::new());
+    let mut small = Reporter::<[u8; 9]>::new(config);
+    small.cycle(0, &mut line, &mut board);
+    assert!(line.0.is_empty() && line.1.is_empty() && board.2 == 0);
+    line.0 = b"3:!\x00\x05,".repeat(3);
+    let mut enough = Reporter::<[u8; SCHEMA.reporter_bytes()]>::new(config);
+    enough.cycle(0, &mut line, &mut board);
+    assert!(line.1.starts_with(b"5:\0") && board.2 == 3);
+}
