@@ -2,10 +2,12 @@
 
 pub mod c;
 pub mod chibios;
+pub mod embassy;
 
 use crate::target::Target;
 
 /// Every system, in the order in which people read of them.
 pub const TARGETS: &[&dyn Target] = &[
-    &chibios::Chibios, //
+    &chibios::Chibios,
+    &embassy::Embassy,
 ];
