@@ -58,8 +58,7 @@ pub(crate) enum Group {
 }
 
 /// Interrupts of units that no firmware of ours turns on: levels of priority run in them.
-const SPARE: [&str; 8] =
-    ["FLASH", "RCC", "PVD", "PVD_AVD", "PVD_PVM", "WWDG", "RNG", "HASH_RNG"];
+const SPARE: [&str; 8] = ["FLASH", "RCC", "PVD", "PVD_AVD", "PVD_PVM", "WWDG", "RNG", "HASH_RNG"];
 
 /// The lines of a family, by the first of their parts.
 pub(crate) fn of(facts: &Facts, family: &str, chips: &[Chip]) -> Lines {
@@ -105,7 +104,8 @@ fn kernel(facts: &Facts, chips: &[Chip]) -> Vec<String> {
     let is_alone = |name: &&String| {
         chips.iter().all(|chip| {
             let Some(unit) = chip.body.units.get(*name) else { return true };
-            let own = ["CC", "UP", "GLOBAL"].iter().filter_map(|signal| unit.interrupts.get(*signal));
+            let own =
+                ["CC", "UP", "GLOBAL"].iter().filter_map(|signal| unit.interrupts.get(*signal));
             let others = chip.body.units.iter().filter(|(other, _)| other != name);
             let taken: BTreeSet<&String> =
                 others.flat_map(|(_, other)| other.interrupts.values()).collect();
@@ -126,14 +126,15 @@ fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {
         let unit = body.units.get(&channel.controller);
         let signal = channel.name.rsplit_once('_').map_or("", |(_, signal)| signal);
         let interrupt = unit.and_then(|unit| unit.interrupts.get(signal));
-        own.interrupts.extend(interrupt.map(|one| (channel.name.clone(), format!("GLOBAL = \"{one}\""))));
+        own.interrupts
+            .extend(interrupt.map(|one| (channel.name.clone(), format!("GLOBAL = \"{one}\""))));
     }
     for (name, unit) in &body.units {
         let Some((group, ours)) = place(family, name, unit) else { continue };
         let entry = match group {
             Group::Timers => timer(facts, unit),
             Group::Adcs => adc(facts, family, unit),
-            Group::I2cs | Group::Spis => bus(unit),
+            Group::I2cs | Group::Spis => bus(unit, &own.multiplexers),
             Group::Serials | Group::Cans => Some(clock(unit)),
             Group::Dacs => Some(format!("outputs = {}", outputs(unit))),
             Group::Usbs => usb(facts, family, unit),
@@ -151,11 +152,11 @@ fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {
     }
     if let Some(exti) = body.units.get("EXTI") {
         let lines = exti.interrupts.iter().filter(|(signal, _)| signal.starts_with("EXTI"));
-        own.interrupts.extend(lines.map(|(line, one)| (line.clone(), format!("GLOBAL = \"{one}\""))));
+        own.interrupts
+            .extend(lines.map(|(line, one)| (line.clone(), format!("GLOBAL = \"{one}\""))));
     }
-    own.multiplexers.retain(|name, _| {
-        own.units.values().any(|entry| entry.contains(&format!("\"{name}\"")))
-    });
+    own.multiplexers
+        .retain(|name, _| own.units.values().any(|entry| entry.contains(&format!("\"{name}\""))));
     let is_there = |name: &&&str| body.interrupts.contains(**name);
     own.spare = SPARE.iter().filter(is_there).map(|name| (*name).to_owned()).collect();
     own
@@ -224,7 +225,8 @@ fn timer(facts: &Facts, unit: &Unit) -> Option<String> {
 fn adc(facts: &Facts, family: &str, unit: &Unit) -> Option<String> {
     let wanted = &facts.family.get(family)?.adc;
     // Two versions of F3's converters are one driver's.
-    let is_driven = unit.version == *wanted || (wanted == "v1" && family == "STM32L1" && unit.version == "f3v2");
+    let is_driven = unit.version == *wanted
+        || (wanted == "v1" && family == "STM32L1" && unit.version == "f3v2");
     is_driven.then(String::new)
 }
 
@@ -234,9 +236,10 @@ fn clock(unit: &Unit) -> String {
 }
 
 /// A bus moves its bytes by DMA in both directions.
-fn bus(unit: &Unit) -> Option<String> {
+fn bus(unit: &Unit, multiplexers: &BTreeMap<String, Vec<String>>) -> Option<String> {
     let of = |signal: &str| match unit.dma.get(signal)? {
-        Requests::Behind(name) => Some(format!("\"{name}\"")),
+        // A multiplexer of controllers that no driver here is given has no streams.
+        Requests::Behind(name) => multiplexers.contains_key(name).then(|| format!("\"{name}\"")),
         Requests::Channels(list) => {
             let mut streams: Vec<String> = list.iter().filter_map(|one| stream(one)).collect();
             streams.dedup();

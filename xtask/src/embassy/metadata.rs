@@ -191,7 +191,8 @@ pub(crate) fn sampling(folder: &Path, version: &str) -> Result<Vec<u32>> {
 pub(crate) fn switches(folder: &Path) -> Result<BTreeSet<String>> {
     let mut found = BTreeSet::new();
     for path in entries(&folder.join("../registers"))? {
-        let is_afio = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("afio_"));
+        let is_afio =
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("afio_"));
         if !is_afio {
             continue;
         }

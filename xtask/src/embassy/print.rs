@@ -30,7 +30,8 @@ pub(crate) fn file(facts: &Facts, name: &str, chips: &[Chip], folder: &Path) -> 
     multiplexers(&mut text, &lines)?;
     timers(&mut text, &lines)?;
     adcs(&mut text, name, own, chips, &lines, folder)?;
-    let i2c = if chips.iter().any(|chip| version(chip, "I2C1") == "v1") { 400_000 } else { 1_000_000 };
+    let i2c =
+        if chips.iter().any(|chip| version(chip, "I2C1") == "v1") { 400_000 } else { 1_000_000 };
     writeln!(
         text,
         "\n[i2cs]\nfacts = {{ speed_max_hz = {i2c}, read_bytes_min = 1, source = \"{HAL}: src/i2c\" }}\n{}",
@@ -125,7 +126,10 @@ fn quoted<'a>(all: impl Iterator<Item = &'a String>) -> String {
 
 fn kernel(text: &mut String, lines: &Lines) -> Result<()> {
     let is_there = |name: &&String| {
-        lines.lines.iter().any(|line| line.facts.units.contains_key(&(Group::Timers, (*name).clone())))
+        lines
+            .lines
+            .iter()
+            .any(|line| line.facts.units.contains_key(&(Group::Timers, (*name).clone())))
     };
     writeln!(
         text,
@@ -145,7 +149,9 @@ fn multiplexers(text: &mut String, lines: &Lines) -> Result<()> {
         }
     }
     for ((name, streams), members) in all {
-        let of = if members.len() == lines.lines.len() { String::new() } else {
+        let of = if members.len() == lines.lines.len() {
+            String::new()
+        } else {
             let names = members.iter().map(|line| &line.name);
             format!("lines = [{}]\n", quoted(names))
         };
@@ -178,7 +184,8 @@ fn adcs(
     let input = |signal: &str| -> Option<u8> {
         signal.strip_prefix("INP").or_else(|| signal.strip_prefix("IN"))?.parse().ok()
     };
-    let adcs = chips.iter().flat_map(|chip| chip.body.units.values()).filter(|unit| unit.kind == "adc");
+    let adcs =
+        chips.iter().flat_map(|chip| chip.body.units.values()).filter(|unit| unit.kind == "adc");
     let last = adcs.flat_map(|unit| &unit.pins).filter_map(|(signal, _)| input(signal)).max();
     let times: Vec<String> = sampling(folder, &own.adc)?
         .into_iter()
@@ -191,7 +198,13 @@ fn adcs(
         last.unwrap_or(15),
         times.join(", "),
         own.sampling,
-        if name == "STM32H7" { 16 } else if name == "STM32U5" { 14 } else { 12 },
+        if name == "STM32H7" {
+            16
+        } else if name == "STM32U5" {
+            14
+        } else {
+            12
+        },
     )?;
     if let Some(converter) = &own.converter {
         writeln!(
@@ -233,7 +246,9 @@ fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> Stri
         let variants = all.get(name).into_iter().flatten();
         let is_one = all.get(name).is_some_and(|variants| variants.len() == 1);
         for (entry, members) in variants {
-            let of = if is_one { String::new() } else {
+            let of = if is_one {
+                String::new()
+            } else {
                 format!(", lines = [{}]", quoted(members.iter().copied()))
             };
             let entry = if entry.is_empty() { String::new() } else { format!(", {entry}") };
@@ -245,7 +260,8 @@ fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> Stri
 
 /// Groups that a family may lack.
 fn rest(text: &mut String, lines: &Lines) -> Result<()> {
-    let has = |group| lines.lines.iter().any(|line| line.facts.units.keys().any(|(of, _)| *of == group));
+    let has =
+        |group| lines.lines.iter().any(|line| line.facts.units.keys().any(|(of, _)| *of == group));
     if has(Group::Cans) {
         writeln!(
             text,
@@ -286,9 +302,9 @@ fn system(
         .filter(|unit| unit.kind == "can")
         .map(|unit| if unit.version == "bxcan" { "bxcan" } else { "fdcan" })
         .collect();
-    let is_general = chips.iter().any(|chip| {
-        chip.body.channels.iter().any(|channel| channel.name.starts_with("GPDMA"))
-    });
+    let is_general = chips
+        .iter()
+        .any(|chip| chip.body.channels.iter().any(|channel| channel.name.starts_with("GPDMA")));
     writeln!(
         text,
         "\n# What only the generator for Embassy reads: how the HAL spells things.\n[system]\ntarget = \"{}\"\n\
@@ -296,20 +312,32 @@ fn system(
         own.target,
         own.new,
         own.read,
-        chips.iter().map(|chip| version(chip, "I2C1")).find(|version| !version.is_empty()).unwrap_or(""),
+        chips
+            .iter()
+            .map(|chip| version(chip, "I2C1"))
+            .find(|version| !version.is_empty())
+            .unwrap_or(""),
         can.first().copied().unwrap_or("none"),
         if is_general { "GPDMA{controller}_CH{stream}" } else { "DMA{controller}_CH{stream}" },
         chips.iter().any(|chip| chip.family == "STM32F1"),
         format_args!("{HAL}; {}", facts.target),
     )?;
     let said = |line: &Line| {
-        line.facts.peripherals.iter().map(|(ours, theirs)| (ours.clone(), format!("hal = \"{theirs}\""))).collect()
+        line.facts
+            .peripherals
+            .iter()
+            .map(|(ours, theirs)| (ours.clone(), format!("hal = \"{theirs}\"")))
+            .collect()
     };
     writeln!(text, "peripherals = [\n{}]", entries(lines, said))?;
     let switches = switches(folder)?;
     let kind = |field: &String| if switches.contains(field) { "switch" } else { "number" };
     let said = |line: &Line| {
-        line.facts.remaps.iter().map(|(unit, field)| (unit.clone(), format!("remap = \"{}\"", kind(field)))).collect()
+        line.facts
+            .remaps
+            .iter()
+            .map(|(unit, field)| (unit.clone(), format!("remap = \"{}\"", kind(field))))
+            .collect()
     };
     writeln!(text, "remaps = [\n{}]", entries(lines, said))?;
     let said = |line: &Line| line.facts.interrupts.clone().into_iter().collect();

@@ -7,7 +7,4 @@ pub mod embassy;
 use crate::target::Target;
 
 /// Every system, in the order in which people read of them.
-pub const TARGETS: &[&dyn Target] = &[
-    &chibios::Chibios,
-    &embassy::Embassy,
-];
+pub const TARGETS: &[&dyn Target] = &[&chibios::Chibios, &embassy::Embassy];

@@ -12,7 +12,8 @@ use sensedsl_codegen::firmware::embassy::{TypeCheck, type_check};
 use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
-    e0530_wiring_not_of_the_chip, e0531_no_cargo, e0532_typecheck_stopped, e0533_typecheck_not_known,
+    e0530_wiring_not_of_the_chip, e0531_no_cargo, e0532_typecheck_stopped,
+    e0533_typecheck_not_known,
 };
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
@@ -31,8 +32,9 @@ pub(super) fn judge(
         let name = &job.board.name;
         match type_check(&job) {
             Ok(check) => diagnostics.extend(board(&job, &check, terminal)?),
-            Err(why) => diagnostics
-                .push(e0533_typecheck_not_known::not_known(name.span, &name.value, &why)),
+            Err(why) => {
+                diagnostics.push(e0533_typecheck_not_known::not_known(name.span, &name.value, &why))
+            }
         }
     }
     Ok(diagnostics)
@@ -67,7 +69,10 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
     }
     if found.is_empty() {
         let (count, chip) = (check.lines.len(), &check.chip);
-        terminal.aside(&format!("{}: the compiler takes all {count} lines of its wiring for {chip}", name.value))?;
+        terminal.aside(&format!(
+            "{}: the compiler takes all {count} lines of its wiring for {chip}",
+            name.value
+        ))?;
         for wire in &check.unjudged {
             terminal.aside(&format!("not judged: {wire}, which the HAL has no types for"))?;
         }
@@ -148,7 +153,8 @@ fn reason(stderr: &str) -> String {
 
 /// The user's cache.
 fn cache() -> PathBuf {
-    let of = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let of =
+        |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let home = || of("HOME").or_else(|| of("USERPROFILE"));
     let base = of("XDG_CACHE_HOME").or_else(|| of("LOCALAPPDATA"));
     let base = base.or_else(|| Some(home()?.join(".cache")));

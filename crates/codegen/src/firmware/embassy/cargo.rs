@@ -2,6 +2,7 @@
 //!
 //! The lock files are part of this program, so that a project is built from the same sources everywhere and for good.
 
+use super::context::Context;
 use super::names::Chip;
 
 /// The crates of a check.
@@ -53,4 +54,35 @@ fn hal_clock(text: &str) -> String {
     } else {
         String::new()
     }
+}
+
+/// The crates of a firmware, and further ones of two families.
+const FIRMWARE: &str = include_str!("templates/firmware.lock.txt");
+const FIRMWARE_G4: &str = include_str!("templates/firmware-g4.lock.txt");
+const FIRMWARE_F3: &str = include_str!("templates/firmware-f3.lock.txt");
+/// How the manifest goes on behind the package.
+const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
+
+/// The manifest of a firmware.
+pub(super) fn manifest(context: &Context<'_>) -> String {
+    let chip = &context.chip;
+    let banks = if chip.banks { "\"dual-bank\", " } else { "" };
+    let timer = context.timer.to_lowercase();
+    MANIFEST
+        .replace("{board}", &context.job.board.name.value)
+        .replace("{features}", &format!("\"{}\", {banks}\"time-driver-{timer}\"", chip.feature))
+}
+
+/// The lock file of a firmware.
+pub(super) fn lock(context: &Context<'_>) -> String {
+    let starts =
+        |starts: &[&str]| starts.iter().any(|start| context.chip.feature.starts_with(start));
+    let text = if starts(&["stm32g474", "stm32g484"]) {
+        FIRMWARE_G4
+    } else if starts(&["stm32f334"]) {
+        FIRMWARE_F3
+    } else {
+        FIRMWARE
+    };
+    text.to_owned()
 }

@@ -233,6 +233,11 @@ impl Names {
         })
     }
 
+    /// Whether pins in use by a unit can be pulled up.
+    pub(super) fn has_pulls(&self) -> bool {
+        !self.afio
+    }
+
     fn fits(&self, lines: &[String]) -> bool {
         lines.is_empty() || lines.contains(&self.line_name)
     }

@@ -24,9 +24,15 @@ const HEAD: &str = include_str!("templates/wiring_check.rs.txt");
 /// The functions that the lines call. Only those in use are printed, because a chip has not all modules. `{A}` is the
 /// parameter for the block of pins, which one family has.
 const CALLS: &[(&str, &str)] = &[
-    ("analog", "<T: hal::adc::Instance, P: PeripheralType>(_: Peri<'static, P>) where Peri<'static, P>: hal::adc::AdcChannel<T>"),
+    (
+        "analog",
+        "<T: hal::adc::Instance, P: PeripheralType>(_: Peri<'static, P>) where Peri<'static, P>: hal::adc::AdcChannel<T>",
+    ),
     ("adc_dma", "<T: hal::adc::Instance, D: hal::adc::RxDma<T>>(_: Peri<'static, D>)"),
-    ("dac_out", "<T: hal::dac::Instance, C: hal::dac::Channel, P: hal::dac::DacPin<T, C>>(_: Peri<'static, P>)"),
+    (
+        "dac_out",
+        "<T: hal::dac::Instance, C: hal::dac::Channel, P: hal::dac::DacPin<T, C>>(_: Peri<'static, P>)",
+    ),
     ("scl", "<T: hal::i2c::Instance{A}, P: hal::i2c::SclPin<T{A}>>(_: Peri<'static, P>)"),
     ("sda", "<T: hal::i2c::Instance{A}, P: hal::i2c::SdaPin<T{A}>>(_: Peri<'static, P>)"),
     ("i2c_rx", "<T: hal::i2c::Instance, D: hal::i2c::RxDma<T>>(_: Peri<'static, D>)"),
@@ -40,8 +46,14 @@ const CALLS: &[(&str, &str)] = &[
     ("uart_rx", "<T: hal::usart::Instance{A}, P: hal::usart::RxPin<T{A}>>(_: Peri<'static, P>)"),
     ("can_tx", "<T: hal::can::Instance{A}, P: hal::can::TxPin<T{A}>>(_: Peri<'static, P>)"),
     ("can_rx", "<T: hal::can::Instance{A}, P: hal::can::RxPin<T{A}>>(_: Peri<'static, P>)"),
-    ("channel", "<T: hal::timer::GeneralInstance4Channel, C: hal::timer::TimerChannel{A}, P: hal::timer::TimerPin<T, C{A}>>(_: Peri<'static, P>)"),
-    ("inverted", "<T: hal::timer::AdvancedInstance4Channel, C: hal::timer::TimerChannel{A}, P: hal::timer::TimerComplementaryPin<T, C{A}>>(_: Peri<'static, P>)"),
+    (
+        "channel",
+        "<T: hal::timer::GeneralInstance4Channel, C: hal::timer::TimerChannel{A}, P: hal::timer::TimerPin<T, C{A}>>(_: Peri<'static, P>)",
+    ),
+    (
+        "inverted",
+        "<T: hal::timer::AdvancedInstance4Channel, C: hal::timer::TimerChannel{A}, P: hal::timer::TimerComplementaryPin<T, C{A}>>(_: Peri<'static, P>)",
+    ),
     ("usb_dm", "<T: hal::usb::Instance, P: hal::usb::DmPin<T>>(_: Peri<'static, P>)"),
     ("usb_dp", "<T: hal::usb::Instance, P: hal::usb::DpPin<T>>(_: Peri<'static, P>)"),
 ];
@@ -196,7 +208,9 @@ impl<'a> Lines<'a> {
         }
         let Some(unit) = connection.unit else { return };
         for stream in &connection.streams {
-            let Some(code) = self.stream(unit, kind, stream.request, stream.stream) else { continue };
+            let Some(code) = self.stream(unit, kind, stream.request, stream.stream) else {
+                continue;
+            };
             if !self.all.iter().any(|(known, _)| *known == code) {
                 self.push(code, &judged);
             }
@@ -290,7 +304,8 @@ impl<'a> Lines<'a> {
             }
             for pad in &link.pads {
                 let function = pad.usage.map(|usage| usage.signal.function());
-                let code = function.and_then(|one| self.typed(link.unit, one, pad.pin.name.as_str()));
+                let code =
+                    function.and_then(|one| self.typed(link.unit, one, pad.pin.name.as_str()));
                 let judged = judged(pad.pin.name.as_str());
                 match code {
                     Some(code) => self.push(code, &judged),
