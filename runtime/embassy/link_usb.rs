@@ -3,7 +3,6 @@
 use core::sync::atomic::Ordering;
 
 use embassy_futures::join::{join, join3};
-use embassy_futures::select::select;
 use embassy_usb::class::cdc_acm::{CdcAcmClass, State};
 use embassy_usb::driver::{Driver, EndpointError};
 use embassy_usb::{Builder, Config};
@@ -76,5 +75,5 @@ pub async fn run<D: Driver<'static>, const SAID: usize>(
             link.is_open.store(is_open, Ordering::Relaxed);
         }
     };
-    join(select(device.run(), core::future::pending::<()>()), join3(say, hear, watch)).await;
+    join(device.run(), join3(say, hear, watch)).await;
 }

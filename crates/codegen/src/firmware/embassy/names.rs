@@ -18,7 +18,7 @@ pub struct Names {
     /// The version of the I²C units.
     i2c: String,
     /// The driver of the CAN controllers.
-    pub(super) can: Can,
+    can: Can,
     /// How a DMA channel is called.
     dma: String,
     /// Whether peripherals, not pins, decide on which pins their signals are.
@@ -70,7 +70,7 @@ pub(super) enum AdcRead {
 /// The HAL's drivers of CAN controllers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Can {
+enum Can {
     Bxcan,
     Fdcan,
     None,
@@ -164,6 +164,12 @@ impl Names {
         let mut problems = Vec::new();
         if self.line.chips.split_whitespace().next().is_none() {
             problems.push(format!("{}: no chips", profile.line));
+        }
+        if self.i2c.is_empty() && !profile.i2cs.is_empty() {
+            problems.push(format!("{}: I2C units without a version", profile.line));
+        }
+        if self.can == Can::None && !profile.cans.is_empty() {
+            problems.push(format!("{}: CAN controllers without a driver", profile.line));
         }
         for timer in &profile.timers {
             if timer.icu.is_some() && self.interrupt(&timer.name, "CC").is_none() {
