@@ -73,10 +73,8 @@ pub(super) fn scalar(scalar: ScalarType) -> String {
 
 /// The channel of a timer that a pad is on.
 pub(super) fn channel(pad: &Pad<'_>) -> Option<u8> {
-    match pad.usage?.signal.function() {
-        Function::Timer { channel, .. } => Some(*channel),
-        _ => None,
-    }
+    let Function::Timer { channel, .. } = pad.usage?.signal.function() else { return None };
+    Some(*channel)
 }
 
 /// The beginning of a task: its start among those that take turns.

@@ -54,6 +54,15 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         Kind::Digital(own) if !is_actuator && (own.edge.is_some() || own.debounce_us > 0) => {
             Some("an input with edges or a debounce time in Embassy's firmware")
         }
-        _ => None,
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
     }
 }

@@ -97,7 +97,7 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, upper: &str, sectio
         Mode::Period => "Period",
         Mode::Frequency => "Frequency",
         Mode::Duty => "Duty",
-        _ => "Count",
+        Mode::Count | Mode::Ppm => "Count",
     };
     section.states.push(format!("let mut {ident} = Capture::NEW;"));
     section.polls.push(format!(

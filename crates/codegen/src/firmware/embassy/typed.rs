@@ -83,10 +83,8 @@ pub struct Judged {
 /// The profile of Embassy for the MCU of a board, whatever the board's own target is.
 #[must_use]
 pub fn profile_of(mcu: &str) -> Option<TargetProfile> {
-    match profile::find("embassy", mcu) {
-        Ok(Target::Profile(profile)) => Some(*profile),
-        _ => None,
-    }
+    let Ok(Target::Profile(profile)) = profile::find("embassy", mcu) else { return None };
+    Some(*profile)
 }
 
 /// The check of a board's wiring.
@@ -251,7 +249,9 @@ impl<'a> Lines<'a> {
             },
             Function::Timer { channel, line, .. } => match line {
                 TimerLine::Inverted => ("inverted", format!(", hal::timer::Ch{channel}")),
-                _ => ("channel", format!(", hal::timer::Ch{channel}")),
+                TimerLine::Both | TimerLine::Output | TimerLine::Input => {
+                    ("channel", format!(", hal::timer::Ch{channel}"))
+                }
             },
             Function::Uart { line, .. } => match line {
                 UartLine::Tx => ("uart_tx", String::new()),
