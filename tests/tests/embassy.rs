@@ -102,7 +102,7 @@ fn a_project_is_whole() {
     let scratch = Scratch::new("embassy");
     let out = scratch.join("out").display().to_string();
     let file = root().join("examples/fig2.sense").display().to_string();
-    sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
+    let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
     let project = tree(&scratch.join("out/firmware/STM32F4DiscoveryBoard"));
     let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
     for (path, bytes) in tree(&root().join("crates/sense-rt/src")) {
@@ -223,7 +223,7 @@ fn fig2_builds() {
     let scratch = Scratch::new("embassy-fig2");
     let out = scratch.join("out").display().to_string();
     let file = root().join("examples/fig2.sense").display().to_string();
-    sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
+    let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
     let target = root().join("target/embassy-build");
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);

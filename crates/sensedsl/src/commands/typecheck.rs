@@ -33,7 +33,8 @@ pub(super) fn judge(
         match type_check(&job) {
             Ok(check) => diagnostics.extend(board(&job, &check, terminal)?),
             Err(why) => {
-                diagnostics.push(e0533_typecheck_not_known::not_known(name.span, &name.value, &why))
+                let report = e0533_typecheck_not_known::not_known(name.span, &name.value, &why);
+                diagnostics.push(report);
             }
         }
     }
