@@ -13,7 +13,7 @@ use sensedsl_tests::{Scratch, has, is_thorough, missing, root, sensedsl, text, t
 
 /// A board with wires of all kinds.
 const KINDS: &str = r#"
-board STM32F407G_DISC1 {
+board Bench on STM32F407VGT6 {
     link { transport = uart; unit = USART2; }
     sensor Light returns uint16 { id = 1; type = analog; pin = PC1; }
     sensor Range returns uint16 { id = 2; type = i2c; address = 0x70; register = 2; length = 2; scl = PB6; sda = PB7; }
@@ -77,7 +77,7 @@ fn every_wire_is_a_line() {
         "pin(p.PD9);",
         "can_rx::<CAN1, _>(p.PD0);",
         "dac_out::<DAC1, hal::dac::Ch1, _>(p.PA4);",
-        "uart_tx::<USART2, _>(p.PA2);",
+        "uart_tx::<USART2, _>(p.PD5);",
     ];
     for line in lines {
         assert_eq!(source.matches(line).count(), 1, "{line}\n{source}");
@@ -145,7 +145,7 @@ const SEEDS: &[(&str, &str)] = &[
     ("pin(p.PD9)", "pin(p.PD0)"),
     ("pin(p.PD9)", "pin(p.PZ9)"),
     ("uart_rx::<USART3, _>(p.PC11)", "uart_rx::<USART3, _>(p.PC10)"),
-    ("uart_tx::<USART2, _>(p.PA2)", "uart_tx::<USART2, _>(p.PA3)"),
+    ("uart_tx::<USART2, _>(p.PD5)", "uart_tx::<USART2, _>(p.PA3)"),
     ("can_rx::<CAN1, _>(p.PD0)", "can_rx::<CAN1, _>(p.PD1)"),
     ("dac_out::<DAC1, hal::dac::Ch1, _>(p.PA4)", "dac_out::<DAC1, hal::dac::Ch2, _>(p.PA4)"),
     ("unit(p.TIM3)", "unit(p.TIM5)"),
