@@ -14,6 +14,7 @@ mod devices;
 mod driver_tables;
 mod drivers;
 mod drivers_pages;
+mod embassy;
 mod examples;
 mod firmware;
 mod generate;

@@ -3,9 +3,11 @@
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
 //! break something. `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
-//! `profiles` compares the target profiles with a tree of ChibiOS. `web` builds the WebAssembly module.
+//! `profiles` compares the target profiles with a tree of ChibiOS,
+//! and writes those for Embassy. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
 
+mod embassy;
 mod firmware;
 mod fuzz;
 mod parts;
@@ -35,10 +37,13 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "firmware" => firmware::run(rest),
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
-        Some((task, rest)) if task == "profiles" => profiles::run(rest),
+        Some((task, rest)) if task == "profiles" => match rest.split_first() {
+            Some((target, rest)) if target == "embassy" => embassy::run(rest),
+            _ => profiles::run(rest),
+        },
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check"
+            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check]"
         ),
     }
 }

@@ -92,7 +92,7 @@ pub(crate) struct On {
     /// A board table or built-in board that wins over what the file says
     #[arg(long, value_name = "TABLE")]
     pub(crate) board: Option<String>,
-    /// What the wiring is for: chibios, chibios-21.11, or none for the pins alone
+    /// What the wiring is for: chibios, embassy, one with its version, or none for the pins alone
     #[arg(long, value_name = "NAME")]
     pub(crate) target: Option<String>,
     #[command(flatten)]
@@ -116,6 +116,9 @@ pub(crate) struct CheckArgs {
     /// How to say it
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
+    /// Let the Rust compiler judge the wiring, too, by the types of Embassy's HAL; needs cargo
+    #[arg(long)]
+    pub(crate) typecheck: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

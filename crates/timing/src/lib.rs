@@ -115,8 +115,11 @@ impl<'a> Context<'a> {
         Self { board, wiring, devices, elements, starts }
     }
 
-    /// What the board's clock tree gives, by macro.
+    /// What the clock tree gives, by name: that of the system's own making, or else the board's.
     pub(crate) fn clock_hz(&self, name: &str) -> Option<u32> {
+        if let Some(hz) = self.board.profile().and_then(|profile| profile.clocks_hz.get(name)) {
+            return Some(*hz);
+        }
         let chibios = self.board.facts.as_ref()?.chibios.as_ref()?;
         chibios.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
     }

@@ -42,7 +42,7 @@ pub(crate) fn read(folder: &Path) -> Result<BTreeMap<String, Chip>> {
     Ok(chips)
 }
 
-fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
+pub(crate) fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
     Some(text.split_once(start)?.1.split_once(end)?.0)
 }
 

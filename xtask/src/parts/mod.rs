@@ -8,9 +8,9 @@
 mod avr;
 mod build;
 mod compare;
-mod metapac;
+pub(crate) mod metapac;
 mod modm;
-mod sources;
+pub(crate) mod sources;
 
 use std::path::Path;
 

@@ -4,7 +4,7 @@
 //! has the rules by which a unit's driver, switch and options are named, a multiplexer stands for
 //! all the streams behind it. Here they are put together to the types of [`crate::profile`].
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
@@ -58,6 +58,9 @@ pub(crate) struct Line {
     /// Units that the registry names and the line does not take.
     #[serde(default)]
     pub(crate) left_out: String,
+    /// Clocks in hertz that the system makes by itself, whatever the board says.
+    #[serde(default)]
+    pub(crate) clocks_hz: BTreeMap<String, u32>,
     /// What only the system's own generator reads.
     #[serde(default)]
     pub(crate) system: toml::Table,
@@ -182,6 +185,7 @@ impl File {
                     of_line(group.units, line).map(move |unit| unit.usb(&source))
                 })
                 .collect(),
+            clocks_hz: line.clocks_hz.clone(),
             own: Own { file: self.system, line: line.system.clone() },
         }
     }

@@ -1,5 +1,6 @@
 //! The facts of a target profile: what silicon and system can do.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::Error as _;
@@ -57,6 +58,8 @@ pub struct TargetProfile {
     pub dacs: Vec<Dac>,
     /// USB devices.
     pub usbs: Vec<Usb>,
+    /// Clocks in hertz that the system makes by itself, by name; empty where a board's facts have them.
+    pub clocks_hz: BTreeMap<String, u32>,
     /// What only the system's own generator reads.
     pub own: Own,
 }

@@ -2,10 +2,9 @@
 
 pub mod c;
 pub mod chibios;
+pub mod embassy;
 
 use crate::target::Target;
 
 /// Every system, in the order in which people read of them.
-pub const TARGETS: &[&dyn Target] = &[
-    &chibios::Chibios, //
-];
+pub const TARGETS: &[&dyn Target] = &[&chibios::Chibios, &embassy::Embassy];

@@ -22,12 +22,16 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         let snapshot = input::load(path, &args.on);
         let sources = snapshot.sources();
         let answer = input::feasible(&snapshot);
-        let diagnostics = &answer.diagnostics;
+        let mut diagnostics = answer.diagnostics.clone();
+        if let Some((design, wiring)) = answer.wired().filter(|_| args.typecheck) {
+            diagnostics.extend(super::typecheck::judge(design, wiring, terminal)?);
+        }
+        let diagnostics = &diagnostics;
         status = status.max(input::status(diagnostics, &args.on));
         match args.format {
             CheckFormat::Human => {
                 terminal.diagnostics(diagnostics, sources)?;
-                terminal.note(&summary(&visible(&shown(path)), &answer))?;
+                terminal.note(&summary(&visible(&shown(path)), &answer, diagnostics))?;
             }
             CheckFormat::Json => {
                 values.extend(diagnostics.iter().map(|one| render::json_value(one, sources)));
@@ -49,9 +53,9 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
 }
 
 /// One line a file. Whether there is a wiring is said only where it was looked for.
-fn summary(file: &str, answer: &Answer<'_>) -> String {
+fn summary(file: &str, answer: &Answer<'_>, diagnostics: &[Diagnostic]) -> String {
     let of = |severity| move |one: &&Diagnostic| one.severity == severity;
-    let count = |severity| answer.diagnostics.iter().filter(of(severity)).count();
+    let count = |severity| diagnostics.iter().filter(of(severity)).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
     let plural = |n: usize| if n == 1 { "" } else { "s" };
     let is_partial = !answer.left_out.is_empty();

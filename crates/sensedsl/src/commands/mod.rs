@@ -24,3 +24,4 @@ mod starter;
 mod sweep;
 mod table;
 mod timing;
+mod typecheck;

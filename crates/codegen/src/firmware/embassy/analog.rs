@@ -1,0 +1,151 @@
+//! Analog inputs: a task for each converter and cycle.
+
+use std::collections::BTreeSet;
+
+use sensedsl_board::profile::Cycles;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::{KindName, Role};
+use sensedsl_timing::sampling;
+
+use super::context::{Context, Wired, late, scalar};
+use super::filter;
+use super::names::{AdcNew, AdcRead};
+use super::section::{Field, Section, Start, Watched};
+use crate::job::Cycle;
+use crate::print::snake;
+
+pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    let mut units = BTreeSet::new();
+    for ((unit, cycle), devices) in context.classes(KindName::Analog) {
+        if units.insert(unit.clone()) {
+            self::unit(context, &unit, &mut section);
+        }
+        for wire in devices.iter().flat_map(|one| &one.wires) {
+            let Some(pad) = wire.pad(Role::In) else { continue };
+            section.fields.push(Field {
+                name: wire.ident.clone(),
+                comment: wire.place(),
+                type_: format!("Peri<'static, {}>", pad.pin.name),
+                make: format!("p.{}", pad.pin.name),
+            });
+        }
+        task(context, &unit, cycle, &devices, &mut section);
+    }
+    section
+}
+
+/// The converter, which tasks of several cycles share.
+fn unit(context: &Context<'_>, unit: &str, section: &mut Section) {
+    let (name, hal) = (snake(unit), context.peripheral(unit));
+    let make = match context.names.adc.new {
+        AdcNew::Unit => format!("Adc::new(p.{hal})"),
+        AdcNew::Interrupt => {
+            if let Some(interrupt) = context.names.interrupt(unit, "GLOBAL") {
+                section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
+            }
+            format!("Adc::new(p.{hal}, Irqs)")
+        }
+        AdcNew::Resolution => format!("Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
+        AdcNew::Default => format!("Adc::new(p.{hal}, hal::adc::AdcConfig::default())"),
+    };
+    section.fields.push(Field {
+        name: name.clone(),
+        comment: format!("{unit}, which converts"),
+        type_: format!("hal::adc::Adc<'static, {hal}>"),
+        make: make.replace("Adc::new", "hal::adc::Adc::new"),
+    });
+    section.items.push(format!(
+        "type {unit}Unit = Mutex<CriticalSectionRawMutex, hal::adc::Adc<'static, {hal}>>;\n\
+         static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"
+    ));
+    section.starts.push(Start::Make(format!(
+        "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
+    )));
+    section.runtime.insert("analog.rs");
+}
+
+fn task(
+    context: &Context<'_>,
+    unit: &str,
+    cycle: Cycle,
+    devices: &[Wired<'_>],
+    section: &mut Section,
+) {
+    let ident = cycle.ident(unit);
+    let constant = ident.to_uppercase();
+    let wires: Vec<_> = devices.iter().flat_map(|one| &one.wires).collect();
+    let pins = wires.iter().filter_map(|wire| {
+        Some(format!("    mut {}: Peri<'static, {}>,\n", wire.ident, wire.pad(Role::In)?.pin.name))
+    });
+    let (mut state, mut reads) = (String::new(), String::new());
+    for device in devices {
+        let mut own = String::new();
+        let pass = filter::pass(context, device.index, section, &mut own);
+        if !own.is_empty() {
+            state.push_str(&format!("    {own}"));
+        }
+        reads.push_str(&read(context, device, &pass));
+    }
+    let mut text = format!(
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n    unit: &'static {unit}Unit,\n{}) {{\n{}{state}    \
+         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n        \
+         let mut adc = unit.lock().await;\n",
+        cycle.title(unit),
+        pins.collect::<String>(),
+        late(cycle),
+        cycle.delay_ms,
+    );
+    text.push_str(&reads);
+    text.push_str(&format!(
+        "        drop(adc);\n        WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}"
+    ));
+    section.items.push(text);
+    let arguments: Vec<String> =
+        wires.iter().map(|wire| format!(", wiring.{}", wire.ident)).collect();
+    let call = format!("{ident}({}{})", snake(unit), arguments.concat());
+    section.starts.push(Start::Task(cycle.prio, call));
+    section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
+}
+
+/// Samples one device, whose inputs are converted one right after the other.
+fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
+    let Some(analog) = wired.wires.first().and_then(|one| one.connection.kind.analog()) else {
+        return String::new();
+    };
+    let count = wired.wires.len();
+    let time = sampling(&context.profile.adc, analog.sampling_cycles);
+    let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
+    let time = sample_time(time);
+    let samples = usize::from(analog.samples.max(1)) * count;
+    let names: Vec<String> = (0..count).map(|at| format!("s{at}")).collect();
+    let mut text = format!(
+        "        let mut samples = [0; {samples}];\n        for [{}] in samples.as_chunks_mut().0 {{\n",
+        names.join(", ")
+    );
+    for (name, wire) in names.iter().zip(&wired.wires) {
+        let call = match context.names.adc.read {
+            AdcRead::Blocking => "blocking_read",
+            AdcRead::Async => "read",
+        };
+        let wait = if context.names.adc.read == AdcRead::Async { ".await" } else { "" };
+        text.push_str(&format!(
+            "            *{name} = adc.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            wire.ident
+        ));
+    }
+    let value = wired.device.device.value.value;
+    text.push_str(&format!(
+        "        }}\n        rt::analog::tell(&BOARD, {filter}, tables::{}, {}, &samples, {count}, &mut [0; {}]);\n",
+        wired.device.ident.to_uppercase(),
+        scalar(value.scalar),
+        value.size_bytes(),
+    ));
+    text
+}
+
+/// `CYCLES84`, `CYCLES1_5`
+fn sample_time(cycles: Cycles) -> String {
+    let half = if cycles.halves() % 2 == 1 { "_5" } else { "" };
+    format!("CYCLES{}{half}", cycles.whole())
+}

@@ -1,0 +1,88 @@
+//! Manifests and lock files: which crates are built, in which versions, with which features.
+//!
+//! The lock files are part of this program, so that a project is built from the same sources everywhere and for good.
+
+use super::context::Context;
+use super::names::Chip;
+
+/// The crates of a check.
+const CHECK: &str = include_str!("templates/check.lock.txt");
+/// As that, with the crates that the HAL takes for the high-resolution timers of STM32G4 and of STM32F3.
+const CHECK_G4: &str = include_str!("templates/check-g4.lock.txt");
+const CHECK_F3: &str = include_str!("templates/check-f3.lock.txt");
+/// What the lock file lacks where no timer is left for the clock.
+const CLOCK: &str = " \"embassy-time-driver\",\n \"embassy-time-queue-utils\",\n";
+
+/// The manifest of a check.
+pub(super) fn check_manifest(chip: &Chip, timer: Option<&str>) -> String {
+    let timer = timer.map(|name| format!("time-driver-{}", name.to_lowercase()));
+    let banks = chip.banks.then(|| "dual-bank".to_owned());
+    let features: Vec<String> =
+        banks.into_iter().chain(timer).map(|one| format!(", \"{one}\"")).collect();
+    format!(
+        "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [dependencies]\n\
+         embassy-stm32 = {{ version = \"=0.6.0\", default-features = false, features = [\"{}\", \"exti\", \"time\", \
+         \"unstable-pac\"{}] }}\n\
+         embassy-time = \"=0.5.1\"\n\
+         embassy-time-driver = {{ version = \"=0.2.2\", features = [\"tick-hz-1_000_000\"] }}\n\
+         embassy-time-queue-utils = \"=0.3.2\"\n\n\
+         [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
+        chip.feature,
+        features.concat(),
+    )
+}
+
+/// The lock file of a check.
+pub(super) fn check_lock(chip: &Chip, timer: Option<&str>) -> String {
+    let starts = |starts: &[&str]| starts.iter().any(|start| chip.feature.starts_with(start));
+    let text = if starts(&["stm32g474", "stm32g484"]) {
+        CHECK_G4
+    } else if starts(&["stm32f334"]) {
+        CHECK_F3
+    } else {
+        CHECK
+    };
+    if timer.is_some() { text.to_owned() } else { text.replacen(&hal_clock(text), "", 1) }
+}
+
+/// The lines of the clock's crates among those that the HAL needs.
+fn hal_clock(text: &str) -> String {
+    let of_hal = text.split_once("name = \"embassy-stm32\"").map_or("", |(_, rest)| rest);
+    if of_hal.split("[[package]]").next().is_some_and(|own| own.contains(CLOCK)) {
+        CLOCK.to_owned()
+    } else {
+        String::new()
+    }
+}
+
+/// The crates of a firmware, and further ones of two families.
+const FIRMWARE: &str = include_str!("templates/firmware.lock.txt");
+const FIRMWARE_G4: &str = include_str!("templates/firmware-g4.lock.txt");
+const FIRMWARE_F3: &str = include_str!("templates/firmware-f3.lock.txt");
+/// How the manifest goes on behind the package.
+const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
+
+/// The manifest of a firmware.
+pub(super) fn manifest(context: &Context<'_>) -> String {
+    let chip = &context.chip;
+    let banks = if chip.banks { "\"dual-bank\", " } else { "" };
+    let timer = context.timer.to_lowercase();
+    MANIFEST
+        .replace("{board}", &context.job.board.name.value)
+        .replace("{features}", &format!("\"{}\", {banks}\"time-driver-{timer}\"", chip.feature))
+}
+
+/// The lock file of a firmware.
+pub(super) fn lock(context: &Context<'_>) -> String {
+    let starts =
+        |starts: &[&str]| starts.iter().any(|start| context.chip.feature.starts_with(start));
+    let text = if starts(&["stm32g474", "stm32g484"]) {
+        FIRMWARE_G4
+    } else if starts(&["stm32f334"]) {
+        FIRMWARE_F3
+    } else {
+        FIRMWARE
+    };
+    text.to_owned()
+}

@@ -1,0 +1,86 @@
+//! One board with everything its sections are planned from.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::signal::Function;
+use sensedsl_model::kind::KindName;
+use sensedsl_wire::ScalarType;
+
+use super::names::{Chip, Names};
+use crate::job::{BoardJob, Cycle, JobConnection, JobDevice, Pad};
+
+/// One board on its way to a plan.
+pub(super) struct Context<'a> {
+    pub(super) job: &'a BoardJob<'a>,
+    pub(super) profile: &'a TargetProfile,
+    pub(super) names: Names,
+    pub(super) chip: Chip,
+    /// The timer that the clock runs on.
+    pub(super) timer: String,
+}
+
+/// A device of one value with its wires.
+pub(super) struct Wired<'a> {
+    /// Index of its item.
+    pub(super) index: usize,
+    pub(super) device: &'a JobDevice<'a>,
+    /// One for each element.
+    pub(super) wires: Vec<&'a JobConnection<'a>>,
+}
+
+impl<'a> Context<'a> {
+    /// None where there is no chip of that name or no timer for the clock.
+    pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
+        let profile = job.profile?;
+        let names = Names::of(profile).ok()?;
+        let chip = names.chip(job.board.mcu.as_deref()?)?;
+        let timer = super::clock::timer(job, profile)?;
+        Some(Self { job, profile, names, chip, timer })
+    }
+
+    /// The devices of a kind with their wires, in the design's order.
+    pub(super) fn wired(&self, kind: KindName) -> Vec<Wired<'a>> {
+        let devices = self.job.devices.iter().enumerate();
+        let wired = devices.filter_map(|(index, device)| {
+            let own = self.job.connections(kind).filter(|one| one.devices.contains(&index));
+            let wires: Vec<&JobConnection<'a>> = own.collect();
+            (!wires.is_empty()).then_some(Wired { index, device, wires })
+        });
+        wired.collect()
+    }
+
+    /// The devices of a kind by unit and cycle: a task each.
+    pub(super) fn classes(&self, kind: KindName) -> BTreeMap<(String, Cycle), Vec<Wired<'a>>> {
+        let mut classes: BTreeMap<(String, Cycle), Vec<Wired<'a>>> = BTreeMap::new();
+        for wired in self.wired(kind) {
+            let unit = wired.wires.first().and_then(|one| one.unit).unwrap_or("gpio");
+            classes.entry((unit.to_owned(), wired.device.cycle)).or_default().push(wired);
+        }
+        classes
+    }
+
+    /// What the HAL calls a unit.
+    pub(super) fn peripheral(&self, unit: &str) -> String {
+        self.names.peripheral(unit).to_owned()
+    }
+}
+
+/// The scalar type in the runtime's words.
+pub(super) fn scalar(scalar: ScalarType) -> String {
+    format!("Scalar::{scalar:?}")
+}
+
+/// The channel of a timer that a pad is on.
+pub(super) fn channel(pad: &Pad<'_>) -> Option<u8> {
+    let Function::Timer { channel, .. } = pad.usage?.signal.function() else { return None };
+    Some(*channel)
+}
+
+/// The beginning of a task: its start among those that take turns.
+pub(super) fn late(cycle: Cycle) -> String {
+    if cycle.start_ms == 0 {
+        return String::new();
+    }
+    format!("    Timer::after_millis({}).await;\n", cycle.start_ms)
+}

@@ -1,0 +1,70 @@
+//! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
+
+use super::context::Context;
+use super::section::Section;
+use crate::part::FilterPlan;
+
+/// What a task hands over with the values of an item: its filter, or `None`. The filter's table is added to the
+/// section, and its state to what the task keeps.
+pub(super) fn pass(
+    context: &Context<'_>,
+    index: usize,
+    section: &mut Section,
+    state: &mut String,
+) -> String {
+    let Some(plan) = plan_of(context, index) else { return "None".to_owned() };
+    let (ident, upper) = (&plan.ident, plan.ident.to_uppercase());
+    section.tables.push(table(plan));
+    state.push_str(&format!(
+        "let mut {ident}_filter: Filter<[u8; tables::{upper}_FILTER.bytes(&SCHEMA.items[{index}])]> = \
+         Filter::new(&tables::{upper}_FILTER);\n"
+    ));
+    format!("Some(&mut *{ident}_filter)")
+}
+
+/// The filter of an item.
+fn plan_of<'a>(context: &Context<'a>, index: usize) -> Option<&'a FilterPlan> {
+    let name = context.job.devices.get(index)?.name();
+    let mut all = context.job.parts.iter().flat_map(|part| &part.plan.filters);
+    all.find(|plan| plan.field == name)
+}
+
+fn table(plan: &FilterPlan) -> String {
+    let number = |c: &str| number(plan.member, c);
+    let invalid: Vec<String> = plan
+        .invalid
+        .iter()
+        .map(|(low, high)| format!("Range {{ low: {}, high: {} }}", number(low), number(high)))
+        .collect();
+    let change = plan.change.as_deref();
+    let change = change.map_or("None".to_owned(), |change| {
+        // The distance of integers has no sign, whatever they have.
+        let member = if plan.member == "i" { "u" } else { plan.member };
+        format!("Some({})", self::number(member, change))
+    });
+    format!(
+        "pub const {}_FILTER: FilterTable = FilterTable {{\n    invalid: &[{}],\n    wide: {},\n    median: {},\n    \
+         smooth_ms: {},\n    change: {change},\n    heartbeat_ms: {},\n}};",
+        plan.ident.to_uppercase(),
+        invalid.join(", "),
+        if plan.is_wide { "Some(sense_rt::WIDE)" } else { "None" },
+        plan.median,
+        plan.smooth_ms,
+        plan.heartbeat_ms
+    )
+}
+
+/// A number of a plan, which is spelled as C has it.
+fn number(member: &str, c: &str) -> String {
+    let inner = c.split_once('(').map_or(c, |(_, rest)| rest.trim_end_matches(')'));
+    let inner = match inner {
+        "INT64_MIN" => "i64::MIN",
+        other => other.trim_end_matches(['f', 'F', 'L', 'U']),
+    };
+    match member {
+        "i" => format!("Number::signed({inner})"),
+        "f" => format!("Number::float32({inner})"),
+        "d" => format!("Number::float64({inner})"),
+        _ => format!("Number::unsigned({inner})"),
+    }
+}

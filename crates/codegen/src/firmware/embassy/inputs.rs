@@ -1,0 +1,117 @@
+//! Digital inputs and encoders: a task for each cycle looks at them.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::digital::Pull;
+use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_wire::Direction;
+
+use super::context::{Context, Wired, channel, late, scalar};
+use super::filter;
+use super::section::{Field, Section, Start, Watched};
+use crate::job::Cycle;
+
+pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    for ((_, cycle), devices) in context.classes(KindName::Digital) {
+        let is_sensor = |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor;
+        let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_sensor).collect();
+        if !sensors.is_empty() {
+            digital(context, cycle, &sensors, &mut section);
+        }
+    }
+    for wired in context.wired(KindName::Encoder) {
+        encoder(context, &wired, &mut section);
+    }
+    section
+}
+
+fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section: &mut Section) {
+    let ident = cycle.ident("gpio");
+    let constant = ident.to_uppercase();
+    let (mut parameters, mut arguments, mut looks) = (String::new(), Vec::new(), String::new());
+    let mut state = String::new();
+    for wired in devices {
+        let filter = filter::pass(context, wired.index, section, &mut state);
+        let value = wired.device.device.value.value;
+        let mut levels = Vec::new();
+        for wire in &wired.wires {
+            let (Some(pad), Kind::Digital(own)) = (wire.pad(Role::In), &wire.connection.kind)
+            else {
+                continue;
+            };
+            let pull = match own.pull {
+                Pull::Up => "Pull::Up",
+                Pull::Down => "Pull::Down",
+                Pull::None => "Pull::None",
+            };
+            section.fields.push(Field {
+                name: wire.ident.clone(),
+                comment: wire.place(),
+                type_: "Input<'static>".to_owned(),
+                make: format!("Input::new(p.{}, {pull})", pad.pin.name),
+            });
+            parameters.push_str(&format!(", {}: Input<'static>", wire.ident));
+            arguments.push(format!("wiring.{}", wire.ident));
+            let call = if own.active_low { "is_low" } else { "is_high" };
+            levels.push(format!("{}.{call}()", wire.ident));
+        }
+        looks.push_str(&format!(
+            "        let mut value = [0; {}];\n        for (at, level) in [{}].into_iter().enumerate() {{\n            \
+             {}.store_at(u64::from(level), &mut value, at);\n        }}\n        \
+             BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n",
+            value.size_bytes(),
+            levels.join(", "),
+            scalar(value.scalar),
+            wired.device.ident.to_uppercase()
+        ));
+    }
+    section.items.push(format!(
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}({}) {{\n{}{state}    \
+         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n{looks}        \
+         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
+        cycle.title("gpio"),
+        parameters.trim_start_matches(", "),
+        late(cycle),
+        cycle.delay_ms
+    ));
+    let call = format!("{ident}({})", arguments.join(", "));
+    section.starts.push(Start::Task(cycle.prio, call));
+    section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
+}
+
+/// The reporter looks at a counter so often that no wrap is lost.
+fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Option<()> {
+    let wire = wired.wires.first()?;
+    let (unit, a, b) = (wire.unit?, wire.pad(Role::A)?, wire.pad(Role::B)?);
+    let (hal, value) = (context.peripheral(unit), wired.device.device.value.value);
+    // The HAL takes either order of the channels.
+    let (first, second) = (channel(a)?, channel(b)?);
+    section.fields.push(Field {
+        name: wire.ident.clone(),
+        comment: wire.place(),
+        type_: format!("hal::timer::qei::Qei<'static, {hal}>"),
+        make: format!(
+            "hal::timer::qei::Qei::new::<hal::timer::Ch{first}, hal::timer::Ch{second}>(p.{hal}, p.{}, p.{}, Default::default())",
+            a.pin.name, b.pin.name
+        ),
+    });
+    let ident = &wire.ident;
+    let mut state = String::new();
+    let filter = filter::pass(context, wired.index, section, &mut state);
+    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    section.keeps.push((ident.clone(), format!("hal::timer::qei::Qei<'static, {hal}>")));
+    section.states.push(format!(
+        "let (mut {ident}_counter, mut {ident}_repeat) = (Counter::NEW, Repeat::NEW);"
+    ));
+    section.polls.push(format!(
+        "let before = {ident}_counter.total();\n{ident}_counter.step({ident}.count());\n\
+         let count = {ident}_counter.total();\n\
+         if {ident}_repeat.is_due(count != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
+         store_count({}, i64::from(count), &mut value);\n    \
+         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+        value.size_bytes(),
+        scalar(value.scalar),
+        wired.device.ident.to_uppercase()
+    ));
+    Some(())
+}

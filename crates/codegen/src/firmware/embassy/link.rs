@@ -1,0 +1,90 @@
+//! The link to the host.
+
+use sensedsl_board::profile::Usb;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target;
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::Role;
+
+use super::context::Context;
+use super::section::{Field, Section, Start};
+use crate::job::BoardJob;
+
+/// The USB device of a board, whatever its system.
+pub(super) fn usb(job: &BoardJob<'_>) -> Option<Usb> {
+    job.profile?.usb(None).cloned()
+}
+
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    let made = match context.job.board.link.transport {
+        Transport::Usb => over_usb(context, &mut section),
+        Transport::Uart => over_uart(context, &mut section),
+        Transport::None => None,
+    };
+    if made.is_none() {
+        let name = &context.job.board.name;
+        let why = match context.job.board.link.transport {
+            Transport::None => "it has no link to send reports over (`transport = none`)",
+            Transport::Usb => {
+                "USB needs clocks that its firmware does not make yet; take `link { transport = uart; }`"
+            }
+            Transport::Uart => "its target has no driver for the link",
+        };
+        diagnostics.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why));
+    }
+    section
+}
+
+fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
+    let link = context.job.link.as_ref()?;
+    let pad = |role| link.pads.iter().find(|pad| pad.role == role);
+    let (tx, rx, hal) = (pad(Role::Tx)?, pad(Role::Rx)?, context.peripheral(link.unit));
+    let interrupt = context.names.interrupt(link.unit, "GLOBAL")?;
+    section.bind(interrupt, format!("hal::usart::BufferedInterruptHandler<{hal}>"));
+    let baud = context.job.board.link.baud;
+    section.fields.push(Field {
+        name: "link".to_owned(),
+        comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
+        type_: "hal::usart::BufferedUart<'static>".to_owned(),
+        make: format!(
+            "port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, baud({baud})))",
+            rx.pin.name, tx.pin.name
+        ),
+    });
+    section.items.push(
+        "/// The link's port.\n#[embassy_executor::task]\nasync fn link(port: hal::usart::BufferedUart<'static>) {\n    \
+         rt::link_uart::run(port, &LINK).await;\n}"
+            .to_owned(),
+    );
+    section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
+    section.runtime.insert("link_uart.rs");
+    Some(())
+}
+
+fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
+    let usb = usb(context.job)?;
+    // A USB device needs 48 MHz, which only clocks of our own making have.
+    context.names.line.pll?;
+    let hal = context.peripheral(&usb.name);
+    let interrupt = context.names.interrupt(&usb.name, "GLOBAL")?;
+    section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
+    let [dm, dp] = usb.pins.as_slice() else { return None };
+    let vbus = usb.vbus.is_some() && context.job.board.link.vbus;
+    section.fields.push(Field {
+        name: "link".to_owned(),
+        comment: format!("the link at {dm} (D-) and {dp} (D+)"),
+        type_: format!("hal::usb::Driver<'static, {hal}>"),
+        make: format!(
+            "hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))"
+        ),
+    });
+    let product = &context.job.board.name.value;
+    section.items.push(format!(
+        "/// The link's device.\n#[embassy_executor::task]\nasync fn link(device: hal::usb::Driver<'static, {hal}>) {{\n    \
+         rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
+    ));
+    section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
+    section.runtime.insert("link_usb.rs");
+    Some(())
+}

@@ -1,0 +1,83 @@
+//! Embassy firmware: a Cargo project in Rust, with the HAL's typed pins.
+//!
+//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user.rs` and a copy of the
+//! runtime. `names.rs` reads how the HAL spells what a profile knows; `typed.rs` puts a wiring, of whatever target, into
+//! types that the Rust compiler judges.
+
+mod analog;
+mod cargo;
+mod chip;
+mod clock;
+mod context;
+mod filter;
+mod gaps;
+mod i2c;
+mod icu;
+mod inputs;
+mod levels;
+mod link;
+mod names;
+mod outputs;
+mod plan;
+mod render;
+mod runtime;
+mod section;
+mod typed;
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+
+use crate::fileset::FileSet;
+use crate::job::{BoardJob, JobConnection};
+use crate::target::Target;
+use context::Context;
+pub use names::{Chip, Names};
+pub use typed::{Judged, TypeCheck, profile_of, type_check};
+
+/// The target `embassy`.
+pub struct Embassy;
+
+impl Target for Embassy {
+    fn name(&self) -> &'static str {
+        "embassy"
+    }
+
+    fn refusal(&self, profile: &TargetProfile, _facts: Option<&catalog::Board>) -> Option<String> {
+        match Names::of(profile) {
+            Ok(names) if names.afio => Some(
+                "Embassy's firmware does not move units to other pins yet, as this family must"
+                    .to_owned(),
+            ),
+            Ok(_) => None,
+            Err(message) => Some(format!("its profile is damaged: {message}")),
+        }
+    }
+
+    fn problems(&self, profile: &TargetProfile) -> Vec<String> {
+        match Names::of(profile) {
+            Ok(names) => names.problems(profile),
+            Err(message) => vec![message],
+        }
+    }
+
+    fn kinds(&self, _profile: &TargetProfile) -> Vec<KindName> {
+        gaps::KINDS.to_vec()
+    }
+
+    fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+        gaps::lacks(job, connection)
+    }
+
+    fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+        let Some(context) = Context::new(job) else { return Err(Vec::new()) };
+        let mut diagnostics = Vec::new();
+        let plan = plan::plan(&context, &mut diagnostics);
+        if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }
+    }
+
+    fn build(&self, folder: &str) -> String {
+        format!("cargo build --release --manifest-path {folder}/Cargo.toml")
+    }
+}

@@ -1,0 +1,250 @@
+//! How Embassy's HAL spells what a profile knows: chips, peripherals, DMA channels, interrupts, remaps.
+//!
+//! In: what a profile keeps for this target's generator. Out: [`Names`] of one line of MCUs.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::profile::TargetProfile;
+use serde::Deserialize;
+
+/// The names of one line of MCUs.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Names {
+    /// The triple that the Rust compiler knows the core by.
+    pub(super) target: String,
+    /// How a converter is made and read.
+    pub(super) adc: Adc,
+    /// The version of the I²C units.
+    i2c: String,
+    /// The driver of the CAN controllers.
+    can: Can,
+    /// How a DMA channel is called.
+    dma: String,
+    /// Whether peripherals, not pins, decide on which pins their signals are.
+    pub(super) afio: bool,
+    #[serde(rename = "source")]
+    _source: String,
+    peripherals: Vec<Peripheral>,
+    remaps: Vec<RemapEntry>,
+    interrupts: Vec<Interrupts>,
+    /// What the line states.
+    #[serde(skip)]
+    pub(super) line: Line,
+    #[serde(skip)]
+    line_name: String,
+}
+
+/// How the HAL's converters are used.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Adc {
+    pub(super) new: AdcNew,
+    pub(super) read: AdcRead,
+}
+
+/// What a converter is made of beside its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AdcNew {
+    /// Nothing.
+    Unit,
+    /// Its interrupt.
+    Interrupt,
+    /// A resolution.
+    Resolution,
+    /// A configuration.
+    Default,
+}
+
+/// How an input is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AdcRead {
+    /// By waiting in a loop.
+    Blocking,
+    /// By its interrupt.
+    Async,
+}
+
+/// The HAL's drivers of CAN controllers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Can {
+    Bxcan,
+    Fdcan,
+    None,
+}
+
+/// A unit that the HAL calls otherwise.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Peripheral {
+    name: String,
+    #[serde(default)]
+    lines: Vec<String>,
+    hal: String,
+}
+
+/// A unit that is moved to other pins as a whole.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RemapEntry {
+    name: String,
+    #[serde(default)]
+    lines: Vec<String>,
+    remap: Remap,
+}
+
+/// The type by which the HAL is told to which pins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Remap {
+    Number,
+    Switch,
+}
+
+/// The interrupts of a unit by signal.
+#[derive(Clone, Debug, Deserialize)]
+struct Interrupts {
+    name: String,
+    #[serde(default)]
+    lines: Vec<String>,
+    #[serde(flatten)]
+    of: BTreeMap<String, String>,
+}
+
+/// What a line states.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Line {
+    /// The HAL's features of the chips; `*` where it must be told how many banks the flash is.
+    chips: String,
+    /// Interrupts that no unit in use has.
+    pub(super) spare: Vec<String>,
+    /// What the firmware makes of the clocks; none where it keeps those after a reset.
+    pub(super) pll: Option<Pll>,
+}
+
+/// A PLL with 1 MHz at its input, and the dividers of the two buses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Pll {
+    pub(super) multiply: u32,
+    pub(super) p: u32,
+    pub(super) q: u32,
+    pub(super) apb: [u32; 2],
+}
+
+/// A chip of the HAL.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chip {
+    /// Its feature: `stm32f407vg`.
+    pub feature: String,
+    /// Whether the HAL must be told how many banks its flash is.
+    pub banks: bool,
+}
+
+impl Names {
+    /// Reads what a profile keeps for this target.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it.
+    pub fn of(profile: &TargetProfile) -> Result<Self, String> {
+        let file = toml::Value::Table(profile.own.file.clone());
+        let names: Self = file.try_into().map_err(|error: toml::de::Error| error.to_string())?;
+        let line = toml::Value::Table(profile.own.line.clone());
+        let line: Line = line.try_into().map_err(|error: toml::de::Error| error.to_string())?;
+        Ok(Self { line, line_name: profile.line.clone(), ..names })
+    }
+
+    /// What is wrong with the names of a profile.
+    pub(super) fn problems(&self, profile: &TargetProfile) -> Vec<String> {
+        let mut problems = Vec::new();
+        if self.line.chips.split_whitespace().next().is_none() {
+            problems.push(format!("{}: no chips", profile.line));
+        }
+        if self.i2c.is_empty() && !profile.i2cs.is_empty() {
+            problems.push(format!("{}: I2C units without a version", profile.line));
+        }
+        if self.can == Can::None && !profile.cans.is_empty() {
+            problems.push(format!("{}: CAN controllers without a driver", profile.line));
+        }
+        for timer in &profile.timers {
+            if timer.icu.is_some() && self.interrupt(&timer.name, "CC").is_none() {
+                problems.push(format!("{}: {} has no interrupt", profile.line, timer.name));
+            }
+        }
+        for unit in &profile.i2cs {
+            if self.interrupt(&unit.name, "EV").is_none() {
+                problems.push(format!("{}: {} has no interrupt", profile.line, unit.name));
+            }
+        }
+        problems
+    }
+
+    /// The chip of an MCU: `stm32f407vg` of `STM32F407VGT6`.
+    #[must_use]
+    pub fn chip(&self, mcu: &str) -> Option<Chip> {
+        let wanted = mcu.to_ascii_lowercase();
+        let chips = self.line.chips.split_whitespace();
+        let fits = chips.filter(|chip| {
+            let name = chip.trim_end_matches('*');
+            let name = name.split('-').next().unwrap_or(name);
+            wanted.starts_with(name)
+        });
+        let found = fits.max_by_key(|chip| chip.len())?;
+        let feature = found.trim_end_matches('*');
+        Some(Chip { feature: feature.to_owned(), banks: found.ends_with('*') })
+    }
+
+    /// What the HAL calls a unit.
+    #[must_use]
+    pub fn peripheral<'a>(&'a self, unit: &'a str) -> &'a str {
+        // A unit without a number is the only one of its kind.
+        let wanted = if unit == "CAN" { "CAN1" } else { unit };
+        let own = |one: &&Peripheral| one.name == wanted && self.fits(&one.lines);
+        self.peripherals.iter().find(own).map_or(unit, |one| one.hal.as_str())
+    }
+
+    /// What the HAL calls a DMA channel: `DMA1_CH0` of `1,0`.
+    #[must_use]
+    pub fn channel(&self, stream: &str) -> Option<String> {
+        let (controller, stream) = stream.split_once(',')?;
+        Some(self.dma.replace("{controller}", controller).replace("{stream}", stream))
+    }
+
+    /// The interrupt of a unit, a DMA channel or a line.
+    #[must_use]
+    pub fn interrupt(&self, unit: &str, signal: &str) -> Option<&str> {
+        let wanted = if unit == "CAN" { "CAN1" } else { unit };
+        let own = |one: &&Interrupts| one.name == wanted && self.fits(&one.lines);
+        let found = self.interrupts.iter().find(own)?;
+        found.of.get(signal).map(String::as_str)
+    }
+
+    /// The type of a unit's remap to a block; none where every pin has a choice of its own.
+    #[must_use]
+    pub fn remap(&self, unit: &str, block: u8) -> Option<String> {
+        if !self.afio {
+            return None;
+        }
+        let wanted = if unit == "CAN" { "CAN1" } else { unit };
+        let own = |one: &&RemapEntry| one.name == wanted && self.fits(&one.lines);
+        Some(match self.remaps.iter().find(own).map(|one| one.remap) {
+            Some(Remap::Number) => format!("hal::gpio::AfioRemap<{block}>"),
+            Some(Remap::Switch) => format!("hal::gpio::AfioRemapBool<{}>", block > 0),
+            None => "hal::gpio::AfioRemapNotApplicable".to_owned(),
+        })
+    }
+
+    /// Whether pins in use by a unit can be pulled up.
+    pub(super) fn has_pulls(&self) -> bool {
+        !self.afio
+    }
+
+    fn fits(&self, lines: &[String]) -> bool {
+        lines.is_empty() || lines.contains(&self.line_name)
+    }
+}

@@ -1,0 +1,184 @@
+//! A board's whole project: the sections of its kinds, put together.
+
+use std::collections::BTreeSet;
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_wire::{Checksum, Direction};
+
+use super::context::{Context, scalar};
+use super::levels::{self, Level};
+use super::names::Pll;
+use super::section::{Field, Handlers, Peripheral, Section, Start};
+use super::{analog, cargo, i2c, icu, inputs, link, outputs};
+
+/// All kinds, in the order in which their tasks are started.
+const PERIPHERALS: &[Peripheral] =
+    &[link::plan, outputs::plan, analog::plan, i2c::plan, icu::plan, inputs::plan];
+
+/// The reporter's cycle where nothing asks for another.
+const REPORT_MS: u32 = 10;
+
+/// What the templates print.
+pub(super) struct Plan {
+    pub(super) board: String,
+    pub(super) chip: String,
+    /// The triple of the core.
+    pub(super) target: String,
+    pub(super) manifest: String,
+    pub(super) lock: String,
+    pub(super) clock: Option<ClockPlan>,
+    pub(super) schema: SchemaPlan,
+    pub(super) fields: Vec<Field>,
+    pub(super) handlers: Vec<(String, String)>,
+    pub(super) outputs: Vec<Field>,
+    pub(super) items: Vec<String>,
+    pub(super) tables: Vec<String>,
+    pub(super) starts: Vec<String>,
+    /// Priorities above the lowest.
+    pub(super) levels: Vec<Level>,
+    pub(super) keeps: Vec<(String, String)>,
+    pub(super) states: Vec<String>,
+    pub(super) polls: Vec<String>,
+    /// By item: what is done when the host sets it.
+    pub(super) sets: Vec<(usize, String)>,
+    pub(super) fails: Vec<String>,
+    /// Constants of the tasks and their cycles.
+    pub(super) watched: Vec<(String, u32)>,
+    pub(super) runtime: BTreeSet<&'static str>,
+    pub(super) report_ms: u32,
+    pub(super) silence_ms: u32,
+    /// The light and whether it shines when high.
+    pub(super) led: Option<(String, bool)>,
+    /// What the HAL calls the watchdog.
+    pub(super) watchdog: &'static str,
+    pub(super) is_usb: bool,
+    pub(super) is_uart: bool,
+    pub(super) has_buses: bool,
+    pub(super) has_pulls: bool,
+}
+
+/// The clock tree.
+pub(super) struct ClockPlan {
+    /// The crystal's frequency; none where the internal oscillator is taken.
+    pub(super) hse_hz: Option<u32>,
+    /// What brings the PLL's input to 1 MHz.
+    pub(super) divide: u32,
+    pub(super) pll: Pll,
+    pub(super) needs_48_mhz: bool,
+}
+
+/// The schema in the runtime's words.
+pub(super) struct SchemaPlan {
+    pub(super) hash: u32,
+    pub(super) stamp: bool,
+    pub(super) checksum: bool,
+    pub(super) items: Vec<ItemPlan>,
+    pub(super) cycles_ms: Vec<u32>,
+}
+
+pub(super) struct ItemPlan {
+    pub(super) constant: String,
+    pub(super) name: String,
+    pub(super) make: String,
+}
+
+/// Puts a project together.
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Plan {
+    let mut section = Section::default();
+    for peripheral in PERIPHERALS {
+        section.append(peripheral(context, diagnostics));
+    }
+    let board = context.job.board;
+    let is_usb = section.runtime.contains("link_usb.rs");
+    let rate = board.link.rate_hz.map_or(0, |hz| 1_000 / hz.max(1));
+    let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
+    let led = board.facts.as_ref().and_then(|facts| facts.led.as_ref());
+    let led = led.filter(|led| !taken(led.pin.as_str()));
+    let mut call = "reporter(wiring.watchdog".to_owned();
+    call.push_str(if led.is_some() { ", wiring.led" } else { "" });
+    call.extend(section.keeps.iter().map(|(name, _)| format!(", wiring.{name}")));
+    section.starts.push(Start::Task(0, call + ")"));
+    let levels = levels::levels(context, &section.starts, diagnostics);
+    Plan {
+        board: board.name.value.clone(),
+        chip: context.chip.feature.clone(),
+        target: context.names.target.clone(),
+        manifest: cargo::manifest(context),
+        lock: cargo::lock(context),
+        clock: clock(context, is_usb),
+        schema: schema(context),
+        handlers: handlers(&section.handlers),
+        sets: section.sets.into_iter().map(|(index, sets)| (index, sets.join(" "))).collect(),
+        watched: section.watched.into_iter().map(|one| (one.constant, one.cycle_ms)).collect(),
+        report_ms: REPORT_MS.max(rate),
+        silence_ms: board.link.silence_ms.unwrap_or(0),
+        led: led.map(|led| (led.pin.to_string(), led.active_high)),
+        watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
+        is_usb,
+        is_uart: section.runtime.contains("link_uart.rs"),
+        has_buses: section.runtime.contains("bus.rs"),
+        has_pulls: context.names.has_pulls(),
+        fields: section.fields,
+        outputs: section.outputs,
+        items: section.items,
+        tables: section.tables,
+        starts: levels::statements(&section.starts, &levels),
+        levels,
+        keeps: section.keeps,
+        states: section.states,
+        polls: section.polls,
+        fails: section.fails,
+        runtime: section.runtime,
+    }
+}
+
+/// The PLL's input is the crystal, where it is whole megahertz that the divider can bring to 1.
+fn clock(context: &Context<'_>, needs_48_mhz: bool) -> Option<ClockPlan> {
+    const INTERNAL_HZ: u32 = 16_000_000;
+    let pll = context.names.line.pll?;
+    let facts = context.job.board.facts.as_ref();
+    let hse_hz = facts.and_then(|facts| facts.crystal.hse_hz);
+    let hse_hz = hse_hz.filter(|hz| hz % 1_000_000 == 0 && (2..=50).contains(&(hz / 1_000_000)));
+    Some(ClockPlan { hse_hz, divide: hse_hz.unwrap_or(INTERNAL_HZ) / 1_000_000, pll, needs_48_mhz })
+}
+
+fn handlers(all: &Handlers) -> Vec<(String, String)> {
+    let joined = |handlers: &BTreeSet<String>| {
+        handlers.iter().map(String::as_str).collect::<Vec<_>>().join(", ")
+    };
+    all.iter().map(|(interrupt, handlers)| (interrupt.clone(), joined(handlers))).collect()
+}
+
+fn schema(context: &Context<'_>) -> SchemaPlan {
+    let schema = &context.job.schema;
+    let items = context.job.devices.iter().map(|device| {
+        let (own, value) = (device.device, device.device.value.value);
+        let make = match own.direction {
+            Direction::Sensor => "sensor",
+            Direction::Actuator => "actuator",
+        };
+        ItemPlan {
+            constant: device.ident.to_uppercase(),
+            name: device.name().to_owned(),
+            make: format!(
+                "Item::{make}({}, {}, {})",
+                own.id.value,
+                scalar(value.scalar),
+                value.count()
+            ),
+        }
+    });
+    SchemaPlan {
+        hash: schema.hash(),
+        stamp: schema.stamp,
+        checksum: schema.checksum == Checksum::Crc16,
+        items: items.collect(),
+        cycles_ms: context.job.devices.iter().map(|one| cycle_ms(one.device)).collect(),
+    }
+}
+
+/// How often a value is read; 0 where it comes by itself, or is set.
+fn cycle_ms(device: &sensedsl_model::design::Device) -> u32 {
+    let is_read = device.direction == Direction::Sensor && device.kind.icu().is_none();
+    if is_read { device.delay_ms } else { 0 }
+}

@@ -1,0 +1,61 @@
+//! Printing: each file of a project is one template over its plan.
+
+use askama::Template;
+
+use super::plan::Plan;
+use super::runtime;
+use crate::fileset::FileSet;
+use crate::print::print;
+
+/// The user's file as it is made once.
+const USER: &str = include_str!("templates/user.rs.txt");
+
+/// Declares a template that prints a [`Plan`] under the name `b`.
+macro_rules! templates {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                b: &'a Plan,
+            }
+        )*
+    };
+}
+
+templates! {
+    Readme = "firmware/embassy/templates/README.md.txt";
+    CargoConfig = "firmware/embassy/templates/config.toml.txt";
+    Main = "firmware/embassy/templates/main.rs.txt";
+    Wiring = "firmware/embassy/templates/wiring.rs.txt";
+    Tables = "firmware/embassy/templates/tables.rs.txt";
+}
+
+/// Prints everything.
+pub(super) fn render(b: &Plan) -> FileSet {
+    let mut files = FileSet::default();
+    files.add("README.md", print(&Readme { b }));
+    files.add("Cargo.toml", b.manifest.clone());
+    files.add("Cargo.lock", b.lock.clone());
+    files.add(".cargo/config.toml", print(&CargoConfig { b }));
+    files.add("src/main.rs", print(&Main { b }));
+    files.add("src/wiring.rs", print(&Wiring { b }));
+    files.add("src/tables.rs", print(&Tables { b }));
+    files.add_once("src/user.rs", USER);
+    let own = runtime::ADAPTERS.iter();
+    for (name, text) in
+        own.filter(|(name, _)| runtime::ALWAYS.contains(name) || b.runtime.contains(name))
+    {
+        files.add(format!("src/rt/{name}"), *text);
+    }
+    files.add("src/rt/mod.rs", runtime::module(&b.runtime));
+    files.add("sense-rt/Cargo.toml", cargo_of_runtime());
+    for (name, text) in runtime::RUNTIME {
+        files.add(format!("sense-rt/src/{name}"), *text);
+    }
+    files
+}
+
+fn cargo_of_runtime() -> &'static str {
+    "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\nlicense = \"MIT OR Apache-2.0\"\npublish = false\n"
+}

@@ -1,0 +1,85 @@
+//! The hand-written code that goes into a project: the runtime, and what is between it and the HAL.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+/// Path and text.
+macro_rules! files {
+    ($folder:literal, $($path:literal,)*) => {
+        &[$(($path, include_str!(concat!("../../../../../", $folder, $path))),)*]
+    };
+}
+
+/// Between the runtime and the HAL; path below `src/rt/`.
+pub(super) const ADAPTERS: &[(&str, &str)] = files![
+    "runtime/embassy/",
+    "analog.rs",
+    "bus.rs",
+    "capture.rs",
+    "link.rs",
+    "link_uart.rs",
+    "link_usb.rs",
+    "pwm.rs",
+    "shared.rs",
+];
+
+/// Those that every project has.
+pub(super) const ALWAYS: &[&str] = &["link.rs", "shared.rs"];
+
+/// How the module of the adapters begins.
+const MODULE: &str = include_str!("../../../../../runtime/embassy/mod.rs");
+
+/// The module of the adapters that a project has.
+pub(super) fn module(own: &BTreeSet<&'static str>) -> String {
+    let mut text = MODULE.to_owned();
+    let names: BTreeSet<&str> =
+        own.iter().chain(ALWAYS).filter_map(|name| name.strip_suffix(".rs")).collect();
+    let mut modules = String::new();
+    for name in names {
+        let _ = writeln!(modules, "pub mod {name};");
+    }
+    text = text.replacen("// modules\n", &modules, 1);
+    text
+}
+
+/// The runtime; path below `sense-rt/src/`.
+pub(super) const RUNTIME: &[(&str, &str)] = files![
+    "crates/sense-rt/src/",
+    "bits.rs",
+    "bytes.rs",
+    "capture.rs",
+    "checksum.rs",
+    "chip/memory.rs",
+    "chip/mod.rs",
+    "chip/table.rs",
+    "chip/time.rs",
+    "coding.rs",
+    "compose.rs",
+    "contact.rs",
+    "convert.rs",
+    "count.rs",
+    "decode.rs",
+    "drive.rs",
+    "elements.rs",
+    "encode.rs",
+    "filter.rs",
+    "filter/real.rs",
+    "filter/smooth.rs",
+    "formula/bosch.rs",
+    "formula/mod.rs",
+    "formula/ntc.rs",
+    "formula/tsl2561.rs",
+    "health.rs",
+    "lib.rs",
+    "message.rs",
+    "outcome.rs",
+    "parse.rs",
+    "pulse_width.rs",
+    "reporter.rs",
+    "scalar.rs",
+    "schema.rs",
+    "silence.rs",
+    "store.rs",
+    "train.rs",
+    "watch.rs",
+];

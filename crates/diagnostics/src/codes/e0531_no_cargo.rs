@@ -1,0 +1,27 @@
+//! E0531: there is no cargo.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0531",
+    severity: Severity::Error,
+    title: "there is no cargo",
+    explanation: r#"`check --typecheck` lets the Rust compiler judge the wiring, so it needs cargo and rustc. Nothing for the board's
+core is needed: the check runs on your computer.
+
+Way out: install Rust from https://rustup.rs, open a new terminal, and try again.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// That it does not run.
+#[must_use]
+pub fn no_cargo(span: Span, cargo: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{cargo}` does not run, and the type check needs it"))
+        .help("install Rust from https://rustup.rs and open a new terminal")
+}

@@ -1,0 +1,28 @@
+//! E0533: there are no types for a board's MCU.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0533",
+    severity: Severity::Error,
+    title: "there are no types for this MCU",
+    explanation: r#"`check --typecheck` judges a wiring by the types of Embassy's HAL for STM32. It covers C0, F0, F1, F3, F4, F7, G0,
+G4, H5, H7, L0, L1, L4, L5, U0, U5, WB and WL. For another MCU, or a table that does not say which one it describes, there
+is nothing to judge by.
+
+Way out: check without `--typecheck`, or name the MCU in the first line of the table: `# mcu = STM32F407VGT6`.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The board, and why there are none.
+#[must_use]
+pub fn not_known(span: Span, board: &str, why: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the wiring of {board} cannot be type-checked: {why}"))
+        .help("check it without `--typecheck`")
+}

@@ -1,0 +1,243 @@
+//! Embassy: what is generated for it, and wirings that the Rust compiler judges by the types of its HAL.
+//!
+//! What needs cargo and its registry runs with `SENSEDSL_THOROUGH=1`.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use sensedsl_codegen::firmware::embassy::{TypeCheck, type_check};
+use sensedsl_codegen::job::jobs;
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_tests::{Scratch, has, is_thorough, missing, root, sensedsl, text, tree};
+
+/// A board with wires of all kinds.
+const KINDS: &str = r#"
+board Bench on STM32F407VGT6 {
+    link { transport = uart; unit = USART2; }
+    sensor Light returns uint16 { id = 1; type = analog; pin = PC1; }
+    sensor Range returns uint16 { id = 2; type = i2c; address = 0x70; register = 2; length = 2; scl = PB6; sda = PB7; }
+    sensor Wheel returns uint32 { id = 3; type = icu; pin = PC6; }
+    sensor Turns returns int32 { id = 4; type = encoder; a = PB4; b = PB5; }
+    sensor Touch returns bool { id = 5; type = digital; pin = PD6; edge = rising; }
+    sensor Bump returns bool { id = 6; type = digital; pin = PD7; edge = rising; }
+    sensor Gyro returns uint16 { id = 7; type = spi; sck = PB13; miso = PB14; mosi = PB15; cs = PD9; read = [0]; length = 2; }
+    sensor Place returns uint16 { id = 8; type = uart; unit = USART3; rx = PC11; tx = PC10; length = 2; }
+    sensor Frame returns uint16 { id = 9; type = can; rx = PD0; tx = PD1; frame = 1; }
+    actuator Servo accepts uint16 { id = 10; type = pwm; pin = PE9; frequency = 50 Hz; }
+    actuator Level accepts uint16 { id = 11; type = dac; pin = PA4; }
+}
+"#;
+
+/// No design names another file.
+struct Alone;
+
+impl Files for Alone {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+fn checked(text: &str) -> TypeCheck {
+    let mut workspace = Workspace::default();
+    workspace.open("x.sense", text.to_owned());
+    let snapshot = workspace.snapshot("x.sense", On { board: None, target: None }, &Alone);
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = answer.wired().unwrap_or_else(|| panic!("{:?}", answer.diagnostics));
+    let job = jobs(design, wiring).next().unwrap();
+    type_check(&job).unwrap()
+}
+
+/// Compiles a check whose source was changed.
+fn compile(check: &TypeCheck, folder: &Scratch, target: &Path, source: &str) -> Output {
+    for (path, file) in check.files.iter() {
+        folder.write(path, &file.bytes);
+    }
+    folder.write("src/lib.rs", source);
+    let mut cargo = Command::new("cargo");
+    cargo.args(["check", "--locked", "--quiet", "--target-dir"]).arg(target);
+    cargo.env_remove("RUSTFLAGS").current_dir(folder.path()).output().unwrap()
+}
+
+fn source(check: &TypeCheck) -> String {
+    String::from_utf8(check.files.get("src/lib.rs").unwrap().bytes.clone()).unwrap()
+}
+
+/// One line a wire, with the block of pins where a unit is moved as a whole.
+#[test]
+fn every_wire_is_a_line() {
+    let check = checked(KINDS);
+    let source = source(&check);
+    let lines = [
+        "analog::<ADC1, _>(p.PC1);",
+        "scl::<I2C1, _>(p.PB6);",
+        "channel::<TIM3, hal::timer::Ch1, _>(p.PB4);",
+        "edge!(p.PD6, p.EXTI6);",
+        "mosi::<SPI2, _>(p.PB15);",
+        "pin(p.PD9);",
+        "can_rx::<CAN1, _>(p.PD0);",
+        "dac_out::<DAC1, hal::dac::Ch1, _>(p.PA4);",
+        "uart_tx::<USART2, _>(p.PD5);",
+    ];
+    for line in lines {
+        assert_eq!(source.matches(line).count(), 1, "{line}\n{source}");
+    }
+    assert!(check.unjudged.is_empty(), "{:?}", check.unjudged);
+    for (number, judged) in &check.lines {
+        let line = source.lines().nth(number - 1).unwrap();
+        assert!(line.contains("(p.") && !judged.what.is_empty(), "{line}");
+    }
+    let moved = "board BLUEPILL_F103C8 { link { transport = none; }\n\
+                 sensor A returns uint32 { id = 1; type = icu; pin = PB4; } }";
+    let source = self::source(&checked(moved));
+    assert!(
+        source.contains("channel::<TIM3, hal::timer::Ch1, hal::gpio::AfioRemap<2>, _>(p.PB4)"),
+        "{source}"
+    );
+}
+
+/// A project has all of the runtime, and its versions are those of the lock file.
+#[test]
+fn a_project_is_whole() {
+    let scratch = Scratch::new("embassy");
+    let out = scratch.join("out").display().to_string();
+    let file = root().join("examples/fig2.sense").display().to_string();
+    let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
+    let project = tree(&scratch.join("out/firmware/STM32F4DiscoveryBoard"));
+    let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
+    for (path, bytes) in tree(&root().join("crates/sense-rt/src")) {
+        assert_eq!(project.get(&format!("sense-rt/src/{path}")), Some(&bytes), "{path}");
+    }
+    let (manifest, lock) = (text_of("Cargo.toml"), text_of("Cargo.lock"));
+    let exact: Vec<&str> = manifest.lines().filter(|line| line.contains("\"=")).collect();
+    assert_eq!(exact.len(), 10, "{manifest}");
+    for line in exact {
+        let name = line.split(' ').next().unwrap();
+        let version = line.split("\"=").nth(1).unwrap().split('"').next().unwrap();
+        let package = format!("name = \"{name}\"\nversion = \"{version}\"");
+        assert!(lock.contains(&package), "{package}");
+    }
+    let wiring = text_of("src/wiring.rs");
+    assert!(wiring.contains("ir_front: p.PB0,"), "{wiring}");
+    assert!(
+        wiring.contains("TIM3 => hal::timer::CaptureCompareInterruptHandler<TIM3>;"),
+        "{wiring}"
+    );
+    assert!(text_of("src/main.rs").contains("prediv: PllPreDiv::DIV8,"));
+    assert!(text("CHANGELOG.md").contains("embassy"));
+}
+
+/// What a seed changes, and whether the types see it; the others are refused by the profile.
+const SEEDS: &[(&str, &str)] = &[
+    ("analog::<ADC1, _>(p.PC1)", "analog::<ADC1, _>(p.PD1)"),
+    ("analog::<ADC1, _>(p.PC1)", "analog::<ADC1, _>(p.PB4)"),
+    ("scl::<I2C1, _>(p.PB6)", "scl::<I2C1, _>(p.PB7)"),
+    ("sda::<I2C1, _>(p.PB7)", "sda::<I2C1, _>(p.PB6)"),
+    ("scl::<I2C1, _>(p.PB6)", "scl::<I2C2, _>(p.PB6)"),
+    ("channel::<TIM3, hal::timer::Ch1, _>(p.PB4)", "channel::<TIM3, hal::timer::Ch2, _>(p.PB4)"),
+    ("channel::<TIM3, hal::timer::Ch1, _>(p.PB4)", "channel::<TIM4, hal::timer::Ch1, _>(p.PB4)"),
+    ("channel::<TIM1, hal::timer::Ch1, _>(p.PE9)", "channel::<TIM1, hal::timer::Ch1, _>(p.PE10)"),
+    ("edge!(p.PD6, p.EXTI6)", "edge!(p.PD6, p.EXTI7)"),
+    ("edge!(p.PD6, p.EXTI6)", "edge!(p.PC7, p.EXTI7)"),
+    ("sck::<SPI2, _>(p.PB13)", "sck::<SPI2, _>(p.PB14)"),
+    ("miso::<SPI2, _>(p.PB14)", "miso::<SPI1, _>(p.PB14)"),
+    ("mosi::<SPI2, _>(p.PB15)", "mosi::<SPI2, _>(p.PB14)"),
+    ("pin(p.PD9)", "pin(p.PD0)"),
+    ("pin(p.PD9)", "pin(p.PZ9)"),
+    ("uart_rx::<USART3, _>(p.PC11)", "uart_rx::<USART3, _>(p.PC10)"),
+    ("uart_tx::<USART2, _>(p.PD5)", "uart_tx::<USART2, _>(p.PA3)"),
+    ("can_rx::<CAN1, _>(p.PD0)", "can_rx::<CAN1, _>(p.PD1)"),
+    ("dac_out::<DAC1, hal::dac::Ch1, _>(p.PA4)", "dac_out::<DAC1, hal::dac::Ch2, _>(p.PA4)"),
+    ("unit(p.TIM3)", "unit(p.TIM5)"),
+    ("unit(p.TIM3)", "unit(p.TIM1)"),
+    ("unit(p.TIM3)", "unit(p.TIM99)"),
+    ("p.DMA1_CH0)", "p.DMA1_CH1)"),
+    ("p.DMA1_CH0)", "p.DMA2_CH0)"),
+];
+
+/// The wiring compiles, and no seeded mistake does.
+#[test]
+fn mistakes_do_not_compile() {
+    if !is_thorough() {
+        return;
+    }
+    let check = checked(KINDS);
+    let source = source(&check);
+    let (folder, target) = (Scratch::new("seeds"), root().join("target/embassy-check"));
+    let output = compile(&check, &folder, &target, &source);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for (from, to) in SEEDS {
+        assert_eq!(source.matches(from).count(), 1, "{from}\n{source}");
+        let output = compile(&check, &folder, &target, &source.replace(from, to));
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains("error[E"), "{from} as {to}: {said}");
+    }
+}
+
+/// Wirings of the default target on boards of all families, judged as a user has them judged.
+#[test]
+fn wirings_of_other_targets_compile() {
+    if !is_thorough() {
+        return;
+    }
+    let design = |board: &str| {
+        format!(
+            "board {board} {{ link {{ transport = none; }}\n\
+             sensor A returns uint16 {{ id = 1; type = analog; }}\n\
+             sensor B returns uint16 {{ id = 2; type = i2c; address = 0x20; register = 0; length = 2; }}\n\
+             sensor C returns uint32 {{ id = 3; type = icu; }}\n\
+             sensor D returns bool {{ id = 4; type = digital; edge = both; }}\n\
+             sensor E returns uint16 {{ id = 5; type = spi; read = [0]; length = 2; }}\n\
+             actuator F accepts uint16 {{ id = 6; type = pwm; }} }}\n"
+        )
+    };
+    let boards = [
+        "NUCLEO_F072RB",
+        "BLUEPILL_F103C8",
+        "NUCLEO_F303RE",
+        "NUCLEO_F446RE",
+        "NUCLEO_F746ZG",
+        "NUCLEO_G071RB",
+        "NUCLEO_G474RE",
+        "NUCLEO_H743ZI2",
+        "NUCLEO_L476RG",
+    ];
+    let cache = root().join("target/embassy-cache").display().to_string();
+    for board in boards {
+        let call = sensedsl(["check", "--typecheck", "-"]).env("XDG_CACHE_HOME", &cache);
+        let ran = call.stdin(design(board)).run().exits(0);
+        assert!(ran.stderr.contains("the compiler takes all"), "{board}: {}", ran.stderr);
+    }
+}
+
+/// Fig. 2 is built for the board, and small.
+#[test]
+fn fig2_builds() {
+    if !is_thorough() {
+        return;
+    }
+    let (rustc, linker) = (Path::new("/usr/bin/rustc"), "arm-none-eabi-ld");
+    if !rustc.exists() || !has(linker) {
+        return missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
+    }
+    let scratch = Scratch::new("embassy-fig2");
+    let out = scratch.join("out").display().to_string();
+    let file = root().join("examples/fig2.sense").display().to_string();
+    let _ = sensedsl(["generate", &file, "--target", "embassy", "-q", "-o", &out]).run().exits(0);
+    let target = root().join("target/embassy-build");
+    let mut cargo = Command::new("cargo");
+    cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
+    cargo.arg("--config").arg(format!("target.thumbv7em-none-eabihf.linker=\"{linker}\""));
+    cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", rustc).env_remove("RUSTFLAGS");
+    let output =
+        cargo.current_dir(scratch.join("out/firmware/STM32F4DiscoveryBoard")).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(!said.contains("warning: unused"), "{said}");
+    let elf = target.join("thumbv7em-none-eabihf/release/firmware");
+    let size = Command::new("arm-none-eabi-size").arg(elf).output().unwrap();
+    let size = String::from_utf8_lossy(&size.stdout).into_owned();
+    let bytes: u32 =
+        size.lines().nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
+    assert!((8_000..48_000).contains(&bytes), "{size}");
+}

@@ -1,0 +1,84 @@
+//! What is kept by hand: `facts.toml`.
+
+use std::collections::BTreeMap;
+
+use anyhow::Result;
+use serde::Deserialize;
+
+/// The file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Facts {
+    pub(crate) target: String,
+    pub(crate) kernel: Vec<String>,
+    pub(crate) blocks: BTreeMap<String, Block>,
+    pub(crate) family: BTreeMap<String, Family>,
+    pub(crate) clock: Vec<Clock>,
+}
+
+/// What timers of a block can do.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Block {
+    pub(crate) bits: u8,
+    pub(crate) channels: u8,
+    #[serde(default)]
+    pub(crate) complementary: u8,
+    #[serde(default)]
+    pub(crate) encoder: bool,
+}
+
+/// What the HAL makes of a family.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Family {
+    pub(crate) adc: String,
+    pub(crate) new: String,
+    pub(crate) read: String,
+    pub(crate) sampling: toml::Value,
+    pub(crate) target: String,
+    pub(crate) hz: u32,
+    #[serde(default)]
+    pub(crate) excludes: Vec<String>,
+    pub(crate) converter: Option<Converter>,
+}
+
+/// How the converters of a family are clocked.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Converter {
+    pub(crate) clock: String,
+    pub(crate) divider: u32,
+    pub(crate) cycles: u32,
+}
+
+/// What the firmware makes of the clocks of some parts.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Clock {
+    pub(crate) parts: Vec<String>,
+    pub(crate) pll: Pll,
+    /// Dividers of the two buses.
+    pub(crate) apb: [u32; 2],
+    pub(crate) hz: BTreeMap<String, u32>,
+}
+
+/// A PLL with 1 MHz at its input.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Pll {
+    pub(crate) multiply: u32,
+    pub(crate) p: u32,
+    pub(crate) q: u32,
+}
+
+impl Facts {
+    pub(crate) fn read() -> Result<Self> {
+        Ok(toml::from_str(include_str!("facts.toml"))?)
+    }
+
+    /// The clocks that the firmware makes of a part.
+    pub(crate) fn clock(&self, name: &str) -> Option<&Clock> {
+        self.clock.iter().find(|clock| clock.parts.iter().any(|part| name.starts_with(part)))
+    }
+}
