@@ -1,0 +1,11 @@
+//! A board's twin: firmware runs on an emulated MCU, and a simulated world is on its pins.
+//!
+//! What comes in are bytes: an image, what a host sends. What goes out are events with times. Time is virtual and
+//! counted in nanoseconds since the board got power, so that a run is the same each time, to the byte.
+//!
+//! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
+//! models the world answers.
+
+pub mod surroundings;
+
+pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
