@@ -6,6 +6,12 @@
 //! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
 //! models the world answers.
 
+mod arith;
+pub mod bench;
+mod parts;
+pub mod range;
 pub mod surroundings;
+pub mod truth;
+pub mod world;
 
 pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
