@@ -8,6 +8,7 @@
 
 mod arith;
 pub mod bench;
+pub mod judge;
 mod parts;
 pub mod range;
 pub mod surroundings;
