@@ -1,0 +1,70 @@
+//! Copies that cannot fail: what does not fit is left out.
+
+/// Copies as much as both have.
+pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Moves what starts at `from` to the front, as far as `end`.
+pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
+    if from > 0 && from <= end && end <= bytes.len() {
+        bytes.copy_within(from..end, 0);
+    }
+}
+
+/// The part `[from, from + count)`; empty where it is not whole.
+pub(crate) fn part(bytes: &[u8], from: usize, count: usize) -> &[u8] {
+    bytes.get(from..).and_then(|rest| rest.get(..count)).unwrap_or_default()
+}
+
+/// The same to write to.
+pub(crate) fn part_mut(bytes: &mut [u8], from: usize, count: usize) -> &mut [u8] {
+    bytes.get_mut(from..).and_then(|rest| rest.get_mut(..count)).unwrap_or_default()
+}
+
+/// Splits where there is something to split.
+pub(crate) fn split(bytes: &mut [u8], at: usize) -> (&mut [u8], &mut [u8]) {
+    let at = at.min(bytes.len());
+    bytes.split_at_mut_checked(at).unwrap_or_default()
+}
+
+/// The byte at a place; 0 where there is none.
+pub(crate) fn at(bytes: &[u8], place: usize) -> u8 {
+    bytes.get(place).copied().unwrap_or_default()
+}
+
+/// 32 bits in network byte order.
+pub(crate) fn word(bytes: &[u8], place: usize) -> u32 {
+    let wanted = bytes.get(place..).and_then(<[u8]>::first_chunk);
+    wanted.copied().map_or(0, u32::from_be_bytes)
+}
+
+/// Writes from the front on, and drops what does not fit.
+pub(crate) struct Writer<'a> {
+    bytes: &'a mut [u8],
+    pub(crate) size: usize,
+    pub(crate) is_full: bool,
+}
+
+impl<'a> Writer<'a> {
+    pub(crate) fn new(bytes: &'a mut [u8]) -> Self {
+        Self { bytes, size: 0, is_full: false }
+    }
+
+    pub(crate) fn put(&mut self, bytes: &[u8]) {
+        let end = self.size.wrapping_add(bytes.len());
+        match self.bytes.get_mut(self.size..end) {
+            Some(room) => {
+                copy(room, bytes);
+                self.size = end;
+            }
+            None => self.is_full = true,
+        }
+    }
+
+    pub(crate) fn written(&self) -> &[u8] {
+        self.bytes.get(..self.size).unwrap_or_default()
+    }
+}

@@ -1,0 +1,65 @@
+//! The parts of a chip's memory.
+
+use super::ChipTable;
+use crate::bytes::{copy, part_mut, split, word};
+use crate::schema::Schema;
+
+/// Bytes of the state of one transfer.
+pub(super) const STATE_BYTES: usize = 8;
+
+/// How long they are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    states: usize,
+    calibration: usize,
+    value: usize,
+}
+
+impl Sizes {
+    pub(super) const fn new(table: &ChipTable, schema: &Schema) -> Self {
+        Self {
+            states: table.transfers.len() * STATE_BYTES,
+            calibration: table.calibration_bytes(),
+            value: table.value_bytes(schema),
+        }
+    }
+}
+
+/// The parts behind the states of the transfers.
+pub(super) struct Memory<'a> {
+    /// All blocks.
+    pub(super) calibration: &'a mut [u8],
+    /// What a value is made in.
+    pub(super) value: &'a mut [u8],
+    /// What is sent, then what is received.
+    pub(super) work: &'a mut [u8],
+}
+
+impl<'a> Memory<'a> {
+    pub(super) fn split(memory: &'a mut [u8], sizes: &Sizes) -> Self {
+        let (_, rest) = split(memory, sizes.states);
+        let (calibration, rest) = split(rest, sizes.calibration);
+        let (value, work) = split(rest, sizes.value);
+        Self { calibration, value, work }
+    }
+}
+
+/// When a transfer is to be triggered, or read.
+pub(super) fn due_ms(memory: &[u8], transfer: usize) -> u32 {
+    word(memory, transfer.wrapping_mul(STATE_BYTES))
+}
+
+/// When a transfer may be read.
+pub(super) fn ready_ms(memory: &[u8], transfer: usize) -> u32 {
+    word(memory, transfer.wrapping_mul(STATE_BYTES).wrapping_add(4))
+}
+
+pub(super) fn set_due_ms(memory: &mut [u8], transfer: usize, due_ms: u32) {
+    let place = transfer.wrapping_mul(STATE_BYTES);
+    copy(part_mut(memory, place, 4), &due_ms.to_be_bytes());
+}
+
+pub(super) fn set_ready_ms(memory: &mut [u8], transfer: usize, ready_ms: u32) {
+    let place = transfer.wrapping_mul(STATE_BYTES).wrapping_add(4);
+    copy(part_mut(memory, place, 4), &ready_ms.to_be_bytes());
+}

@@ -1,0 +1,583 @@
+//! A chip on a register bus (I2C or SPI), described by tables: initialisation, identity, calibration,
+//! transfers, and the readings in them.
+//!
+//! A [`Chip`] makes no transfer itself. It says which is next, whoever has the bus makes it, blocking
+//! or awaiting, and says what it came to:
+//!
+//! ```ignore
+//! loop {
+//!     let outcome = match chip.next(now_ms()) {
+//!         Step::Write(bytes) => i2c.write(address, bytes).await,
+//!         Step::WriteRead(bytes, answer) => i2c.write_read(address, bytes, answer).await,
+//!         Step::Exchange(bytes, answer) => …, // SPI only
+//!         Step::Wait(ms) => { Timer::after_millis(ms.into()).await; continue }
+//!     };
+//!     chip.done(outcome_of(outcome), &mut |item, outcome, value| …);
+//! }
+//! ```
+//!
+//! After a failed transfer the chip is started again. A chip that is not the one it should be never
+//! gives values. It is asked for nothing but its identity, in every cycle, until it is the right one;
+//! then, and after each 16th look in vain, it is started again from the beginning. Of transfers with
+//! a trigger one is under way at a time, the one that has been due for longest: their converter is
+//! one.
+
+mod memory;
+mod table;
+mod time;
+
+use core::ops::{Deref, DerefMut};
+
+use crate::bytes::{copy, part, part_mut, split};
+use crate::convert::store_signed;
+use crate::formula::Outputs;
+use crate::outcome::{Outcome, Sink};
+use crate::schema::Schema;
+
+use self::memory::{Memory, Sizes, due_ms, ready_ms, set_due_ms, set_ready_ms};
+pub use self::table::{Calibration, ChipTable, Command, Identity, InitStep, Reading, Transfer};
+use self::time::{early_ms, is_reached, left_ms};
+
+/// A stranger is started all the same after so many looks: a few parts say who they are only when
+/// they are set up.
+const LOOKS: u32 = 16;
+
+/// What is to be done next. The address is that of the table.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Step<'a> {
+    /// Send these bytes, at least one.
+    Write(&'a [u8]),
+    /// Send these bytes (which may be none), then fill the others without letting go of the device
+    /// between them: a repeated start, or one chip select around both.
+    WriteRead(&'a [u8], &'a mut [u8]),
+    /// SPI only: send these bytes while the others, which are as many, are received.
+    Exchange(&'a [u8], &'a mut [u8]),
+    /// Nothing, for so many milliseconds; 0: less than one. To come back later does no harm, and to
+    /// come back sooner takes nothing out of step.
+    Wait(u32),
+}
+
+/// How often, since the start of the board; each wraps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ChipCounts {
+    /// Initialised, identified and calibrated to the end.
+    pub starts: u32,
+    /// Commands that went through.
+    pub written: u32,
+    /// By [`Outcome`]: values that are fresh, invalid or have a wrong checksum; transfers that failed;
+    /// identities that were not the expected one.
+    pub causes: [u32; Outcome::COUNT],
+}
+
+/// How far a step has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// There is none.
+    Idle,
+    /// A stranger is not written to before it is known to be the right part after all.
+    Look,
+    Initialise,
+    Identify,
+    /// The block that is read next, and where it goes.
+    Calibrate(usize, usize),
+    /// The transfer without a trigger that is looked at next.
+    Free(usize),
+    /// How often something was triggered.
+    Turn(usize),
+}
+
+/// The transfer that is being made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pending {
+    Init,
+    Identity,
+    Calibration,
+    Free(usize),
+    Fetch(usize),
+    Trigger(usize),
+    Command,
+}
+
+/// What is asked of the bus.
+#[derive(Clone, Copy)]
+enum Asked {
+    Write(&'static [u8]),
+    Read(&'static [u8], usize),
+    Exchange(&'static [u8], usize),
+}
+
+/// A chip, with its memory in `[u8; TABLE.chip_bytes(&SCHEMA)]`.
+#[derive(Debug)]
+pub struct Chip<M: ?Sized = [u8]> {
+    table: &'static ChipTable,
+    schema: &'static Schema,
+    sizes: Sizes,
+    counts: ChipCounts,
+    /// Of the step.
+    now_ms: u32,
+    stage: Stage,
+    pending: Option<Pending>,
+    /// Whether anything was found out in this step.
+    is_touched: bool,
+    fault: Outcome,
+    identity_seen: u8,
+    init_at: usize,
+    pause_until_ms: Option<u32>,
+    /// The triggered transfer that has not been read.
+    in_flight: Option<usize>,
+    is_running: bool,
+    is_stranger: bool,
+    memory: M,
+}
+
+impl<const BYTES: usize> Chip<[u8; BYTES]> {
+    /// A chip that was never started. `BYTES` is [`ChipTable::chip_bytes`].
+    #[must_use]
+    pub const fn new(table: &'static ChipTable, schema: &'static Schema) -> Self {
+        Self {
+            table,
+            schema,
+            sizes: Sizes::new(table, schema),
+            counts: ChipCounts { starts: 0, written: 0, causes: [0; Outcome::COUNT] },
+            now_ms: 0,
+            stage: Stage::Idle,
+            pending: None,
+            is_touched: false,
+            fault: Outcome::Nothing,
+            identity_seen: 0,
+            init_at: 0,
+            pause_until_ms: None,
+            in_flight: None,
+            is_running: false,
+            is_stranger: false,
+            memory: [0; BYTES],
+        }
+    }
+}
+
+impl<const BYTES: usize> Deref for Chip<[u8; BYTES]> {
+    type Target = Chip;
+
+    fn deref(&self) -> &Chip {
+        self
+    }
+}
+
+impl<const BYTES: usize> DerefMut for Chip<[u8; BYTES]> {
+    fn deref_mut(&mut self) -> &mut Chip {
+        self
+    }
+}
+
+impl Chip {
+    /// What it is described by.
+    #[must_use]
+    pub fn table(&self) -> &'static ChipTable {
+        self.table
+    }
+
+    /// What happened since the start of the board.
+    #[must_use]
+    pub fn counts(&self) -> &ChipCounts {
+        &self.counts
+    }
+
+    /// What is the matter since the last step that read anything (a start counts when it is done);
+    /// `Nothing` when all is well.
+    #[must_use]
+    pub fn fault(&self) -> Outcome {
+        self.fault
+    }
+
+    /// The first byte that was wrong of the identity read last.
+    #[must_use]
+    pub fn identity_seen(&self) -> u8 {
+        self.identity_seen
+    }
+
+    /// Whether it is started: transfers are made and commands are taken.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.is_running
+    }
+
+    /// The next transfer of a step, or how long there is nothing to do. A step begins with the first
+    /// call after a wait, and all of it counts as of that time. A transfer whose end nobody has told
+    /// is taken for lost, and the chip is started again.
+    pub fn next(&mut self, now_ms: u32) -> Step<'_> {
+        if self.pending.take().is_some() {
+            self.restart();
+        }
+        if self.stage == Stage::Idle {
+            self.now_ms = now_ms;
+            self.is_touched = false;
+            self.stage = match (self.is_running, self.is_stranger) {
+                (true, _) => Stage::Free(0),
+                (false, true) => Stage::Look,
+                (false, false) => Stage::Initialise,
+            };
+        }
+        let Some((pending, asked)) = self.ask() else {
+            self.stage = Stage::Idle;
+            return Step::Wait(self.idle_ms(now_ms));
+        };
+        self.pending = Some(pending);
+        self.hand_out(asked)
+    }
+
+    /// What the transfer came to: `Fresh` where it went through. Says one result for each reading of a
+    /// transfer that was read or failed, and the cause for all readings when the chip could not be
+    /// started.
+    pub fn done(&mut self, outcome: Outcome, sink: &mut Sink<'_>) {
+        let Some(pending) = self.pending.take() else { return };
+        if outcome != Outcome::Fresh {
+            self.count_fault(outcome);
+            self.restart();
+            match pending {
+                Pending::Init | Pending::Identity | Pending::Calibration => {
+                    self.say_fault(None, sink);
+                }
+                Pending::Free(transfer) | Pending::Fetch(transfer) | Pending::Trigger(transfer) => {
+                    self.say_fault(Some(transfer), sink);
+                }
+                Pending::Command => {}
+            }
+            return;
+        }
+        // Starting proves nothing before it is done.
+        if pending != Pending::Command && !self.is_touched && self.is_running {
+            self.fault = Outcome::Nothing;
+            self.is_touched = true;
+        }
+        self.go_on(pending, sink);
+    }
+
+    /// Writes a value: hands out the transfer, whose end [`Self::done`] is told. Otherwise `Nothing`:
+    /// the chip is not started, ask again after the next step; or `Invalid`: the value has no place in
+    /// the command.
+    ///
+    /// What was written before a start is lost in the chip: when [`ChipCounts::starts`] has changed,
+    /// all commands are written anew by whoever calls.
+    ///
+    /// # Errors
+    ///
+    /// See above.
+    pub fn write(&mut self, command: &'static Command, value: &[u8]) -> Result<Step<'_>, Outcome> {
+        let item = self.schema.items.get(usize::from(command.item));
+        let Some(item) = item.filter(|_| self.is_running && self.pending.is_none()) else {
+            return Err(Outcome::Nothing);
+        };
+        let Memory { work, .. } = Memory::split(&mut self.memory, &self.sizes);
+        copy(work, command.prefix);
+        let bytes = work.get_mut(command.prefix.len()..).unwrap_or_default();
+        let size = command.value.encode(item, value, bytes);
+        if size == 0 {
+            return Err(Outcome::Invalid);
+        }
+        self.pending = Some(Pending::Command);
+        Ok(Step::Write(part(work, 0, command.prefix.len() + size)))
+    }
+
+    /// How long from now until a step has something to do; 0 for at once, a cycle after a failure.
+    #[must_use]
+    pub fn idle_ms(&self, now_ms: u32) -> u32 {
+        if !self.is_running {
+            return self.pause_until_ms.map_or(self.table.cycle_ms, |until| left_ms(now_ms, until));
+        }
+        let ready_ms = |transfer: usize| left_ms(now_ms, ready_ms(&self.memory, transfer));
+        let free = self.table.transfers.iter().enumerate().filter_map(|(transfer, table)| {
+            let due_ms = left_ms(now_ms, due_ms(&self.memory, transfer));
+            if table.trigger.is_empty() {
+                return Some(due_ms.max(ready_ms(transfer)));
+            }
+            self.in_flight.is_none().then_some(due_ms)
+        });
+        free.chain(self.in_flight.map(ready_ms)).min().unwrap_or(self.table.cycle_ms)
+    }
+
+    // ---- asking ----
+
+    /// The next transfer of the step; none when it is over.
+    fn ask(&mut self) -> Option<(Pending, Asked)> {
+        loop {
+            match self.stage {
+                Stage::Idle => return None,
+                Stage::Look | Stage::Identify => match &self.table.identity {
+                    Some(identity) => {
+                        let asked = Asked::Read(identity.select, identity.expected.len());
+                        return Some((Pending::Identity, asked));
+                    }
+                    None => self.identified(),
+                },
+                Stage::Initialise => {
+                    if let Some(asked) = self.ask_init()? {
+                        return Some((Pending::Init, asked));
+                    }
+                }
+                Stage::Calibrate(block, _) => match self.table.calibration.get(block) {
+                    Some(block) => {
+                        let asked = Asked::Read(block.select, block.count.into());
+                        return Some((Pending::Calibration, asked));
+                    }
+                    None => self.begin_transfers(),
+                },
+                Stage::Free(transfer) => match self.table.transfers.get(transfer) {
+                    None => self.stage = Stage::Turn(0),
+                    Some(table) if table.trigger.is_empty() && self.is_free(transfer) => {
+                        return Some((Pending::Free(transfer), table.asked()));
+                    }
+                    Some(_) => self.stage = Stage::Free(transfer + 1),
+                },
+                Stage::Turn(turns) => return self.ask_triggered(turns),
+            }
+        }
+    }
+
+    /// The bytes of the next step of the initialisation, if it has some; nothing at all while it
+    /// pauses.
+    fn ask_init(&mut self) -> Option<Option<Asked>> {
+        if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
+            return None;
+        }
+        self.pause_until_ms = None;
+        match self.table.init.get(self.init_at) {
+            None => self.stage = Stage::Identify,
+            Some(step) if step.bytes.is_empty() => self.initialised(),
+            Some(step) => return Some(Some(Asked::Write(step.bytes))),
+        }
+        Some(None)
+    }
+
+    /// Reads what is ready and triggers the next, so often that one that needs no time is read at
+    /// once.
+    fn ask_triggered(&mut self, turns: usize) -> Option<(Pending, Asked)> {
+        if turns > self.table.transfers.len() {
+            return None;
+        }
+        if let Some(transfer) = self.in_flight {
+            if !is_reached(self.now_ms, ready_ms(&self.memory, transfer)) {
+                return None;
+            }
+            self.in_flight = None;
+            let table = self.table.transfers.get(transfer)?;
+            return Some((Pending::Fetch(transfer), table.asked()));
+        }
+        let transfer = self.next_triggered()?;
+        let table = self.table.transfers.get(transfer)?;
+        Some((Pending::Trigger(transfer), Asked::Write(table.trigger)))
+    }
+
+    fn is_due(&self, transfer: usize) -> bool {
+        let soon_ms = self.now_ms.wrapping_add(early_ms(self.table));
+        is_reached(soon_ms, due_ms(&self.memory, transfer))
+    }
+
+    fn is_free(&self, transfer: usize) -> bool {
+        is_reached(self.now_ms, ready_ms(&self.memory, transfer)) && self.is_due(transfer)
+    }
+
+    /// The triggered transfer that has been due for longest.
+    fn next_triggered(&self) -> Option<usize> {
+        let mut found: Option<(usize, u32)> = None;
+        for (transfer, table) in self.table.transfers.iter().enumerate() {
+            if table.trigger.is_empty() || !self.is_due(transfer) {
+                continue;
+            }
+            let due_ms = due_ms(&self.memory, transfer);
+            if found.is_none_or(|(_, first_ms)| !is_reached(due_ms, first_ms)) {
+                found = Some((transfer, due_ms));
+            }
+        }
+        found.map(|(transfer, _)| transfer)
+    }
+
+    /// What is sent lies in the chip's memory: a DMA need not reach constant tables.
+    fn hand_out(&mut self, asked: Asked) -> Step<'_> {
+        let work = Memory::split(&mut self.memory, &self.sizes).work;
+        let (Asked::Write(sent) | Asked::Read(sent, _) | Asked::Exchange(sent, _)) = asked;
+        copy(work, sent);
+        let (sent, rest) = split(work, sent.len());
+        match asked {
+            Asked::Write(_) => Step::Write(sent),
+            Asked::Read(_, count) => Step::WriteRead(sent, part_mut(rest, 0, count)),
+            Asked::Exchange(_, count) => Step::Exchange(sent, part_mut(rest, 0, count)),
+        }
+    }
+
+    // ---- going on ----
+
+    /// A transfer went through.
+    fn go_on(&mut self, pending: Pending, sink: &mut Sink<'_>) {
+        match pending {
+            Pending::Init => self.initialised(),
+            Pending::Identity => self.compare_identity(sink),
+            Pending::Calibration => self.take_calibration(),
+            Pending::Free(transfer) => {
+                self.say_values(transfer, sink);
+                self.set_next(transfer);
+                let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
+                let early_ms = early_ms(self.table);
+                let ready_ms = self.now_ms.wrapping_add(wait_ms).wrapping_sub(early_ms);
+                set_ready_ms(&mut self.memory, transfer, ready_ms);
+                self.stage = Stage::Free(transfer + 1);
+            }
+            Pending::Fetch(transfer) => self.say_values(transfer, sink),
+            Pending::Trigger(transfer) => {
+                self.set_next(transfer);
+                let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
+                set_ready_ms(&mut self.memory, transfer, self.now_ms.wrapping_add(wait_ms));
+                self.in_flight = Some(transfer);
+                if let Stage::Turn(turns) = self.stage {
+                    self.stage = Stage::Turn(turns + 1);
+                }
+            }
+            Pending::Command => self.counts.written = self.counts.written.wrapping_add(1),
+        }
+    }
+
+    /// A step of the initialisation is done; then it may pause.
+    fn initialised(&mut self) {
+        let pause_ms = self.table.init.get(self.init_at).map_or(0, |step| step.pause_ms);
+        self.init_at += 1;
+        if pause_ms > 0 {
+            // One more, for the first millisecond is cut short.
+            let until_ms = self.now_ms.wrapping_add(u32::from(pause_ms) + 1);
+            self.pause_until_ms = Some(until_ms);
+        }
+    }
+
+    fn compare_identity(&mut self, sink: &mut Sink<'_>) {
+        let Some(identity) = &self.table.identity else { return };
+        let work = Memory::split(&mut self.memory, &self.sizes).work;
+        let found = work.get(identity.select.len()..).unwrap_or_default();
+        let mut pairs = found.iter().zip(identity.expected).enumerate();
+        let wrong = pairs.find(|(place, (found, expected))| {
+            let mask = identity.mask.get(*place).copied().unwrap_or(0xFF);
+            (*found ^ *expected) & mask != 0
+        });
+        let Some((_, (found, _))) = wrong else {
+            self.identified();
+            return;
+        };
+        self.identity_seen = *found;
+        self.count_fault(Outcome::WrongIdentity);
+        let looks = self.counts.causes.get(Outcome::WrongIdentity as usize);
+        self.is_stranger = looks.is_some_and(|looks| looks % LOOKS != 0);
+        self.restart();
+        self.say_fault(None, sink);
+    }
+
+    fn identified(&mut self) {
+        self.is_stranger = false;
+        let was_stranger = self.stage == Stage::Look;
+        self.stage = if was_stranger { Stage::Initialise } else { Stage::Calibrate(0, 0) };
+    }
+
+    fn take_calibration(&mut self) {
+        let Stage::Calibrate(block, place) = self.stage else { return };
+        let Some(table) = self.table.calibration.get(block) else { return };
+        let Memory { calibration, work, .. } = Memory::split(&mut self.memory, &self.sizes);
+        let count = usize::from(table.count);
+        copy(part_mut(calibration, place, count), part(work, table.select.len(), count));
+        self.stage = Stage::Calibrate(block + 1, place + count);
+    }
+
+    fn begin_transfers(&mut self) {
+        for (transfer, table) in self.table.transfers.iter().enumerate() {
+            let ready_ms = self.now_ms.wrapping_add(table.wait_ms);
+            set_due_ms(&mut self.memory, transfer, self.now_ms);
+            set_ready_ms(&mut self.memory, transfer, ready_ms);
+        }
+        self.is_running = true;
+        self.fault = Outcome::Nothing;
+        self.is_touched = true;
+        self.counts.starts = self.counts.starts.wrapping_add(1);
+        self.stage = Stage::Free(0);
+    }
+
+    fn restart(&mut self) {
+        self.stage = Stage::Idle;
+        self.init_at = 0;
+        self.in_flight = None;
+        self.pause_until_ms = None;
+        self.is_running = false;
+    }
+
+    fn count(&mut self, outcome: Outcome) {
+        if let Some(count) = self.counts.causes.get_mut(outcome as usize) {
+            *count = count.wrapping_add(1);
+        }
+    }
+
+    fn count_fault(&mut self, cause: Outcome) {
+        self.count(cause);
+        self.fault = cause;
+        self.is_touched = true;
+    }
+
+    /// The next time on the transfer's own grid; what was missed is left out.
+    fn set_next(&mut self, transfer: usize) {
+        let own_ms = self.table.transfers.get(transfer).map_or(0, |table| table.cycle_ms);
+        let cycle_ms = own_ms.max(self.table.cycle_ms);
+        let due_ms = due_ms(&self.memory, transfer);
+        let late_ms = self.now_ms.wrapping_sub(due_ms);
+        let next_ms = match late_ms.checked_div(cycle_ms) {
+            None => self.now_ms,
+            Some(missed) if is_reached(self.now_ms, due_ms) => {
+                due_ms.wrapping_add(cycle_ms.wrapping_mul(missed.wrapping_add(1)))
+            }
+            Some(_) => due_ms.wrapping_add(cycle_ms),
+        };
+        set_due_ms(&mut self.memory, transfer, next_ms);
+    }
+
+    // ---- saying ----
+
+    /// The fault, for all readings of one transfer, or of all.
+    fn say_fault(&self, transfer: Option<usize>, sink: &mut Sink<'_>) {
+        for reading in self.table.readings {
+            if transfer.is_none_or(|transfer| usize::from(reading.transfer) == transfer) {
+                sink(reading.item.into(), self.fault, &mut []);
+            }
+        }
+    }
+
+    fn say_values(&mut self, transfer: usize, sink: &mut Sink<'_>) {
+        let Some(table) = self.table.transfers.get(transfer) else { return };
+        let mut computed = None;
+        for reading in self.table.readings {
+            let index = usize::from(reading.item);
+            let Some(item) = self.schema.items.get(index) else { continue };
+            if usize::from(reading.transfer) != transfer {
+                continue;
+            }
+            let Memory { calibration, value, work, .. } =
+                Memory::split(&mut self.memory, &self.sizes);
+            let bytes = part(work, table.select.len(), table.length.into());
+            let bytes = bytes.get(reading.offset.into()..).unwrap_or_default();
+            let value = part_mut(value, 0, item.bytes());
+            let outcome = match reading.output {
+                None if bytes.is_empty() => Outcome::Invalid,
+                None => reading.value.decode(item, bytes, value),
+                Some(output) => {
+                    let number =
+                        self.table.compute(reading, output, calibration, bytes, &mut computed);
+                    number.map_or(Outcome::Invalid, |number| {
+                        store_signed(item.scalar, number, value);
+                        Outcome::Fresh
+                    })
+                }
+            };
+            if outcome == Outcome::Fresh {
+                sink(index, outcome, value);
+                self.count(outcome);
+            } else {
+                self.count_fault(outcome);
+                sink(index, outcome, &mut []);
+            }
+        }
+    }
+}
+
+/// The formula's outputs of one raw block, computed once for all readings that stand in it.
+type Computed = Option<(u16, Option<Outputs>)>;

@@ -1,0 +1,20 @@
+//! Times on a clock that wraps.
+
+use super::ChipTable;
+
+/// Clocks of whole milliseconds make a cycle look shorter than it is.
+const EARLY_PARTS: u32 = 8;
+
+/// Half the range of the clock lies ahead, half behind: right across its wrap.
+pub(super) const fn is_reached(now_ms: u32, when_ms: u32) -> bool {
+    now_ms.wrapping_sub(when_ms) < 0x8000_0000
+}
+
+pub(super) const fn left_ms(now_ms: u32, when_ms: u32) -> u32 {
+    if is_reached(now_ms, when_ms) { 0 } else { when_ms.wrapping_sub(now_ms) }
+}
+
+/// How much before its time a transfer may be made.
+pub(super) const fn early_ms(table: &ChipTable) -> u32 {
+    table.cycle_ms.div_ceil(EARLY_PARTS)
+}

@@ -1,0 +1,150 @@
+//! From values to Netstring frames.
+//!
+//! A frame is written into a buffer of the caller, whole or not at all: where it is smaller than
+//! [`Schema::frame_bytes`] nothing is written and 0 comes back.
+
+use crate::bits::Bits;
+use crate::bytes::{Writer, move_down};
+use crate::checksum::crc16;
+use crate::health::{BoardHealth, HealthRow};
+use crate::schema::{
+    Direction, HEALTH_REQUEST, ID_CHECKSUM, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
+};
+
+/// The version of health that is written.
+const HEALTH_VERSION: u8 = 1;
+
+/// What a report begins with where the link has stamps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stamp {
+    /// Microseconds since the start; wraps.
+    pub time_us: u32,
+    /// Counts the reports that were put together; wraps.
+    pub counter: u8,
+}
+
+/// Puts the values whose bit is set in `due` (bit i is `items[i]`) into a frame; `values` has all of
+/// them, as a [`crate::Store`] does. Returns the bytes of the frame; 0 when there is nothing to say.
+/// The stamp is of no meaning where there is none.
+pub fn encode_values(
+    schema: &Schema,
+    direction: Direction,
+    stamp: Stamp,
+    due: &Bits,
+    values: &[u8],
+    frame: &mut [u8],
+) -> usize {
+    let head = if schema.stamps(direction) { STAMP_BYTES } else { 0 };
+    let put = |out: &mut Writer<'_>| {
+        if head > 0 {
+            let [a, b, c, d] = stamp.time_us.to_be_bytes();
+            out.put(&[ID_HELLO, a, b, c, d, stamp.counter]);
+        }
+        let mut rest = values;
+        for (index, item) in schema.items.iter().enumerate() {
+            let Some((value, others)) = rest.split_at_checked(item.bytes()) else { return };
+            rest = others;
+            if item.direction == direction && due.has(index) {
+                out.put(&[item.id]);
+                out.put(value);
+            }
+        }
+    };
+    frame_of(schema, direction, frame, head, put)
+}
+
+/// The hello of the board, with the hash of its schema.
+pub fn encode_hello(schema: &Schema, frame: &mut [u8]) -> usize {
+    let [a, b, c, d] = schema.hash.to_be_bytes();
+    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, a, b, c, d]);
+    frame_of(schema, Direction::ToHost, frame, 0, put)
+}
+
+/// The health of the board, and of each device as `row_of` says it.
+pub fn encode_health(
+    schema: &Schema,
+    board: &BoardHealth,
+    row_of: &mut dyn FnMut(usize) -> HealthRow,
+    frame: &mut [u8],
+) -> usize {
+    let put = |out: &mut Writer<'_>| {
+        out.put(&[ID_HEALTH, HEALTH_VERSION]);
+        out.put(&board.uptime_ms.to_be_bytes());
+        out.put(&[board.reset_cause as u8, board.reset_device]);
+        out.put(&board.reports_sent.to_be_bytes());
+        out.put(&board.reports_refused.to_be_bytes());
+        out.put(&[board.load_percent]);
+        out.put(&board.stack_left_bytes.to_be_bytes());
+        for index in 0..schema.items.len() {
+            let row = row_of(index);
+            out.put(&[row.status as u8]);
+            out.put(&row.age_ms.to_be_bytes());
+            for count in row.counts {
+                out.put(&count.to_be_bytes());
+            }
+        }
+    };
+    frame_of(schema, Direction::ToHost, frame, 0, put)
+}
+
+/// The host's request for a hello.
+pub fn encode_hello_request(schema: &Schema, frame: &mut [u8]) -> usize {
+    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO]);
+    frame_of(schema, Direction::ToBoard, frame, 0, put)
+}
+
+/// The host's request for health.
+pub fn encode_health_request(schema: &Schema, frame: &mut [u8]) -> usize {
+    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, HEALTH_REQUEST]);
+    frame_of(schema, Direction::ToBoard, frame, 0, put)
+}
+
+/// A payload with its checksum, its length and its comma. One that is no longer than `empty_bytes`
+/// says nothing, and there is no frame.
+fn frame_of(
+    schema: &Schema,
+    direction: Direction,
+    frame: &mut [u8],
+    empty_bytes: usize,
+    mut put: impl FnMut(&mut Writer<'_>),
+) -> usize {
+    if frame.len() < schema.frame_bytes(direction) {
+        return 0;
+    }
+    let head_bytes = schema.head_bytes(direction);
+    let mut out = Writer::new(frame.get_mut(head_bytes..).unwrap_or_default());
+    put(&mut out);
+    if out.size <= empty_bytes {
+        return 0;
+    }
+    if schema.checksum {
+        let [high, low] = crc16(out.written()).to_be_bytes();
+        out.put(&[ID_CHECKSUM, high, low]);
+    }
+    let payload_bytes = out.size;
+    out.put(b",");
+    if out.is_full {
+        return 0;
+    }
+    // The length stands right in front of the payload; a short one leaves room before it.
+    let end = head_bytes + out.size;
+    let mut start = head_bytes - 1;
+    put_at(frame, start, b':');
+    let mut rest = payload_bytes as u16;
+    loop {
+        start = start.saturating_sub(1);
+        put_at(frame, start, b'0' + (rest % 10) as u8);
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    move_down(frame, start, end);
+    end.saturating_sub(start)
+}
+
+fn put_at(frame: &mut [u8], place: usize, byte: u8) {
+    if let Some(place) = frame.get_mut(place) {
+        *place = byte;
+    }
+}

@@ -1,0 +1,267 @@
+//! How the devices of a board are: what their last readings came to, how long ago, and how often
+//! each fault was met.
+
+use core::ops::{Deref, DerefMut};
+
+use crate::outcome::Outcome;
+
+/// The age of a value that there is not yet.
+pub const AGE_NEVER: u32 = 0xFFFF_FFFF;
+/// The age of a value so old that the clock cannot tell (24 days).
+pub const AGE_LONG: u32 = 0xFFFF_FFFE;
+/// The load of a processor of which nothing is known.
+pub const LOAD_UNKNOWN: u8 = 255;
+/// What is left of stacks of which nothing is known.
+pub const STACK_UNKNOWN: u16 = 65535;
+
+/// A device without a value for so many of its cycles is stale.
+const STALE_CYCLES: u32 = 3;
+/// Half of the clock's range.
+const ANCIENT_MS: u32 = 0x8000_0000;
+/// A value that is so little younger than the time of who asks came meanwhile, from another task.
+const AHEAD_MS: u32 = 0x1_0000;
+
+/// How a device is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Never read.
+    Never,
+    /// The last reading was a measurement, and is not old.
+    Good,
+    /// No value for three cycles.
+    Stale,
+    /// The last reading did not come through.
+    Failed,
+    /// The last answer was no measurement.
+    Invalid,
+}
+
+/// What can go wrong with a reading: the place of its count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Nobody has the address, or a byte was refused.
+    NotAcknowledged,
+    /// The bus.
+    Bus,
+    /// Somebody else drove the bus.
+    Arbitration,
+    /// It did not end in time.
+    TimeOut,
+    /// A damaged answer.
+    Crc,
+    /// No measurement; another device's answers as well.
+    Invalid,
+}
+
+impl Fault {
+    /// How many there are.
+    pub const COUNT: usize = 6;
+
+    const fn of(outcome: Outcome) -> Option<Self> {
+        match outcome {
+            Outcome::NotAcknowledged => Some(Self::NotAcknowledged),
+            Outcome::BusError => Some(Self::Bus),
+            Outcome::ArbitrationLost => Some(Self::Arbitration),
+            Outcome::TimedOut => Some(Self::TimeOut),
+            Outcome::WrongCrc => Some(Self::Crc),
+            Outcome::Invalid | Outcome::WrongIdentity => Some(Self::Invalid),
+            Outcome::Nothing | Outcome::Fresh => None,
+        }
+    }
+}
+
+/// Why the board started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cause {
+    /// Nothing tells.
+    #[default]
+    Unknown,
+    /// Switched on, or a brown-out.
+    Power,
+    /// The reset pin.
+    Pin,
+    /// The firmware asked for it.
+    Software,
+    /// The watchdog.
+    Watchdog,
+    /// The window watchdog.
+    WindowWatchdog,
+    /// A wrong way into or out of a low-power mode.
+    LowPower,
+    /// The firmware stopped itself: a panic.
+    Halt,
+}
+
+/// The board itself, as the host is told of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoardHealth {
+    /// Since the start; wraps.
+    pub uptime_ms: u32,
+    /// Reports that were sent.
+    pub reports_sent: u32,
+    /// Cycles in which something was due and the line had not done with a frame.
+    pub reports_refused: u32,
+    /// Bytes never used of the fullest stack.
+    pub stack_left_bytes: u16,
+    /// Why the board started.
+    pub reset_cause: Cause,
+    /// After a watchdog's reset the identifier of the first device of the task that hung.
+    pub reset_device: u8,
+    /// The highest so far, in percent.
+    pub load_percent: u8,
+}
+
+impl BoardHealth {
+    /// Nothing is known.
+    pub const NEW: Self = Self {
+        uptime_ms: 0,
+        reports_sent: 0,
+        reports_refused: 0,
+        stack_left_bytes: STACK_UNKNOWN,
+        reset_cause: Cause::Unknown,
+        reset_device: 0,
+        load_percent: LOAD_UNKNOWN,
+    };
+}
+
+/// One device as the host is told of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HealthRow {
+    /// How it is.
+    pub status: Status,
+    /// How old its value is.
+    pub age_ms: u32,
+    /// By [`Fault`]; they stop at 65535.
+    pub counts: [u16; Fault::COUNT],
+}
+
+/// What is known of one device.
+#[derive(Clone, Copy, Debug)]
+pub struct Record {
+    good_ms: u32,
+    counts: [u16; Fault::COUNT],
+    last: Outcome,
+    has_value: bool,
+    is_ancient: bool,
+}
+
+impl Record {
+    /// At the start.
+    pub const NEW: Self = Self {
+        good_ms: 0,
+        counts: [0; Fault::COUNT],
+        last: Outcome::Nothing,
+        has_value: false,
+        is_ancient: false,
+    };
+
+    fn age_ms(&self, now_ms: u32) -> u32 {
+        let age = now_ms.wrapping_sub(self.good_ms);
+        if !self.has_value {
+            AGE_NEVER
+        } else if self.is_ancient {
+            AGE_LONG
+        } else if age >= AHEAD_MS.wrapping_neg() {
+            0
+        } else if age >= ANCIENT_MS {
+            AGE_LONG
+        } else {
+            age
+        }
+    }
+
+    fn status(&self, age_ms: u32, cycle_ms: u32) -> Status {
+        match self.last {
+            Outcome::Nothing => Status::Never,
+            Outcome::Fresh if cycle_ms != 0 && age_ms / STALE_CYCLES >= cycle_ms => Status::Stale,
+            Outcome::Fresh => Status::Good,
+            Outcome::Invalid => Status::Invalid,
+            Outcome::WrongCrc
+            | Outcome::NotAcknowledged
+            | Outcome::BusError
+            | Outcome::ArbitrationLost
+            | Outcome::TimedOut
+            | Outcome::WrongIdentity => Status::Failed,
+        }
+    }
+}
+
+/// What is known of all devices, in `[Record; SCHEMA.items.len()]`.
+#[derive(Debug)]
+pub struct Health<R: ?Sized = [Record]> {
+    cycles_ms: &'static [u32],
+    looked_at: usize,
+    records: R,
+}
+
+impl<const ITEMS: usize> Health<[Record; ITEMS]> {
+    /// `cycles_ms`: for each item how often it is read; 0, or no entry: only when something happens,
+    /// and then it is never stale.
+    #[must_use]
+    pub const fn new(cycles_ms: &'static [u32]) -> Self {
+        Self { cycles_ms, looked_at: 0, records: [Record::NEW; ITEMS] }
+    }
+}
+
+impl<const ITEMS: usize> Deref for Health<[Record; ITEMS]> {
+    type Target = Health;
+
+    fn deref(&self) -> &Health {
+        self
+    }
+}
+
+impl<const ITEMS: usize> DerefMut for Health<[Record; ITEMS]> {
+    fn deref_mut(&mut self) -> &mut Health {
+        self
+    }
+}
+
+impl Health {
+    /// How often an item is read; 0 where it has no cycle.
+    pub(crate) fn cycle_ms(&self, index: usize) -> u32 {
+        self.cycles_ms.get(index).copied().unwrap_or_default()
+    }
+
+    /// What a reading of an item came to, before any filter keeps it from the host. `Nothing` says
+    /// nothing of it.
+    pub fn note(&mut self, index: usize, outcome: Outcome, now_ms: u32) {
+        let Some(record) = self.records.get_mut(index).filter(|_| outcome != Outcome::Nothing)
+        else {
+            return;
+        };
+        record.last = outcome;
+        match Fault::of(outcome) {
+            Some(fault) => {
+                if let Some(count) = record.counts.get_mut(fault as usize) {
+                    *count = count.saturating_add(1);
+                }
+            }
+            None => {
+                record.good_ms = now_ms;
+                record.has_value = true;
+                record.is_ancient = false;
+            }
+        }
+    }
+
+    /// Now and then, at least so often that each device has its turn within 24 days: the clock wraps.
+    pub fn tick(&mut self, now_ms: u32) {
+        match self.records.get_mut(self.looked_at) {
+            Some(record) => {
+                record.is_ancient = record.age_ms(now_ms) == AGE_LONG;
+                self.looked_at += 1;
+            }
+            None => self.looked_at = 0,
+        }
+    }
+
+    /// How a device is.
+    #[must_use]
+    pub fn row(&self, index: usize, now_ms: u32) -> HealthRow {
+        let record = self.records.get(index).unwrap_or(&Record::NEW);
+        let age_ms = record.age_ms(now_ms);
+        let status = record.status(age_ms, self.cycle_ms(index));
+        HealthRow { status, age_ms, counts: record.counts }
+    }
+}

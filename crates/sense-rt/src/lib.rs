@@ -1,0 +1,89 @@
+//! The runtime of Rust firmware: everything between the hardware of a board and its link that
+//! knows no hardware.
+//!
+//! In: what pins, buses and ports gave, and the time as a number. Out: values, frames, transfers to
+//! make. Nothing waits, allocates, locks or panics, and nothing is unsafe; whoever has a HAL, be it
+//! blocking or async, executes what a state machine here asks for.
+//!
+//! **Tables are constants.** A generator prints them: [`Schema`], [`ChipTable`], [`MessageTable`] …
+//! Each has a `NEW` where every member has its usual value, so that only what differs is printed.
+//!
+//! **A value is its bytes on the wire**: elements one behind the other in network byte order, as
+//! [`Scalar`] reads and writes them. So a report is copied together, and one code serves all types.
+//!
+//! **State has its memory inside**, sized by a constant function of its table, and can stand in a
+//! `static`: `Store<[u8; SCHEMA.values_bytes()]>`. Each such type dereferences to its unsized form
+//! (`Store<[u8]>`), which has the methods: one copy of the code serves all sizes.
+//!
+//! `runtime/core` is the same in C; tests hold both to the same vectors and to each other.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod bits;
+mod bytes;
+mod capture;
+mod checksum;
+mod chip;
+mod coding;
+mod compose;
+mod contact;
+mod convert;
+mod count;
+mod decode;
+mod drive;
+mod elements;
+mod encode;
+mod filter;
+mod formula;
+mod health;
+mod message;
+mod outcome;
+mod parse;
+mod pulse_width;
+mod reporter;
+mod scalar;
+mod schema;
+mod silence;
+mod store;
+mod train;
+mod watch;
+
+pub use bits::Bits;
+pub use capture::{Capture, CaptureConfig, CaptureMode, Captured};
+pub use checksum::{crc8, crc16, sum8, sum16, xor8};
+pub use chip::{
+    Calibration, Chip, ChipCounts, ChipTable, Command, Identity, InitStep, Reading, Step, Transfer,
+};
+pub use coding::{Code, Coding, Crc};
+pub use compose::Compose;
+pub use contact::{Contact, ContactConfig, ContactTold, Edge};
+pub use convert::{
+    load_magnitude, store_mean, store_ratio, store_signed, store_signed_ratio, store_unsigned,
+};
+pub use count::{Counter, Repeat, store_count};
+pub use decode::{Decoder, Frame, Items};
+pub use drive::{Bridge, BridgeMode, BridgeState, Write, Writes};
+pub use elements::Elements;
+pub use encode::{
+    Stamp, encode_health, encode_health_request, encode_hello, encode_hello_request, encode_values,
+};
+pub use filter::{Filter, FilterTable, Number, Range, WIDE, Wide, decay};
+pub use formula::{BME280, BMP280, Formula, NTC, OUTPUTS_MAX, Outputs, TSL2561};
+pub use health::{
+    AGE_LONG, AGE_NEVER, BoardHealth, Cause, Fault, Health, HealthRow, LOAD_UNKNOWN, Record,
+    STACK_UNKNOWN, Status,
+};
+pub use message::{
+    FieldFormat, MessageChecksum, MessageField, MessageStart, MessageStream, MessageTable,
+    StreamCounts,
+};
+pub use outcome::{Outcome, Sink};
+pub use parse::{field, parse_decimal, parse_degrees, parse_hex};
+pub use pulse_width::{LEVEL_FULL, PulseWidth, pulse_level};
+pub use reporter::{Channel, Host, Reporter, ReporterConfig, ReporterCounts};
+pub use scalar::Scalar;
+pub use schema::{Direction, FRAME_BYTES_LIMIT, ITEMS_MAX, Item, Schema};
+pub use silence::Silence;
+pub use store::Store;
+pub use train::{CHANNELS_MAX, Train, TrainConfig};
+pub use watch::Watch;

@@ -1,0 +1,386 @@
+//! One end of a link on a board: takes what the host sends, and sends what is due.
+//!
+//! Whoever has the link calls [`Reporter::cycle`] at its rate. Nothing waits. A report is only put
+//! together when the one before it has left the channel, so that its values have waited for one
+//! report at most, however slow the line. A frame that the channel does not take at once is finished
+//! in the next cycles.
+
+use core::ops::{Deref, DerefMut};
+
+use crate::bits::Bits;
+use crate::bytes::{part, part_mut, split};
+use crate::decode::{Frame, Machine};
+use crate::encode::{Stamp, encode_health, encode_hello};
+use crate::health::{AGE_NEVER, BoardHealth, Health};
+use crate::schema::{Direction, Schema};
+use crate::silence::Silence;
+use crate::store::Store;
+
+/// Bytes that are read at a time, and how often in a cycle: a host that sends without end must not
+/// keep reports waiting.
+const READ_BYTES: usize = 64;
+const READS_MAX: usize = 16;
+/// A value that has waited for more of its device's cycles, or of the reporter's, is not fresh.
+const FRESH_CYCLES: u32 = 2;
+
+/// What bytes go through: a port, an endpoint, or a queue before either. Nothing in it waits.
+pub trait Channel {
+    /// Whether somebody listens, as far as the channel can tell.
+    fn is_open(&mut self) -> bool;
+    /// Takes what has come, as much as `bytes` has room for; returns how many bytes.
+    fn read(&mut self, bytes: &mut [u8]) -> usize;
+    /// How many bytes [`Self::write`] takes now.
+    fn room(&mut self) -> usize;
+    /// Whether all that it took has left: then a report may be put together.
+    fn is_empty(&mut self) -> bool;
+    /// Takes all of the bytes, which are no more than there is room for. False: the other end has
+    /// gone.
+    fn write(&mut self, bytes: &[u8]) -> bool;
+}
+
+/// What a reporter does with the board.
+pub trait Host {
+    /// Hands the store and the health of the devices to a task; locks them where others use them.
+    fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health));
+    /// The host has set an actuator: puts the value into the store, and sets it.
+    fn apply(&mut self, index: usize, value: &[u8]);
+    /// The host has been silent for too long.
+    fn failsafe(&mut self) {}
+    /// Completes what is known of the board: cause of the reset, load and stack.
+    fn describe(&mut self, board: &mut BoardHealth) {
+        let _ = board;
+    }
+    /// A byte between two frames, before the decoder gets it: true when it was meant for somebody
+    /// else.
+    fn intercept(&mut self, byte: u8) -> bool {
+        let _ = byte;
+        false
+    }
+}
+
+/// What a generator says of a link.
+#[derive(Clone, Copy, Debug)]
+pub struct ReporterConfig {
+    /// What is on the wire.
+    pub schema: &'static Schema,
+    /// How often [`Reporter::cycle`] is called.
+    pub cycle_ms: u32,
+    /// Actuators fall back after so long without a frame of the host, 10 to 3600000; 0: never.
+    pub silence_ms: u32,
+}
+
+/// Since the start; they wrap.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReporterCounts {
+    /// Reports.
+    pub reports_sent: u32,
+    /// Cycles in which something was due and the line had not done with a frame.
+    pub reports_refused: u32,
+    /// The other end went away in the middle of a frame.
+    pub frames_torn: u32,
+    /// Values that were too old to be reported when the channel had room.
+    pub values_dropped: u32,
+}
+
+/// The reporter of a board, with its buffers in `[u8; SCHEMA.reporter_bytes()]`.
+#[derive(Debug)]
+pub struct Reporter<B: ?Sized = [u8]> {
+    config: ReporterConfig,
+    decoder: Machine,
+    silence: Silence,
+    counts: ReporterCounts,
+    now_us: u64,
+    /// Of the frame that is being sent; 0 for none.
+    frame_size: usize,
+    frame_sent: usize,
+    /// Values of the report that is being sent.
+    taken: Bits,
+    is_report: bool,
+    counter: u8,
+    is_open: bool,
+    hello_due: bool,
+    health_due: bool,
+    /// With the last frame: a report's turn is next.
+    has_answered: bool,
+    /// A frame to the host, then the buffer of the decoder.
+    memory: B,
+}
+
+impl<const BYTES: usize> Reporter<[u8; BYTES]> {
+    /// At the start, when the clock is 0. `BYTES` is [`Schema::reporter_bytes`]; with less nothing
+    /// is sent.
+    #[must_use]
+    pub const fn new(config: ReporterConfig) -> Self {
+        let is_enough = BYTES >= config.schema.reporter_bytes();
+        Self {
+            decoder: Machine::new(config.schema, Direction::ToBoard, is_enough),
+            silence: Silence::new(config.silence_ms, 0),
+            counts: ReporterCounts {
+                reports_sent: 0,
+                reports_refused: 0,
+                frames_torn: 0,
+                values_dropped: 0,
+            },
+            now_us: 0,
+            frame_size: 0,
+            frame_sent: 0,
+            taken: Bits::NONE,
+            is_report: false,
+            counter: 0,
+            is_open: false,
+            hello_due: false,
+            health_due: false,
+            has_answered: false,
+            config,
+            memory: [0; BYTES],
+        }
+    }
+}
+
+impl<const BYTES: usize> Deref for Reporter<[u8; BYTES]> {
+    type Target = Reporter;
+
+    fn deref(&self) -> &Reporter {
+        self
+    }
+}
+
+impl<const BYTES: usize> DerefMut for Reporter<[u8; BYTES]> {
+    fn deref_mut(&mut self) -> &mut Reporter {
+        self
+    }
+}
+
+impl Reporter {
+    /// The host has its time from now on; for a start at another time than 0.
+    pub fn begin_at(&mut self, now_us: u64) {
+        self.now_us = now_us;
+        self.silence = Silence::new(self.config.silence_ms, self.now_ms());
+    }
+
+    /// What happened since the start.
+    #[must_use]
+    pub fn counts(&self) -> &ReporterCounts {
+        &self.counts
+    }
+
+    /// One cycle.
+    pub fn cycle(&mut self, now_us: u64, channel: &mut dyn Channel, host: &mut dyn Host) {
+        let is_open = channel.is_open();
+        self.begin_cycle(now_us, is_open, host);
+        if is_open {
+            self.receive(channel, host);
+        }
+        self.fall_back(host);
+        if is_open {
+            self.transmit(channel, host);
+        }
+    }
+
+    /// Instead of a cycle while somebody else has the channel: frames begin with a hello when their
+    /// turn comes again.
+    pub fn pause(&mut self, now_us: u64, host: &mut dyn Host) {
+        self.begin_cycle(now_us, false, host);
+        self.fall_back(host);
+    }
+
+    fn now_ms(&self) -> u32 {
+        // A tick of 1000: in two halves, so that no division of 64 bits is linked for it.
+        let high = (self.now_us >> 32) as u32;
+        let low = self.now_us as u32;
+        let upper = (high % 1000) << 16 | low >> 16;
+        let lower = (upper % 1000) << 16 | low & 0xFFFF;
+        ((upper / 1000) << 16).wrapping_add(lower / 1000)
+    }
+
+    // ---- from the host ----
+
+    fn receive(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
+        let frames = self.decoder.frames();
+        let mut bytes = [0; READ_BYTES];
+        for _ in 0..READS_MAX {
+            let size = channel.read(&mut bytes).min(READ_BYTES);
+            self.take_bytes(part(&bytes, 0, size), host);
+            if size < READ_BYTES {
+                break;
+            }
+        }
+        if self.decoder.frames() != frames {
+            self.silence.heard(self.now_ms());
+        }
+    }
+
+    fn take_bytes(&mut self, bytes: &[u8], host: &mut dyn Host) {
+        let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
+        let (_, buffer) = split(&mut self.memory, frame_bytes);
+        for byte in bytes {
+            if self.decoder.is_idle() && host.intercept(*byte) {
+                continue;
+            }
+            let (hello_due, health_due) = (&mut self.hello_due, &mut self.health_due);
+            self.decoder.feed(buffer, core::slice::from_ref(byte), &mut |frame| match frame {
+                Frame::Values(_, items) => {
+                    items.for_each(|(index, value)| host.apply(index, value));
+                }
+                Frame::HelloRequest => *hello_due = true,
+                Frame::HealthRequest => *health_due = true,
+                Frame::Hello(_) | Frame::Health(_) => {}
+            });
+        }
+    }
+
+    // ---- to the host ----
+
+    /// What is being sent is given up; the values of a report are due again.
+    fn give_up(&mut self, host: &mut dyn Host) {
+        if self.frame_size == 0 {
+            return;
+        }
+        self.counts.frames_torn = self.counts.frames_torn.wrapping_add(1);
+        self.frame_size = 0;
+        if self.is_report {
+            host.with(&mut |store, _| store.restore(&self.taken));
+        }
+    }
+
+    /// Sends as much as there is room for; true when nothing is left to be sent.
+    fn push(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) -> bool {
+        if self.frame_size == 0 {
+            return true;
+        }
+        let left = self.frame_size.saturating_sub(self.frame_sent);
+        let size = channel.room().min(left);
+        if size > 0 && !channel.write(part(&self.memory, self.frame_sent, size)) {
+            self.give_up(host);
+            return false;
+        }
+        self.frame_sent += size;
+        if size < left {
+            return false;
+        }
+        self.frame_size = 0;
+        let sent = u32::from(self.is_report);
+        self.counts.reports_sent = self.counts.reports_sent.wrapping_add(sent);
+        true
+    }
+
+    fn send(
+        &mut self,
+        size: usize,
+        is_report: bool,
+        channel: &mut dyn Channel,
+        host: &mut dyn Host,
+    ) {
+        self.frame_size = size;
+        self.frame_sent = 0;
+        self.is_report = is_report;
+        self.push(channel, host);
+    }
+
+    fn send_health(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
+        let now_ms = self.now_ms();
+        let mut board = BoardHealth {
+            uptime_ms: now_ms,
+            reports_sent: self.counts.reports_sent,
+            reports_refused: self.counts.reports_refused,
+            ..BoardHealth::NEW
+        };
+        host.describe(&mut board);
+        let mut size = 0;
+        let schema = self.config.schema;
+        let frame = part_mut(&mut self.memory, 0, schema.frame_bytes(Direction::ToHost));
+        host.with(&mut |_, health| {
+            size = encode_health(schema, &board, &mut |index| health.row(index, now_ms), frame);
+        });
+        self.send(size, false, channel, host);
+    }
+
+    /// What the host has asked for; true when it is on its way.
+    fn answer(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) -> bool {
+        if core::mem::take(&mut self.hello_due) {
+            let schema = self.config.schema;
+            let frame = part_mut(&mut self.memory, 0, schema.frame_bytes(Direction::ToHost));
+            let size = encode_hello(schema, frame);
+            self.send(size, false, channel, host);
+        } else if core::mem::take(&mut self.health_due) {
+            self.send_health(channel, host);
+        } else {
+            return false;
+        }
+        true
+    }
+
+    fn send_report(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
+        let stamp = Stamp { time_us: self.now_us as u32, counter: self.counter };
+        let (now_ms, cycle_ms) = (self.now_ms(), self.config.cycle_ms);
+        let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
+        let frame = part_mut(&mut self.memory, 0, frame_bytes);
+        let (mut size, mut dropped) = (0, 0);
+        host.with(&mut |store, health| {
+            dropped = drop_old(store, health, now_ms, cycle_ms);
+            size = store.take(stamp, frame, &mut self.taken);
+        });
+        self.counts.values_dropped = self.counts.values_dropped.wrapping_add(dropped);
+        if size > 0 {
+            self.counter = self.counter.wrapping_add(1);
+            self.send(size, true, channel, host);
+        }
+    }
+
+    /// One frame at a time, so that none waits behind another; answers and reports take turns.
+    fn transmit(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
+        if self.push(channel, host) && channel.is_empty() {
+            self.has_answered = !self.has_answered && self.answer(channel, host);
+            if !self.has_answered {
+                self.send_report(channel, host);
+                return;
+            }
+        }
+        let mut is_due = false;
+        host.with(&mut |store, _| is_due = store.is_due());
+        let refused = u32::from(is_due);
+        self.counts.reports_refused = self.counts.reports_refused.wrapping_add(refused);
+    }
+
+    // ---- the cycle ----
+
+    /// What is done whoever has the channel; `is_open` says whether frames have it.
+    fn begin_cycle(&mut self, now_us: u64, is_open: bool, host: &mut dyn Host) {
+        self.now_us = now_us;
+        let now_ms = self.now_ms();
+        host.with(&mut |_, health| health.tick(now_ms));
+        if !is_open {
+            self.give_up(host);
+        }
+        self.hello_due = self.hello_due || (is_open && !self.is_open);
+        self.is_open = is_open;
+    }
+
+    fn fall_back(&mut self, host: &mut dyn Host) {
+        if self.silence.step(self.now_ms()) {
+            host.failsafe();
+        }
+    }
+}
+
+/// A value that waited while the channel had no room, and that no reading has followed since.
+fn is_old(health: &Health, index: usize, now_ms: u32, own_ms: u32) -> bool {
+    let device_ms = health.cycle_ms(index);
+    let cycle_ms = device_ms.max(own_ms);
+    let age_ms = health.row(index, now_ms).age_ms;
+    let is_late =
+        age_ms / FRESH_CYCLES >= cycle_ms && age_ms > cycle_ms.saturating_mul(FRESH_CYCLES);
+    device_ms != 0 && age_ms != AGE_NEVER && is_late
+}
+
+/// Takes off what is old; returns how many.
+fn drop_old(store: &mut Store, health: &Health, now_ms: u32, cycle_ms: u32) -> u32 {
+    let mut dropped = 0;
+    for index in 0..store.schema().items.len() {
+        if store.has_due(index) && is_old(health, index, now_ms, cycle_ms) {
+            store.forget(index);
+            dropped += 1;
+        }
+    }
+    dropped
+}

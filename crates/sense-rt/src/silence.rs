@@ -1,0 +1,34 @@
+//! When actuators fall back: the host has sent no valid frame for too long.
+
+/// How long the host has been silent.
+#[derive(Clone, Copy, Debug)]
+pub struct Silence {
+    limit_ms: u32,
+    heard_ms: u32,
+    is_silent: bool,
+}
+
+impl Silence {
+    /// `limit_ms` is 10 to 3600000, or 0: never. At the start the host has its time as after a frame.
+    #[must_use]
+    pub const fn new(limit_ms: u32, now_ms: u32) -> Self {
+        Self { limit_ms, heard_ms: now_ms, is_silent: false }
+    }
+
+    /// A valid frame of the host has come.
+    pub fn heard(&mut self, now_ms: u32) {
+        self.heard_ms = now_ms;
+        self.is_silent = false;
+    }
+
+    /// In each cycle: true when the actuators are to fall back now, once for each silence.
+    pub fn step(&mut self, now_ms: u32) -> bool {
+        let is_short = now_ms.wrapping_sub(self.heard_ms) < self.limit_ms;
+        // Once silent it stays so, also when the clock comes round.
+        if self.limit_ms == 0 || self.is_silent || is_short {
+            return false;
+        }
+        self.is_silent = true;
+        true
+    }
+}

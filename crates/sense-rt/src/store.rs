@@ -1,0 +1,136 @@
+//! The latest value of every item, and which of them a report owes the host.
+//!
+//! An item becomes due each time it is read, and is reported once; so a payload holds whatever is
+//! due, in the order of the schema, and never a zero that nobody measured. Where several tasks share
+//! a store the caller locks it.
+
+use core::ops::{Deref, DerefMut};
+
+use crate::bits::Bits;
+use crate::bytes::copy;
+use crate::encode::{Stamp, encode_values};
+use crate::filter::Filter;
+use crate::health::Health;
+use crate::outcome::Outcome;
+use crate::schema::{Direction, Schema};
+
+/// The values of a schema, in `[u8; SCHEMA.values_bytes()]`.
+#[derive(Debug)]
+pub struct Store<V: ?Sized = [u8]> {
+    schema: &'static Schema,
+    due: Bits,
+    known: Bits,
+    values: V,
+}
+
+impl<const BYTES: usize> Store<[u8; BYTES]> {
+    /// Nothing is known. `BYTES` is [`Schema::values_bytes`]; what has no room is never stored.
+    #[must_use]
+    pub const fn new(schema: &'static Schema) -> Self {
+        Self { schema, due: Bits::NONE, known: Bits::NONE, values: [0; BYTES] }
+    }
+}
+
+impl<const BYTES: usize> Deref for Store<[u8; BYTES]> {
+    type Target = Store;
+
+    fn deref(&self) -> &Store {
+        self
+    }
+}
+
+impl<const BYTES: usize> DerefMut for Store<[u8; BYTES]> {
+    fn deref_mut(&mut self) -> &mut Store {
+        self
+    }
+}
+
+impl Store {
+    /// What it has values of.
+    #[must_use]
+    pub fn schema(&self) -> &'static Schema {
+        self.schema
+    }
+
+    /// Takes over the value of an item; that of a sensor is then due.
+    pub fn put(&mut self, index: usize, value: &[u8]) {
+        let Some((at, item)) = self.schema.place(index) else { return };
+        let wanted = value.get(..item.bytes());
+        let room = self.values.get_mut(at..at.wrapping_add(item.bytes()));
+        if let (Some(room), Some(value)) = (room, wanted) {
+            copy(room, value);
+            self.known.set(index);
+            if item.direction == Direction::ToHost {
+                self.due.set(index);
+            }
+        }
+    }
+
+    /// The value of an item; none while nothing was read.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<&[u8]> {
+        let (at, item) = self.schema.place(index).filter(|_| self.known.has(index))?;
+        self.values.get(at..at.wrapping_add(item.bytes()))
+    }
+
+    /// What a reading came to: puts a fresh value through the filter, keeps what is to be reported,
+    /// and notes how the device is.
+    pub fn tell(
+        &mut self,
+        health: &mut Health,
+        filter: Option<&mut Filter>,
+        index: usize,
+        outcome: Outcome,
+        value: &mut [u8],
+        now_ms: u32,
+    ) {
+        let mut told = outcome;
+        if let (Outcome::Fresh, Some(filter), Some(item)) =
+            (outcome, filter, self.schema.items.get(index))
+        {
+            told = filter.apply(item, now_ms, value);
+        }
+        match told {
+            Outcome::Fresh => self.put(index, value),
+            // A measurement all the same, which the host has no need of.
+            Outcome::Nothing => told = outcome,
+            Outcome::Invalid
+            | Outcome::WrongCrc
+            | Outcome::NotAcknowledged
+            | Outcome::BusError
+            | Outcome::ArbitrationLost
+            | Outcome::TimedOut
+            | Outcome::WrongIdentity => {}
+        }
+        health.note(index, told, now_ms);
+    }
+
+    /// Whether anything is due.
+    #[must_use]
+    pub fn is_due(&self) -> bool {
+        !self.due.is_empty()
+    }
+
+    /// Whether an item is.
+    #[must_use]
+    pub fn has_due(&self, index: usize) -> bool {
+        self.due.has(index)
+    }
+
+    /// The value of an item is not to be reported.
+    pub fn forget(&mut self, index: usize) {
+        self.due.clear(index);
+    }
+
+    /// Puts what is due into a frame and takes it off the list; `taken` says what it was. Returns the
+    /// bytes of the frame, 0 when nothing is due.
+    pub fn take(&mut self, stamp: Stamp, frame: &mut [u8], taken: &mut Bits) -> usize {
+        *taken = core::mem::take(&mut self.due);
+        encode_values(self.schema, Direction::ToHost, stamp, taken, &self.values, frame)
+    }
+
+    /// Makes the items of a frame due again that could not be sent.
+    pub fn restore(&mut self, taken: &Bits) {
+        self.due.add(taken);
+    }
+}
