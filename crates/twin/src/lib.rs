@@ -11,6 +11,7 @@ pub mod bench;
 pub mod judge;
 mod parts;
 pub mod range;
+pub mod soft;
 pub mod surroundings;
 pub mod truth;
 pub mod world;
