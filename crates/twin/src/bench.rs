@@ -434,7 +434,8 @@ fn broken(job: &BoardJob<'_>, fault: &Fault) -> (Option<PartIndex>, Vec<String>)
 }
 
 /// The number of a peripheral instance: 2 of `USART2`.
-pub(crate) fn number_of(unit: &str) -> Option<u8> {
+#[must_use]
+pub fn number_of(unit: &str) -> Option<u8> {
     let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
     // `I2C3`: what stands behind the last letter.
     let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
