@@ -6,6 +6,8 @@
 //! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
 //! models the world answers.
 
+#[cfg(feature = "machine")]
+pub mod machine;
 pub mod surroundings;
 
 pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
