@@ -176,7 +176,8 @@ impl I2c {
         let read = byte & 1 == 1;
         match self.ask(I2cEvent::Start { address: byte >> 1, read }, wires) {
             I2cReply::Ack | I2cReply::Byte(_) => {
-                self.sr1 |= ADDRESSED;
+                // The data register of a transmitter is empty from here on.
+                self.sr1 |= if read { ADDRESSED } else { ADDRESSED | EMPTY };
                 self.sr2 = (self.sr2 & !TRANSMITS) | if read { 0 } else { TRANSMITS };
             }
             I2cReply::Nack => self.sr1 |= REFUSED,
@@ -245,7 +246,9 @@ impl I2c {
     /// Whether the byte that comes now is acknowledged.
     fn acknowledges(&self, wires: &Wires) -> bool {
         let left = wires.i2c_left.get(usize::from(self.unit) - 1).copied().flatten();
-        if self.cr[1] & (DMA | LAST) == DMA | LAST && left.is_some_and(|left| left <= 1) {
+        // A byte that the DMA has not taken yet is still counted.
+        let taken_soon = u32::from(self.sr1 & RECEIVED != 0) + u32::from(self.behind.is_some());
+        if self.cr[1] & (DMA | LAST) == DMA | LAST && left.is_some_and(|left| left <= 1 + taken_soon) {
             return false;
         }
         if self.cr[0] & NEXT != 0 { self.acknowledged } else { self.cr[0] & ACKNOWLEDGE != 0 }
@@ -303,11 +306,7 @@ impl I2c {
         }
         if self.sr1 & ADDRESSED != 0 && self.has_read_status {
             self.sr1 &= !ADDRESSED;
-            if self.sr2 & TRANSMITS != 0 {
-                self.sr1 |= EMPTY;
-            } else {
-                self.acknowledged = self.cr[0] & ACKNOWLEDGE != 0;
-            }
+            self.acknowledged = self.cr[0] & ACKNOWLEDGE != 0;
             self.continue_at(wires.now, wires);
         }
         self.has_read_status = false;
