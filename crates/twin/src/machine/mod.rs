@@ -37,6 +37,7 @@ mod spi;
 mod timer;
 mod usart;
 mod usb;
+mod usb_host;
 mod wires;
 
 use std::sync::{Arc, Mutex};
