@@ -24,7 +24,14 @@ pub(super) struct Filters {
 
 impl Filters {
     pub(super) fn new() -> Self {
-        Self { fmr: 0x2A1C_0E01, is_list: 0, is_wide: 0, fifo: 0, is_active: 0, banks: [[0; 2]; BANKS] }
+        Self {
+            fmr: 0x2A1C_0E01,
+            is_list: 0,
+            is_wide: 0,
+            fifo: 0,
+            is_active: 0,
+            banks: [[0; 2]; BANKS],
+        }
     }
 
     fn read(&self, offset: u32) -> u32 {
@@ -171,7 +178,9 @@ impl Can {
         let extended = identifier & 4 != 0;
         let id = if extended { identifier >> 3 } else { identifier >> 21 };
         let mut data = [0; 8];
-        for (slot, byte) in data.iter_mut().zip(low.to_le_bytes().into_iter().chain(high.to_le_bytes())) {
+        for (slot, byte) in
+            data.iter_mut().zip(low.to_le_bytes().into_iter().chain(high.to_le_bytes()))
+        {
             *slot = byte;
         }
         let length = u8::try_from(length & 15).unwrap_or(8).min(8);
@@ -185,7 +194,9 @@ impl Can {
             return;
         }
         let requested = (0..3).filter(|mailbox| self.mailboxes[*mailbox][0] & 1 == 1);
-        let Some(mailbox) = requested.min_by_key(|mailbox| self.mailboxes[*mailbox][0] & !1) else { return };
+        let Some(mailbox) = requested.min_by_key(|mailbox| self.mailboxes[*mailbox][0] & !1) else {
+            return;
+        };
         let frame = self.frame(mailbox);
         let overhead = if frame.extended { 67 } else { 47 };
         self.sending = Some(mailbox);
@@ -231,7 +242,13 @@ impl Can {
             return;
         }
         let word = |at: usize| {
-            frame.data.iter().skip(at).take(4).rev().fold(0, |word, byte| word << 8 | u32::from(*byte))
+            frame
+                .data
+                .iter()
+                .skip(at)
+                .take(4)
+                .rev()
+                .fold(0, |word, byte| word << 8 | u32::from(*byte))
         };
         let length = u32::from(frame.length) | number << 8;
         self.queues[queue].push_back([wide_bits(frame), length, word(0), word(4)]);
@@ -264,7 +281,9 @@ impl Can {
             0x14 => self.ier,
             0x18 => self.esr,
             0x1C => self.btr,
-            0x180..=0x1AC => self.mailboxes[((offset - 0x180) / 16) as usize][(offset / 4 % 4) as usize],
+            0x180..=0x1AC => {
+                self.mailboxes[((offset - 0x180) / 16) as usize][(offset / 4 % 4) as usize]
+            }
             0x1B0..=0x1CC => {
                 let queue = &self.queues[((offset - 0x1B0) / 16) as usize];
                 queue.front().map_or(0, |frame| frame[(offset / 4 % 4) as usize])
@@ -274,7 +293,14 @@ impl Can {
         }
     }
 
-    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires, filters: &mut Filters) {
+    pub(super) fn write(
+        &mut self,
+        offset: u32,
+        value: u32,
+        mask: u32,
+        wires: &mut Wires,
+        filters: &mut Filters,
+    ) {
         let bits = value & mask;
         match offset {
             0x00 => self.control(merge(self.mcr, value, mask), wires),
@@ -328,7 +354,9 @@ impl Can {
         }
         self.mcr = new;
         // What is asked for is acknowledged at once.
-        self.msr = (self.msr & !(INIT | SLEEP)) | (new & INIT) | if new & INIT == 0 { new & SLEEP } else { 0 };
+        self.msr = (self.msr & !(INIT | SLEEP))
+            | (new & INIT)
+            | if new & INIT == 0 { new & SLEEP } else { 0 };
         if !self.is_on() {
             self.listens_at = NEVER;
         } else if self.listens_at == NEVER {

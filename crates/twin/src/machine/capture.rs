@@ -56,11 +56,8 @@ impl Timer {
     /// Asks the world what comes next at the inputs that count.
     pub(super) fn look_for_edges(&mut self, wires: &Wires) {
         for input in 0..4 {
-            let pad = if self.needs(input) {
-                wires.pad_of(&self.inputs.names[input])
-            } else {
-                None
-            };
+            let pad =
+                if self.needs(input) { wires.pad_of(&self.inputs.names[input]) } else { None };
             if pad != self.inputs.pads[input]
                 && let Some(pad) = pad
             {
@@ -109,7 +106,11 @@ impl Timer {
         for channel in [input, input ^ 1] {
             let selects = if channel == input { 1 } else { 2 };
             let is_on = self.ccer >> (4 * channel) & 1 == 1;
-            if is_on && self.selection(channel) == selects && self.likes(channel, is_rising) && self.divide(channel) {
+            if is_on
+                && self.selection(channel) == selects
+                && self.likes(channel, is_rising)
+                && self.divide(channel)
+            {
                 self.capture(channel, at);
             }
         }

@@ -5,13 +5,16 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rsemu::core::error::BusError;
-use rsemu::core::space::{AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy};
+use rsemu::core::space::{
+    AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy,
+};
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
 use super::Settings;
-use super::chip::{Chip, FLASH_BASE, Memory, SRAM_BASE};
+use super::chip::Chip;
 use super::image::FLASH_BYTES;
 use super::map::DEBUG_BASE;
+use super::transfer::{FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
 use crate::surroundings::Surroundings;
 
@@ -293,12 +296,17 @@ impl Core {
         let (why, pc) = if self.cpu.is_locked_up() {
             (format!("a fault in the handler of a fault ({})", self.fault()), stands)
         } else if matches!(exception, 2..=6) {
-            let name = ["NMI", "hard fault", "memory fault", "bus fault", "usage fault"][exception as usize - 2];
+            let name = ["NMI", "hard fault", "memory fault", "bus fault", "usage fault"]
+                [exception as usize - 2];
             (format!("{name} ({})", self.fault()), self.stacked_pc().unwrap_or(stands))
         } else if exception != 0 && !is_asleep {
             (format!("the handler of exception {exception} waits for ever"), stands)
         } else if regs.primask && !is_asleep {
-            ("it waits for ever with interrupts off, as after a failed check of the kernel".to_owned(), stands)
+            (
+                "it waits for ever with interrupts off, as after a failed check of the kernel"
+                    .to_owned(),
+                stands,
+            )
         } else {
             return;
         };

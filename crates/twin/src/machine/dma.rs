@@ -138,7 +138,9 @@ impl Dma {
             0x0C => self.status[1] &= !(value & mask),
             0x10..=0xCC => {
                 let index = ((offset - 0x10) / 0x18) as usize;
-                return self.write_stream(index, (offset - 0x10) % 0x18, value, mask).then_some(index);
+                return self
+                    .write_stream(index, (offset - 0x10) % 0x18, value, mask)
+                    .then_some(index);
             }
             _ => {}
         }
@@ -210,14 +212,86 @@ type Row = [Option<Request>; 8];
 
 /// Units count from 0 here.
 const DMA1: [Row; 8] = [
-    [Some(SpiRx(2)), None, Some(SpiRx(2)), Some(SpiRx(1)), Some(SpiTx(1)), Some(SpiTx(2)), None, Some(SpiTx(2))],
-    [Some(I2cRx(0)), None, Some(Timer(6, 0)), None, Some(Timer(6, 0)), Some(I2cRx(0)), Some(I2cTx(0)), Some(I2cTx(0))],
-    [Some(Timer(3, 1)), None, None, Some(Timer(3, 2)), None, None, Some(Timer(3, 0)), Some(Timer(3, 3))],
-    [None, Some(Timer(1, 0)), Some(I2cRx(2)), None, Some(I2cTx(2)), Some(Timer(1, 1)), Some(Timer(1, 2)), Some(Timer(1, 0))],
-    [Some(UsartRx(4)), Some(UsartRx(2)), Some(UsartRx(3)), Some(UsartTx(2)), Some(UsartTx(3)), Some(UsartRx(1)), Some(UsartTx(1)), Some(UsartTx(4))],
-    [None, None, Some(Timer(2, 4)), None, Some(Timer(2, 1)), Some(Timer(2, 2)), None, Some(Timer(2, 3))],
-    [Some(Timer(4, 3)), Some(Timer(4, 4)), Some(Timer(4, 1)), Some(Timer(4, 4)), Some(Timer(4, 2)), None, Some(Timer(4, 0)), None],
-    [None, Some(Timer(5, 0)), Some(I2cRx(1)), Some(I2cRx(1)), Some(UsartTx(2)), Some(Dac(0)), Some(Dac(1)), Some(I2cTx(1))],
+    [
+        Some(SpiRx(2)),
+        None,
+        Some(SpiRx(2)),
+        Some(SpiRx(1)),
+        Some(SpiTx(1)),
+        Some(SpiTx(2)),
+        None,
+        Some(SpiTx(2)),
+    ],
+    [
+        Some(I2cRx(0)),
+        None,
+        Some(Timer(6, 0)),
+        None,
+        Some(Timer(6, 0)),
+        Some(I2cRx(0)),
+        Some(I2cTx(0)),
+        Some(I2cTx(0)),
+    ],
+    [
+        Some(Timer(3, 1)),
+        None,
+        None,
+        Some(Timer(3, 2)),
+        None,
+        None,
+        Some(Timer(3, 0)),
+        Some(Timer(3, 3)),
+    ],
+    [
+        None,
+        Some(Timer(1, 0)),
+        Some(I2cRx(2)),
+        None,
+        Some(I2cTx(2)),
+        Some(Timer(1, 1)),
+        Some(Timer(1, 2)),
+        Some(Timer(1, 0)),
+    ],
+    [
+        Some(UsartRx(4)),
+        Some(UsartRx(2)),
+        Some(UsartRx(3)),
+        Some(UsartTx(2)),
+        Some(UsartTx(3)),
+        Some(UsartRx(1)),
+        Some(UsartTx(1)),
+        Some(UsartTx(4)),
+    ],
+    [
+        None,
+        None,
+        Some(Timer(2, 4)),
+        None,
+        Some(Timer(2, 1)),
+        Some(Timer(2, 2)),
+        None,
+        Some(Timer(2, 3)),
+    ],
+    [
+        Some(Timer(4, 3)),
+        Some(Timer(4, 4)),
+        Some(Timer(4, 1)),
+        Some(Timer(4, 4)),
+        Some(Timer(4, 2)),
+        None,
+        Some(Timer(4, 0)),
+        None,
+    ],
+    [
+        None,
+        Some(Timer(5, 0)),
+        Some(I2cRx(1)),
+        Some(I2cRx(1)),
+        Some(UsartTx(2)),
+        Some(Dac(0)),
+        Some(Dac(1)),
+        Some(I2cTx(1)),
+    ],
 ];
 
 const DMA2: [Row; 8] = [
@@ -226,7 +300,34 @@ const DMA2: [Row; 8] = [
     [Some(Adc(2)), Some(Adc(2)), None, None, None, None, None, None],
     [Some(SpiRx(0)), None, Some(SpiRx(0)), Some(SpiTx(0)), None, Some(SpiTx(0)), None, None],
     [None, None, Some(UsartRx(0)), None, None, Some(UsartRx(0)), None, Some(UsartTx(0))],
-    [None, Some(UsartRx(5)), Some(UsartRx(5)), None, None, None, Some(UsartTx(5)), Some(UsartTx(5))],
-    [None, Some(Timer(0, 1)), Some(Timer(0, 2)), Some(Timer(0, 1)), Some(Timer(0, 4)), Some(Timer(0, 0)), Some(Timer(0, 3)), None],
-    [None, Some(Timer(7, 0)), Some(Timer(7, 1)), Some(Timer(7, 2)), Some(Timer(7, 3)), None, None, Some(Timer(7, 4))],
+    [
+        None,
+        Some(UsartRx(5)),
+        Some(UsartRx(5)),
+        None,
+        None,
+        None,
+        Some(UsartTx(5)),
+        Some(UsartTx(5)),
+    ],
+    [
+        None,
+        Some(Timer(0, 1)),
+        Some(Timer(0, 2)),
+        Some(Timer(0, 1)),
+        Some(Timer(0, 4)),
+        Some(Timer(0, 0)),
+        Some(Timer(0, 3)),
+        None,
+    ],
+    [
+        None,
+        Some(Timer(7, 0)),
+        Some(Timer(7, 1)),
+        Some(Timer(7, 2)),
+        Some(Timer(7, 3)),
+        None,
+        None,
+        Some(Timer(7, 4)),
+    ],
 ];

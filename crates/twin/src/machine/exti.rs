@@ -51,7 +51,8 @@ impl Exti {
     /// The pad of a line whose edges count.
     fn watched(&self, line: u8) -> Option<Pad> {
         let port = self.ports[usize::from(line / 4)] >> (4 * u32::from(line % 4)) & 15;
-        let counts = (self.rising | self.falling) >> line & 1 == 1 && (self.imr | self.emr) >> line & 1 == 1;
+        let counts =
+            (self.rising | self.falling) >> line & 1 == 1 && (self.imr | self.emr) >> line & 1 == 1;
         counts.then_some(Pad { port: u8::try_from(port).unwrap_or(0), pin: line })
     }
 
@@ -72,7 +73,13 @@ impl Exti {
     }
 
     fn find_next(&mut self) {
-        self.next_ns = self.lines.iter().filter_map(|line| line.edge).map(|edge| edge.0).min().unwrap_or(NEVER);
+        self.next_ns = self
+            .lines
+            .iter()
+            .filter_map(|line| line.edge)
+            .map(|edge| edge.0)
+            .min()
+            .unwrap_or(NEVER);
     }
 
     /// Asks the world again when it may have changed its mind, or when a pad of the MCU's own changed.

@@ -168,7 +168,9 @@ impl Gpio {
         for port in 0..9_u8 {
             for pin in 0..16_u8 {
                 let pad = Pad { port, pin };
-                let (Some(registers), Some(mode)) = (self.port(pad), self.mode(pad)) else { continue };
+                let (Some(registers), Some(mode)) = (self.port(pad), self.mode(pad)) else {
+                    continue;
+                };
                 let wire = match mode {
                     Mode::Alternate(number) => self.functions.get(&(pad, number)).cloned(),
                     Mode::Input | Mode::Output | Mode::Analog => None,

@@ -34,7 +34,9 @@ enum Phase {
     Starting,
     Addressing(u8),
     Sending(u8),
-    Receiving { ack: bool },
+    Receiving {
+        ack: bool,
+    },
     Stopping,
     /// Somebody holds a wire low.
     Hung,
@@ -248,7 +250,9 @@ impl I2c {
         let left = wires.i2c_left.get(usize::from(self.unit) - 1).copied().flatten();
         // A byte that the DMA has not taken yet is still counted.
         let taken_soon = u32::from(self.sr1 & RECEIVED != 0) + u32::from(self.behind.is_some());
-        if self.cr[1] & (DMA | LAST) == DMA | LAST && left.is_some_and(|left| left <= 1 + taken_soon) {
+        if self.cr[1] & (DMA | LAST) == DMA | LAST
+            && left.is_some_and(|left| left <= 1 + taken_soon)
+        {
             return false;
         }
         if self.cr[0] & NEXT != 0 { self.acknowledged } else { self.cr[0] & ACKNOWLEDGE != 0 }

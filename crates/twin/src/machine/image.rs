@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use object::{Endianness, Object, ObjectKind, ObjectSegment};
+use object::{Endianness, Object, ObjectKind};
 
-use super::chip::FLASH_BASE;
+use super::transfer::FLASH_BASE;
 
 /// How much flash the MCU has.
 pub(super) const FLASH_BYTES: usize = 1 << 20;
@@ -43,7 +43,9 @@ pub enum ImageError {
 impl fmt::Display for ImageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotAProgram => f.write_str("it is neither an ELF file nor the contents of a flash"),
+            Self::NotAProgram => {
+                f.write_str("it is neither an ELF file nor the contents of a flash")
+            }
             Self::Damaged(why) => write!(f, "the ELF file cannot be read: {why}"),
             Self::OtherProcessor(which) => {
                 write!(f, "it is a program for another processor ({which}), not for a 32-bit Arm")
@@ -74,7 +76,9 @@ pub(super) fn flash_of(image: &[u8]) -> Result<Vec<u8>, ImageError> {
     let word = |at: usize| -> Option<u32> {
         Some(u32::from_le_bytes(flash.get(at..at + 4)?.try_into().ok()?))
     };
-    let (Some(stack), Some(entry)) = (word(0), word(4)) else { return Err(ImageError::NotAProgram) };
+    let (Some(stack), Some(entry)) = (word(0), word(4)) else {
+        return Err(ImageError::NotAProgram);
+    };
     let has_stack = STACKS.iter().any(|(low, high)| stack > *low && stack <= *high);
     let begins = entry & 1 == 1 && (FLASH_BASE..FLASH_BASE + 0x0010_0000).contains(&entry);
     if !has_stack || !begins {
@@ -133,7 +137,6 @@ fn of_elf(image: &[u8]) -> Result<Vec<u8>, ImageError> {
             place.copy_from_slice(data);
         }
     }
-    let _ = file.segments().count();
     Ok(flash)
 }
 

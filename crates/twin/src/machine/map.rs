@@ -120,6 +120,8 @@ pub(super) fn find(address: u32) -> Option<&'static Row> {
 /// The peripherals whose clock, and reset, is a bit of a register. The reset registers stand 0x20 before the enable
 /// registers.
 pub(super) fn behind(register: u32, bits: u32) -> impl Iterator<Item = Device> {
-    let has = move |row: &&Row| row.3.is_some_and(|(enable, bit)| enable == register && bits >> bit & 1 == 1);
+    let has = move |row: &&Row| {
+        row.3.is_some_and(|(enable, bit)| enable == register && bits >> bit & 1 == 1)
+    };
     ROWS.iter().filter(has).map(|row| row.2)
 }

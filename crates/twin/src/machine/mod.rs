@@ -35,6 +35,7 @@ mod plain;
 mod rcc;
 mod spi;
 mod timer;
+mod transfer;
 mod usart;
 mod usb;
 mod usb_host;
@@ -146,7 +147,7 @@ impl Machine {
         self.core.pc()
     }
 
-    /// Whether RCC_CSR tells that the watchdog was the cause of a reset, until the program clears it.
+    /// The causes of resets in `RCC_CSR`, bits 25 to 31, until the program clears them.
     #[must_use]
     pub fn reset_causes(&self) -> u32 {
         self.core.chip().rcc.causes()

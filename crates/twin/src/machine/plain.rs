@@ -26,7 +26,10 @@ impl Plain {
 
     pub(super) fn read(&self, offset: u32) -> u32 {
         let value = self.registers.get((offset / 4) as usize).copied().unwrap_or(0);
-        self.ready.iter().filter(|(at, _)| *at == offset).fold(value, |value, (_, bits)| value | bits)
+        self.ready
+            .iter()
+            .filter(|(at, _)| *at == offset)
+            .fold(value, |value, (_, bits)| value | bits)
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32) {

@@ -5,13 +5,8 @@ use super::wires::{Clocks, ResetCause, merge};
 /// The internal oscillator.
 const HSI_HZ: u64 = 16_000_000;
 /// What runs after a reset.
-pub(super) const AT_RESET: Clocks = Clocks {
-    core: HSI_HZ,
-    apb1: HSI_HZ,
-    apb2: HSI_HZ,
-    timers1: HSI_HZ,
-    timers2: HSI_HZ,
-};
+pub(super) const AT_RESET: Clocks =
+    Clocks { core: HSI_HZ, apb1: HSI_HZ, apb2: HSI_HZ, timers1: HSI_HZ, timers2: HSI_HZ };
 
 const CR: u32 = 0x00;
 const PLLCFGR: u32 = 0x04;
@@ -37,12 +32,12 @@ pub(super) struct Rcc {
 impl Rcc {
     pub(super) fn new(crystal_hz: u64) -> Self {
         let mut rcc = Self { registers: [0; 36], crystal_hz };
-        rcc.to_reset_values();
+        rcc.reset_registers();
         rcc.registers[index(CSR)] = CAUSE_POWER | CAUSE_PIN;
         rcc
     }
 
-    fn to_reset_values(&mut self) {
+    fn reset_registers(&mut self) {
         let (csr, bdcr) = (self.registers[index(CSR)], self.registers[index(BDCR)]);
         self.registers = [0; 36];
         self.registers[index(CR)] = 0x83;
@@ -55,7 +50,7 @@ impl Rcc {
 
     /// A reset that is not the power's: the causes before stay until the program clears them.
     pub(super) fn reset(&mut self, cause: ResetCause) {
-        self.to_reset_values();
+        self.reset_registers();
         self.registers[index(CSR)] |= CAUSE_PIN
             | match cause {
                 ResetCause::Watchdog => CAUSE_WATCHDOG,

@@ -1,4 +1,4 @@
-//! OTG_FS as a device: endpoints and FIFOs as the program sees them. The host at the other end is in `usb_host.rs`.
+//! `OTG_FS` as a device: endpoints and FIFOs as the program sees them. The host at the other end is in `usb_host.rs`.
 
 use std::collections::VecDeque;
 
@@ -126,7 +126,8 @@ impl Usb {
         let configuration = self.register(0x38);
         let is_on = configuration >> 16 & 1 == 1 && configuration & (1 << 19 | 1 << 21) != 0;
         let is_wanted = self.register(0x804) & 2 == 0;
-        let has_pads = ["DP", "DM"].iter().all(|wire| wires.pad_of(&format!("USB_OTG_FS_{wire}")).is_some());
+        let has_pads =
+            ["DP", "DM"].iter().all(|wire| wires.pad_of(&format!("USB_OTG_FS_{wire}")).is_some());
         is_on && is_wanted && has_pads && wires.link.port == LinkPort::Usb
     }
 
@@ -242,7 +243,8 @@ impl Usb {
     }
 
     fn tell(&self, wires: &mut Wires) {
-        let is_held = self.core_interrupts() & self.register(0x18) != 0 && self.register(0x08) & 1 == 1;
+        let is_held =
+            self.core_interrupts() & self.register(0x18) != 0 && self.register(0x08) & 1 == 1;
         wires.interrupt(67, 0, is_held);
     }
 
@@ -279,7 +281,11 @@ impl Usb {
             0x08 => endpoint.interrupts | if endpoint.fifo.is_empty() { FIFO_EMPTY } else { 0 },
             0x10 => endpoint.size,
             0x18 => {
-                let depth = if number == 0 { self.register(0x28) } else { self.register(0x100 + 4 * number as u32) };
+                let depth = if number == 0 {
+                    self.register(0x28)
+                } else {
+                    self.register(0x100 + 4 * number as u32)
+                };
                 (depth >> 16).saturating_sub(endpoint.fifo.len() as u32 / 4)
             }
             _ => 0,
@@ -373,4 +379,3 @@ fn packet_bytes(control: u32, endpoint: usize) -> u32 {
     }
     (control & 0x7FF).max(1)
 }
-

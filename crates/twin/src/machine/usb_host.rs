@@ -68,7 +68,8 @@ impl Enquiry {
 }
 
 fn request(kind: u8, request: u8, value: u16, index: u16, length: u16) -> [u8; 8] {
-    let ([v0, v1], [i0, i1], [l0, l1]) = (value.to_le_bytes(), index.to_le_bytes(), length.to_le_bytes());
+    let ([v0, v1], [i0, i1], [l0, l1]) =
+        (value.to_le_bytes(), index.to_le_bytes(), length.to_le_bytes());
     [kind, request, v0, v1, i0, i1, l0, l1]
 }
 
@@ -212,11 +213,15 @@ impl Host {
     /// Finds the interface of the communications class and the endpoints of the bytes.
     fn read_configuration(&mut self, answer: &[u8]) {
         let mut rest = answer;
-        while let Some(length) = rest.first().map(|length| usize::from(*length)).filter(|length| *length >= 2) {
+        while let Some(length) =
+            rest.first().map(|length| usize::from(*length)).filter(|length| *length >= 2)
+        {
             match *rest {
                 [_, 2, _, _, _, value, ..] => self.configuration = value,
                 [_, 4, number, _, _, 2, 2, ..] => self.interface = number,
-                [_, 5, address, 2, ..] if address & 0x80 != 0 => self.input = usize::from(address & 3),
+                [_, 5, address, 2, ..] if address & 0x80 != 0 => {
+                    self.input = usize::from(address & 3);
+                }
                 [_, 5, address, 2, ..] => self.output = usize::from(address & 3),
                 _ => {}
             }
