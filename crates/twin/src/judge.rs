@@ -80,6 +80,8 @@ struct Accused {
     bounds: Option<(f64, f64)>,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
+    /// Where it stood before the board was up nobody knows.
+    is_anywhere: bool,
     /// What a count had when it was first told, less what the world had.
     bases: Vec<Option<f64>>,
     last_ns: Option<u64>,
@@ -147,6 +149,7 @@ impl Accused {
             gap_ns,
             bounds: raw_range(device),
             excuses: bench.excused(job, one.index),
+            is_anywhere: is_encoder,
             is_relative: is_encoder || is_counter(&device.kind, device),
             bases: vec![None; subject.signals.len()],
             last_ns: None,
@@ -207,7 +210,7 @@ impl Accused {
                 None => {
                     let (early, late) = self.lost(now_ns, element);
                     let off = got - f64::midpoint(least, greatest);
-                    if off >= early - 3.0 && off <= late + 3.0 { off } else { 0.0 }
+                    if self.is_anywhere || (off >= early - 3.0 && off <= late + 3.0) { off } else { 0.0 }
                 }
             };
         }

@@ -10,9 +10,9 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_twin::bench::{Bench, seconds};
 use sensedsl_twin::judge::{Judge, Judged};
-use sensedsl_twin::truth::real;
 use sensedsl_wire::{
-    Decoder, Direction, Event, Health, Scalar, encode_health_request, encode_hello_request,
+    Decoder, Direction, Event, Health, NEVER_MS, Scalar, Status as HealthStatus,
+    encode_health_request, encode_hello_request,
 };
 
 use super::Scenery;
@@ -245,9 +245,18 @@ impl<'a> Session<'a> {
             .map(|one| {
                 let item = self.scenery.job.schema.items.iter().find(|item| item.id == one.id);
                 let name = item.map_or("", |item| item.name.as_str()).to_owned();
-                let faults = one.causes.total();
-                let age = one.age_ms.to_string();
-                [name, one.status.name().to_owned(), age, faults.to_string()]
+                let causes = one.causes;
+                let faults = [
+                    causes.not_acknowledged,
+                    causes.bus_error,
+                    causes.arbitration_lost,
+                    causes.timed_out,
+                    causes.wrong_checksum,
+                    causes.invalid,
+                ];
+                let faults: u32 = faults.into_iter().map(u32::from).sum();
+                let age = if one.age_ms == NEVER_MS { "-".to_owned() } else { one.age_ms.to_string() };
+                [name, status(one.status).to_owned(), age, faults.to_string()]
             })
             .collect();
         let heads = [("Device", false), ("Status", false), ("Age ms", true), ("Faults", true)];
@@ -285,6 +294,17 @@ impl<'a> Session<'a> {
         let span = seconds(now_ns);
         scenery.terminal.note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
         Ok(Status::Done)
+    }
+}
+
+fn status(of: HealthStatus) -> &'static str {
+    match of {
+        HealthStatus::NeverRead => "never read",
+        HealthStatus::Good => "good",
+        HealthStatus::Stale => "stale",
+        HealthStatus::Failed => "failed",
+        HealthStatus::Invalid => "invalid",
+        HealthStatus::Other(_) => "unknown",
     }
 }
 
