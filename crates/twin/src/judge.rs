@@ -82,8 +82,8 @@ struct Accused {
     is_relative: bool,
     /// Where it stood before the board was up nobody knows.
     is_anywhere: bool,
-    /// What a count had when it was first told, less what the world had.
-    bases: Vec<Option<f64>>,
+    /// What a count may have begun with, less what the world had: from, to.
+    bases: Vec<Option<(f64, f64)>>,
     last_ns: Option<u64>,
 }
 
@@ -167,14 +167,17 @@ impl Accused {
             return;
         }
         self.judged.reports += 1;
-        let wrongs = elements.iter().enumerate().filter_map(|(element, scalar)| {
-            self.compare(now_ns, element, real(*scalar))
-        });
-        let worst = wrongs.max_by(|one, other| one.off.total_cmp(&other.off));
+        let mut worst: Option<Wrong> = None;
         for (element, scalar) in elements.iter().enumerate() {
-            let (least, greatest) = self.expected(now_ns, element);
-            if let Some(base) = self.bases.get_mut(element).filter(|base| base.is_none()) {
-                *base = Some(real(*scalar) - f64::midpoint(least, greatest));
+            let got = real(*scalar);
+            let wrong = if self.is_relative {
+                self.compare_count(now_ns, element, got)
+            } else {
+                self.compare(now_ns, element, got)
+            };
+            let is_worse = |wrong: &Wrong| worst.as_ref().is_none_or(|worst| worst.off < wrong.off);
+            if let Some(wrong) = wrong.filter(is_worse) {
+                worst = Some(wrong);
             }
         }
         self.note(worst);
@@ -202,35 +205,48 @@ impl Accused {
 
     fn compare(&self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
         let (least, greatest) = self.expected(now_ns, element);
-        let mut base = 0.0;
-        if self.is_relative {
-            // What happened before the board was up is not counted.
-            base = match self.bases.get(element).copied().flatten() {
-                Some(base) => base,
-                None => {
-                    let (early, late) = self.lost(now_ns, element);
-                    let off = got - f64::midpoint(least, greatest);
-                    if self.is_anywhere || (off >= early - 3.0 && off <= late + 3.0) { off } else { 0.0 }
-                }
-            };
-        }
-        let tolerance = self.tolerance + (greatest - least) * if self.is_relative { 1.0 } else { 0.0 };
-        let below = (least + base - tolerance) - got;
-        let above = got - (greatest + base + tolerance);
+        let below = (least - self.tolerance) - got;
+        let above = got - (greatest + self.tolerance);
         let off = below.max(above);
-        // A boolean is compared as it is.
-        if off <= 1e-9 * got.abs().max(1.0) || got.is_nan() && self.bounds.is_some() {
+        (off > 1e-9 * got.abs().max(1.0) || got.is_nan())
+            .then(|| self.wrong(now_ns, element, (least, greatest), (got, off)))
+    }
+
+    /// What a counter has counted before nobody knows: what it started with must be the same for all reports.
+    fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+        let (least, greatest) = self.expected(now_ns, element);
+        let found = (got - greatest - self.tolerance, got - least + self.tolerance);
+        let known = self.bases.get(element).copied().flatten();
+        let (from, to) = match known {
+            Some(known) => known,
+            None if self.is_anywhere => found,
+            None => {
+                let (early, late) = self.lost(now_ns, element);
+                (early - 3.0, late + 3.0)
+            }
+        };
+        let both = (from.max(found.0), to.min(found.1));
+        if both.0 <= both.1 {
+            if let Some(base) = self.bases.get_mut(element) {
+                *base = Some(both);
+            }
             return None;
         }
-        let shown = |raw: f64| self.subject.scale.shown(raw);
-        let (one, other) = (shown(least + base), shown(greatest + base));
-        Some(Wrong {
-            at_ns: now_ns,
-            element,
-            expected: Some((one.min(other), one.max(other))),
-            got: shown(got),
-            off: off / tolerance.max(0.5),
-        })
+        let expected = (least + from, greatest + to);
+        Some(self.wrong(now_ns, element, expected, (got, both.0 - both.1)))
+    }
+
+    /// In the device's own unit.
+    fn wrong(
+        &self,
+        at_ns: u64,
+        element: usize,
+        (least, greatest): (f64, f64),
+        (got, off): (f64, f64),
+    ) -> Wrong {
+        let [one, other, got] = [least, greatest, got].map(|raw| self.subject.scale.shown(raw));
+        let expected = Some((one.min(other), one.max(other)));
+        Wrong { at_ns, element, expected, got, off: off / self.tolerance.max(0.5) }
     }
 
     /// By how much a count may be off because the board was not up: less or more.

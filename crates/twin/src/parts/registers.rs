@@ -81,9 +81,13 @@ impl Registers {
         *self = Self::new(self.protocol.clone(), std::mem::take(&mut self.readings));
     }
 
-    /// Whether it measures and answers nobody.
+    /// Whether it measures and answers nobody. A part that is set up first, or is asked for several things, has a
+    /// processor of its own for its bus.
     pub(crate) fn is_busy(&self, now_ns: u64) -> bool {
-        self.measurement.as_ref().is_some_and(|one| now_ns < one.ready_ns)
+        let first = self.readings.first().map(|one| &one.trigger);
+        let is_simple = self.protocol.init.is_empty()
+            && self.readings.iter().all(|one| Some(&one.trigger) == first);
+        is_simple && self.measurement.as_ref().is_some_and(|one| now_ns < one.ready_ns)
     }
 
     /// A transfer begins, or goes on in the other direction.
