@@ -46,3 +46,11 @@ pub fn falls(span: Span, name: &str) -> Diagnostic {
         .here("becomes less")
         .help("write for example `{ rate = 25 }` for 25 edges a second")
 }
+
+/// What counts edges would have to turn infinitely fast.
+#[must_use]
+pub fn jumps(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot jump"))
+        .here("jumps")
+        .help("write for example `{ sine = 200, period = \"4 s\" }`, `{ rate = 25 }` or `steps`, which are joined by lines")
+}

@@ -70,6 +70,11 @@ impl Bus {
                 }
             };
             self.chip.done(outcome, &mut |item, outcome, value| core.tell(item, outcome, value));
+            if outcome != Outcome::Fresh {
+                // It is started again in the next cycle.
+                self.wakes_ms = since_ms + u64::from(self.table.cycle_ms.max(1));
+                break;
+            }
         }
         self.command(bench, now_ns);
     }

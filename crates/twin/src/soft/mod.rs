@@ -217,10 +217,10 @@ impl SoftBoard {
         }
         if self.state.began_ms == u64::MAX {
             self.bench.power_up();
-            self.state = State::new(&self.shape, self.now_ms);
+            self.state = State::new(&self.shape, self.now_ms - 1);
             self.starts += 1;
         }
-        let since_ms = self.now_ms - self.state.began_ms;
+        let since_ms = self.now_ms - self.state.began_ms - 1;
         self.serve(since_ms, now_ns);
         self.report(since_ms);
         self.carry(now_ns);

@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::entry::{Entry, duration};
 use super::fault::{Fault, FaultKind};
-use super::{Signal, World};
+use super::{Shape, Signal, World};
 use crate::arith::scrambled;
 use crate::range::{is_counter, shown_range};
 use crate::truth::Scale;
@@ -157,7 +157,8 @@ impl<'a> Reader<'a> {
             let span = self.span(entry);
             let read = Entry { file: self.file, samples: self.scene.samples, name: &name };
             match read.signal(entry) {
-                Ok(signal) => {
+                Ok(mut signal) => {
+                    turns(device, &mut signal);
                     self.said.extend(impossible(device, &signal, span));
                     signals.push(signal);
                 }
@@ -256,11 +257,25 @@ pub(crate) fn key(seed: u64, device: DeviceIndex, element: u64) -> u64 {
     scrambled(scrambled(seed ^ scrambled(device)) ^ element)
 }
 
+/// What counts edges goes from point to point and does not jump: nothing turns so fast.
+fn turns(device: &Device, signal: &mut Signal) {
+    if let Shape::Points { is_straight, .. } = &mut signal.shape {
+        *is_straight |= is_turning(device);
+    }
+}
+
+fn is_turning(device: &Device) -> bool {
+    device.kind.encoder().is_some() || is_counter(&device.kind, device)
+}
+
 /// Why a device cannot do what a signal wants.
 fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
     if is_counter(&device.kind, device) && signal.falls() {
         return Some(value::falls(span, name));
+    }
+    if is_turning(device) && matches!(signal.shape, Shape::Square { .. }) {
+        return Some(value::jumps(span, name));
     }
     let (least, greatest) = signal.bounds()?;
     let plain = Signal { noise: 0.0, ..signal.clone() };
@@ -270,7 +285,8 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     let slack = scale.shown_step(scale.raw(low)).max(scale.shown_step(scale.raw(high))) / 2.0
         + (high - low).abs() * 1e-9;
     let wrong = [least, greatest].into_iter().find(|one| *one < low - slack || *one > high + slack)?;
-    let range = format!("{} to {}", short(low), short(high));
+    let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+    let range = format!("{} to {}{unit}", short(low), short(high));
     Some(value::out_of_range(span, name, &short(wrong), &range))
 }
 

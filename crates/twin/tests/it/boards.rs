@@ -1,4 +1,4 @@
-//! Whole boards: all examples, as the world is when nobody says anything of it.
+//! Whole boards: all examples, as the world is when nobody says anything of it, and in the worlds that they come with.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ fn example(name: &str) -> String {
 #[test]
 fn every_sensor_of_every_example_reports_what_the_world_does() {
     for name in ["fig2", "miniature_car", "line_follower", "quadcopter", "arm", "greenhouse", "rover"] {
-        let run = plainly(&example(name), "", 12);
+        let run = plainly(&example(name), "", 5);
         let wrong = run.wrong();
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");
         for one in &run.judged {
@@ -30,4 +30,18 @@ fn a_run_is_the_same_to_the_byte() {
     let runs = [(); 2].map(|()| plainly(&text, world, 3).bytes);
     assert_eq!(runs[0], runs[1]);
     assert!(runs[0].len() > 1_000);
+}
+
+#[test]
+fn the_worlds_of_the_examples_are_kept() {
+    for (name, world) in [
+        ("fig2", "fig2"),
+        ("miniature_car", "car"),
+        ("line_follower", "line_follower"),
+        ("quadcopter", "quadcopter"),
+    ] {
+        let path = format!("{}/../../examples/worlds/{world}.toml", env!("CARGO_MANIFEST_DIR"));
+        let run = plainly(&example(name), &fs::read_to_string(path).unwrap(), 7);
+        assert!(run.wrong().is_empty(), "{name}: {:#?}", run.wrong());
+    }
 }

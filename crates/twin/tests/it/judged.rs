@@ -26,7 +26,7 @@ Line = [500, 1500, { sine = 500, offset = 2500, period = \"2 s\" }]
 ";
 
 fn with(tamper: impl FnMut(u64, &mut Values)) -> Vec<String> {
-    let run = simulate(CAR, WORLD, 5, tamper);
+    let run = simulate(CAR, WORLD, 3, tamper);
     run.judged.into_iter().filter(|one| one.wrong > 0).map(|one| one.name).collect()
 }
 
@@ -46,7 +46,7 @@ fn change(id: u8, mut how: impl FnMut(u64) -> u64) -> impl FnMut(u64, &mut Value
 
 #[test]
 fn what_is_right_is_found_right() {
-    let run = plainly(CAR, WORLD, 5);
+    let run = plainly(CAR, WORLD, 3);
     assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
     for one in &run.judged {
         assert!(one.reports >= 10, "{}: {}", one.name, one.reports);

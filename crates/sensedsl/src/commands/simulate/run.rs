@@ -267,16 +267,19 @@ impl<'a> Session<'a> {
     fn verdict(self) -> Result<Status> {
         let Self { scenery, judge, now_ns, .. } = self;
         let judged = judge.finish(now_ns);
-        let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
+        let rows: Vec<[String; 5]> = judged.iter().map(cells).collect();
         let heads = [
             ("Device", false),
             ("Reports", true),
             ("Excused", true),
             ("Wrong", true),
             ("May be old", true),
-            ("Worst", false),
         ];
-        scenery.terminal.result(&table(heads, &rows))?;
+        let mut text = table(heads, &rows);
+        for one in judged.iter().filter(|one| one.wrong > 0) {
+            text.push_str(&format!("  {}: {}\n", one.name, words(one)));
+        }
+        scenery.terminal.result(&text)?;
         let all: u64 = judged.iter().map(|one| one.reports).sum();
         let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
         let off = |one: &&Judged| one.worst.as_ref().map_or(0.0, |worst| worst.off);
@@ -308,12 +311,11 @@ fn status(of: HealthStatus) -> &'static str {
     }
 }
 
-fn cells(one: &Judged) -> [String; 6] {
+fn cells(one: &Judged) -> [String; 5] {
     let age = format!("{} ms", one.age_ns / MS);
-    let worst = one.worst.as_ref().map(|_| words(one)).unwrap_or_default();
     let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());
     let [reports, excused, wrong] = counts;
-    [one.name.clone(), reports, excused, wrong, age, worst]
+    [one.name.clone(), reports, excused, wrong, age]
 }
 
 /// The worst disagreement of a device.
