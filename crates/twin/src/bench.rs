@@ -172,7 +172,12 @@ impl Bench {
     }
 
     /// The level at a wire of a connection; none where nobody drives it.
-    pub fn level_at(&mut self, connection: ConnectionIndex, role: Role, now_ns: u64) -> Option<bool> {
+    pub fn level_at(
+        &mut self,
+        connection: ConnectionIndex,
+        role: Role,
+        now_ns: u64,
+    ) -> Option<bool> {
         if self.is_cut(connection, now_ns) {
             return None;
         }
@@ -210,7 +215,13 @@ impl Bench {
     }
 
     /// The board drives a wire of a connection.
-    pub fn drive_at(&mut self, connection: ConnectionIndex, role: Role, level: Option<bool>, now_ns: u64) {
+    pub fn drive_at(
+        &mut self,
+        connection: ConnectionIndex,
+        role: Role,
+        level: Option<bool>,
+        now_ns: u64,
+    ) {
         if role == Role::Cs
             && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
         {
@@ -477,13 +488,13 @@ impl Surroundings for Bench {
             return I2cReply::Silent;
         }
         if let I2cEvent::Start { address, read } = event {
-            let place = self.chips.iter().position(|one| {
-                one.unit == unit && one.address == Some(address)
-            });
+            let place =
+                self.chips.iter().position(|one| one.unit == unit && one.address == Some(address));
             let Some(place) = place else { return I2cReply::Nack };
             let part = self.chips.get(place).map(|one| one.part);
             let is_gone = part.is_none_or(|part| {
-                self.has(FaultKind::NoAnswer, part, now_ns) || self.has(FaultKind::Torn, part, now_ns)
+                self.has(FaultKind::NoAnswer, part, now_ns)
+                    || self.has(FaultKind::Torn, part, now_ns)
             });
             let Some(chip) = self.chips.get_mut(place) else { return I2cReply::Nack };
             if is_gone || chip.registers.is_busy(now_ns) {

@@ -16,6 +16,7 @@ use crate::bench::Bench;
 use crate::parts::formula;
 use crate::range::{is_counter, raw_range};
 use crate::truth::{Subject, real};
+use crate::world::Signal;
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1_000 * MS;
@@ -197,9 +198,8 @@ impl Accused {
         let signal = self.subject.signals.get(element);
         let (least, greatest) = signal.map_or((0.0, 0.0), |signal| signal.range(from_ns, now_ns));
         let ends = [least, greatest].map(|end| self.subject.scale.raw(end));
-        let [one, other] = ends.map(|end| {
-            self.bounds.map_or(end, |(low, high)| end.clamp(low, high.max(low)))
-        });
+        let [one, other] =
+            ends.map(|end| self.bounds.map_or(end, |(low, high)| end.clamp(low, high.max(low))));
         (one.min(other), one.max(other))
     }
 
@@ -271,9 +271,8 @@ impl Accused {
         let since_ns = self.last_ns.unwrap_or(0);
         let most_ns = gap_ns + if self.last_ns.is_none() { START_NS } else { 0 };
         let silent_ns = now_ns - since_ns;
-        let is_explained = |&(at, until): &(u64, u64)| {
-            at <= now_ns && until + RECOVERY_NS + gap_ns >= since_ns
-        };
+        let is_explained =
+            |&(at, until): &(u64, u64)| at <= now_ns && until + RECOVERY_NS + gap_ns >= since_ns;
         if silent_ns > most_ns && !self.excuses.iter().any(is_explained) {
             let off = crate::arith::number(silent_ns) / crate::arith::number(most_ns);
             let got = crate::bench::seconds(silent_ns);
@@ -310,10 +309,12 @@ fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
 
 /// How old the last pulse can be.
 fn pulses_ns(icu: &Icu, subject: &Subject) -> u64 {
-    let bounds = subject.signals.iter().filter_map(|signal| signal.bounds());
-    let ends = bounds.flat_map(|(least, greatest)| [least, greatest]).map(|end| subject.scale.raw(end));
+    let bounds = subject.signals.iter().filter_map(Signal::bounds);
+    let ends =
+        bounds.flat_map(|(least, greatest)| [least, greatest]).map(|end| subject.scale.raw(end));
     let (least, greatest) = ends.fold((f64::MAX, 0.0_f64), |(l, g), one| (l.min(one), g.max(one)));
-    let ticks_ns = |ticks: f64| crate::arith::nanoseconds(ticks * 1e9 / f64::from(icu.tick_hz.max(1)));
+    let ticks_ns =
+        |ticks: f64| crate::arith::nanoseconds(ticks * 1e9 / f64::from(icu.tick_hz.max(1)));
     match icu.mode {
         Mode::Count => 20 * MS,
         Mode::Width => 45 * MS + 2 * ticks_ns(greatest) + 1_000 * u64::from(icu.wait_us),
@@ -331,9 +332,10 @@ fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 
     let chip = job.design.part(device.part).and_then(|part| part.chip.as_ref());
     let formula = chip.and_then(|chip| Some((chip.formula?, &chip.parameters)));
     if let (Some(output), Some((formula, parameters))) = (device.coding.output, formula) {
-        let bounds = subject.signals.iter().filter_map(|signal| signal.bounds());
+        let bounds = subject.signals.iter().filter_map(Signal::bounds);
         let ends = bounds.flat_map(|(least, greatest)| [least, greatest]);
-        let steps = ends.map(|end| formula::step(formula, parameters, output, subject.scale.raw(end)));
+        let steps =
+            ends.map(|end| formula::step(formula, parameters, output, subject.scale.raw(end)));
         return steps.fold(1.5, |most, step| f64::max(most, 2.0 * step + 1.0));
     }
     if let Some(text) = &device.coding.text {
@@ -359,7 +361,7 @@ fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 
 
 /// What one tick, and a microsecond of the edges, make of the highest frequency.
 fn frequency_step(icu: &Icu, subject: &Subject) -> f64 {
-    let bounds = subject.signals.iter().filter_map(|signal| signal.bounds());
+    let bounds = subject.signals.iter().filter_map(Signal::bounds);
     let most = bounds.map(|(_, greatest)| subject.scale.raw(greatest)).fold(1.0, f64::max);
     1.0 + most * most * (2.0 / f64::from(icu.tick_hz.max(1)) + 4e-6)
 }

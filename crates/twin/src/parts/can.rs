@@ -45,7 +45,12 @@ impl Sender {
     }
 
     /// The frame, when it is due. What was due in the meantime is lost where `is_cut`.
-    pub(crate) fn next(&mut self, subjects: &[Subject], now_ns: u64, is_cut: bool) -> Option<CanFrame> {
+    pub(crate) fn next(
+        &mut self,
+        subjects: &[Subject],
+        now_ns: u64,
+        is_cut: bool,
+    ) -> Option<CanFrame> {
         if now_ns < self.next_ns {
             return None;
         }

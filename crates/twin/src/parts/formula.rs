@@ -96,7 +96,9 @@ pub(crate) fn step(formula: Formula, parameters: &[i32], output: u8, near: f64) 
             (above - below).abs()
         }
         // A count of either channel, and the constants have nine bits.
-        (Formula::Tsl2561, _) => near.abs() * 0.004 + 2.0 * 1_000.0 * TSL_M / 16_384.0 * gain(parameters),
+        (Formula::Tsl2561, _) => {
+            near.abs() * 0.004 + 2.0 * 1_000.0 * TSL_M / 16_384.0 * gain(parameters)
+        }
     }
 }
 

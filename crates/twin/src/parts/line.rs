@@ -7,6 +7,7 @@ use sensedsl_model::kind::icu::{self, Icu};
 
 use crate::arith::{nanoseconds, number};
 use crate::truth::Subject;
+use crate::world::Signal;
 
 /// No edge is looked for further ahead.
 const HORIZON_NS: u64 = 3_600_000_000_000;
@@ -32,39 +33,15 @@ const IDLE_NS: u64 = 10_000_000;
 #[derive(Clone, Debug)]
 pub(crate) enum Line {
     /// A level: on or off.
-    Level {
-        subject: usize,
-        element: usize,
-        is_active_low: bool,
-    },
+    Level { subject: usize, element: usize, is_active_low: bool },
     /// So many edges since the start.
-    Count {
-        subject: usize,
-        element: usize,
-        edges: Edges,
-    },
+    Count { subject: usize, element: usize, edges: Edges },
     /// A track of an encoder.
-    Track {
-        subject: usize,
-        element: usize,
-        is_second: bool,
-    },
+    Track { subject: usize, element: usize, is_second: bool },
     /// Pulses of a measured width at a fixed pace.
-    Width {
-        subject: usize,
-        element: usize,
-        tick_ns: f64,
-        period_ns: u64,
-        is_low: bool,
-    },
+    Width { subject: usize, element: usize, tick_ns: f64, period_ns: u64, is_low: bool },
     /// A pulse of a measured width after a trigger.
-    Echo {
-        subject: usize,
-        element: usize,
-        tick_ns: f64,
-        is_low: bool,
-        pulse: Option<(u64, u64)>,
-    },
+    Echo { subject: usize, element: usize, tick_ns: f64, is_low: bool, pulse: Option<(u64, u64)> },
     /// Pulses whose distance is what is measured.
     Period {
         subject: usize,
@@ -75,17 +52,9 @@ pub(crate) enum Line {
         period_ns: Option<u64>,
     },
     /// The active part of a fixed period.
-    Duty {
-        subject: usize,
-        element: usize,
-        is_low: bool,
-    },
+    Duty { subject: usize, element: usize, is_low: bool },
     /// All channels of a model receiver.
-    Train {
-        subject: usize,
-        tick_ns: f64,
-        is_low: bool,
-    },
+    Train { subject: usize, tick_ns: f64, is_low: bool },
 }
 
 /// Which edges count.
@@ -123,16 +92,21 @@ impl Line {
                 Self::Echo { subject, element, tick_ns, is_low, pulse: None }
             }
             icu::Mode::Width => {
-                let bounds = of.signals.get(element).and_then(|signal| signal.bounds());
+                let bounds = of.signals.get(element).and_then(Signal::bounds);
                 let ends = bounds.map_or([0.0, 0.0], |(least, greatest)| [least, greatest]);
                 let widest = ends.map(|end| of.scale.raw(end)).into_iter().fold(0.0, f64::max);
-                let period_ns = PULSES_NS.max(nanoseconds(widest * tick_ns).saturating_add(REST_NS));
+                let period_ns =
+                    PULSES_NS.max(nanoseconds(widest * tick_ns).saturating_add(REST_NS));
                 Self::Width { subject, element, tick_ns, period_ns, is_low }
             }
             icu::Mode::Period | icu::Mode::Frequency => Self::Period {
                 subject,
                 element,
-                unit: if icu.mode == icu::Mode::Period { Unit::Ticks(tick_ns) } else { Unit::Hertz },
+                unit: if icu.mode == icu::Mode::Period {
+                    Unit::Ticks(tick_ns)
+                } else {
+                    Unit::Hertz
+                },
                 is_low,
                 began_ns: 0,
                 period_ns: None,
@@ -166,7 +140,11 @@ impl Line {
             Self::Track { subject, element, is_second } => {
                 track(*is_second, raw(subjects, *subject, *element, now_ns).floor())
             }
-            _ => {
+            Self::Width { .. }
+            | Self::Echo { .. }
+            | Self::Period { .. }
+            | Self::Duty { .. }
+            | Self::Train { .. } => {
                 let (start, end, _) = self.pulse(subjects, now_ns);
                 (now_ns >= start && now_ns < end) != self.is_low()
             }
@@ -197,7 +175,11 @@ impl Line {
                 let (at, _) = crossing(subjects, *subject, *element, after_ns, half)?;
                 Some((at, track(is_second, raw(subjects, *subject, *element, at).floor())))
             }
-            _ => {
+            Self::Width { .. }
+            | Self::Echo { .. }
+            | Self::Period { .. }
+            | Self::Duty { .. }
+            | Self::Train { .. } => {
                 self.follow(subjects, after_ns);
                 let is_low = self.is_low();
                 let (start, end, next) = self.pulse(subjects, after_ns);
@@ -251,7 +233,9 @@ impl Line {
                 let end = start.saturating_add(width.min(period_ns - 1_000));
                 (start, end, Some(start.saturating_add(*period_ns)))
             }
-            Self::Echo { pulse, .. } => pulse.map_or((0, 0, None), |(start, end)| (start, end, None)),
+            Self::Echo { pulse, .. } => {
+                pulse.map_or((0, 0, None), |(start, end)| (start, end, None))
+            }
             Self::Period { began_ns, period_ns, .. } => match period_ns {
                 Some(length) => {
                     let next = began_ns.saturating_add(*length);
@@ -334,7 +318,7 @@ fn distance(unit: Unit, raw: f64) -> Option<u64> {
         Unit::Hertz => return None,
     };
     let length = nanoseconds(length);
-    (length >= 2 * PRECISION_NS && length < HORIZON_NS).then_some(length)
+    (2 * PRECISION_NS..HORIZON_NS).contains(&length).then_some(length)
 }
 
 /// When a function of a quantity first has another value after a moment, and which.
@@ -356,7 +340,8 @@ fn crossing(
     while from < after_ns.saturating_add(HORIZON_NS) {
         let to = from.saturating_add(span);
         if may_differ(from, to)
-            && let Some(at) = search(from, to, &may_differ, &|at| of(subject.raw(element, at)) != now)
+            && let Some(at) =
+                search(from, to, &may_differ, &|at| of(subject.raw(element, at)) != now)
         {
             return Some((at, of(subject.raw(element, at))));
         }

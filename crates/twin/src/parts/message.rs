@@ -53,7 +53,8 @@ impl Talker {
             number: 0,
         };
         // Fields get longer and shorter with their values.
-        let longest_ns = 2 * talker.byte_ns() * u64::try_from(talker.compose(subjects, 0).len()).unwrap_or(0);
+        let longest_ns =
+            2 * talker.byte_ns() * u64::try_from(talker.compose(subjects, 0).len()).unwrap_or(0);
         talker.period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
         talker
     }
@@ -74,7 +75,8 @@ impl Talker {
             self.sent = 0;
         }
         let byte = *self.message.get(self.sent)?;
-        let arrived = u64::try_from(self.sent + 1).unwrap_or(u64::MAX).saturating_mul(self.byte_ns());
+        let arrived =
+            u64::try_from(self.sent + 1).unwrap_or(u64::MAX).saturating_mul(self.byte_ns());
         if now_ns < self.began_ns.saturating_add(arrived) {
             return None;
         }
@@ -130,7 +132,8 @@ impl Talker {
         let mut columns: Vec<String> = Vec::new();
         let mut separator = None;
         for field in &self.fields {
-            let Some(text) = field.text.as_ref().filter(|text| text.sentence.as_deref() == sentence)
+            let Some(text) =
+                field.text.as_ref().filter(|text| text.sentence.as_deref() == sentence)
             else {
                 continue;
             };
@@ -140,7 +143,9 @@ impl Talker {
             for element in 0..subject.signals.len() {
                 let first = usize::from(text.field) + element * width;
                 let raw = subject.raw(element, now_ns);
-                for (column, written) in written(text, raw, field.is_latitude).into_iter().enumerate() {
+                for (column, written) in
+                    written(text, raw, field.is_latitude).into_iter().enumerate()
+                {
                     if columns.len() <= first + column {
                         columns.resize(first + column + 1, String::new());
                     }
@@ -156,7 +161,8 @@ impl Talker {
         {
             "A".clone_into(status);
         }
-        let separator = separator.map_or_else(|| ",".to_owned(), |byte| char::from(byte).to_string());
+        let separator =
+            separator.map_or_else(|| ",".to_owned(), |byte| char::from(byte).to_string());
         match sentence {
             None => columns.join(&separator),
             Some(sentence) => format!("GP{sentence}{separator}{}", columns.join(&separator)),

@@ -127,7 +127,8 @@ impl Registers {
 
     /// The chip select went high.
     pub(crate) fn deselect(&mut self, now_ns: u64) {
-        let is_reading = self.sent.first().is_some_and(|first| first & self.protocol.read_mask != 0);
+        let is_reading =
+            self.sent.first().is_some_and(|first| first & self.protocol.read_mask != 0);
         let is_exchange = self.readings.iter().any(|one| !one.exchange.is_empty());
         if is_exchange || (is_reading && self.protocol.read_mask != 0) {
             self.sent.clear();
@@ -141,7 +142,8 @@ impl Registers {
         self.write(out);
         let now_ns = self.began_ns;
         let place = self.sent.len();
-        let said = |one: &&Reading| !one.exchange.is_empty() && one.exchange.starts_with(&self.sent);
+        let said =
+            |one: &&Reading| !one.exchange.is_empty() && one.exchange.starts_with(&self.sent);
         if let Some(first) = self.readings.iter().find(said) {
             let same: Vec<&Reading> =
                 self.readings.iter().filter(|one| one.exchange == first.exchange).collect();
@@ -160,7 +162,8 @@ impl Registers {
             return 0;
         }
         if self.answer.is_empty() {
-            let number = self.sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
+            let number =
+                self.sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
             let mask = u16::from(self.protocol.read_mask) << (8 * (width - 1));
             self.pointer = Some(number & !mask);
             self.answer = self.answer(subjects, now_ns);
@@ -202,13 +205,18 @@ impl Registers {
         let has_crc = |one: &&Reading| one.words.as_ref().is_some_and(|words| words.crc.is_some());
         let exact: Vec<&Reading> =
             self.live().filter(|one| one.register == Some(pointer)).collect();
-        if exact.is_empty() && self.live().all(|one| one.register.is_none()) && !self.is_known(pointer) {
+        if exact.is_empty()
+            && self.live().all(|one| one.register.is_none())
+            && !self.is_known(pointer)
+        {
             // A part without registers: what was written says nothing of what is read.
             let open: Vec<&Reading> = self.live().collect();
             return merged(&self.bytes_of(&open, subjects, now_ns));
         }
         if self.protocol.is_one_by_one || exact.iter().any(has_crc) {
-            if let Some(identity) = self.protocol.identity.as_ref().filter(|one| one.register == pointer) {
+            if let Some(identity) =
+                self.protocol.identity.as_ref().filter(|one| one.register == pointer)
+            {
                 return identity.expected.clone();
             }
             let values = merged(&self.bytes_of(&exact, subjects, now_ns));
@@ -244,7 +252,8 @@ impl Registers {
 
     /// Whether the driver says what a register holds.
     fn is_known(&self, register: u16) -> bool {
-        let is_identity = self.protocol.identity.as_ref().is_some_and(|one| one.register == register);
+        let is_identity =
+            self.protocol.identity.as_ref().is_some_and(|one| one.register == register);
         is_identity || self.protocol.calibration.iter().any(|(first, _)| *first == register)
     }
 

@@ -106,9 +106,12 @@ fn packed(words: &Words, raw: &[f64]) -> Vec<u8> {
 /// A CRC of 8 bits, most significant first.
 pub(crate) fn crc8(bytes: &[u8], polynomial: u8, start: u8) -> u8 {
     bytes.iter().fold(start, |crc, byte| {
-        (0..8).fold(crc ^ byte, |crc, _| {
-            if crc & 0x80 != 0 { (crc << 1) ^ polynomial } else { crc << 1 }
-        })
+        (0..8).fold(
+            crc ^ byte,
+            |crc, _| {
+                if crc & 0x80 != 0 { (crc << 1) ^ polynomial } else { crc << 1 }
+            },
+        )
     })
 }
 

@@ -1,6 +1,8 @@
 //! Chips on I2C and SPI, serial parts, stations on CAN: the runtime says what to transfer, the bench answers.
 
-use sense_rt::{Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step};
+use sense_rt::{
+    Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+};
 use sensedsl_codegen::job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, KindName, Role};
@@ -160,7 +162,9 @@ fn i2c(
     for (index, place) in answer.iter_mut().enumerate() {
         match bench.i2c(unit, I2cEvent::Read { ack: index < last }, now_ns) {
             I2cReply::Byte(byte) => *place = byte,
-            other => return refused(other).unwrap_or(Outcome::BusError),
+            other @ (I2cReply::Ack | I2cReply::Nack | I2cReply::Stuck | I2cReply::Silent) => {
+                return refused(other).unwrap_or(Outcome::BusError);
+            }
         }
     }
     Outcome::Fresh
@@ -185,9 +189,18 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
         let is_spi = match one.connection.kind {
             Kind::I2c(_) => false,
             Kind::Spi(_) => true,
-            _ => continue,
+            Kind::Analog(_)
+            | Kind::Icu(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => continue,
         };
-        let Some(plan) = job.tables_of(one).and_then(|tables| tables.bus.as_ref()) else { continue };
+        let Some(plan) = job.tables_of(one).and_then(|tables| tables.bus.as_ref()) else {
+            continue;
+        };
         let formula = one.part.chip.as_ref().and_then(|chip| chip.formula);
         let table: &'static ChipTable = kept(tables::chip(job, plan, formula));
         let commands = table.commands.len();
@@ -328,8 +341,14 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
         let Some(field) = tables::field(item, one.device) else { continue };
         let unit = one.unit.and_then(number_of).unwrap_or(0);
         let field = MessageField { byte: can.byte.into(), ..field };
-        let heard =
-            Heard { frame_id: can.frame_id, item, what: *what, field, cycle: one.cycle, is_told: false };
+        let heard = Heard {
+            frame_id: can.frame_id,
+            item,
+            what: *what,
+            field,
+            cycle: one.cycle,
+            is_told: false,
+        };
         match all.iter_mut().find(|bus| bus.unit == unit) {
             Some(bus) => bus.heard.push(heard),
             None => all.push(Stations { unit, heard: vec![heard] }),

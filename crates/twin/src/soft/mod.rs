@@ -228,8 +228,9 @@ impl SoftBoard {
 
     /// All threads but the reporter.
     fn serve(&mut self, since_ms: u64, now_ns: u64) {
-        let State { core, buses, ports, stations, converters, captures, contacts, encoders, .. } =
-            &mut self.state;
+        let State {
+            core, buses, ports, stations, converters, captures, contacts, encoders, ..
+        } = &mut self.state;
         core.now_ms = wrapped(since_ms);
         let bench = &mut self.bench;
         buses.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
@@ -254,7 +255,8 @@ impl SoftBoard {
     /// What the line carries in a millisecond.
     fn carry(&mut self, now_ns: u64) {
         let link = &mut self.link;
-        link.credit = (link.credit + self.shape.link_speed).min(2 * self.shape.link_speed.max(1_000));
+        link.credit =
+            (link.credit + self.shape.link_speed).min(2 * self.shape.link_speed.max(1_000));
         while link.credit >= 1_000
             && let Some(byte) = link.queue.pop_front()
         {
@@ -277,9 +279,8 @@ impl Shape {
             })
             .collect();
         let filters = job.devices.iter().enumerate();
-        let filters = filters
-            .filter_map(|(index, one)| Some((index, kept(tables::filter(one.device)?))))
-            .map(|(index, table)| (index, &*table));
+        let filters =
+            filters.filter_map(|(index, one)| Some((index, kept(tables::filter(one.device)?))));
         let link = &job.board.link;
         let fastest = cycles_ms.iter().copied().filter(|cycle| *cycle > 0).min();
         let usual = REPORT_MS.min(fastest.unwrap_or(REPORT_MS));
@@ -288,11 +289,7 @@ impl Shape {
         Self {
             schema,
             filters: filters.collect(),
-            config: ReporterConfig {
-                schema,
-                cycle_ms,
-                silence_ms: link.silence_ms.unwrap_or(0),
-            },
+            config: ReporterConfig { schema, cycle_ms, silence_ms: link.silence_ms.unwrap_or(0) },
             link_speed: match link.transport {
                 Transport::Uart => speed.max(1),
                 Transport::Usb | Transport::None => USB_BYTES_A_MS * 1_000,
@@ -322,8 +319,8 @@ impl State {
                 now_ms: 0,
             },
             reporter: Box::new(Reporter::new(shape.config)),
-            buses: shape.buses.iter().map(|one| one.anew()).collect(),
-            ports: shape.ports.iter().map(|one| one.anew()).collect(),
+            buses: shape.buses.iter().map(Bus::anew).collect(),
+            ports: shape.ports.iter().map(Port::anew).collect(),
             stations: shape.stations.clone(),
             converters: shape.converters.clone(),
             captures: shape.captures.clone(),
@@ -343,5 +340,5 @@ fn wrapped(ms: u64) -> u32 {
 const fn begins(since_ms: u64, cycle: sensedsl_codegen::job::Cycle) -> bool {
     let start = cycle.start_ms as u64;
     let delay = if cycle.delay_ms == 0 { 1 } else { cycle.delay_ms as u64 };
-    since_ms >= start && (since_ms - start) % delay == 0
+    since_ms >= start && (since_ms - start).is_multiple_of(delay)
 }

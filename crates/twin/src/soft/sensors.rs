@@ -212,7 +212,11 @@ impl Captures {
                 }
             }
         }
-        if self.mode == Mode::Ppm { self.tell_train(core, &config) } else { self.tell(core, since_ms) }
+        if self.mode == Mode::Ppm {
+            self.tell_train(core, &config);
+        } else {
+            self.tell(core, since_ms);
+        }
     }
 
     /// With pulses, one element measures after the other.
@@ -319,9 +323,8 @@ pub(super) struct Contacts {
 pub(super) fn contacts(job: &BoardJob<'_>) -> Vec<Contacts> {
     let all = devices(job).filter_map(|(index, one, item)| {
         let own = one.device.kind.digital()?;
-        let wire = |connection| {
-            (Edges::new(connection, Role::In), Contact::NEW, ContactTold::default())
-        };
+        let wire =
+            |connection| (Edges::new(connection, Role::In), Contact::NEW, ContactTold::default());
         let edge = match own.edge {
             Some(digital::Edge::Rising) => Edge::Rising,
             Some(digital::Edge::Falling) => Edge::Falling,
@@ -362,7 +365,8 @@ impl Contacts {
             }
         }
         if self.is_count {
-            let counts: Vec<u32> = self.wires.iter().map(|(_, contact, _)| contact.edges()).collect();
+            let counts: Vec<u32> =
+                self.wires.iter().map(|(_, contact, _)| contact.edges()).collect();
             has_news = counts != self.told;
             self.told = counts;
         }

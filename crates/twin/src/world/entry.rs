@@ -55,7 +55,9 @@ impl Entry<'_> {
                 format!("`{}` exclude each other", found.join("` and `"))
             };
             let example = format!("{} = {{ ramp = [0, 100], over = \"10 s\" }}", self.name);
-            return Err(unreadable::unclear(span, &format!("`{}`", self.name), &why, &example).into());
+            return Err(
+                unreadable::unclear(span, &format!("`{}`", self.name), &why, &example).into()
+            );
         };
         let noise = self.optional(table, "noise")?.unwrap_or(0.0);
         Ok(Signal { noise: noise.abs(), ..Signal::of(self.shape(shape, table, span)?) })
@@ -67,7 +69,11 @@ impl Entry<'_> {
         Ok(match shape {
             "ramp" => {
                 let [from, to] = self.pair(table, "ramp", "ramp = [0, 100]")?;
-                Shape::Ramp { from, to, over_ns: self.time(table, span, "over", "over = \"10 s\"")? }
+                Shape::Ramp {
+                    from,
+                    to,
+                    over_ns: self.time(table, span, "over", "over = \"10 s\"")?,
+                }
             }
             "sine" => Shape::Sine {
                 amplitude: self.number(table, span, "sine")?,
@@ -128,7 +134,13 @@ impl Entry<'_> {
     }
 
     /// A time above 0.
-    fn time(&self, table: &DeTable<'_>, span: Span, key: &str, example: &str) -> Result<u64, Failed> {
+    fn time(
+        &self,
+        table: &DeTable<'_>,
+        span: Span,
+        key: &str,
+        example: &str,
+    ) -> Result<u64, Failed> {
         let what = format!("`{}`", self.name);
         let Some(value) = table.get(key) else {
             return Err(unreadable::missing(span, &what, key, example).into());
@@ -143,21 +155,23 @@ impl Entry<'_> {
         let Some(value) = table.get(key) else { return Ok(None) };
         number(value.get_ref()).map(Some).ok_or_else(|| {
             let example = format!("{key} = 2.5");
-            unreadable::wrong_sort(self.span(value), &format!("`{key}`"), "a number", &example).into()
+            unreadable::wrong_sort(self.span(value), &format!("`{key}`"), "a number", &example)
+                .into()
         })
     }
 
     fn number(&self, table: &DeTable<'_>, span: Span, key: &str) -> Result<f64, Failed> {
         let example = format!("{key} = 20");
-        let missing = || unreadable::missing(span, &format!("`{}`", self.name), key, &example).into();
+        let missing =
+            || unreadable::missing(span, &format!("`{}`", self.name), key, &example).into();
         self.optional(table, key)?.ok_or_else(missing)
     }
 
     fn pair(&self, table: &DeTable<'_>, key: &str, example: &str) -> Result<[f64; 2], Failed> {
         let value = table.get(key);
-        let numbers = value.and_then(|value| value.get_ref().as_array()).map(|list| {
-            list.iter().map(|one| number(one.get_ref())).collect::<Option<Vec<f64>>>()
-        });
+        let numbers = value
+            .and_then(|value| value.get_ref().as_array())
+            .map(|list| list.iter().map(|one| number(one.get_ref())).collect::<Option<Vec<f64>>>());
         match numbers.flatten().as_deref() {
             Some([from, to]) => Ok([*from, *to]),
             _ => {

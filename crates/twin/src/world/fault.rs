@@ -93,10 +93,9 @@ impl FaultKind {
         match self {
             Self::NoAnswer | Self::StuckSda | Self::Hang => matches!(kind, KindName::I2c),
             Self::Torn => true,
-            Self::Silent => matches!(
-                kind,
-                KindName::Uart | KindName::Can | KindName::Icu | KindName::Encoder
-            ),
+            Self::Silent => {
+                matches!(kind, KindName::Uart | KindName::Can | KindName::Icu | KindName::Encoder)
+            }
             Self::Reset | Self::Garbage => false,
         }
     }

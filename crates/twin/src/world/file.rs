@@ -73,7 +73,8 @@ impl<'a> Reader<'a> {
                 Some(seed) => self.world.seed = Some(seed),
                 None => {
                     let wanted = "a whole number from 0 on";
-                    let said = unreadable::wrong_sort(self.span(seed), "`seed`", wanted, "seed = 7");
+                    let said =
+                        unreadable::wrong_sort(self.span(seed), "`seed`", wanted, "seed = 7");
                     self.said.push(said);
                 }
             }
@@ -284,7 +285,8 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     let scale = Scale::of(&device.shown);
     let slack = scale.shown_step(scale.raw(low)).max(scale.shown_step(scale.raw(high))) / 2.0
         + (high - low).abs() * 1e-9;
-    let wrong = [least, greatest].into_iter().find(|one| *one < low - slack || *one > high + slack)?;
+    let wrong =
+        [least, greatest].into_iter().find(|one| *one < low - slack || *one > high + slack)?;
     let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
     let range = format!("{} to {}{unit}", short(low), short(high));
     Some(value::out_of_range(span, name, &short(wrong), &range))

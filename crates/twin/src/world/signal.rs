@@ -130,7 +130,11 @@ impl Shape {
                 offset + amplitude * sine(phase(now_ns, *period_ns))
             }
             Self::Square { first, second, period_ns } => {
-                if phase(now_ns, *period_ns) < TURN / 2 { *first } else { *second }
+                if phase(now_ns, *period_ns) < TURN / 2 {
+                    *first
+                } else {
+                    *second
+                }
             }
             Self::Rate { from, a_second } => from + a_second * (number(now_ns) / SECOND_NS),
             Self::Points { points, is_straight } => at_points(points, *is_straight, now_ns),
@@ -258,7 +262,11 @@ mod tests {
                 let values = (0..=10_000).map(|step| signal.at(start + S * step / 10_000));
                 let seen = values.fold((f64::MAX, f64::MIN), |(l, g), v| (l.min(v), g.max(v)));
                 let (least, greatest) = signal.range(start, start + S);
-                assert!(seen.0 - least < 0.6 && greatest - seen.1 < 0.6 || matches!(signal.shape, Shape::Points { .. }), "{signal:?} at {start}: {seen:?} {least} {greatest}");
+                assert!(
+                    seen.0 - least < 0.6 && greatest - seen.1 < 0.6
+                        || matches!(signal.shape, Shape::Points { .. }),
+                    "{signal:?} at {start}: {seen:?} {least} {greatest}"
+                );
             }
         }
     }

@@ -51,7 +51,17 @@ fn is_one_bit(device: &Device) -> bool {
 fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
     let (mut low, mut high) = likely_range(device);
     if let Some((least, greatest)) = raw_range(device) {
+        let named = named_range(device).map(|(from, to)| (scale.raw(from), scale.raw(to)));
+        let named =
+            named.map(|(one, other)| (one.min(other).max(least), one.max(other).min(greatest)));
+        if let Some(named) = named.filter(|(from, to)| from < to) {
+            (low, high) = named;
+        }
         (low, high) = (low.max(least), high.min(greatest));
+        if low >= high {
+            let width = greatest - least;
+            (low, high) = (least + 0.1 * width, least + 0.9 * width);
+        }
     }
     if let (Some(first), Some(last)) = (device.shown.curve.first(), device.shown.curve.last()) {
         let [one, other] = [first, last].map(|point| scale.raw(point.1));
@@ -65,6 +75,22 @@ fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
         (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
     }
     largest_piece((low, high), &device.filter.invalid)
+}
+
+/// What is usual of a quantity, in its unit, as people measure it in a room.
+fn named_range(device: &Device) -> Option<(f64, f64)> {
+    match device.shown.quantity.as_deref()? {
+        "cm" => Some((20.0, 250.0)),
+        "mm" => Some((100.0, 1_500.0)),
+        "m" => Some((0.5, 80.0)),
+        "degC" => Some((15.0, 30.0)),
+        "%" => Some((20.0, 80.0)),
+        "lx" => Some((50.0, 500.0)),
+        "V" => Some((0.5, 3.0)),
+        "A" => Some((0.1, 1.5)),
+        "m/s" => Some((0.5, 5.0)),
+        _ => None,
+    }
 }
 
 /// The largest part of a range in which nothing is invalid.

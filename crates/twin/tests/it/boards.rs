@@ -11,7 +11,9 @@ fn example(name: &str) -> String {
 
 #[test]
 fn every_sensor_of_every_example_reports_what_the_world_does() {
-    for name in ["fig2", "miniature_car", "line_follower", "quadcopter", "arm", "greenhouse", "rover"] {
+    for name in
+        ["fig2", "miniature_car", "line_follower", "quadcopter", "arm", "greenhouse", "rover"]
+    {
         let run = plainly(&example(name), "", 5);
         let wrong = run.wrong();
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");
@@ -26,7 +28,8 @@ fn every_sensor_of_every_example_reports_what_the_world_does() {
 #[test]
 fn a_run_is_the_same_to_the_byte() {
     let text = example("miniature_car");
-    let world = "seed = 3\n[devices]\nIRRear = { sine = 5, offset = 15, period = \"2 s\", noise = 1 }\n";
+    let world =
+        "seed = 3\n[devices]\nIRRear = { sine = 5, offset = 15, period = \"2 s\", noise = 1 }\n";
     let runs = [(); 2].map(|()| plainly(&text, world, 3).bytes);
     assert_eq!(runs[0], runs[1]);
     assert!(runs[0].len() > 1_000);

@@ -36,8 +36,10 @@ fn change(id: u8, mut how: impl FnMut(u64) -> u64) -> impl FnMut(u64, &mut Value
             for element in elements {
                 match element {
                     Scalar::Unsigned(number) => *number = how(*number),
-                    Scalar::Signed(number) => *number = i64::try_from(how(number.unsigned_abs())).unwrap(),
-                    _ => {}
+                    Scalar::Signed(number) => {
+                        *number = i64::try_from(how(number.unsigned_abs())).unwrap();
+                    }
+                    Scalar::Bool(_) | Scalar::Float32(_) | Scalar::Float64(_) => {}
                 }
             }
         }
@@ -78,7 +80,13 @@ fn swapped_devices_are_wrong() {
     let swap = |(one, other): (u8, u8)| {
         move |_: u64, values: &mut Values| {
             for (id, _) in values.iter_mut() {
-                *id = if *id == one { other } else if *id == other { one } else { *id };
+                *id = if *id == one {
+                    other
+                } else if *id == other {
+                    one
+                } else {
+                    *id
+                };
             }
         }
     };

@@ -36,7 +36,7 @@ fn every_driver_reports_what_the_world_does() {
 /// A board with nothing but one part, and all of its values.
 fn examples() -> Vec<String> {
     let parts = facts::all();
-    parts.iter().map(|one| board(one)).collect()
+    parts.iter().map(board).collect()
 }
 
 fn board(part: &facts::PartFacts) -> String {
@@ -50,5 +50,7 @@ fn board(part: &facts::PartFacts) -> String {
         (_, _) => String::new(),
     };
     let name = &part.name;
-    format!("board B on NUCLEO_F446RE {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}")
+    format!(
+        "board B on NUCLEO_F446RE {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}"
+    )
 }

@@ -35,7 +35,8 @@ impl Run {
 
     pub(crate) fn wrong(&self) -> Vec<String> {
         let all = self.judged.iter().filter(|one| one.wrong > 0);
-        all.map(|one| format!("{}: {} of {}, {:?}", one.name, one.wrong, one.reports, one.worst)).collect()
+        all.map(|one| format!("{}: {} of {}, {:?}", one.name, one.wrong, one.reports, one.worst))
+            .collect()
     }
 }
 
@@ -45,7 +46,9 @@ pub(crate) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> 
     workspace.open("board.sense", text);
     let snapshot = workspace.snapshot("board.sense", On { board: None, target: None }, &NoFiles);
     let answer = snapshot.solve(&Ask::default());
-    let Some((design, wiring)) = answer.wired() else { panic!("{text}: {:#?}", answer.diagnostics) };
+    let Some((design, wiring)) = answer.wired() else {
+        panic!("{text}: {:#?}", answer.diagnostics)
+    };
     let job = jobs(design, wiring).next().unwrap();
     then(&job)
 }

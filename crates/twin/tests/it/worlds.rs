@@ -45,15 +45,31 @@ fn every_mistake_is_told_with_its_place() {
     only("[device]\nLight = 5", "E0541", "device");
     only(&format!("{d}Light = 5000"), "E0542", "5000");
     only(&format!("{d}Percent = 300"), "E0542", "300");
-    only(&format!("{d}Light = {{ ramp = [0, -1], over = 1 }}"), "E0542", "{ ramp = [0, -1], over = 1 }");
+    only(
+        &format!("{d}Light = {{ ramp = [0, -1], over = 1 }}"),
+        "E0542",
+        "{ ramp = [0, -1], over = 1 }",
+    );
     only(&format!("{d}Pair = [1, 2, 3]"), "E0542", "[1, 2, 3]");
     let falls = "{ sine = 5, offset = 9, period = \"1 s\" }";
     only(&format!("{d}Wheel = {falls}"), "E0542", falls);
-    only(&format!("{d}Light = {{ ramp = [0, 1], over = \"1 fortnight\" }}"), "E0543", "\"1 fortnight\"");
+    only(
+        &format!("{d}Light = {{ ramp = [0, 1], over = \"1 fortnight\" }}"),
+        "E0543",
+        "\"1 fortnight\"",
+    );
     only(&format!("{d}Light = {{ steps = [[2, 1], [1, 5]] }}"), "E0543", "[1, 5]");
     only(&format!("{d}Light = {{ csv = \"none.csv\" }}"), "E0545", "\"none.csv\"");
-    only(&format!("{d}Light = {{ csv = \"drive.csv\", column = \"sped\" }}"), "E0545", "\"drive.csv\"");
-    only(&format!("{d}Light = {{ csv = \"bad.csv\", column = \"speed\" }}"), "E0545", "\"bad.csv\"");
+    only(
+        &format!("{d}Light = {{ csv = \"drive.csv\", column = \"sped\" }}"),
+        "E0545",
+        "\"drive.csv\"",
+    );
+    only(
+        &format!("{d}Light = {{ csv = \"bad.csv\", column = \"speed\" }}"),
+        "E0545",
+        "\"bad.csv\"",
+    );
     let fault = |what: &str| format!("[[fault]]\nat = 1\nfor = 1\n{what}");
     only(&fault("kind = \"no_answer\"\ndevice = \"Light\""), "E0544", "\"Light\"");
     only(&fault("kind = \"silent\"\ndevice = \"Rear\""), "E0544", "\"Rear\"");
@@ -90,7 +106,8 @@ fn what_breaks_is_silent_and_comes_back() {
         ("hang", "Rear", 3),
         ("torn", "Rear", 3),
     ] {
-        let world = format!("[[fault]]\nkind = \"{kind}\"\ndevice = \"{device}\"\nat = 2\nfor = 2\n");
+        let world =
+            format!("[[fault]]\nkind = \"{kind}\"\ndevice = \"{device}\"\nat = 2\nfor = 2\n");
         let times = times(&world, id);
         let during = times.iter().filter(|at| (2_300..4_000).contains(*at)).count();
         assert_eq!(during, 0, "{kind}");

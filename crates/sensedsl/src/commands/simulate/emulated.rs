@@ -34,7 +34,8 @@ impl Emulated {
             (_, _) => LinkPort::Usb,
         };
         let bench = Arc::new(Mutex::new(bench));
-        let mut machine = Machine::new(Settings { crystal_hz: CRYSTAL_HZ, link }, Arc::clone(&bench) as _);
+        let mut machine =
+            Machine::new(Settings { crystal_hz: CRYSTAL_HZ, link }, Arc::clone(&bench) as _);
         machine.load(image).map_err(|error| error.to_string())?;
         Ok(Self { machine, bench, garbage: Vec::new(), garbage_ms: 0 })
     }

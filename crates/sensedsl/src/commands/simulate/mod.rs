@@ -55,7 +55,8 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
     }
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
     let names: Vec<&str> = all.iter().map(|job| job.board.name.value.as_str()).collect();
-    let wanted = |job: &&BoardJob<'_>| args.board.as_ref().is_none_or(|name| *name == job.board.name.value);
+    let wanted =
+        |job: &&BoardJob<'_>| args.board.as_ref().is_none_or(|name| *name == job.board.name.value);
     let Some(job) = all.iter().find(wanted) else {
         let asked = args.board.as_deref().unwrap_or_default();
         let why = e0519_which_board::not_in_file(input::place(design), asked, &names);
@@ -98,13 +99,13 @@ fn simulate(
     let Some(firmware) = &args.firmware else {
         explain(&scenery, &SOFT)?;
         let board = board::soft(job, bench.clone());
-        return run::run(&scenery, bench, board);
+        return run::run(&scenery, &bench, board);
     };
     let image = read_bytes(firmware, What::Image)?;
     match machine(&scenery, bench.clone(), firmware, &image) {
         Ok(board) => {
             explain(&scenery, &EMULATED)?;
-            run::run(&scenery, bench, board)
+            run::run(&scenery, &bench, board)
         }
         Err(why) => {
             scenery.say(*why)?;
@@ -153,11 +154,7 @@ fn machine(
 }
 
 /// Reads the world; none where something is wrong with it, which has been said.
-fn world(
-    args: &SimulateArgs,
-    terminal: &Terminal,
-    job: &BoardJob<'_>,
-) -> Result<Option<World>> {
+fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
     let Some(path) = &args.world else { return Ok(Some(World::default())) };
     let text = read_text(path, What::World)?;
     let mut sources = SourceMap::default();

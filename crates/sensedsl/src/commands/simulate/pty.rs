@@ -24,8 +24,8 @@ pub(super) struct Pty {
 impl Pty {
     pub(super) fn open() -> Result<Self> {
         let failed = "the system gives no pseudo-terminal; `--stdout` needs none";
-        let board =
-            openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).context(failed)?;
+        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC)
+            .context(failed)?;
         grantpt(&board).context(failed)?;
         unlockpt(&board).context(failed)?;
         let name = ptsname(&board, Vec::new()).context(failed)?.to_string_lossy().into_owned();
@@ -46,10 +46,7 @@ impl Pty {
     /// Whether somebody has it open; waits for news for a while.
     pub(super) fn wait(&self, most: Duration) -> bool {
         let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
-        let most = Timespec {
-            tv_sec: 0,
-            tv_nsec: most.subsec_nanos().into(),
-        };
+        let most = Timespec { tv_sec: 0, tv_nsec: most.subsec_nanos().into() };
         match poll(&mut wanted, Some(&most)) {
             Ok(_) => wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP)),
             Err(_) => true,

@@ -34,8 +34,8 @@ const REFRESH: Duration = Duration::from_millis(200);
 /// How long the board gets to answer how it is.
 const HEALTH_NS: u64 = 500 * MS;
 
-pub(super) fn run(scenery: &Scenery<'_>, bench: Bench, board: Box<dyn Board>) -> Result<Status> {
-    let mut session = Session::new(scenery, &bench, board);
+pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -> Result<Status> {
+    let mut session = Session::new(scenery, bench, board);
     let args = scenery.args;
     let status = if args.judge {
         session.hurry(false)?
@@ -101,7 +101,8 @@ impl<'a> Session<'a> {
         }
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
         let hash = self.scenery.job.schema.hash();
-        let (is_known, is_stranger, last) = (&mut self.is_known, &mut self.is_stranger, &mut self.last);
+        let (is_known, is_stranger, last) =
+            (&mut self.is_known, &mut self.is_stranger, &mut self.last);
         self.decoder.feed(&bytes, |event| match event {
             Event::Report(_, values) => {
                 judge.take(now_ns, &values);
@@ -223,7 +224,9 @@ impl<'a> Session<'a> {
 
     #[cfg(not(unix))]
     fn pace(&mut self) -> Result<Status> {
-        bail!("this system has no pseudo-terminals: use `--stdout` with its output in a file, or `--judge`")
+        bail!(
+            "this system has no pseudo-terminals: use `--stdout` with its output in a file, or `--judge`"
+        )
     }
 
     /// Asks the board how it is, and prints the answer.
@@ -255,7 +258,8 @@ impl<'a> Session<'a> {
                     causes.invalid,
                 ];
                 let faults: u32 = faults.into_iter().map(u32::from).sum();
-                let age = if one.age_ms == NEVER_MS { "-".to_owned() } else { one.age_ms.to_string() };
+                let age =
+                    if one.age_ms == NEVER_MS { "-".to_owned() } else { one.age_ms.to_string() };
                 [name, status(one.status).to_owned(), age, faults.to_string()]
             })
             .collect();
@@ -295,7 +299,9 @@ impl<'a> Session<'a> {
             return Ok(Status::Wrong);
         }
         let span = seconds(now_ns);
-        scenery.terminal.note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
+        scenery
+            .terminal
+            .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
         Ok(Status::Done)
     }
 }
