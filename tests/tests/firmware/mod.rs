@@ -16,3 +16,5 @@ mod facts;
 mod mutants;
 mod stubs;
 mod tools;
+#[cfg(feature = "machine")]
+mod twin;

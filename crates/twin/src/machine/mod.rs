@@ -34,6 +34,8 @@ mod map;
 mod plain;
 mod rcc;
 mod spi;
+#[cfg(test)]
+mod tests;
 mod timer;
 mod transfer;
 mod usart;
