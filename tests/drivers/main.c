@@ -9,6 +9,10 @@
  *   answer TRIGGER BYTES              what is read without a register after TRIGGER; `-` for after anything
  *   exchange SENT RECEIVED
  *   run                               as many cycles as every reading needs
+ *   faults SEED                       from now on some transfers fail, as numbers from SEED say; 0: none
+ *   steps COUNT                       so many steps, too early and too late, with all that is sent, read and told
+ *   trace ON                          whether all that is told is printed, before and after its filter
+ *   later MS                          time goes by
  *   feed BYTES                        comes on the serial port
  *   raw FIELD NUMBER                  what the hardware has measured
  *   edges COUNT US...                 from one edge to the next
@@ -56,7 +60,7 @@ typedef struct {
 #include "tables.c"
 
 #define BYTES_MAX 512U
-#define ENTRIES_MAX 64U
+#define ENTRIES_MAX 256U
 #define VALUE_BYTES_MAX 2048U
 #define STEPS_MAX 2000U
 #define FILL 0xA5U
@@ -84,6 +88,8 @@ static struct {
   size_t entries_count;
   block_t written;
   bool prints;
+  bool traces;
+  uint32_t seed;
   uint32_t now_ms;
   up_result_t results[UP_FIELDS_MAX];
   uint64_t values[UP_FIELDS_MAX][VALUE_BYTES_MAX / 8U];
@@ -132,6 +138,32 @@ static bool is_same(const block_t *block, const uint8_t *bytes, size_t count) {
   return block->count == count && memcmp(block->bytes, bytes, count) == 0;
 }
 
+/* ---- chance: the other end draws the same numbers ---- */
+
+static uint32_t draw(uint32_t limit) {
+  test.seed = test.seed * 1664525U + 1013904223U;
+  return (test.seed >> 16) % limit;
+}
+
+/* What a transfer comes to, and a line of the trace. */
+static up_bus_result_t fate(const char *what, const uint8_t *bytes, size_t count) {
+  static const up_bus_result_t faults[] = {UP_NOT_ACKNOWLEDGED, UP_BUS_ERROR, UP_ARBITRATION_LOST, UP_TIMED_OUT};
+  up_bus_result_t result = UP_BUS_DONE;
+  size_t i;
+
+  if (test.seed != 0U && draw(9U) == 0U) {
+    result = faults[draw(4U)];
+  }
+  if (test.traces) {
+    printf("%s %u ", what, (unsigned)result);
+    for (i = 0U; i < count; i++) {
+      printf("%02X", (unsigned)bytes[i]);
+    }
+    printf("\n");
+  }
+  return result;
+}
+
 /* ---- the part on its bus ---- */
 
 static entry_t *add(entry_kind_t kind) {
@@ -150,11 +182,15 @@ static bool holds(const entry_t *entry) {
 }
 
 static up_bus_result_t bus_write(void *context, uint8_t address, const uint8_t *bytes, size_t count) {
+  const up_bus_result_t result = fate("write", bytes, count);
   size_t i;
 
   (void)context;
   check(address == test.unit->chip->address, "another address");
   check(count > 0U && count <= BYTES_MAX, "nothing is written, or too much");
+  if (result != UP_BUS_DONE) {
+    return result;
+  }
   memcpy(test.written.bytes, bytes, count);
   test.written.count = count;
   if (test.prints) {
@@ -198,12 +234,16 @@ static void read_answer(uint8_t *rx, size_t count) {
 
 static up_bus_result_t bus_write_read(void *context, uint8_t address, const uint8_t *tx, size_t tx_count, uint8_t *rx,
                                       size_t rx_count) {
+  const up_bus_result_t result = fate("read", tx, tx_count);
   uint32_t at = 0U;
   size_t i;
 
   (void)context;
   check(address == test.unit->chip->address, "another address");
   check(rx_count > 0U, "nothing is read");
+  if (result != UP_BUS_DONE) {
+    return result;
+  }
   memset(rx, (int)FILL, rx_count);
   if (tx_count == 0U) {
     read_answer(rx, rx_count);
@@ -219,10 +259,14 @@ static up_bus_result_t bus_write_read(void *context, uint8_t address, const uint
 }
 
 static up_bus_result_t bus_exchange(void *context, uint8_t address, const uint8_t *tx, uint8_t *rx, size_t count) {
+  const up_bus_result_t result = fate("exchange", tx, count);
   size_t i;
 
   (void)context;
   check(address == test.unit->chip->address, "another address");
+  if (result != UP_BUS_DONE) {
+    return result;
+  }
   memset(rx, (int)FILL, count);
   for (i = 0U; i < test.entries_count; i++) {
     const entry_t *entry = &test.entries[i];
@@ -237,12 +281,30 @@ static const up_bus_t bus = {bus_write, bus_write_read, bus_exchange, NULL};
 
 /* ---- values ---- */
 
+/* A line of the trace: what a value came to, and its bits. */
+static void trace_value(uint16_t index, up_result_t result, const uint8_t *value) {
+  const up_field_t *field = &test.unit->schema->fields[index];
+  size_t i;
+
+  printf("told %u %u", (unsigned)index, (unsigned)result);
+  for (i = 0U; i < field->count && result == UP_FRESH; i++) {
+    printf(" %" PRIx64, up_element_load(field->type, &value[i * up_type_bytes(field->type)]));
+  }
+  printf("\n");
+}
+
 static void on_value(void *context, uint16_t index, up_result_t result, void *value) {
   const unit_field_t *field = &test.unit->fields[index];
 
   (void)context;
+  if (test.traces) {
+    trace_value(index, result, value);
+  }
   if (result == UP_FRESH && field->filter != NULL) {
     result = up_filter_apply(field->filter, field->filter_state, &test.unit->schema->fields[index], test.now_ms, value);
+    if (test.traces) {
+      trace_value(index, result, value);
+    }
   }
   if (result == UP_FRESH) {
     memcpy(test.values[index], value, up_field_bytes(&test.unit->schema->fields[index]));
@@ -352,6 +414,23 @@ static void run(void) {
   }
 }
 
+static void steps(void) {
+  uint32_t count = ask();
+
+  check(test.unit->chip != NULL, "it is on no bus");
+  test.traces = true;
+  for (; count > 0U; count--) {
+    const up_chip_state_t *state = test.unit->chip_state;
+    uint32_t idle_ms;
+    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, test.now_ms, &sink);
+    idle_ms = up_chip_idle_ms(test.unit->chip, test.unit->chip_state, test.now_ms);
+    printf("step %" PRIu32 " %" PRIu32 " %u %u\n", test.now_ms, idle_ms, (unsigned)state->fault,
+           (unsigned)state->identity_seen);
+    test.now_ms += (draw(3U) == 0U) ? draw(test.unit->chip->cycle_ms + 2U) : idle_ms;
+  }
+  test.traces = false;
+}
+
 static void feed(void) {
   block_t block;
 
@@ -427,8 +506,12 @@ static void command(void) {
   for (i = 0U; i < chip->commands_count; i++) {
     if (chip->commands[i].field == index) {
       test.prints = true;
-      check(up_chip_write(chip, test.unit->chip_state, &bus, test.unit->schema, &chip->commands[i], value) == UP_FRESH,
-            "the command was not written");
+      const up_result_t written =
+          up_chip_write(chip, test.unit->chip_state, &bus, test.unit->schema, &chip->commands[i], value);
+      if (test.seed != 0U) {
+        printf("came to %u\n", (unsigned)written);
+      }
+      check(test.seed != 0U || written == UP_FRESH, "the command was not written");
       test.prints = false;
     }
   }
@@ -460,7 +543,20 @@ static void end(void) {
         break;
     }
   }
+  if (test.unit->message != NULL && test.traces) {
+    const up_message_state_t *state = test.unit->message_state;
+    printf("stream %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32 "\n", state->messages,
+           state->dropped_bytes, state->wrong_checksum, state->values, state->invalid);
+  }
   if (test.unit->chip != NULL) {
+    if (test.seed != 0U) {
+      const up_chip_counts_t *counts = &test.unit->chip_state->counts;
+      printf("counts %" PRIu32 " %" PRIu32, counts->starts, counts->written);
+      for (i = 0U; i < UP_RESULTS; i++) {
+        printf(" %" PRIu32, counts->causes[i]);
+      }
+      printf("\n");
+    }
     printf("identity %s\n", (test.unit->chip_state->counts.causes[UP_WRONG_IDENTITY] > 0U) ? "wrong" : "right");
   }
   printf("end\n");
@@ -496,6 +592,14 @@ int main(void) {
       ask_bytes(&entry->block);
     } else if (strcmp(word, "run") == 0) {
       run();
+    } else if (strcmp(word, "faults") == 0) {
+      test.seed = ask();
+    } else if (strcmp(word, "steps") == 0) {
+      steps();
+    } else if (strcmp(word, "trace") == 0) {
+      test.traces = ask() != 0U;
+    } else if (strcmp(word, "later") == 0) {
+      test.now_ms += ask();
     } else if (strcmp(word, "feed") == 0) {
       feed();
     } else if (strcmp(word, "raw") == 0) {

@@ -7,10 +7,17 @@ pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     }
 }
 
-/// Moves what starts at `from` to the front, as far as `end`.
+/// Moves what stands in `[from, end)` to the front.
 pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
-    if from > 0 && from <= end && end <= bytes.len() {
-        bytes.copy_within(from..end, 0);
+    if from == 0 {
+        return;
+    }
+    // Byte by byte: the library's function for it can panic.
+    for place in from..end {
+        let byte = at(bytes, place);
+        if let Some(free) = bytes.get_mut(place.wrapping_sub(from)) {
+            *free = byte;
+        }
     }
 }
 

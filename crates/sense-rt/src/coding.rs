@@ -271,9 +271,10 @@ const fn mask_of(bits: u32) -> u64 {
 fn packed_word(bytes: &[u8], word: usize, bits: usize) -> u64 {
     let first = word.wrapping_mul(bits);
     let last = first.wrapping_add(bits).wrapping_sub(1);
-    let gathered = (first / 8..=last / 8)
-        .rev()
-        .fold(0, |gathered: u64, byte| gathered << 8 | u64::from(at(bytes, byte)));
+    let mut gathered = 0_u64;
+    for byte in (first / 8..last / 8 + 1).rev() {
+        gathered = gathered << 8 | u64::from(at(bytes, byte));
+    }
     gathered >> (first % 8)
 }
 

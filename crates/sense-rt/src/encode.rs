@@ -35,7 +35,7 @@ pub fn encode_values(
     frame: &mut [u8],
 ) -> usize {
     let head = if schema.stamps(direction) { STAMP_BYTES } else { 0 };
-    let put = |out: &mut Writer<'_>| {
+    let mut put = |out: &mut Writer<'_>| {
         if head > 0 {
             let [a, b, c, d] = stamp.time_us.to_be_bytes();
             out.put(&[ID_HELLO, a, b, c, d, stamp.counter]);
@@ -50,14 +50,14 @@ pub fn encode_values(
             }
         }
     };
-    frame_of(schema, direction, frame, head, put)
+    frame_of(schema, direction, frame, head, &mut put)
 }
 
 /// The hello of the board, with the hash of its schema.
 pub fn encode_hello(schema: &Schema, frame: &mut [u8]) -> usize {
     let [a, b, c, d] = schema.hash.to_be_bytes();
-    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, a, b, c, d]);
-    frame_of(schema, Direction::ToHost, frame, 0, put)
+    let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, a, b, c, d]);
+    frame_of(schema, Direction::ToHost, frame, 0, &mut put)
 }
 
 /// The health of the board, and of each device as `row_of` says it.
@@ -67,7 +67,7 @@ pub fn encode_health(
     row_of: &mut dyn FnMut(usize) -> HealthRow,
     frame: &mut [u8],
 ) -> usize {
-    let put = |out: &mut Writer<'_>| {
+    let mut put = |out: &mut Writer<'_>| {
         out.put(&[ID_HEALTH, HEALTH_VERSION]);
         out.put(&board.uptime_ms.to_be_bytes());
         out.put(&[board.reset_cause as u8, board.reset_device]);
@@ -84,19 +84,19 @@ pub fn encode_health(
             }
         }
     };
-    frame_of(schema, Direction::ToHost, frame, 0, put)
+    frame_of(schema, Direction::ToHost, frame, 0, &mut put)
 }
 
 /// The host's request for a hello.
 pub fn encode_hello_request(schema: &Schema, frame: &mut [u8]) -> usize {
-    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO]);
-    frame_of(schema, Direction::ToBoard, frame, 0, put)
+    let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO]);
+    frame_of(schema, Direction::ToBoard, frame, 0, &mut put)
 }
 
 /// The host's request for health.
 pub fn encode_health_request(schema: &Schema, frame: &mut [u8]) -> usize {
-    let put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, HEALTH_REQUEST]);
-    frame_of(schema, Direction::ToBoard, frame, 0, put)
+    let mut put = |out: &mut Writer<'_>| out.put(&[ID_HELLO, HEALTH_REQUEST]);
+    frame_of(schema, Direction::ToBoard, frame, 0, &mut put)
 }
 
 /// A payload with its checksum, its length and its comma. One that is no longer than `empty_bytes`
@@ -106,7 +106,7 @@ fn frame_of(
     direction: Direction,
     frame: &mut [u8],
     empty_bytes: usize,
-    mut put: impl FnMut(&mut Writer<'_>),
+    put: &mut dyn FnMut(&mut Writer<'_>),
 ) -> usize {
     if frame.len() < schema.frame_bytes(direction) {
         return 0;

@@ -213,6 +213,7 @@ impl Reporter {
     fn take_bytes(&mut self, bytes: &[u8], host: &mut dyn Host) {
         let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
         let (_, buffer) = split(&mut self.memory, frame_bytes);
+        let count = self.config.schema.items.len();
         for byte in bytes {
             if self.decoder.is_idle() && host.intercept(*byte) {
                 continue;
@@ -220,7 +221,13 @@ impl Reporter {
             let (hello_due, health_due) = (&mut self.hello_due, &mut self.health_due);
             self.decoder.feed(buffer, core::slice::from_ref(byte), &mut |frame| match frame {
                 Frame::Values(_, items) => {
-                    items.for_each(|(index, value)| host.apply(index, value));
+                    // In the order of the schema, whatever that of the frame is.
+                    for index in 0..count {
+                        let own = |(of, _): &(usize, &[u8])| *of == index;
+                        if let Some((_, value)) = items.into_iter().find(own) {
+                            host.apply(index, value);
+                        }
+                    }
                 }
                 Frame::HelloRequest => *hello_due = true,
                 Frame::HealthRequest => *health_due = true,

@@ -73,8 +73,9 @@ impl Store {
         self.values.get(at..at.wrapping_add(item.bytes()))
     }
 
-    /// What a reading came to: puts a fresh value through the filter, keeps what is to be reported,
-    /// and notes how the device is.
+    /// What a reading came to: puts a fresh value through the filter, if there is one, keeps what is
+    /// to be reported, which is then due, and notes how the device is.
+    #[inline]
     pub fn tell(
         &mut self,
         health: &mut Health,
@@ -84,25 +85,46 @@ impl Store {
         value: &mut [u8],
         now_ms: u32,
     ) {
+        match filter {
+            Some(filter) => self.tell_filtered(health, filter, index, outcome, value, now_ms),
+            None => self.tell_plain(health, index, outcome, value, now_ms),
+        }
+    }
+
+    /// The same without a filter: who has none anywhere calls this, and nothing of filters is linked.
+    pub fn tell_plain(
+        &mut self,
+        health: &mut Health,
+        index: usize,
+        outcome: Outcome,
+        value: &[u8],
+        now_ms: u32,
+    ) {
+        if outcome == Outcome::Fresh {
+            self.put(index, value);
+        }
+        health.note(index, outcome, now_ms);
+    }
+
+    fn tell_filtered(
+        &mut self,
+        health: &mut Health,
+        filter: &mut Filter,
+        index: usize,
+        outcome: Outcome,
+        value: &mut [u8],
+        now_ms: u32,
+    ) {
         let mut told = outcome;
-        if let (Outcome::Fresh, Some(filter), Some(item)) =
-            (outcome, filter, self.schema.items.get(index))
-        {
+        if let (Outcome::Fresh, Some(item)) = (outcome, self.schema.items.get(index)) {
             told = filter.apply(item, now_ms, value);
         }
-        match told {
-            Outcome::Fresh => self.put(index, value),
+        if told == Outcome::Nothing {
             // A measurement all the same, which the host has no need of.
-            Outcome::Nothing => told = outcome,
-            Outcome::Invalid
-            | Outcome::WrongCrc
-            | Outcome::NotAcknowledged
-            | Outcome::BusError
-            | Outcome::ArbitrationLost
-            | Outcome::TimedOut
-            | Outcome::WrongIdentity => {}
+            health.note(index, outcome, now_ms);
+        } else {
+            self.tell_plain(health, index, told, value, now_ms);
         }
-        health.note(index, told, now_ms);
     }
 
     /// Whether anything is due.

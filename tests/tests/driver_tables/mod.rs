@@ -1,12 +1,16 @@
 //! Every driver of the library, from its vector file through the generator's tables and the runtime's core to values:
 //! what a board would report, and what a host would show of it.
 //!
-//! The tables of all drivers are compiled into one program, `tests/drivers/main.c`, under sanitizers.
+//! The tables of all drivers are compiled into one program, `tests/drivers/main.c`, under sanitizers. `rust` is the same
+//! program by the runtime in Rust, and `same` holds the two together.
 
 mod examples;
 mod gaps;
 mod library;
 mod program;
+mod rust;
+mod rust_tables;
+mod same;
 mod vectors;
 
 use std::collections::{BTreeMap, BTreeSet};

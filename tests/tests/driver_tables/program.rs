@@ -60,7 +60,7 @@ fn build(units: &[Unit]) -> PathBuf {
     program
 }
 
-fn plan(unit: &Unit) -> Option<PartPlan> {
+pub fn plan(unit: &Unit) -> Option<PartPlan> {
     PartPlan::new(&unit.design, PartIndex(0))
 }
 
@@ -148,6 +148,11 @@ fn entry(unit: &Unit) -> String {
 
 /// An outcome for each request, in their order.
 pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
+    say(program, requests).iter().map(|answer| read(answer)).collect()
+}
+
+/// What the program says to each request.
+pub fn say(program: &Path, requests: &[String]) -> Vec<String> {
     let mut child = Command::new(program)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -163,7 +168,7 @@ pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
     let output = child.wait_with_output().unwrap();
     writer.join().unwrap();
     let answers = String::from_utf8(output.stdout).unwrap();
-    let all: Vec<Outcome> = answers.split_inclusive("end\n").map(read).collect();
+    let all: Vec<String> = answers.split_inclusive("end\n").map(str::to_owned).collect();
     let said = String::from_utf8_lossy(&output.stderr);
     let at = requests.get(all.len().saturating_sub(1)).cloned().unwrap_or_default();
     assert!(output.status.success(), "{said}\nin or behind:\n{at}\n{answers:.0}");
@@ -171,7 +176,7 @@ pub fn ask(program: &Path, requests: &[String]) -> Vec<Outcome> {
     all
 }
 
-fn read(answer: &str) -> Outcome {
+pub fn read(answer: &str) -> Outcome {
     let mut outcome = Outcome::default();
     let mut outputs: Vec<String> = Vec::new();
     for line in answer.lines() {

@@ -2,19 +2,7 @@
 //! transfers, and the readings in them.
 //!
 //! A [`Chip`] makes no transfer itself. It says which is next, whoever has the bus makes it, blocking
-//! or awaiting, and says what it came to:
-//!
-//! ```ignore
-//! loop {
-//!     let outcome = match chip.next(now_ms()) {
-//!         Step::Write(bytes) => i2c.write(address, bytes).await,
-//!         Step::WriteRead(bytes, answer) => i2c.write_read(address, bytes, answer).await,
-//!         Step::Exchange(bytes, answer) => …, // SPI only
-//!         Step::Wait(ms) => { Timer::after_millis(ms.into()).await; continue }
-//!     };
-//!     chip.done(outcome_of(outcome), &mut |item, outcome, value| …);
-//! }
-//! ```
+//! or awaiting, and says what it came to. The README of the crate has such a loop.
 //!
 //! After a failed transfer the chip is started again. A chip that is not the one it should be never
 //! gives values. It is asked for nothing but its identity, in every cycle, until it is the right one;
@@ -22,15 +10,15 @@
 //! a trigger one is under way at a time, the one that has been due for longest: their converter is
 //! one.
 
+mod ask;
 mod memory;
+mod say;
 mod table;
 mod time;
 
 use core::ops::{Deref, DerefMut};
 
-use crate::bytes::{copy, part, part_mut, split};
-use crate::convert::store_signed;
-use crate::formula::Outputs;
+use crate::bytes::{copy, part, part_mut};
 use crate::outcome::{Outcome, Sink};
 use crate::schema::Schema;
 
@@ -74,6 +62,8 @@ pub struct ChipCounts {
 enum Stage {
     /// There is none.
     Idle,
+    /// Something failed: there is nothing more to do in it.
+    Over,
     /// A stranger is not written to before it is known to be the right part after all.
     Look,
     Initialise,
@@ -207,6 +197,7 @@ impl Chip {
     pub fn next(&mut self, now_ms: u32) -> Step<'_> {
         if self.pending.take().is_some() {
             self.restart();
+            self.stage = Stage::Idle;
         }
         if self.stage == Stage::Idle {
             self.now_ms = now_ms;
@@ -240,7 +231,7 @@ impl Chip {
                 Pending::Free(transfer) | Pending::Fetch(transfer) | Pending::Trigger(transfer) => {
                     self.say_fault(Some(transfer), sink);
                 }
-                Pending::Command => {}
+                Pending::Command => self.stage = Stage::Idle,
             }
             return;
         }
@@ -285,123 +276,19 @@ impl Chip {
             return self.pause_until_ms.map_or(self.table.cycle_ms, |until| left_ms(now_ms, until));
         }
         let ready_ms = |transfer: usize| left_ms(now_ms, ready_ms(&self.memory, transfer));
-        let free = self.table.transfers.iter().enumerate().filter_map(|(transfer, table)| {
-            let due_ms = left_ms(now_ms, due_ms(&self.memory, transfer));
-            if table.trigger.is_empty() {
-                return Some(due_ms.max(ready_ms(transfer)));
-            }
-            self.in_flight.is_none().then_some(due_ms)
-        });
-        free.chain(self.in_flight.map(ready_ms)).min().unwrap_or(self.table.cycle_ms)
-    }
-
-    // ---- asking ----
-
-    /// The next transfer of the step; none when it is over.
-    fn ask(&mut self) -> Option<(Pending, Asked)> {
-        loop {
-            match self.stage {
-                Stage::Idle => return None,
-                Stage::Look | Stage::Identify => match &self.table.identity {
-                    Some(identity) => {
-                        let asked = Asked::Read(identity.select, identity.expected.len());
-                        return Some((Pending::Identity, asked));
-                    }
-                    None => self.identified(),
-                },
-                Stage::Initialise => {
-                    if let Some(asked) = self.ask_init()? {
-                        return Some((Pending::Init, asked));
-                    }
-                }
-                Stage::Calibrate(block, _) => match self.table.calibration.get(block) {
-                    Some(block) => {
-                        let asked = Asked::Read(block.select, block.count.into());
-                        return Some((Pending::Calibration, asked));
-                    }
-                    None => self.begin_transfers(),
-                },
-                Stage::Free(transfer) => match self.table.transfers.get(transfer) {
-                    None => self.stage = Stage::Turn(0),
-                    Some(table) if table.trigger.is_empty() && self.is_free(transfer) => {
-                        return Some((Pending::Free(transfer), table.asked()));
-                    }
-                    Some(_) => self.stage = Stage::Free(transfer + 1),
-                },
-                Stage::Turn(turns) => return self.ask_triggered(turns),
-            }
-        }
-    }
-
-    /// The bytes of the next step of the initialisation, if it has some; nothing at all while it
-    /// pauses.
-    fn ask_init(&mut self) -> Option<Option<Asked>> {
-        if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
-            return None;
-        }
-        self.pause_until_ms = None;
-        match self.table.init.get(self.init_at) {
-            None => self.stage = Stage::Identify,
-            Some(step) if step.bytes.is_empty() => self.initialised(),
-            Some(step) => return Some(Some(Asked::Write(step.bytes))),
-        }
-        Some(None)
-    }
-
-    /// Reads what is ready and triggers the next, so often that one that needs no time is read at
-    /// once.
-    fn ask_triggered(&mut self, turns: usize) -> Option<(Pending, Asked)> {
-        if turns > self.table.transfers.len() {
-            return None;
-        }
-        if let Some(transfer) = self.in_flight {
-            if !is_reached(self.now_ms, ready_ms(&self.memory, transfer)) {
-                return None;
-            }
-            self.in_flight = None;
-            let table = self.table.transfers.get(transfer)?;
-            return Some((Pending::Fetch(transfer), table.asked()));
-        }
-        let transfer = self.next_triggered()?;
-        let table = self.table.transfers.get(transfer)?;
-        Some((Pending::Trigger(transfer), Asked::Write(table.trigger)))
-    }
-
-    fn is_due(&self, transfer: usize) -> bool {
-        let soon_ms = self.now_ms.wrapping_add(early_ms(self.table));
-        is_reached(soon_ms, due_ms(&self.memory, transfer))
-    }
-
-    fn is_free(&self, transfer: usize) -> bool {
-        is_reached(self.now_ms, ready_ms(&self.memory, transfer)) && self.is_due(transfer)
-    }
-
-    /// The triggered transfer that has been due for longest.
-    fn next_triggered(&self) -> Option<usize> {
-        let mut found: Option<(usize, u32)> = None;
+        let mut idle_ms = self.in_flight.map(ready_ms);
         for (transfer, table) in self.table.transfers.iter().enumerate() {
-            if table.trigger.is_empty() || !self.is_due(transfer) {
+            let due_ms = left_ms(now_ms, due_ms(&self.memory, transfer));
+            let wait_ms = if table.trigger.is_empty() {
+                due_ms.max(ready_ms(transfer))
+            } else if self.in_flight.is_none() {
+                due_ms
+            } else {
                 continue;
-            }
-            let due_ms = due_ms(&self.memory, transfer);
-            if found.is_none_or(|(_, first_ms)| !is_reached(due_ms, first_ms)) {
-                found = Some((transfer, due_ms));
-            }
+            };
+            idle_ms = Some(idle_ms.map_or(wait_ms, |idle_ms| idle_ms.min(wait_ms)));
         }
-        found.map(|(transfer, _)| transfer)
-    }
-
-    /// What is sent lies in the chip's memory: a DMA need not reach constant tables.
-    fn hand_out(&mut self, asked: Asked) -> Step<'_> {
-        let work = Memory::split(&mut self.memory, &self.sizes).work;
-        let (Asked::Write(sent) | Asked::Read(sent, _) | Asked::Exchange(sent, _)) = asked;
-        copy(work, sent);
-        let (sent, rest) = split(work, sent.len());
-        match asked {
-            Asked::Write(_) => Step::Write(sent),
-            Asked::Read(_, count) => Step::WriteRead(sent, part_mut(rest, 0, count)),
-            Asked::Exchange(_, count) => Step::Exchange(sent, part_mut(rest, 0, count)),
-        }
+        idle_ms.unwrap_or(self.table.cycle_ms)
     }
 
     // ---- going on ----
@@ -496,7 +383,7 @@ impl Chip {
     }
 
     fn restart(&mut self) {
-        self.stage = Stage::Idle;
+        self.stage = Stage::Over;
         self.init_at = 0;
         self.in_flight = None;
         self.pause_until_ms = None;
@@ -530,54 +417,4 @@ impl Chip {
         };
         set_due_ms(&mut self.memory, transfer, next_ms);
     }
-
-    // ---- saying ----
-
-    /// The fault, for all readings of one transfer, or of all.
-    fn say_fault(&self, transfer: Option<usize>, sink: &mut Sink<'_>) {
-        for reading in self.table.readings {
-            if transfer.is_none_or(|transfer| usize::from(reading.transfer) == transfer) {
-                sink(reading.item.into(), self.fault, &mut []);
-            }
-        }
-    }
-
-    fn say_values(&mut self, transfer: usize, sink: &mut Sink<'_>) {
-        let Some(table) = self.table.transfers.get(transfer) else { return };
-        let mut computed = None;
-        for reading in self.table.readings {
-            let index = usize::from(reading.item);
-            let Some(item) = self.schema.items.get(index) else { continue };
-            if usize::from(reading.transfer) != transfer {
-                continue;
-            }
-            let Memory { calibration, value, work, .. } =
-                Memory::split(&mut self.memory, &self.sizes);
-            let bytes = part(work, table.select.len(), table.length.into());
-            let bytes = bytes.get(reading.offset.into()..).unwrap_or_default();
-            let value = part_mut(value, 0, item.bytes());
-            let outcome = match reading.output {
-                None if bytes.is_empty() => Outcome::Invalid,
-                None => reading.value.decode(item, bytes, value),
-                Some(output) => {
-                    let number =
-                        self.table.compute(reading, output, calibration, bytes, &mut computed);
-                    number.map_or(Outcome::Invalid, |number| {
-                        store_signed(item.scalar, number, value);
-                        Outcome::Fresh
-                    })
-                }
-            };
-            if outcome == Outcome::Fresh {
-                sink(index, outcome, value);
-                self.count(outcome);
-            } else {
-                self.count_fault(outcome);
-                sink(index, outcome, &mut []);
-            }
-        }
-    }
 }
-
-/// The formula's outputs of one raw block, computed once for all readings that stand in it.
-type Computed = Option<(u16, Option<Outputs>)>;

@@ -1,6 +1,7 @@
 //! What a chip is described by.
 
-use super::{Asked, Computed};
+use super::Asked;
+use super::say::Computed;
 use crate::coding::Coding;
 use crate::formula::Formula;
 use crate::schema::Schema;

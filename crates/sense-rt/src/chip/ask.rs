@@ -1,0 +1,115 @@
+//! Which transfer of a step is next.
+
+use super::memory::{Memory, due_ms, ready_ms};
+use super::time::{early_ms, is_reached};
+use super::{Asked, Chip, Pending, Stage, Step};
+use crate::bytes::{copy, part_mut, split};
+
+impl Chip {
+    /// The next transfer of the step; none when it is over.
+    pub(super) fn ask(&mut self) -> Option<(Pending, Asked)> {
+        loop {
+            match self.stage {
+                Stage::Idle | Stage::Over => return None,
+                Stage::Look | Stage::Identify => match &self.table.identity {
+                    Some(identity) => {
+                        let asked = Asked::Read(identity.select, identity.expected.len());
+                        return Some((Pending::Identity, asked));
+                    }
+                    None => self.identified(),
+                },
+                Stage::Initialise => {
+                    if let Some(asked) = self.ask_init()? {
+                        return Some((Pending::Init, asked));
+                    }
+                }
+                Stage::Calibrate(block, _) => match self.table.calibration.get(block) {
+                    Some(block) => {
+                        let asked = Asked::Read(block.select, block.count.into());
+                        return Some((Pending::Calibration, asked));
+                    }
+                    None => self.begin_transfers(),
+                },
+                Stage::Free(transfer) => match self.table.transfers.get(transfer) {
+                    None => self.stage = Stage::Turn(0),
+                    Some(table) if table.trigger.is_empty() && self.is_free(transfer) => {
+                        return Some((Pending::Free(transfer), table.asked()));
+                    }
+                    Some(_) => self.stage = Stage::Free(transfer + 1),
+                },
+                Stage::Turn(turns) => return self.ask_triggered(turns),
+            }
+        }
+    }
+
+    /// The bytes of the next step of the initialisation, if it has some; nothing at all while it
+    /// pauses.
+    fn ask_init(&mut self) -> Option<Option<Asked>> {
+        if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
+            return None;
+        }
+        self.pause_until_ms = None;
+        match self.table.init.get(self.init_at) {
+            None => self.stage = Stage::Identify,
+            Some(step) if step.bytes.is_empty() => self.initialised(),
+            Some(step) => return Some(Some(Asked::Write(step.bytes))),
+        }
+        Some(None)
+    }
+
+    /// Reads what is ready and triggers the next, so often that one that needs no time is read at
+    /// once.
+    fn ask_triggered(&mut self, turns: usize) -> Option<(Pending, Asked)> {
+        if turns > self.table.transfers.len() {
+            return None;
+        }
+        if let Some(transfer) = self.in_flight {
+            if !is_reached(self.now_ms, ready_ms(&self.memory, transfer)) {
+                return None;
+            }
+            self.in_flight = None;
+            let table = self.table.transfers.get(transfer)?;
+            return Some((Pending::Fetch(transfer), table.asked()));
+        }
+        let transfer = self.next_triggered()?;
+        let table = self.table.transfers.get(transfer)?;
+        Some((Pending::Trigger(transfer), Asked::Write(table.trigger)))
+    }
+
+    fn is_due(&self, transfer: usize) -> bool {
+        let soon_ms = self.now_ms.wrapping_add(early_ms(self.table));
+        is_reached(soon_ms, due_ms(&self.memory, transfer))
+    }
+
+    fn is_free(&self, transfer: usize) -> bool {
+        is_reached(self.now_ms, ready_ms(&self.memory, transfer)) && self.is_due(transfer)
+    }
+
+    /// The triggered transfer that has been due for longest.
+    fn next_triggered(&self) -> Option<usize> {
+        let mut found: Option<(usize, u32)> = None;
+        for (transfer, table) in self.table.transfers.iter().enumerate() {
+            if table.trigger.is_empty() || !self.is_due(transfer) {
+                continue;
+            }
+            let due_ms = due_ms(&self.memory, transfer);
+            if found.is_none_or(|(_, first_ms)| !is_reached(due_ms, first_ms)) {
+                found = Some((transfer, due_ms));
+            }
+        }
+        found.map(|(transfer, _)| transfer)
+    }
+
+    /// What is sent lies in the chip's memory: a DMA need not reach constant tables.
+    pub(super) fn hand_out(&mut self, asked: Asked) -> Step<'_> {
+        let work = Memory::split(&mut self.memory, &self.sizes).work;
+        let (Asked::Write(sent) | Asked::Read(sent, _) | Asked::Exchange(sent, _)) = asked;
+        copy(work, sent);
+        let (sent, rest) = split(work, sent.len());
+        match asked {
+            Asked::Write(_) => Step::Write(sent),
+            Asked::Read(_, count) => Step::WriteRead(sent, part_mut(rest, 0, count)),
+            Asked::Exchange(_, count) => Step::Exchange(sent, part_mut(rest, 0, count)),
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! What messages look like, and what is in them.
+
+use crate::bytes::at;
+use crate::checksum::{crc8, sum8, sum16, xor8};
+use crate::coding::Coding;
+use crate::outcome::Outcome;
+use crate::parse::{field, parse_decimal, parse_degrees, parse_hex};
+use crate::scalar::Scalar;
+use crate::schema::{Item, Schema};
+
+const DVB_S2_POLYNOMIAL: u8 = 0xD5;
+const IBUS_START: u16 = 0xFFFF;
+
+/// What stands behind the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MessageChecksum {
+    /// Nothing.
+    None,
+    /// 1 byte: low byte of the sum.
+    Sum8,
+    /// 1 byte: exclusive or.
+    Xor8,
+    /// 2 bytes, low byte first: 0xFFFF minus the sum of the bytes.
+    Ibus,
+    /// 1 byte: polynomial 0xD5 from 0.
+    Crc8DvbS2,
+    /// 3 bytes: `*` and two hex digits, exclusive or of the bytes between `start` and `*`.
+    Nmea,
+}
+
+impl MessageChecksum {
+    /// Bytes that it takes.
+    #[must_use]
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Sum8 | Self::Xor8 | Self::Crc8DvbS2 => 1,
+            Self::Ibus => 2,
+            Self::Nmea => 3,
+        }
+    }
+
+    /// The checksum of what stands before it, and its bytes.
+    pub(crate) fn of(self, before: &[u8], start_bytes: usize, from: u8) -> ([u8; 3], usize) {
+        let from = if self == Self::Nmea { start_bytes } else { usize::from(from) };
+        let summed = before.get(from..).unwrap_or_default();
+        let bytes = match self {
+            Self::None => [0; 3],
+            Self::Sum8 => [sum8(summed), 0, 0],
+            Self::Xor8 => [xor8(summed), 0, 0],
+            Self::Crc8DvbS2 => [crc8(DVB_S2_POLYNOMIAL, 0, summed), 0, 0],
+            Self::Ibus => {
+                let [low, high] = IBUS_START.wrapping_sub(sum16(summed)).to_le_bytes();
+                [low, high, 0]
+            }
+            Self::Nmea => {
+                let sum = xor8(summed);
+                [b'*', hex_digit(sum >> 4), hex_digit(sum & 15)]
+            }
+        };
+        (bytes, self.bytes())
+    }
+
+    /// Whether what begins with the checksum has that of what stands before it.
+    fn is_right(self, bytes: &[u8], place: usize, start_bytes: usize, from: u8) -> bool {
+        let before = bytes.get(..place).unwrap_or_default();
+        let (sum, size) = self.of(before, start_bytes, from);
+        (0..size).all(|index| {
+            let (wanted, found) = (at(&sum, index), at(bytes, place + index));
+            // Hexadecimal digits may be in lower case.
+            found == wanted || self == Self::Nmea && found.to_ascii_uppercase() == wanted
+        })
+    }
+}
+
+const fn hex_digit(number: u8) -> u8 {
+    if number < 10 { b'0' + number } else { b'A' + number - 10 }
+}
+
+/// How a number stands in a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FieldFormat {
+    /// `byte` and `value` say how.
+    Binary,
+    /// Text: sign, digits, point, digits.
+    Decimal,
+    /// Text: `[d]ddmm.mmmm`, and N, S, E or W in the next field; in 1e-7 degrees.
+    Degrees,
+    /// Text: hexadecimal digits.
+    Hex,
+}
+
+/// A value in a message. An array in text takes one field an element (with degrees two), one behind
+/// the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MessageField {
+    /// Index of the item in the schema.
+    pub item: u16,
+    /// How the number stands there.
+    pub format: FieldFormat,
+    /// Binary: where the value begins, counted from the first byte behind `start`.
+    pub byte: u16,
+    /// Binary: how the value is coded.
+    pub value: Coding,
+    /// Text: only in a sentence whose first field ends so (`RMC`: any talker); none: in any message.
+    pub sentence: Option<&'static [u8]>,
+    /// Text: between fields; 0: the whole message is field 0.
+    pub separator: u8,
+    /// Text: which field, from 0; with a sentence, 0 is the first behind its type.
+    pub index: u8,
+    /// Decimal: the value is the number times `10^decimals`, 0 to 18; integers are rounded.
+    pub decimals: u8,
+}
+
+impl MessageField {
+    /// The first byte of a message.
+    pub const NEW: Self = Self {
+        item: 0,
+        format: FieldFormat::Binary,
+        byte: 0,
+        value: Coding::NEW,
+        sentence: None,
+        separator: 0,
+        index: 0,
+        decimals: 0,
+    };
+
+    /// Whether a body is of the kind that has this value.
+    pub(super) fn is_of(&self, body: &[u8]) -> bool {
+        let Some(sentence) = self.sentence.filter(|_| self.format != FieldFormat::Binary) else {
+            return true;
+        };
+        field(body, self.separator, 0).is_some_and(|first| first.ends_with(sentence))
+    }
+
+    /// The value in a body, which may also be the data of a CAN frame; none where it is not in it.
+    #[must_use]
+    pub fn read(&self, item: &Item, body: &[u8], value: &mut [u8]) -> Option<Outcome> {
+        if self.format != FieldFormat::Binary {
+            return self.is_of(body).then(|| self.read_text(item, body, value));
+        }
+        let bytes = body.get(usize::from(self.byte)..)?;
+        let is_whole = self.value.wire_bytes(item.count) <= bytes.len();
+        is_whole.then(|| self.value.decode(item, bytes, value))
+    }
+
+    /// One invalid element makes the whole value invalid, one that is empty makes it no measurement.
+    fn read_text(&self, item: &Item, body: &[u8], value: &mut [u8]) -> Outcome {
+        let stride = if self.format == FieldFormat::Degrees { 2 } else { 1 };
+        let first = usize::from(self.index) + usize::from(self.sentence.is_some());
+        let mut outcome = Outcome::Fresh;
+        for index in 0..usize::from(item.count) {
+            let place = index.wrapping_mul(item.scalar.bytes());
+            let element = value.get_mut(place..).unwrap_or_default();
+            let one = self.read_element(item.scalar, body, first + index * stride, element);
+            if one == Outcome::Invalid || (one == Outcome::Nothing && outcome != Outcome::Invalid) {
+                outcome = one;
+            }
+        }
+        outcome
+    }
+
+    fn read_element(
+        &self,
+        scalar: Scalar,
+        body: &[u8],
+        place: usize,
+        element: &mut [u8],
+    ) -> Outcome {
+        let Some(text) = field(body, self.separator, place) else { return Outcome::Nothing };
+        match self.format {
+            FieldFormat::Degrees => {
+                let hemisphere = field(body, self.separator, place + 1).unwrap_or_default();
+                parse_degrees(text, hemisphere, scalar, element)
+            }
+            FieldFormat::Hex => parse_hex(text, scalar, element),
+            FieldFormat::Decimal | FieldFormat::Binary => {
+                parse_decimal(text, self.decimals, scalar, element)
+            }
+        }
+    }
+}
+
+/// The messages of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MessageTable {
+    /// First bytes of every message; empty for none: then what comes before the first `end` or the
+    /// first gap is dropped, because nobody knows where it began.
+    pub start: &'static [u8],
+    /// Last bytes; empty for none: then `length` is not 0.
+    pub end: &'static [u8],
+    /// The values in it.
+    pub fields: &'static [MessageField],
+    /// Bytes of the body; 0: as far as `end`.
+    pub length: u16,
+    /// Of the longest message with start, checksum and end.
+    pub bytes_max: u16,
+    /// Behind the body.
+    pub checksum: MessageChecksum,
+    /// First byte that is summed, counted from the first of `start`; not for NMEA.
+    pub checksum_from: u8,
+}
+
+impl MessageTable {
+    /// No message.
+    pub const NEW: Self = Self {
+        start: &[],
+        end: &[],
+        fields: &[],
+        length: 0,
+        bytes_max: 0,
+        checksum: MessageChecksum::None,
+        checksum_from: 0,
+    };
+
+    /// The memory of a [`MessageStream`].
+    #[must_use]
+    pub const fn stream_bytes(&self, schema: &Schema) -> usize {
+        self.bytes_max as usize + schema.value_bytes_max()
+    }
+
+    /// What stands around a body.
+    pub(super) fn frame_bytes(&self) -> usize {
+        self.start.len() + self.checksum.bytes() + self.end.len()
+    }
+
+    pub(super) fn body<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        let end = bytes.len().saturating_sub(self.end.len() + self.checksum.bytes());
+        bytes.get(self.start.len()..end).unwrap_or_default()
+    }
+
+    /// Whether nothing but a place tells where a message begins.
+    pub(super) fn needs_alignment(&self) -> bool {
+        let is_recognised = self.checksum != MessageChecksum::None || !self.end.is_empty();
+        self.start.is_empty() && (self.length == 0 || !is_recognised)
+    }
+
+    /// Where nothing but `end` bounds a body and nothing sums it, another start means that the end
+    /// was lost.
+    fn begins_anew(&self, bytes: &[u8]) -> bool {
+        let is_bare = self.length == 0 && self.checksum == MessageChecksum::None;
+        let has_two = !self.start.is_empty() && bytes.len() >= 2 * self.start.len();
+        is_bare && has_two && bytes.ends_with(self.start)
+    }
+
+    pub(super) fn judge(&self, bytes: &[u8]) -> Verdict {
+        let least = self.frame_bytes() + usize::from(self.length);
+        let begun = self.start.len().min(bytes.len());
+        if self.start.get(..begun) != bytes.get(..begun) {
+            return Verdict::Bad;
+        }
+        let ends_right = bytes.ends_with(self.end);
+        if bytes.len() < least || (self.length == 0 && !ends_right) {
+            let is_open = bytes.len() < usize::from(self.bytes_max) && !self.begins_anew(bytes);
+            return if is_open { Verdict::More } else { Verdict::Bad };
+        }
+        if !ends_right {
+            return Verdict::Bad;
+        }
+        let place = bytes.len().saturating_sub(self.end.len() + self.checksum.bytes());
+        if self.checksum.is_right(bytes, place, self.start.len(), self.checksum_from) {
+            Verdict::Whole
+        } else {
+            Verdict::Damaged
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It may become a message.
+    More,
+    /// It is one.
+    Whole,
+    /// It is one but for its checksum.
+    Damaged,
+    /// It will never be one.
+    Bad,
+}

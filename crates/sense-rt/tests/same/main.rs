@@ -1,0 +1,86 @@
+//! The runtime in Rust against the one in C, on random numbers: the same questions, the same answers.
+//!
+//! `core.c` and `reporter.c` are the C as a program under sanitizers; `answer` asks the Rust the same
+//! way, and `questions` makes them up.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
+
+mod answer;
+mod link;
+mod questions;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use sensedsl_tests::{Random, files, has, is_thorough, root};
+
+use self::answer::Desk;
+
+fn build() -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).to_path_buf();
+    let program = folder.join(format!("sense-rt-core-{}", std::process::id()));
+    let (core, own) = (root().join("runtime/core"), root().join("crates/sense-rt/tests/same"));
+    let mut command = Command::new("gcc");
+    command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
+    command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
+    command.arg("-I").arg(&core).args(files(&own, "c")).args(files(&core, "c"));
+    let output = command.arg("-o").arg(&program).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+/// What the C says, a line a question.
+fn ask(program: &Path, questions: &[String]) -> Vec<String> {
+    let mut child =
+        Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let text = questions.join("\n") + "\n";
+    let writer = std::thread::spawn(move || {
+        // A program that a sanitizer ends reads no more; its status says so below.
+        let _ = stdin.write_all(text.as_bytes());
+    });
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    let answers = String::from_utf8(output.stdout).unwrap();
+    let all: Vec<String> = answers.lines().map(str::to_owned).collect();
+    assert!(output.status.success(), "behind {:?}", questions.get(all.len().saturating_sub(1)));
+    all
+}
+
+/// The first question that they answer differently.
+fn difference(questions: &[String], of_c: &[String]) -> Option<String> {
+    let mut desk = Desk::default();
+    assert_eq!(questions.len(), of_c.len());
+    for (index, (question, c)) in questions.iter().zip(of_c).enumerate() {
+        let rust = desk.answer(question);
+        if rust != *c {
+            let before = &questions[index.saturating_sub(8)..index];
+            return Some(format!("{question}\nC: {c}\nRust: {rust}\nbehind {before:#?}"));
+        }
+    }
+    None
+}
+
+#[test]
+fn rust_answers_as_c_does() {
+    if !has("gcc") {
+        return;
+    }
+    let program = build();
+    let mut random = Random::new(11);
+    let rounds = if is_thorough() { 200 } else { 10 };
+    let questions: Vec<String> = (0..rounds).flat_map(|_| questions::round(&mut random)).collect();
+    let of_c = ask(&program, &questions);
+    std::fs::remove_file(&program).unwrap();
+    if let Some(difference) = difference(&questions, &of_c) {
+        panic!("{difference}");
+    }
+    // Each kind of answer that is wrong is told.
+    for word in questions::WORDS {
+        let mut wrong = of_c.clone();
+        let starts = |line: &&mut String| line.split(' ').next() == Some(word);
+        let told = wrong.iter_mut().find(|line| starts(line) && line.contains(' '));
+        told.unwrap_or_else(|| panic!("nothing is asked of {word}")).push('0');
+        assert!(difference(&questions, &wrong).is_some(), "{word}");
+    }
+}
