@@ -12,7 +12,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use sensedsl_codegen::job::{BoardJob, jobs};
-use sensedsl_diagnostics::codes::{e0519_which_board, e0546_image_refused, e0547_no_machine};
+use sensedsl_diagnostics::codes::e0519_which_board;
+#[cfg(feature = "twin")]
+use sensedsl_diagnostics::codes::e0546_image_refused;
+#[cfg(not(feature = "twin"))]
+use sensedsl_diagnostics::codes::e0547_no_machine;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_model::{What, apply_allows};
 use sensedsl_session::{Ask, has_errors};
@@ -148,8 +152,6 @@ fn machine(
     _: &Path,
     _: &[u8],
 ) -> Result<Box<dyn Board>, Box<Diagnostic>> {
-    // What another program of ours would say is said there.
-    let _ = e0546_image_refused::CODE;
     Err(e0547_no_machine::no_machine(scenery.at).into())
 }
 
