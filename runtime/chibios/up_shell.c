@@ -205,8 +205,12 @@ static void command_threads(BaseSequentialStream *out, int argc, char *argv[]) {
     print_thread(out, up_config.tasks[i].name, up_config.tasks[i].stack, up_config.tasks[i].stack_bytes);
   }
   print_thread(out, "shell", shell_stack, sizeof shell_stack);
-  chprintf(out, "least of the application %u bytes, load at most %u %%" SHELL_NEWLINE_STR,
-           (unsigned)up_stack_left(), (unsigned)up_load_percent());
+  chprintf(out, "least of the application %u bytes, ", (unsigned)up_stack_left());
+  if (up_load_percent() == UP_LOAD_UNKNOWN) {
+    chprintf(out, "load not measured yet" SHELL_NEWLINE_STR);
+  } else {
+    chprintf(out, "load at most %u %%" SHELL_NEWLINE_STR, (unsigned)up_load_percent());
+  }
   chprintf(out, "started by: %s", causes[up_reset_cause()]);
   if (up_reset_device() != 0U) {
     chprintf(out, " (thread of device %u)", (unsigned)up_reset_device());

@@ -15,6 +15,10 @@ pub const SOURCE_BYTES_MAX: usize = 16 << 20;
 pub const SOURCE_TEXT_BYTES_MAX: usize = 4 << 20;
 /// Bytes of one earlier answer (`--keep`, `diff`).
 pub const ANSWER_BYTES_MAX: usize = 2 << 20;
+/// Bytes of a world for `simulate`, and of a file with samples.
+pub const WORLD_BYTES_MAX: usize = 4 << 20;
+/// Bytes of an image of firmware for `simulate`.
+pub const IMAGE_BYTES_MAX: usize = 16 << 20;
 /// Bytes of all files that one call reads.
 pub const TOTAL_BYTES_MAX: usize = 32 << 20;
 
@@ -118,6 +122,8 @@ limits! {
     SOURCE_BYTES_MAX: "bytes of one source of `import`", "E0112";
     SOURCE_TEXT_BYTES_MAX: "bytes of a source of `import` that is text or XML", "E0807";
     ANSWER_BYTES_MAX: "bytes of an answer for `--keep` or `diff`", "E0112";
+    WORLD_BYTES_MAX: "bytes of a world for `simulate`, and of a file with samples", "E0112";
+    IMAGE_BYTES_MAX: "bytes of an image of firmware for `simulate`", "E0112";
     TOTAL_BYTES_MAX: "bytes of all files that one call reads", "E0112";
     TOKENS_MAX: "words, numbers, signs, spaces and comments of a design", "E0116";
     DIAGNOSTICS_MAX: "mistakes that are listed", "E0117";

@@ -9,7 +9,8 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_limits::{
-    ANSWER_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX, TABLE_BYTES_MAX, TOTAL_BYTES_MAX,
+    ANSWER_BYTES_MAX, IMAGE_BYTES_MAX, SENSE_BYTES_MAX, SOURCE_BYTES_MAX, TABLE_BYTES_MAX,
+    TOTAL_BYTES_MAX, WORLD_BYTES_MAX,
 };
 
 /// How library code reads files: given by the binary, or by a test.
@@ -43,6 +44,10 @@ pub enum What {
     Answer,
     /// What `import` reads.
     Source,
+    /// A world for `simulate`, or samples of one.
+    World,
+    /// An image of firmware.
+    Image,
 }
 
 impl What {
@@ -54,6 +59,8 @@ impl What {
             Self::Table => TABLE_BYTES_MAX,
             Self::Answer => ANSWER_BYTES_MAX,
             Self::Source => SOURCE_BYTES_MAX,
+            Self::World => WORLD_BYTES_MAX,
+            Self::Image => IMAGE_BYTES_MAX,
         }
     }
 
@@ -63,6 +70,8 @@ impl What {
             Self::Table => "a board table",
             Self::Answer => "an answer of `solve`",
             Self::Source => "a source of `import`",
+            Self::World => "a world, or samples of one",
+            Self::Image => "an image of firmware",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod build;
 mod parts;
+mod simulate;
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -12,6 +13,7 @@ use sensedsl_model::kind::KindName;
 
 pub(crate) use build::{BuildArgs, FlashArgs, Place, Tool};
 pub(crate) use parts::{PartsArgs, PartsOrder};
+pub(crate) use simulate::SimulateArgs;
 
 /// From a list of sensors and actuators to the best wiring, its firmware and its host application
 ///
@@ -44,6 +46,8 @@ pub(crate) enum Command {
     Build(BuildArgs),
     /// Build the firmware and write it to the board
     Flash(FlashArgs),
+    /// Run a board without hardware: its sensors measure a simulated world
+    Simulate(SimulateArgs),
     /// Explain a diagnostic, why a device is on its pin, or what the hardware has to do in a second
     Explain(ExplainArgs),
     /// Say what can still be added to a wiring, and what blocks the next device
@@ -436,7 +440,7 @@ fn kind() -> impl TypedValueParser<Value = KindName> {
 }
 
 /// A time that a clock can be set to.
-fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     const SECONDS_MAX: f64 = 1e6;
     match text.parse::<f64>() {
         Ok(seconds) if (0.0..=SECONDS_MAX).contains(&seconds) => Ok(seconds),

@@ -19,3 +19,5 @@ mod mutants;
 mod pins_and_clocks;
 mod stubs;
 mod tools;
+#[cfg(feature = "machine")]
+mod twin;

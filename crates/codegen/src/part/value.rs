@@ -30,7 +30,8 @@ pub struct ValuePlan {
 
 impl ValuePlan {
     /// The coding of a device whose bytes are the words.
-    pub(crate) fn new(words: &Words) -> Self {
+    #[must_use]
+    pub fn new(words: &Words) -> Self {
         let is_whole = words.low == 0 && u16::from(words.bits) == 8 * u16::from(words.word_bytes);
         let last = words.elements.iter().max().map_or(0, |last| u16::from(*last) + 1);
         Self {

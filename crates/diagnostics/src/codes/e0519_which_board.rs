@@ -10,7 +10,8 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "it is not clear which board is meant",
     explanation: r#"A file may have several boards, and each has a firmware of its own. `build` builds all of them unless `--board`
-names one; `flash` writes one, so where there are several it must be told which. The name is the one in the file,
+names one; `flash` writes one, so where there are several it must be told which; `simulate` runs the first one unless
+`--board` names another. The name is the one in the file,
 which is also that of the folder in `firmware/`.
 
 Way out: give `--board NAME` with one of the names that the message lists.
@@ -32,4 +33,11 @@ pub fn several(span: Span, boards: &[&str]) -> Diagnostic {
 pub fn unknown(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("there is no firmware of a board `{name}`"))
         .help(format!("there is one of {}", boards.join(", ")))
+}
+
+/// The file has no board of that name, or nothing is on it: the boards that carry devices.
+#[must_use]
+pub fn not_in_file(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("no board `{name}` carries a device of this file"))
+        .help(format!("say which with `--board NAME`: {}", boards.join(", ")))
 }

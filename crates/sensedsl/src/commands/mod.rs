@@ -19,6 +19,7 @@ mod input;
 pub(crate) mod new;
 mod output;
 pub(crate) mod parts;
+pub(crate) mod simulate;
 pub(crate) mod solve;
 mod starter;
 mod sweep;

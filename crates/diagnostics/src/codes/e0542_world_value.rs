@@ -1,0 +1,56 @@
+//! E0542: a world wants a value that a device cannot have.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0542",
+    severity: Severity::Error,
+    title: "a value that the device cannot have",
+    explanation: r#"The world speaks in the device's own unit: what a host shows, after `scale`, `offset` and `curve`. Some values cannot be:
+
+- outside of what the type holds: 300 for a `uint8`, -1 for a `uint16`;
+- outside of what the hardware can measure: 80 degrees at a probe whose curve ends at 60;
+- a count of edges that becomes less: `rate = 25` is 25 edges a second;
+- four values for an array of three.
+
+Way out: write values within the range that the message tells, or give the device a wider type.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// A value outside of the device's range, in its own unit.
+#[must_use]
+pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}: it goes from {range}"))
+        .here("out of range")
+        .help("choose a value in that range, or give the device a wider type")
+}
+
+/// An array has another number of elements.
+#[must_use]
+pub fn wrong_count(span: Span, name: &str, found: usize, wanted: usize) -> Diagnostic {
+    let what = format!("`{name}` has {wanted} elements, and there are {found} here");
+    Diagnostic::new(CODE, span, what)
+        .help(format!("write one value for all of them, or a list of {wanted}"))
+}
+
+/// A count of edges goes down.
+#[must_use]
+pub fn falls(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot become less"))
+        .here("becomes less")
+        .help("write for example `{ rate = 25 }` for 25 edges a second")
+}
+
+/// What counts edges would have to turn infinitely fast.
+#[must_use]
+pub fn jumps(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot jump"))
+        .here("jumps")
+        .help("write for example `{ sine = 200, period = \"4 s\" }`, `{ rate = 25 }` or `steps`, which are joined by lines")
+}

@@ -1,0 +1,28 @@
+//! E0548: the firmware does not run any more.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0548",
+    severity: Severity::Error,
+    title: "the firmware locked up",
+    explanation: r#"The processor of the emulated board cannot go on: a fault within a fault, or an instruction that does not exist. On real
+hardware the watchdog would reset the board, or it would stand still.
+
+Way out: `arm-none-eabi-addr2line -e sense.elf ADDRESS` tells the line of the source at the address that the message has.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// Where it stood, and why.
+#[must_use]
+pub fn locked_up(span: Span, pc: u64, why: &str, seconds: &str) -> Diagnostic {
+    let what = format!("the firmware locked up after {seconds} s at 0x{pc:08X}: {why}");
+    Diagnostic::new(CODE, span, what)
+        .help(format!("`arm-none-eabi-addr2line -e sense.elf 0x{pc:08X}` tells the line"))
+}

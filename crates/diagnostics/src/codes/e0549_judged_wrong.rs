@@ -1,0 +1,37 @@
+//! E0549: reports disagree with the world.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0549",
+    severity: Severity::Error,
+    title: "reports disagree with the world",
+    explanation: r#"`simulate --judge` compares every report with the world: what a device reports must lie within what the world did since
+the measurement can have been made, give or take what hardware and coding round. A device that has nothing to report for
+longer than three of its cycles disagrees as well, unless a fault of the world explains it.
+
+Values of another scale, order or device, old values and lost ones are found this way.
+
+Way out: look at the device that the message names; the table before it has them all.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The worst disagreement, in words.
+#[must_use]
+pub fn disagrees(span: Span, name: &str, what: &str, wrong: u64, all: u64) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}` disagrees with the world: {what}"))
+        .help(format!("{wrong} of {all} reports of the board's sensors are wrong; the table has each of them"))
+}
+
+/// Nothing was reported at all.
+#[must_use]
+pub fn silent(span: Span) -> Diagnostic {
+    Diagnostic::new(CODE, span, "the board has reported nothing")
+        .help("simulate for longer: `--seconds 10`; a board without sensors has nothing to report")
+}

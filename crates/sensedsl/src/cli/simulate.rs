@@ -1,0 +1,43 @@
+//! The arguments of `simulate`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Reach, seconds};
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArgs {
+    /// The file; - is the standard input
+    pub(crate) file: PathBuf,
+    /// What the sensors measure, and what breaks (TOML); without it all of them move within their
+    /// ranges
+    #[arg(long, value_name = "FILE")]
+    pub(crate) world: Option<PathBuf>,
+    /// Run this image on an emulated MCU: an ELF file or a raw one
+    #[arg(long, value_name = "IMAGE")]
+    pub(crate) firmware: Option<PathBuf>,
+    /// The board of that name in the file; the first one unless you say
+    #[arg(long, value_name = "NAME")]
+    pub(crate) board: Option<String>,
+    /// Compare every report with the world, as fast as possible; exit 1 where they disagree
+    #[arg(long)]
+    pub(crate) judge: bool,
+    /// Print what the board reports, and make no pseudo-terminal
+    #[arg(long, conflicts_with = "judge")]
+    pub(crate) stdout: bool,
+    /// Stop after that time; 10 with --judge, and where --stdout is not a terminal
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) seconds: Option<f64>,
+    /// What chance begins with; the same seed gives the same bytes
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Ask the board how it is at the end, and print it
+    #[arg(long)]
+    pub(crate) health: bool,
+    /// Write all bytes that the board sends to a file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) frames: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reach: Reach,
+}

@@ -1,0 +1,53 @@
+//! The board that is simulated: its job in this program, or an image of firmware on an emulated MCU.
+
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::soft::SoftBoard;
+
+/// What a board does, whatever it is.
+pub(super) trait Board {
+    /// Goes on to a time.
+    fn run_until(&mut self, until_ns: u64);
+    /// The host sends bytes.
+    fn link_write(&mut self, bytes: &[u8]);
+    /// What has arrived at the host since the last call.
+    fn link_read(&mut self) -> Vec<u8>;
+    /// What the host has set since the last call: the device's place in the schema, and the bytes of its value.
+    fn received(&mut self) -> Vec<(usize, Vec<u8>)>;
+    /// Where and why the firmware does not run any more.
+    fn halted(&self) -> Option<(u64, String)>;
+    /// What a user wants to hear of since the last call.
+    fn news(&mut self) -> Vec<String>;
+}
+
+impl Board for SoftBoard {
+    fn run_until(&mut self, until_ns: u64) {
+        SoftBoard::run_until(self, until_ns);
+    }
+
+    fn link_write(&mut self, bytes: &[u8]) {
+        SoftBoard::link_write(self, bytes);
+    }
+
+    fn link_read(&mut self) -> Vec<u8> {
+        SoftBoard::link_read(self)
+    }
+
+    fn received(&mut self) -> Vec<(usize, Vec<u8>)> {
+        let all = SoftBoard::received(self).into_iter();
+        all.map(|(_, index, value)| (index, value)).collect()
+    }
+
+    fn halted(&self) -> Option<(u64, String)> {
+        None
+    }
+
+    fn news(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// The board's job in this program.
+pub(super) fn soft(job: &BoardJob<'_>, bench: Bench) -> Box<dyn Board> {
+    Box::new(SoftBoard::new(job, bench))
+}

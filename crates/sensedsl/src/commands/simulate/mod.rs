@@ -1,0 +1,182 @@
+//! `sensedsl simulate`: a board without hardware, whose sensors measure a simulated world.
+
+mod board;
+#[cfg(feature = "twin")]
+mod emulated;
+#[cfg(unix)]
+mod pty;
+mod run;
+mod screen;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use sensedsl_codegen::job::{BoardJob, jobs};
+use sensedsl_diagnostics::codes::e0519_which_board;
+#[cfg(feature = "twin")]
+use sensedsl_diagnostics::codes::e0546_image_refused;
+#[cfg(not(feature = "twin"))]
+use sensedsl_diagnostics::codes::e0547_no_machine;
+use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
+use sensedsl_model::{What, apply_allows};
+use sensedsl_session::{Ask, has_errors};
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::world::{self, Scene, World};
+
+use super::input;
+use crate::Status;
+use crate::cli::{On, SimulateArgs};
+use crate::files::{Disk, read_bytes, read_text, shown};
+use crate::terminal::Terminal;
+use board::Board;
+
+/// What chance begins with where nobody says it.
+const SEED: u64 = 1;
+
+/// What each way proves and does not, 80 columns wide.
+const SOFT: [&str; 4] = [
+    "Running the board's job in this program: the tables of the firmware on the",
+    "runtime that firmware in Rust has. This proves the wire, how values are coded,",
+    "parts, and host applications; it does not prove registers, clocks, pads,",
+    "interrupts, DMA, stacks, or the C of the firmware (`--firmware` does).",
+];
+const EMULATED: [&str; 3] = [
+    "Running the image on an emulated MCU. This proves the firmware as it would be",
+    "flashed: pads, drivers, timing to about a microsecond; it does not prove what",
+    "is between a pad and a part: voltages, noise, cables, connectors.",
+];
+
+pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
+    let on = On { board: None, target: None, reach: args.reach.clone() };
+    let snapshot = input::load(&args.file, &on);
+    let answer = snapshot.solve(&Ask::default());
+    let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
+    let mut diagnostics = answer.diagnostics.clone();
+    apply_allows(design, &mut diagnostics);
+    terminal.diagnostics(&diagnostics, snapshot.sources())?;
+    if has_errors(&diagnostics) {
+        return Ok(Status::Wrong);
+    }
+    let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
+    let names: Vec<&str> = all.iter().map(|job| job.board.name.value.as_str()).collect();
+    let wanted =
+        |job: &&BoardJob<'_>| args.board.as_ref().is_none_or(|name| *name == job.board.name.value);
+    let Some(job) = all.iter().find(wanted) else {
+        let asked = args.board.as_deref().unwrap_or_default();
+        let why = e0519_which_board::not_in_file(input::place(design), asked, &names);
+        terminal.diagnostics(&[why], snapshot.sources())?;
+        return Ok(Status::Misused);
+    };
+    if args.board.is_none() && names.len() > 1 {
+        let others: Vec<&str> = names.iter().skip(1).copied().collect();
+        terminal.aside(&format!("`--board` simulates another one: {}", others.join(", ")))?;
+    }
+    simulate(args, terminal, job, snapshot.sources())
+}
+
+/// Everything that the simulation is about.
+struct Scenery<'a> {
+    args: &'a SimulateArgs,
+    terminal: &'a Terminal,
+    job: &'a BoardJob<'a>,
+    /// The place of what concerns the whole, and its text.
+    at: Span,
+    sources: &'a SourceMap,
+}
+
+impl Scenery<'_> {
+    fn say(&self, why: Diagnostic) -> Result<()> {
+        Ok(self.terminal.diagnostics(&[why], self.sources)?)
+    }
+}
+
+fn simulate(
+    args: &SimulateArgs,
+    terminal: &Terminal,
+    job: &BoardJob<'_>,
+    sources: &SourceMap,
+) -> Result<Status> {
+    let scenery = Scenery { args, terminal, job, at: input::place(job.design), sources };
+    let Some(world) = world(args, terminal, job)? else { return Ok(Status::Wrong) };
+    let seed = args.seed.or(world.seed).unwrap_or(SEED);
+    let bench = Bench::new(job, &world, seed);
+    let Some(firmware) = &args.firmware else {
+        explain(&scenery, &SOFT)?;
+        let board = board::soft(job, bench.clone());
+        return run::run(&scenery, &bench, board);
+    };
+    let image = read_bytes(firmware, What::Image)?;
+    match machine(&scenery, bench.clone(), firmware, &image) {
+        Ok(board) => {
+            explain(&scenery, &EMULATED)?;
+            run::run(&scenery, &bench, board)
+        }
+        Err(why) => {
+            scenery.say(*why)?;
+            Ok(Status::Wrong)
+        }
+    }
+}
+
+/// What the run proves; a judge's verdict is read by programs as well.
+fn explain(scenery: &Scenery<'_>, lines: &[&str]) -> Result<()> {
+    for line in lines {
+        scenery.terminal.aside(line)?;
+    }
+    Ok(())
+}
+
+#[cfg(feature = "twin")]
+fn machine(
+    scenery: &Scenery<'_>,
+    bench: Bench,
+    firmware: &Path,
+    image: &[u8],
+) -> Result<Box<dyn Board>, Box<Diagnostic>> {
+    let board = scenery.job.board;
+    let mcu = board.mcu.as_deref().unwrap_or("MCU that nobody knows");
+    if !mcu.starts_with("STM32F407") && !mcu.starts_with("STM32F405") {
+        let name = &board.name.value;
+        return Err(e0546_image_refused::other_mcu(scenery.at, name, mcu).into());
+    }
+    match emulated::Emulated::new(scenery.job, bench, image) {
+        Ok(machine) => Ok(Box::new(machine)),
+        Err(why) => Err(e0546_image_refused::refused(scenery.at, &shown(firmware), &why).into()),
+    }
+}
+
+#[cfg(not(feature = "twin"))]
+fn machine(
+    scenery: &Scenery<'_>,
+    _: Bench,
+    _: &Path,
+    _: &[u8],
+) -> Result<Box<dyn Board>, Box<Diagnostic>> {
+    Err(e0547_no_machine::no_machine(scenery.at).into())
+}
+
+/// Reads the world; none where something is wrong with it, which has been said.
+fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
+    let Some(path) = &args.world else { return Ok(Some(World::default())) };
+    let text = read_text(path, What::World)?;
+    let mut sources = SourceMap::default();
+    let file = sources.add(shown(path), text.as_str());
+    let disk = Disk::of(path, &args.reach.allow_outside);
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let samples = |name: &str| -> Result<String, String> {
+        let path: PathBuf = folder.join(name);
+        let bytes = disk.bytes(&path, What::World).map_err(|unread| unread.why())?;
+        String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
+    };
+    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+    let scene = Scene {
+        design: job.design,
+        devices: &devices,
+        transport: job.board.link.transport,
+        seed: args.seed,
+        samples: &samples,
+    };
+    let (world, said) = world::read(file, &text, &scene);
+    terminal.diagnostics(&said, &sources)?;
+    Ok((!has_errors(&said)).then_some(world))
+}

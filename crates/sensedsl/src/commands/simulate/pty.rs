@@ -1,0 +1,81 @@
+//! A pseudo-terminal: for a host application it is the device that a board would be.
+
+use std::collections::VecDeque;
+use std::fs::OpenOptions;
+use std::os::fd::OwnedFd;
+use std::time::Duration;
+
+use anyhow::{Context as _, Result};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{OFlags, fcntl_setfl};
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+
+/// Bytes that wait for a host that does not read.
+const WAITING_MAX: usize = 1 << 16;
+
+/// The board's end.
+pub(super) struct Pty {
+    board: OwnedFd,
+    name: String,
+    waiting: VecDeque<u8>,
+}
+
+impl Pty {
+    pub(super) fn open() -> Result<Self> {
+        let failed = "the system gives no pseudo-terminal; `--stdout` needs none";
+        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC)
+            .context(failed)?;
+        grantpt(&board).context(failed)?;
+        unlockpt(&board).context(failed)?;
+        let name = ptsname(&board, Vec::new()).context(failed)?.to_string_lossy().into_owned();
+        // Opened once: from then on the system tells whether somebody else has it open. The settings stay.
+        let host = OpenOptions::new().read(true).write(true).open(&name).context(failed)?;
+        let mut settings = tcgetattr(&host).context(failed)?;
+        settings.make_raw();
+        tcsetattr(&host, OptionalActions::Now, &settings).context(failed)?;
+        fcntl_setfl(&board, OFlags::NONBLOCK).context(failed)?;
+        Ok(Self { board, name, waiting: VecDeque::new() })
+    }
+
+    /// What a host application opens.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether somebody has it open; waits for news for a while.
+    pub(super) fn wait(&self, most: Duration) -> bool {
+        let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
+        let most = Timespec { tv_sec: 0, tv_nsec: most.subsec_nanos().into() };
+        match poll(&mut wanted, Some(&most)) {
+            Ok(_) => wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP)),
+            Err(_) => true,
+        }
+    }
+
+    /// What the host has sent.
+    pub(super) fn read(&self) -> Vec<u8> {
+        let mut bytes = vec![0; 4_096];
+        let count = rustix::io::read(&self.board, &mut bytes).unwrap_or(0);
+        bytes.truncate(count);
+        bytes
+    }
+
+    /// Sends as much as the host takes; the rest follows. Nobody hears what is sent to nobody.
+    pub(super) fn write(&mut self, bytes: &[u8], is_connected: bool) {
+        if !is_connected || self.waiting.len() + bytes.len() > WAITING_MAX {
+            self.waiting.clear();
+        }
+        if !is_connected {
+            return;
+        }
+        self.waiting.extend(bytes);
+        while !self.waiting.is_empty() {
+            let next = self.waiting.as_slices().0;
+            match rustix::io::write(&self.board, next) {
+                Ok(0) | Err(_) => return,
+                Ok(count) => drop(self.waiting.drain(..count)),
+            }
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! Running a board: at the pace of the clock behind a pseudo-terminal, or as fast as possible before a judge.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+use sensedsl_diagnostics::codes::{
+    e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
+};
+use sensedsl_twin::bench::{Bench, seconds};
+use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_wire::{
+    Decoder, Direction, Event, Health, NEVER_MS, Scalar, Status as HealthStatus,
+    encode_health_request, encode_hello_request,
+};
+
+use super::Scenery;
+use super::board::Board;
+#[cfg(unix)]
+use super::pty::Pty;
+use super::screen::Screen;
+use crate::Status;
+use crate::commands::table::table;
+use crate::files::write_whole;
+
+const MS: u64 = 1_000_000;
+/// How long a judge listens, and who writes lines, unless somebody says it.
+const SECONDS: f64 = 10.0;
+/// How often a host of ours asks who the board is, until it answers.
+const ASK_NS: u64 = 500 * MS;
+/// How often the table is refreshed.
+const REFRESH: Duration = Duration::from_millis(200);
+/// How long the board gets to answer how it is.
+const HEALTH_NS: u64 = 500 * MS;
+
+pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -> Result<Status> {
+    let mut session = Session::new(scenery, bench, board);
+    let args = scenery.args;
+    let status = if args.judge {
+        session.hurry(false)?
+    } else if args.stdout && !scenery.terminal.is_watched() {
+        session.hurry(true)?
+    } else {
+        session.pace()?
+    };
+    if args.health {
+        session.health()?;
+    }
+    if let Some(path) = &args.frames {
+        write_whole(path, &session.frames)?;
+    }
+    if status == Status::Done && args.judge { session.verdict() } else { Ok(status) }
+}
+
+/// A board, and who listens to it.
+struct Session<'a> {
+    scenery: &'a Scenery<'a>,
+    board: Box<dyn Board>,
+    decoder: Decoder<'a>,
+    judge: Judge,
+    screen: Screen,
+    frames: Vec<u8>,
+    now_ns: u64,
+    /// The board has said who it is.
+    is_known: bool,
+    is_stranger: bool,
+    last: Option<Health>,
+}
+
+impl<'a> Session<'a> {
+    fn new(scenery: &'a Scenery<'a>, bench: &Bench, board: Box<dyn Board>) -> Self {
+        let job = scenery.job;
+        Self {
+            scenery,
+            board,
+            decoder: Decoder::new(&job.schema, Direction::Sensor),
+            judge: Judge::new(job, bench),
+            screen: Screen::new(job),
+            frames: Vec::new(),
+            now_ns: 0,
+            is_known: false,
+            is_stranger: false,
+            last: None,
+        }
+    }
+
+    /// How long the run lasts, in virtual time; none for as long as nobody stops it.
+    fn end_ns(&self, usual: Option<f64>) -> Option<u64> {
+        let seconds = self.scenery.args.seconds.or(usual)?;
+        Some(Duration::from_secs_f64(seconds).as_nanos().try_into().unwrap_or(u64::MAX))
+    }
+
+    /// One millisecond. Gives the bytes that the host gets.
+    fn step(&mut self, mut line: Option<&mut String>) -> Result<Vec<u8>> {
+        self.now_ns += MS;
+        self.board.run_until(self.now_ns);
+        let bytes = self.board.link_read();
+        if self.scenery.args.frames.is_some() {
+            self.frames.extend_from_slice(&bytes);
+        }
+        let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
+        let hash = self.scenery.job.schema.hash();
+        let (is_known, is_stranger, last) =
+            (&mut self.is_known, &mut self.is_stranger, &mut self.last);
+        self.decoder.feed(&bytes, |event| match event {
+            Event::Report(_, values) => {
+                judge.take(now_ns, &values);
+                screen.take(now_ns, &values, Direction::Sensor);
+                if let Some(line) = &mut line {
+                    line.push_str(&screen.line(now_ns, &values));
+                }
+            }
+            Event::Hello(told) => (*is_known, *is_stranger) = (true, told != hash),
+            Event::Health(health) => *last = Some(health),
+            Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
+        });
+        for (index, value) in self.board.received() {
+            self.set(index, &value);
+        }
+        for news in self.board.news() {
+            self.scenery.terminal.aside(&news)?;
+        }
+        Ok(bytes)
+    }
+
+    /// Shows what the host has set.
+    fn set(&mut self, index: usize, value: &[u8]) {
+        let Some(item) = self.scenery.job.schema.items.get(index) else { return };
+        let elements = value.chunks_exact(item.value.scalar.size_bytes());
+        let scalars: Vec<Scalar> = elements.filter_map(|one| item.value.scalar.read(one)).collect();
+        self.screen.take(self.now_ns, &[(item.id, scalars)], Direction::Actuator);
+    }
+
+    /// Asks who the board is, as a host does.
+    fn ask(&mut self) {
+        if !self.is_known && self.now_ns.is_multiple_of(ASK_NS) {
+            self.board.link_write(&encode_hello_request(&self.scenery.job.schema));
+        }
+    }
+
+    /// Why the run ends here; none where it goes on.
+    fn trouble(&self) -> Result<Option<Status>> {
+        if self.is_stranger {
+            let name = self.scenery.args.firmware.as_deref().map(crate::files::shown);
+            let why = "it was made from another file, or from an older state of this one";
+            let name = name.unwrap_or_default();
+            self.scenery.say(e0546_image_refused::refused(self.scenery.at, &name, why))?;
+            return Ok(Some(Status::Wrong));
+        }
+        let Some((pc, why)) = self.board.halted() else { return Ok(None) };
+        let at = format!("{:.3}", seconds(self.now_ns));
+        self.scenery.say(e0548_locked_up::locked_up(self.scenery.at, pc, &why, &at))?;
+        Ok(Some(Status::Wrong))
+    }
+
+    /// As fast as possible; lines where they are wanted.
+    fn hurry(&mut self, has_lines: bool) -> Result<Status> {
+        let end_ns = self.end_ns(Some(SECONDS)).unwrap_or(0);
+        while self.now_ns < end_ns {
+            let mut line = has_lines.then(String::new);
+            self.ask();
+            self.step(line.as_mut())?;
+            if let Some(line) = line.filter(|line| !line.is_empty()) {
+                self.scenery.terminal.result(&line)?;
+            }
+            if let Some(status) = self.trouble()? {
+                return Ok(status);
+            }
+        }
+        Ok(Status::Done)
+    }
+
+    /// At the pace of the clock, with the table where somebody sees it.
+    #[cfg(unix)]
+    fn pace(&mut self) -> Result<Status> {
+        let terminal = self.scenery.terminal;
+        let mut pty = if self.scenery.args.stdout { None } else { Some(Pty::open()?) };
+        if let Some(pty) = &pty {
+            terminal.note(&format!("the board is at {}\n", pty.name()))?;
+            terminal.aside("a host application takes it for the board's device; Ctrl-C ends it")?;
+        }
+        let stop = interruption()?;
+        let end_ns = self.end_ns(None);
+        let (began, mut shown) = (Instant::now(), Instant::now());
+        while !stop.load(Ordering::Relaxed) && end_ns.is_none_or(|end| self.now_ns < end) {
+            let is_connected = match &pty {
+                Some(pty) => pty.wait(Duration::from_millis(2)),
+                None => {
+                    std::thread::sleep(Duration::from_millis(2));
+                    false
+                }
+            };
+            let due = u64::try_from(began.elapsed().as_nanos()).unwrap_or(u64::MAX);
+            let due = end_ns.map_or(due, |end| due.min(end));
+            while self.now_ns + MS <= due && !stop.load(Ordering::Relaxed) {
+                if !is_connected {
+                    self.ask();
+                }
+                let bytes = self.step(None)?;
+                if let Some(pty) = &mut pty {
+                    pty.write(&bytes, is_connected);
+                }
+                if began.elapsed() > Duration::from_nanos(due) + REFRESH {
+                    break;
+                }
+            }
+            if let Some(pty) = pty.as_ref().filter(|_| is_connected) {
+                self.board.link_write(&pty.read());
+            }
+            if let Some(status) = self.trouble()? {
+                return Ok(status);
+            }
+            if terminal.is_watched() && shown.elapsed() >= REFRESH {
+                shown = Instant::now();
+                terminal.coloured_note(&self.screen.refreshed(self.now_ns))?;
+            }
+        }
+        if !terminal.is_watched() {
+            terminal.note(&self.screen.table(self.now_ns))?;
+        }
+        Ok(Status::Done)
+    }
+
+    #[cfg(not(unix))]
+    fn pace(&mut self) -> Result<Status> {
+        bail!(
+            "this system has no pseudo-terminals: use `--stdout` with its output in a file, or `--judge`"
+        )
+    }
+
+    /// Asks the board how it is, and prints the answer.
+    fn health(&mut self) -> Result<()> {
+        self.last = None;
+        self.board.link_write(&encode_health_request(&self.scenery.job.schema));
+        let end_ns = self.now_ns + HEALTH_NS;
+        while self.last.is_none() && self.now_ns < end_ns {
+            self.step(None)?;
+        }
+        let Some(health) = &self.last else { bail!("the board did not say how it is") };
+        let text = format!(
+            "up for {} ms, {} reports sent, {} not\n",
+            health.uptime_ms, health.reports_sent, health.reports_refused
+        );
+        let rows: Vec<[String; 4]> = health
+            .devices
+            .iter()
+            .map(|one| {
+                let item = self.scenery.job.schema.items.iter().find(|item| item.id == one.id);
+                let name = item.map_or("", |item| item.name.as_str()).to_owned();
+                let causes = one.causes;
+                let faults = [
+                    causes.not_acknowledged,
+                    causes.bus_error,
+                    causes.arbitration_lost,
+                    causes.timed_out,
+                    causes.wrong_checksum,
+                    causes.invalid,
+                ];
+                let faults: u32 = faults.into_iter().map(u32::from).sum();
+                let age =
+                    if one.age_ms == NEVER_MS { "-".to_owned() } else { one.age_ms.to_string() };
+                [name, status(one.status).to_owned(), age, faults.to_string()]
+            })
+            .collect();
+        let heads = [("Device", false), ("Status", false), ("Age ms", true), ("Faults", true)];
+        Ok(self.scenery.terminal.result(&format!("{text}{}", table(heads, &rows)))?)
+    }
+
+    /// What the judge has found out.
+    fn verdict(self) -> Result<Status> {
+        let Self { scenery, judge, now_ns, .. } = self;
+        let judged = judge.finish(now_ns);
+        let rows: Vec<[String; 5]> = judged.iter().map(cells).collect();
+        let heads = [
+            ("Device", false),
+            ("Reports", true),
+            ("Excused", true),
+            ("Wrong", true),
+            ("May be old", true),
+        ];
+        let mut text = table(heads, &rows);
+        for one in judged.iter().filter(|one| one.wrong > 0) {
+            text.push_str(&format!("  {}: {}\n", one.name, words(one)));
+        }
+        scenery.terminal.result(&text)?;
+        let all: u64 = judged.iter().map(|one| one.reports).sum();
+        let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
+        let off = |one: &&Judged| one.worst.as_ref().map_or(0.0, |worst| worst.off);
+        let worst = judged.iter().filter(|one| one.wrong > 0);
+        let worst = worst.max_by(|one, other| off(one).total_cmp(&off(other)));
+        if let Some(worst) = worst {
+            let what = words(worst);
+            scenery.say(judged_wrong::disagrees(scenery.at, &worst.name, &what, wrong, all))?;
+            return Ok(Status::Wrong);
+        }
+        if all == 0 {
+            scenery.say(judged_wrong::silent(scenery.at))?;
+            return Ok(Status::Wrong);
+        }
+        let span = seconds(now_ns);
+        scenery
+            .terminal
+            .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
+        Ok(Status::Done)
+    }
+}
+
+fn status(of: HealthStatus) -> &'static str {
+    match of {
+        HealthStatus::NeverRead => "never read",
+        HealthStatus::Good => "good",
+        HealthStatus::Stale => "stale",
+        HealthStatus::Failed => "failed",
+        HealthStatus::Invalid => "invalid",
+        HealthStatus::Other(_) => "unknown",
+    }
+}
+
+fn cells(one: &Judged) -> [String; 5] {
+    let age = format!("{} ms", one.age_ns / MS);
+    let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());
+    let [reports, excused, wrong] = counts;
+    [one.name.clone(), reports, excused, wrong, age]
+}
+
+/// The worst disagreement of a device.
+fn words(one: &Judged) -> String {
+    let Some(worst) = &one.worst else { return String::new() };
+    let at = format!("{:.3} s", seconds(worst.at_ns));
+    let unit = if one.quantity.is_empty() { "" } else { " " };
+    let quantity = &one.quantity;
+    match worst.expected {
+        None => format!("nothing for {:.1} s until {at}", worst.got),
+        Some((from, to)) => {
+            let [from, to, got] = [from, to, worst.got].map(short);
+            format!("at {at} it was {got}{unit}{quantity} and not {from} to {to}")
+        }
+    }
+}
+
+/// A number with four digits behind the point at most.
+fn short(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Set by the first Ctrl-C; the second one ends the program.
+#[cfg(unix)]
+fn interruption() -> Result<Arc<AtomicBool>> {
+    use signal_hook::consts::SIGINT;
+    const INTERRUPTED: i32 = 130;
+    let flag = Arc::new(AtomicBool::new(false));
+    signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, Arc::clone(&flag))?;
+    signal_hook::flag::register(SIGINT, Arc::clone(&flag))?;
+    Ok(flag)
+}

@@ -1,0 +1,468 @@
+//! The bench: a board's wiring, with parts behind its pins and a world around them.
+//!
+//! In: what is to run on a board, and a world. Out: [`Surroundings`] for an emulated MCU, and the same by connections
+//! for a board that knows no pads. Faults of the world happen here.
+
+use std::collections::BTreeMap;
+
+use sensedsl_codegen::job::{BoardJob, JobConnection};
+use sensedsl_model::design::{ConnectionIndex, Device, DeviceIndex, PartIndex};
+use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use crate::arith::{chance, number};
+use crate::parts::line::{Edges, Line};
+use crate::parts::registers::{Reading, Registers};
+use crate::parts::{can, formula, message};
+use crate::range::is_counter;
+use crate::surroundings::Pad;
+use crate::truth::Subject;
+use crate::world::{Fault, FaultKind, World, usual};
+
+mod mcu;
+
+/// What a converter reads at most, and at what voltage.
+const FULL: f64 = 4_095.0;
+const REFERENCE_MV: f64 = 3_300.0;
+const MS_NS: u64 = 1_000_000;
+
+/// A board's pins and what is behind them.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    subjects: Vec<Subject>,
+    wires: BTreeMap<ConnectionIndex, Wired>,
+    pads: BTreeMap<Pad, (ConnectionIndex, Role)>,
+    chips: Vec<Chip>,
+    talkers: BTreeMap<u8, Talking>,
+    senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
+    /// The chip that an I2C unit talks to.
+    talked_to: BTreeMap<u8, usize>,
+    faults: Vec<Fault>,
+    /// The part of each fault's device, and the units of its wires.
+    broken: Vec<(Option<PartIndex>, Vec<String>)>,
+    seed: u64,
+}
+
+/// A connection and what is behind it.
+#[derive(Clone, Debug)]
+struct Wired {
+    part: PartIndex,
+    line: Option<(Line, Option<Line>)>,
+    analog: Option<Analog>,
+}
+
+#[derive(Clone, Debug)]
+struct Analog {
+    subject: usize,
+    element: usize,
+    thermistor: Option<(sensedsl_model::protocol::Formula, Vec<i32>)>,
+}
+
+/// A chip on a bus.
+#[derive(Clone, Debug)]
+struct Chip {
+    part: PartIndex,
+    unit: u8,
+    /// On I2C.
+    address: Option<u8>,
+    /// On SPI: the connection whose chip select it is.
+    connection: ConnectionIndex,
+    is_selected: bool,
+    registers: Registers,
+}
+
+#[derive(Clone, Debug)]
+struct Talking {
+    part: PartIndex,
+    talker: message::Talker,
+}
+
+impl Bench {
+    /// Puts the parts of a board's job on its pins.
+    #[must_use]
+    pub fn new(job: &BoardJob<'_>, world: &World, seed: u64) -> Self {
+        let mut bench = Self {
+            subjects: subjects(job, world),
+            wires: BTreeMap::new(),
+            pads: BTreeMap::new(),
+            chips: Vec::new(),
+            talkers: BTreeMap::new(),
+            senders: BTreeMap::new(),
+            talked_to: BTreeMap::new(),
+            faults: world.faults.clone(),
+            broken: Vec::new(),
+            seed,
+        };
+        for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
+            bench.add(job, wiring.connection, one);
+        }
+        bench.broken = world.faults.iter().map(|fault| broken(job, fault)).collect();
+        bench
+    }
+
+    /// The board's sensors with what happens to them, in the order of the file.
+    #[must_use]
+    pub fn subjects(&self) -> &[Subject] {
+        &self.subjects
+    }
+
+    /// From one message or frame of a device that sends by itself to the next.
+    #[must_use]
+    pub fn period_ns(&self, part: PartIndex) -> Option<u64> {
+        let talker = self.talkers.values().find(|one| one.part == part);
+        let senders = || self.senders.values().flatten().find(|(of, _)| *of == part);
+        talker.map(|one| one.talker.period_ns()).or_else(|| senders().map(|(_, one)| one.period_ns))
+    }
+
+    /// The devices that a fault may keep from reporting, and from when to when.
+    #[must_use]
+    pub fn excused(&self, job: &BoardJob<'_>, device: DeviceIndex) -> Vec<(u64, u64)> {
+        let own = job.devices.iter().find(|one| one.index == device);
+        let hits = |(fault, (part, units)): (&Fault, &(Option<PartIndex>, Vec<String>))| {
+            let is_own = own.is_some_and(|own| {
+                let shares = own.unit.is_some_and(|unit| units.iter().any(|one| one == unit));
+                let is_of_bus = matches!(fault.kind, FaultKind::StuckSda | FaultKind::Hang);
+                *part == Some(own.device.part) || (is_of_bus && shares)
+            });
+            (fault.kind.is_of_board() || is_own).then_some((fault.at_ns, fault.until_ns))
+        };
+        self.faults.iter().zip(&self.broken).filter_map(hits).collect()
+    }
+
+    /// Whether the board has no supply.
+    #[must_use]
+    pub fn is_off(&self, now_ns: u64) -> bool {
+        self.faults.iter().any(|one| one.kind == FaultKind::Reset && one.is_there(now_ns))
+    }
+
+    /// What arrives on the link that nobody sent, in this millisecond.
+    #[must_use]
+    pub fn garbage(&self, now_ns: u64) -> Option<u8> {
+        let is_there = |one: &&Fault| one.kind == FaultKind::Garbage && one.is_there(now_ns);
+        self.faults.iter().find(is_there)?;
+        let chance = crate::arith::scrambled(self.seed ^ now_ns);
+        chance.to_be_bytes().first().copied()
+    }
+
+    /// The supply is back: parts have forgotten what was written to them.
+    pub fn power_up(&mut self) {
+        for chip in &mut self.chips {
+            chip.registers.reset();
+        }
+        self.talked_to.clear();
+    }
+
+    /// The voltage at a connection.
+    pub fn millivolts_at(&self, connection: ConnectionIndex, now_ns: u64) -> f64 {
+        let Some(wired) = self.wires.get(&connection) else { return 0.0 };
+        if self.has(FaultKind::Torn, wired.part, now_ns) {
+            // An input that nobody drives floats.
+            return REFERENCE_MV / 2.0 * (1.0 + chance(self.seed ^ (now_ns / MS_NS)) / 4.0);
+        }
+        let Some(analog) = &wired.analog else { return 0.0 };
+        let Some(subject) = self.subjects.get(analog.subject) else { return 0.0 };
+        let raw = subject.raw(analog.element, now_ns);
+        let level = match &analog.thermistor {
+            None => raw,
+            Some((of, parameters)) => {
+                let bytes = formula::raw(*of, parameters, [Some(raw), None, None]);
+                bytes.iter().fold(0.0, |sum, byte| sum * 256.0 + f64::from(*byte))
+            }
+        };
+        level.clamp(0.0, FULL) * REFERENCE_MV / FULL
+    }
+
+    /// The level at a wire of a connection; none where nobody drives it.
+    pub fn level_at(
+        &mut self,
+        connection: ConnectionIndex,
+        role: Role,
+        now_ns: u64,
+    ) -> Option<bool> {
+        if self.is_cut(connection, now_ns) {
+            return None;
+        }
+        let wired = self.wires.get_mut(&connection)?;
+        let (first, second) = wired.line.as_mut()?;
+        let line = if role == Role::B { second.as_mut()? } else { first };
+        (role != Role::Trigger).then(|| line.level(&self.subjects, now_ns))
+    }
+
+    /// The next edge at a wire of a connection.
+    pub fn next_edge_at(
+        &mut self,
+        connection: ConnectionIndex,
+        role: Role,
+        after_ns: u64,
+    ) -> Option<(u64, bool)> {
+        let wired = self.wires.get_mut(&connection)?;
+        let (first, second) = wired.line.as_mut()?;
+        let line = if role == Role::B { second.as_mut()? } else { first };
+        let mut after_ns = after_ns;
+        // What a fault swallows is not seen; the edges go on behind it.
+        for _ in 0..100_000 {
+            let (at, level) = line.next_edge(&self.subjects, after_ns)?;
+            let part = wired.part;
+            let cut = [FaultKind::Torn, FaultKind::Silent];
+            let is_cut = self.faults.iter().zip(&self.broken).any(|(fault, (of, _))| {
+                cut.contains(&fault.kind) && *of == Some(part) && fault.is_there(at)
+            });
+            if !is_cut {
+                return Some((at, level));
+            }
+            after_ns = at;
+        }
+        None
+    }
+
+    /// The board drives a wire of a connection.
+    pub fn drive_at(
+        &mut self,
+        connection: ConnectionIndex,
+        role: Role,
+        level: Option<bool>,
+        now_ns: u64,
+    ) {
+        if role == Role::Cs
+            && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
+        {
+            let is_selected = level == Some(false);
+            match (chip.is_selected, is_selected) {
+                (false, true) => chip.registers.select(now_ns),
+                (true, false) => chip.registers.deselect(now_ns),
+                (true, true) | (false, false) => {}
+            }
+            chip.is_selected = is_selected;
+        }
+        if role == Role::Trigger
+            && level == Some(false)
+            && let Some((line, _)) =
+                self.wires.get_mut(&connection).and_then(|wired| wired.line.as_mut())
+        {
+            line.triggered(&self.subjects, now_ns);
+        }
+    }
+
+    fn has(&self, kind: FaultKind, part: PartIndex, now_ns: u64) -> bool {
+        let mut faults = self.faults.iter().zip(&self.broken);
+        faults.any(|(fault, (of, _))| {
+            fault.kind == kind && *of == Some(part) && fault.is_there(now_ns)
+        })
+    }
+
+    fn is_cut(&self, connection: ConnectionIndex, now_ns: u64) -> bool {
+        self.wires.get(&connection).is_some_and(|wired| {
+            self.has(FaultKind::Torn, wired.part, now_ns)
+                || self.has(FaultKind::Silent, wired.part, now_ns)
+        })
+    }
+
+    /// Whether something holds a wire of a bus.
+    fn is_held(&self, kind: FaultKind, unit: u8, now_ns: u64) -> bool {
+        let mut faults = self.faults.iter().zip(&self.broken);
+        faults.any(|(fault, (_, units))| {
+            fault.kind == kind
+                && fault.is_there(now_ns)
+                && units.iter().any(|one| number_of(one) == Some(unit))
+        })
+    }
+}
+
+/// Putting parts on pins.
+impl Bench {
+    fn add(&mut self, job: &BoardJob<'_>, index: ConnectionIndex, one: &JobConnection<'_>) {
+        for pad in &one.pads {
+            if let Some(named) = Pad::named(&pad.pin.name.to_string()) {
+                self.pads.entry(named).or_insert((index, pad.role));
+            }
+        }
+        let part = one.connection.part;
+        let unit = one.unit.and_then(number_of);
+        let mut wired = Wired { part, line: None, analog: None };
+        let devices: Vec<&Device> = job
+            .devices
+            .iter()
+            .filter(|of| of.device.part == part && of.device.direction == Direction::Sensor)
+            .map(|of| of.device)
+            .collect();
+        let over = one.devices.iter().filter_map(|at| job.devices.get(*at));
+        let first = over.map(|of| of.device).find(|of| of.direction == Direction::Sensor);
+        let element = usize::from(one.element());
+        match (&one.connection.kind, unit) {
+            (Kind::I2c(_) | Kind::Spi(_), Some(unit)) => {
+                self.chips.push(self.chip(job, index, one, unit));
+            }
+            (Kind::Uart(uart), Some(unit)) if !devices.is_empty() => {
+                let fields = devices.iter().filter_map(|of| self.field(of)).collect();
+                let delay_ns = MS_NS * u64::from(one.cycle.delay_ms);
+                let talker = message::Talker::new(uart.clone(), fields, delay_ns, &self.subjects);
+                self.talkers.insert(unit, Talking { part, talker });
+            }
+            (Kind::Can(own), Some(unit)) => {
+                let senders = self.senders.entry(unit).or_default();
+                let known = senders.iter_mut().find(|(_, sender)| sender.id == own.frame_id);
+                let fields = devices.iter().filter_map(|of| {
+                    let subject = self.subjects.iter().position(|one| one.id == of.id.value)?;
+                    let delay_ns = MS_NS * u64::from(of.delay_ms);
+                    let byte = of.kind.can().map_or(own.byte, |can| can.byte);
+                    Some((can::Field { subject, byte, words: Words::of(of)? }, delay_ns))
+                });
+                let fields: Vec<_> = fields.collect();
+                if let Some((_, sender)) = known {
+                    fields.into_iter().for_each(|(field, delay_ns)| sender.add(field, delay_ns));
+                } else {
+                    let mut sender = can::Sender::new(own.frame_id);
+                    fields.into_iter().for_each(|(field, delay_ns)| sender.add(field, delay_ns));
+                    senders.push((part, sender));
+                }
+            }
+            (_, _) => {
+                wired.analog = first.and_then(|of| self.analog(job, of, element));
+                wired.line = first.and_then(|of| self.line(&one.connection.kind, of, element));
+            }
+        }
+        self.wires.insert(index, wired);
+    }
+
+    fn subject(&self, device: &Device) -> Option<usize> {
+        self.subjects.iter().position(|one| one.id == device.id.value)
+    }
+
+    fn analog(&self, job: &BoardJob<'_>, device: &Device, element: usize) -> Option<Analog> {
+        device.kind.analog()?;
+        let chip = job.design.part(device.part).and_then(|part| part.chip.as_ref());
+        let formula = chip.filter(|_| device.coding.output.is_some());
+        let thermistor = formula.and_then(|chip| Some((chip.formula?, chip.parameters.clone())));
+        Some(Analog { subject: self.subject(device)?, element, thermistor })
+    }
+
+    fn line(&self, kind: &Kind, device: &Device, element: usize) -> Option<(Line, Option<Line>)> {
+        let subject = self.subject(device)?;
+        Some(match kind {
+            Kind::Digital(_) if is_counter(kind, device) => {
+                let edges = match kind.digital().and_then(|own| own.edge) {
+                    Some(sensedsl_model::kind::digital::Edge::Both) => Edges::Both,
+                    Some(sensedsl_model::kind::digital::Edge::Falling) => Edges::Falling,
+                    Some(sensedsl_model::kind::digital::Edge::Rising) | None => Edges::Rising,
+                };
+                (Line::Count { subject, element, edges }, None)
+            }
+            Kind::Digital(own) => {
+                (Line::Level { subject, element, is_active_low: own.active_low }, None)
+            }
+            Kind::Icu(icu) => {
+                (Line::of_capture(icu, subject, element, self.subjects.get(subject)?), None)
+            }
+            Kind::Encoder(_) => {
+                let track = |is_second| Line::Track { subject, element, is_second };
+                (track(false), Some(track(true)))
+            }
+            Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => return None,
+        })
+    }
+
+    fn field(&self, device: &Device) -> Option<message::Field> {
+        let reading = device.coding.reading.as_deref().unwrap_or_default();
+        Some(message::Field {
+            subject: self.subject(device)?,
+            byte: device.coding.byte,
+            words: Words::of(device),
+            text: device.coding.text.clone(),
+            is_latitude: reading.contains("lat"),
+        })
+    }
+
+    fn chip(
+        &self,
+        job: &BoardJob<'_>,
+        index: ConnectionIndex,
+        one: &JobConnection<'_>,
+        unit: u8,
+    ) -> Chip {
+        let part = one.connection.part;
+        let protocol = one.part.chip.clone().unwrap_or_default();
+        let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
+            let device = of.device;
+            let subject = self.subject(device)?;
+            let (trigger, wait_us, register, select) = match &device.kind {
+                Kind::I2c(own) => (own.trigger.clone(), own.wait_us, own.register, Vec::new()),
+                Kind::Spi(own) => {
+                    (own.trigger.clone(), own.wait_us, own.register, own.read.clone())
+                }
+                Kind::Analog(_)
+                | Kind::Icu(_)
+                | Kind::Encoder(_)
+                | Kind::Digital(_)
+                | Kind::Uart(_)
+                | Kind::Pwm(_)
+                | Kind::Dac(_)
+                | Kind::Can(_) => return None,
+            };
+            Some(Reading {
+                subject,
+                trigger,
+                wait_ns: 1_000 * u64::from(wait_us),
+                register,
+                select,
+                exchange: device.coding.exchange.clone(),
+                byte: device.coding.byte,
+                words: Words::of(device).filter(|_| device.coding.output.is_none()),
+                output: device.coding.output,
+            })
+        });
+        Chip {
+            part,
+            unit,
+            address: one.connection.kind.i2c().map(|own| own.address),
+            connection: index,
+            is_selected: false,
+            registers: Registers::new(protocol, readings.collect()),
+        }
+    }
+}
+
+/// The board's sensors with what happens to them.
+fn subjects(job: &BoardJob<'_>, world: &World) -> Vec<Subject> {
+    let sensors = job.devices.iter().filter(|one| one.device.direction == Direction::Sensor);
+    let subject = sensors.map(|one| {
+        let own = world.signals.get(&one.index);
+        let signals = own.cloned().unwrap_or_else(|| usual(one.index, one.device));
+        Subject::new(one.index, one.device, signals)
+    });
+    subject.collect()
+}
+
+/// The part that a fault is of, and the units of its wires.
+fn broken(job: &BoardJob<'_>, fault: &Fault) -> (Option<PartIndex>, Vec<String>) {
+    let part = fault.device.and_then(|device| job.design.device(device)).map(|device| device.part);
+    let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
+    (part, of_part.filter_map(|one| one.unit.map(str::to_owned)).collect())
+}
+
+/// The number of a peripheral instance: 2 of `USART2`.
+#[must_use]
+pub fn number_of(unit: &str) -> Option<u8> {
+    let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
+    // `I2C3`: what stands behind the last letter.
+    let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
+    last.parse().ok()
+}
+
+/// The value that a converter gives for a voltage, with the digits behind the point that many samples have.
+#[must_use]
+pub fn converted(millivolts: f64) -> f64 {
+    (millivolts * FULL / REFERENCE_MV).clamp(0.0, FULL)
+}
+
+/// A time in seconds.
+#[must_use]
+pub fn seconds(now_ns: u64) -> f64 {
+    number(now_ns) / 1e9
+}

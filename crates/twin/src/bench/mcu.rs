@@ -1,0 +1,119 @@
+//! The bench as an emulated MCU sees it: by pads and units.
+
+use sensedsl_model::design::PartIndex;
+use sensedsl_model::kind::Role;
+
+use super::{Bench, Chip};
+use crate::surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
+use crate::world::FaultKind;
+
+impl Surroundings for Bench {
+    fn millivolts(&mut self, pad: Pad, now_ns: u64) -> f64 {
+        self.pads.get(&pad).map_or(0.0, |(connection, _)| self.millivolts_at(*connection, now_ns))
+    }
+
+    fn level(&mut self, pad: Pad, now_ns: u64) -> Option<bool> {
+        let (connection, role) = *self.pads.get(&pad)?;
+        let unit = self.chips.iter().find(|one| one.connection == connection).map(|one| one.unit);
+        match (role, unit) {
+            // The lines of a bus have their resistors.
+            (Role::Scl, Some(unit)) => Some(!self.is_held(FaultKind::Hang, unit, now_ns)),
+            (Role::Sda, Some(unit)) => Some(!self.is_held(FaultKind::StuckSda, unit, now_ns)),
+            (_, _) => self.level_at(connection, role, now_ns),
+        }
+    }
+
+    fn next_edge(&mut self, pad: Pad, after_ns: u64) -> Option<(u64, bool)> {
+        let (connection, role) = *self.pads.get(&pad)?;
+        self.next_edge_at(connection, role, after_ns)
+    }
+
+    fn driven(&mut self, pad: Pad, level: Option<bool>, now_ns: u64) {
+        if let Some((connection, role)) = self.pads.get(&pad).copied() {
+            self.drive_at(connection, role, level, now_ns);
+        }
+    }
+
+    fn i2c(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
+        if self.is_held(FaultKind::StuckSda, unit, now_ns) {
+            return I2cReply::Stuck;
+        }
+        if self.is_held(FaultKind::Hang, unit, now_ns) {
+            return I2cReply::Silent;
+        }
+        if let I2cEvent::Start { address, read } = event {
+            let place =
+                self.chips.iter().position(|one| one.unit == unit && one.address == Some(address));
+            let Some(place) = place else { return I2cReply::Nack };
+            let part = self.chips.get(place).map(|one| one.part);
+            let is_gone = part.is_none_or(|part| {
+                self.has(FaultKind::NoAnswer, part, now_ns)
+                    || self.has(FaultKind::Torn, part, now_ns)
+            });
+            let Some(chip) = self.chips.get_mut(place) else { return I2cReply::Nack };
+            if is_gone || chip.registers.is_busy(now_ns) {
+                self.talked_to.remove(&unit);
+                return I2cReply::Nack;
+            }
+            chip.registers.start(read, &self.subjects, now_ns);
+            self.talked_to.insert(unit, place);
+            return I2cReply::Ack;
+        }
+        let talked_to = self.talked_to.get(&unit).and_then(|place| self.chips.get_mut(*place));
+        match (event, talked_to) {
+            (I2cEvent::Write(byte), Some(chip)) => {
+                chip.registers.write(byte);
+                I2cReply::Ack
+            }
+            (I2cEvent::Read { .. }, Some(chip)) => I2cReply::Byte(chip.registers.read()),
+            (I2cEvent::Stop, Some(chip)) => {
+                chip.registers.stop(now_ns);
+                self.talked_to.remove(&unit);
+                I2cReply::Ack
+            }
+            (I2cEvent::Stop, None) => I2cReply::Ack,
+            (I2cEvent::Write(_), None) | (I2cEvent::Start { .. }, _) => I2cReply::Nack,
+            (I2cEvent::Read { .. }, None) => I2cReply::Byte(0xFF),
+        }
+    }
+
+    fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
+        let selected = |one: &Chip| one.unit == unit && one.is_selected && one.address.is_none();
+        let Some(place) = self.chips.iter().position(selected) else { return 0xFF };
+        let part = self.chips.get(place).map(|one| one.part);
+        if part.is_none_or(|part| self.has(FaultKind::Torn, part, now_ns)) {
+            return 0xFF;
+        }
+        let chip = self.chips.get_mut(place);
+        chip.map_or(0xFF, |chip| chip.registers.exchange(out, &self.subjects))
+    }
+
+    fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
+        let part = self.talkers.get(&unit)?.part;
+        let is_cut = [FaultKind::Torn, FaultKind::Silent]
+            .into_iter()
+            .any(|kind| self.has(kind, part, now_ns));
+        let talking = self.talkers.get_mut(&unit)?;
+        let byte = talking.talker.next(&self.subjects, now_ns);
+        if is_cut {
+            talking.talker.torn();
+            return None;
+        }
+        byte
+    }
+
+    fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
+        let faults: Vec<PartIndex> = self
+            .faults
+            .iter()
+            .zip(&self.broken)
+            .filter(|(fault, _)| {
+                matches!(fault.kind, FaultKind::Torn | FaultKind::Silent) && fault.is_there(now_ns)
+            })
+            .filter_map(|(_, (part, _))| *part)
+            .collect();
+        let senders = self.senders.get_mut(&unit)?;
+        let mut due = senders.iter_mut();
+        due.find_map(|(part, sender)| sender.next(&self.subjects, now_ns, faults.contains(part)))
+    }
+}

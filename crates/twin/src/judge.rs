@@ -1,0 +1,367 @@
+//! The judge: every value that a board reports against what the world did.
+//!
+//! A value that arrives at some time was measured a little earlier, and between measuring and arriving it is rounded,
+//! coded and filtered. So it must lie within what the world was in a span of time, give or take what rounding can do.
+//! Both are known for each device from its kind, its cycle and its filters. What is out of it, or does not come at all,
+//! is a disagreement, and the worst of each device is kept.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::{Icu, Mode};
+use sensedsl_model::protocol::Format;
+use sensedsl_wire::{Direction, Scalar, ScalarType};
+
+use crate::bench::Bench;
+use crate::parts::formula;
+use crate::range::{is_counter, raw_range};
+use crate::truth::{Subject, real};
+use crate::world::Signal;
+
+const MS: u64 = 1_000_000;
+const SECOND: u64 = 1_000 * MS;
+/// What a value waits for beside its device: two cycles of the reporter and its way over a link.
+const SLACK_NS: u64 = 40 * MS;
+/// How long a board may take to start before it must report.
+const START_NS: u64 = 2 * SECOND;
+/// How long a bus is left alone at most after something held it, and a chip takes to start again.
+const RECOVERY_NS: u64 = 1_500 * MS;
+/// A low-pass is as good as there after so many of its time constants, and this is what is left.
+const SETTLED: u64 = 8;
+const UNSETTLED: f64 = 0.000_34;
+
+/// A value that disagrees, in the device's own unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// When it arrived.
+    pub at_ns: u64,
+    /// Of which element.
+    pub element: usize,
+    /// What it should have been: from, to; none where nothing came at all.
+    pub expected: Option<(f64, f64)>,
+    /// What it was; of what did not come for how long, in seconds.
+    pub got: f64,
+    /// How far it is off, in tolerances.
+    pub off: f64,
+}
+
+/// What was found out about a device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub quantity: String,
+    /// Values that were compared.
+    pub reports: u64,
+    /// Values during and right after a fault that concerns it, which nobody compares.
+    pub excused: u64,
+    /// Values that disagree, and silences.
+    pub wrong: u64,
+    /// The worst of them.
+    pub worst: Option<Wrong>,
+    /// How old a value may be.
+    pub age_ns: u64,
+}
+
+/// Compares reports with the world.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    devices: Vec<Accused>,
+}
+
+#[derive(Clone, Debug)]
+struct Accused {
+    subject: Subject,
+    judged: Judged,
+    /// In raw numbers.
+    tolerance: f64,
+    /// No longer silence is possible; none where silence says nothing.
+    gap_ns: Option<u64>,
+    bounds: Option<(f64, f64)>,
+    excuses: Vec<(u64, u64)>,
+    is_relative: bool,
+    /// Where it stood before the board was up nobody knows.
+    is_anywhere: bool,
+    /// What a count may have begun with, less what the world had: from, to.
+    bases: Vec<Option<(f64, f64)>>,
+    last_ns: Option<u64>,
+}
+
+impl Judge {
+    /// The judge of a board on its bench.
+    #[must_use]
+    pub fn new(job: &BoardJob<'_>, bench: &Bench) -> Self {
+        let find = |subject: &Subject| job.devices.iter().find(|one| one.index == subject.device);
+        let accused = |subject: &Subject| Some(Accused::new(job, bench, find(subject)?, subject));
+        Self { devices: bench.subjects().iter().filter_map(accused).collect() }
+    }
+
+    /// A report has arrived.
+    pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
+        for (id, elements) in values {
+            if let Some(accused) = self.devices.iter_mut().find(|one| one.subject.id == *id) {
+                accused.take(now_ns, elements);
+            }
+        }
+    }
+
+    /// The run is over.
+    #[must_use]
+    pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
+        for accused in &mut self.devices {
+            accused.silence(now_ns);
+        }
+        self.devices.into_iter().map(|one| one.judged).collect()
+    }
+}
+
+impl Accused {
+    fn new(job: &BoardJob<'_>, bench: &Bench, one: &JobDevice<'_>, subject: &Subject) -> Self {
+        let device = one.device;
+        let filter = &device.filter;
+        let period_ns = bench.period_ns(device.part).unwrap_or(0);
+        let delay_ns = MS * u64::from(device.delay_ms);
+        let mut age_ns = SLACK_NS + link_ns(job) + measured_ns(one, subject, period_ns);
+        age_ns += SETTLED * MS * u64::from(filter.smooth_ms);
+        age_ns += u64::from(filter.median) * delay_ns.max(period_ns);
+        let mut tolerance = tolerance(job, one, subject);
+        if let Some((least, greatest)) = raw_range(device).filter(|_| filter.smooth_ms > 0) {
+            tolerance += 1.0 + UNSETTLED * (greatest - least).min(1e6);
+        }
+        let is_told_always = filter.change.is_none() && filter.invalid.is_empty();
+        let silent_ns = 3 * delay_ns.max(period_ns).max(SECOND) + age_ns;
+        let has_pulses = device.kind.icu().is_none_or(|icu| icu.mode == Mode::Count);
+        let gap_ns = (is_told_always && has_pulses).then_some(silent_ns);
+        let quantity = device.shown.quantity.clone().unwrap_or_default();
+        let judged = Judged {
+            name: subject.name.clone(),
+            quantity,
+            reports: 0,
+            excused: 0,
+            wrong: 0,
+            worst: None,
+            age_ns,
+        };
+        let is_encoder = matches!(device.kind, Kind::Encoder(_));
+        Self {
+            judged,
+            tolerance,
+            gap_ns,
+            bounds: raw_range(device),
+            excuses: bench.excused(job, one.index),
+            is_anywhere: is_encoder,
+            is_relative: is_encoder || is_counter(&device.kind, device),
+            bases: vec![None; subject.signals.len()],
+            last_ns: None,
+            subject: subject.clone(),
+        }
+    }
+
+    fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
+        self.silence(now_ns);
+        self.last_ns = Some(now_ns);
+        if self.is_excused(now_ns) {
+            self.judged.excused += 1;
+            // A board that has started again counts anew.
+            self.bases.iter_mut().for_each(|base| *base = None);
+            return;
+        }
+        self.judged.reports += 1;
+        let mut worst: Option<Wrong> = None;
+        for (element, scalar) in elements.iter().enumerate() {
+            let got = real(*scalar);
+            let wrong = if self.is_relative {
+                self.compare_count(now_ns, element, got)
+            } else {
+                self.compare(now_ns, element, got)
+            };
+            let is_worse = |wrong: &Wrong| worst.as_ref().is_none_or(|worst| worst.off < wrong.off);
+            if let Some(wrong) = wrong.filter(is_worse) {
+                worst = Some(wrong);
+            }
+        }
+        self.note(worst);
+    }
+
+    fn note(&mut self, wrong: Option<Wrong>) {
+        let Some(wrong) = wrong else { return };
+        self.judged.wrong += 1;
+        if self.judged.worst.as_ref().is_none_or(|worst| worst.off < wrong.off) {
+            self.judged.worst = Some(wrong);
+        }
+    }
+
+    /// The raw numbers that an element can have had when what arrives now was measured.
+    fn expected(&self, now_ns: u64, element: usize) -> (f64, f64) {
+        let from_ns = now_ns.saturating_sub(self.judged.age_ns);
+        let signal = self.subject.signals.get(element);
+        let (least, greatest) = signal.map_or((0.0, 0.0), |signal| signal.range(from_ns, now_ns));
+        let ends = [least, greatest].map(|end| self.subject.scale.raw(end));
+        let [one, other] =
+            ends.map(|end| self.bounds.map_or(end, |(low, high)| end.clamp(low, high.max(low))));
+        (one.min(other), one.max(other))
+    }
+
+    fn compare(&self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+        let (least, greatest) = self.expected(now_ns, element);
+        let below = (least - self.tolerance) - got;
+        let above = got - (greatest + self.tolerance);
+        let off = below.max(above);
+        (off > 1e-9 * got.abs().max(1.0) || got.is_nan())
+            .then(|| self.wrong(now_ns, element, (least, greatest), (got, off)))
+    }
+
+    /// What a counter has counted before nobody knows: what it started with must be the same for all reports.
+    fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+        let (least, greatest) = self.expected(now_ns, element);
+        let found = (got - greatest - self.tolerance, got - least + self.tolerance);
+        let known = self.bases.get(element).copied().flatten();
+        let (from, to) = match known {
+            Some(known) => known,
+            None if self.is_anywhere => found,
+            None => {
+                let (early, late) = self.lost(now_ns, element);
+                (early - 3.0, late + 3.0)
+            }
+        };
+        let both = (from.max(found.0), to.min(found.1));
+        if both.0 <= both.1 {
+            if let Some(base) = self.bases.get_mut(element) {
+                *base = Some(both);
+            }
+            return None;
+        }
+        let expected = (least + from, greatest + to);
+        Some(self.wrong(now_ns, element, expected, (got, both.0 - both.1)))
+    }
+
+    /// In the device's own unit.
+    fn wrong(
+        &self,
+        at_ns: u64,
+        element: usize,
+        (least, greatest): (f64, f64),
+        (got, off): (f64, f64),
+    ) -> Wrong {
+        let [one, other, got] = [least, greatest, got].map(|raw| self.subject.scale.shown(raw));
+        let expected = Some((one.min(other), one.max(other)));
+        Wrong { at_ns, element, expected, got, off: off / self.tolerance.max(0.5) }
+    }
+
+    /// By how much a count may be off because the board was not up: less or more.
+    fn lost(&self, now_ns: u64, element: usize) -> (f64, f64) {
+        let Some(signal) = self.subject.signals.get(element) else { return (0.0, 0.0) };
+        let before = now_ns.min(START_NS + self.judged.age_ns);
+        let (least, greatest) = signal.range(now_ns - before, now_ns);
+        let width = (self.subject.scale.raw(greatest) - self.subject.scale.raw(least)).abs();
+        let whole = self.subject.raw(element, now_ns).abs();
+        (-width.max(whole), width.max(whole))
+    }
+
+    fn is_excused(&self, now_ns: u64) -> bool {
+        let from_ns = now_ns.saturating_sub(self.judged.age_ns);
+        let hits = |&(at, until): &(u64, u64)| now_ns >= at && from_ns <= until + RECOVERY_NS;
+        self.excuses.iter().any(hits)
+    }
+
+    /// Whether nothing came for too long.
+    fn silence(&mut self, now_ns: u64) {
+        let Some(gap_ns) = self.gap_ns else { return };
+        let since_ns = self.last_ns.unwrap_or(0);
+        let most_ns = gap_ns + if self.last_ns.is_none() { START_NS } else { 0 };
+        let silent_ns = now_ns - since_ns;
+        let is_explained =
+            |&(at, until): &(u64, u64)| at <= now_ns && until + RECOVERY_NS + gap_ns >= since_ns;
+        if silent_ns > most_ns && !self.excuses.iter().any(is_explained) {
+            let off = crate::arith::number(silent_ns) / crate::arith::number(most_ns);
+            let got = crate::bench::seconds(silent_ns);
+            self.note(Some(Wrong { at_ns: now_ns, element: 0, expected: None, got, off }));
+        }
+    }
+}
+
+/// How long the longest frame is on a serial link.
+fn link_ns(job: &BoardJob<'_>) -> u64 {
+    if job.board.link.transport != Transport::Uart {
+        return 0;
+    }
+    let bytes = u64::try_from(job.schema.frame_bytes_max(Direction::Sensor)).unwrap_or(0);
+    // A report waits for one that is on the line.
+    2 * bytes * 10 * SECOND / u64::from(job.board.link.baud.max(1))
+}
+
+/// How old a value can be when it is read.
+fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
+    let device = one.device;
+    let delay_ns = MS * u64::from(device.delay_ms);
+    match &device.kind {
+        Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
+        Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
+        Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
+        Kind::Digital(own) => delay_ns.min(50 * MS) + 1_000 * u64::from(own.debounce_us),
+        Kind::Uart(_) | Kind::Can(_) => period_ns + delay_ns.min(SECOND),
+        Kind::Encoder(_) => 20 * MS,
+        Kind::Icu(icu) => pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some()),
+        Kind::Pwm(_) | Kind::Dac(_) => 0,
+    }
+}
+
+/// How old the last pulse can be.
+fn pulses_ns(icu: &Icu, subject: &Subject) -> u64 {
+    let bounds = subject.signals.iter().filter_map(Signal::bounds);
+    let ends =
+        bounds.flat_map(|(least, greatest)| [least, greatest]).map(|end| subject.scale.raw(end));
+    let (least, greatest) = ends.fold((f64::MAX, 0.0_f64), |(l, g), one| (l.min(one), g.max(one)));
+    let ticks_ns =
+        |ticks: f64| crate::arith::nanoseconds(ticks * 1e9 / f64::from(icu.tick_hz.max(1)));
+    match icu.mode {
+        Mode::Count => 20 * MS,
+        Mode::Width => 45 * MS + 2 * ticks_ns(greatest) + 1_000 * u64::from(icu.wait_us),
+        Mode::Period => 2 * ticks_ns(greatest),
+        Mode::Frequency if least > 2.0 => crate::arith::nanoseconds(2e9 / least),
+        Mode::Frequency => 1_200 * MS,
+        Mode::Duty => 30 * MS,
+        Mode::Ppm => 2 * 40 * MS + 8 * ticks_ns(greatest),
+    }
+}
+
+/// By how much rounding and coding can move a raw number.
+fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 {
+    let device = one.device;
+    let chip = job.design.part(device.part).and_then(|part| part.chip.as_ref());
+    let formula = chip.and_then(|chip| Some((chip.formula?, &chip.parameters)));
+    if let (Some(output), Some((formula, parameters))) = (device.coding.output, formula) {
+        let bounds = subject.signals.iter().filter_map(Signal::bounds);
+        let ends = bounds.flat_map(|(least, greatest)| [least, greatest]);
+        let steps =
+            ends.map(|end| formula::step(formula, parameters, output, subject.scale.raw(end)));
+        return steps.fold(1.5, |most, step| f64::max(most, 2.0 * step + 1.0));
+    }
+    if let Some(text) = &device.coding.text {
+        return if text.format == Format::Degrees { 3.0 } else { 0.51 };
+    }
+    let tick = |icu: &Icu| f64::from(icu.tick_hz) / 1e6;
+    match &device.kind {
+        Kind::Analog(_) => 1.6,
+        Kind::Icu(icu) => match icu.mode {
+            Mode::Count => 2.0,
+            Mode::Width | Mode::Period => 2.0 + 3.0 * tick(icu),
+            Mode::Frequency => frequency_step(icu, subject),
+            Mode::Duty => 8.0,
+            Mode::Ppm => 2.0 + 3.0 * tick(icu),
+        },
+        Kind::Encoder(_) => 3.0,
+        Kind::Digital(_) if subject.scalar != ScalarType::Bool => 2.0,
+        Kind::Digital(_) => 0.0,
+        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => 0.51,
+        Kind::Pwm(_) | Kind::Dac(_) => 0.0,
+    }
+}
+
+/// What one tick, and a microsecond of the edges, make of the highest frequency.
+fn frequency_step(icu: &Icu, subject: &Subject) -> f64 {
+    let bounds = subject.signals.iter().filter_map(Signal::bounds);
+    let most = bounds.map(|(_, greatest)| subject.scale.raw(greatest)).fold(1.0, f64::max);
+    1.0 + most * most * (2.0 / f64::from(icu.tick_hz.max(1)) + 4e-6)
+}

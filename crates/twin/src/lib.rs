@@ -1,0 +1,24 @@
+//! A board's twin: firmware runs on an emulated MCU, and a simulated world is on its pins.
+//!
+//! What comes in are bytes: an image, what a host sends. What goes out are events with times. Time is virtual and
+//! counted in nanoseconds since the board got power, so that a run is the same each time, to the byte.
+//!
+//! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
+//! models the world answers.
+//!
+//! [`world`] says what happens around a board, [`bench`] puts parts behind its pins, [`soft`] does the board's job in
+//! this program, and [`judge`] compares what it reports with the world. No part of it reads a file or a clock.
+
+mod arith;
+pub mod bench;
+pub mod judge;
+#[cfg(feature = "machine")]
+pub mod machine;
+mod parts;
+pub mod range;
+pub mod soft;
+pub mod surroundings;
+pub mod truth;
+pub mod world;
+
+pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};

@@ -1,0 +1,358 @@
+//! The core with its memory, and the loop that lets it and the chip take turns.
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use rsemu::core::error::BusError;
+use rsemu::core::space::{
+    AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy,
+};
+use rsemu::cpu::arm::v7m::{ArmV7m, Config};
+
+use super::Settings;
+use super::chip::Chip;
+use super::image::FLASH_BYTES;
+use super::map::DEBUG_BASE;
+use super::transfer::{FLASH_BASE, Memory, SRAM_BASE};
+use super::wires::{Event, SECOND_NS, Wires};
+use crate::surroundings::Surroundings;
+
+/// Peripherals are from here to the core's own.
+const PERIPHERALS: u32 = 0x4000_0000;
+const PERIPHERALS_BYTES: u64 = 0x2000_0000;
+const SRAM_BYTES: u64 = 128 << 10;
+const CCM_BASE: u64 = 0x1000_0000;
+const CCM_BYTES: u64 = 64 << 10;
+/// The maker's memory: the unique number, and how much flash there is.
+const SYSTEM_BASE: u64 = 0x1FFF_7000;
+const SYSTEM_BYTES: u64 = 0x1000;
+/// The core is looked at for waiting every so many steps.
+const STEPS_BETWEEN_LOOKS: u32 = 8;
+
+/// Why the core does nothing more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lockup {
+    /// The instruction that failed, or where the core stands.
+    pub pc: u32,
+    /// In words.
+    pub why: String,
+}
+
+impl fmt::Display for Lockup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the program stopped at 0x{:08x}: {}", self.pc, self.why)
+    }
+}
+
+/// What the loop and the bus tell each other.
+#[derive(Debug, Default)]
+struct Shared {
+    /// Cycles since power came.
+    cycles: AtomicU64,
+    /// Of the instruction that runs.
+    pc: AtomicU32,
+    /// The chip may have something new for the core, or an earlier deadline.
+    touched: AtomicBool,
+}
+
+/// From cycles to time: a straight line from a moment on.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    cycles: u64,
+    ns: u64,
+    hz: u64,
+}
+
+impl Line {
+    fn ns_at(&self, cycles: u64) -> u64 {
+        let passed = u128::from(cycles - self.cycles) * u128::from(SECOND_NS) / u128::from(self.hz);
+        self.ns + u64::try_from(passed).unwrap_or(u64::MAX - self.ns)
+    }
+
+    /// The first cycle at which the time is `ns` or later.
+    fn cycles_at(&self, ns: u64) -> u64 {
+        let ahead = u128::from(ns.saturating_sub(self.ns)) * u128::from(self.hz);
+        let cycles = ahead.div_ceil(u128::from(SECOND_NS));
+        self.cycles.saturating_add(u64::try_from(cycles).unwrap_or(u64::MAX))
+    }
+}
+
+/// The peripherals on the core's bus.
+struct Bus {
+    chip: Arc<Mutex<Chip>>,
+    line: Arc<Mutex<Line>>,
+    shared: Arc<Shared>,
+    base: u32,
+}
+
+impl fmt::Debug for Bus {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Bus")
+    }
+}
+
+fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Bus {
+    fn with<T>(&self, act: impl FnOnce(&mut Chip) -> Option<T>) -> Result<T, BusError> {
+        let mut chip = lock(&self.chip);
+        let now = lock(&self.line).ns_at(self.shared.cycles.load(Ordering::Relaxed));
+        chip.wires.now = now.max(chip.wires.now);
+        chip.pc = self.shared.pc.load(Ordering::Relaxed);
+        let result = act(&mut chip).ok_or(BusError::Unassigned)?;
+        chip.accessed();
+        self.shared.touched.store(true, Ordering::Relaxed);
+        Ok(result)
+    }
+}
+
+impl MemOps for Bus {
+    fn read(&self, offset: u64, dst: &mut [u8], attrs: MemAttrs) -> MemResult {
+        if attrs.debug {
+            return Err(BusError::Unassigned);
+        }
+        let address = self.base + u32::try_from(offset).unwrap_or(0);
+        let size = u32::try_from(dst.len()).unwrap_or(4);
+        let value = self.with(|chip| chip.fetch(address, size))?;
+        for (slot, byte) in dst.iter_mut().zip(value.to_le_bytes()) {
+            *slot = byte;
+        }
+        Ok(())
+    }
+
+    fn write(&self, offset: u64, src: &[u8], attrs: MemAttrs) -> MemResult {
+        if attrs.debug {
+            return Err(BusError::Unassigned);
+        }
+        let address = self.base + u32::try_from(offset).unwrap_or(0);
+        let value = src.iter().rev().fold(0, |value, byte| value << 8 | u32::from(*byte));
+        let size = u32::try_from(src.len()).unwrap_or(4);
+        self.with(|chip| chip.put(address, value, size))
+    }
+}
+
+/// The core, its memory, the chip around it.
+pub(super) struct Core {
+    cpu: ArmV7m,
+    chip: Arc<Mutex<Chip>>,
+    line: Arc<Mutex<Line>>,
+    shared: Arc<Shared>,
+    settings: Settings,
+    surroundings: Arc<Mutex<dyn Surroundings>>,
+    waited: u64,
+    lockup: Option<Lockup>,
+}
+
+impl Core {
+    pub(super) fn new(settings: Settings, surroundings: Arc<Mutex<dyn Surroundings>>) -> Self {
+        let memory = Memory {
+            flash: Arc::new(RamStore::new(FLASH_BYTES as u64)),
+            sram: Arc::new(RamStore::new(SRAM_BYTES)),
+        };
+        let wires = Wires::new(Arc::clone(&surroundings), settings.link);
+        let hz = wires.clocks.core;
+        let chip = Arc::new(Mutex::new(Chip::new(wires, memory.clone(), settings.crystal_hz)));
+        let line = Arc::new(Mutex::new(Line { cycles: 0, ns: 0, hz }));
+        let shared = Arc::new(Shared::default());
+        let space = AddressSpace::new("mcu", 32).with_unassigned(UnassignedPolicy::FAULT);
+        map_memory(&space, &memory);
+        for (base, bytes) in [(PERIPHERALS, PERIPHERALS_BYTES), (DEBUG_BASE, 0x400)] {
+            let bus = Bus {
+                chip: Arc::clone(&chip),
+                line: Arc::clone(&line),
+                shared: Arc::clone(&shared),
+                base,
+            };
+            map(&space, Region::io("peripherals", bytes, Arc::new(bus)), u64::from(base));
+        }
+        let cpu = ArmV7m::new(Config::CORTEX_M4F.with_priority_bits(4));
+        cpu.attach_space(Arc::new(space));
+        Self { cpu, chip, line, shared, settings, surroundings, waited: 0, lockup: None }
+    }
+
+    pub(super) fn chip(&self) -> MutexGuard<'_, Chip> {
+        lock(&self.chip)
+    }
+
+    pub(super) fn load(&mut self, flash: &[u8]) {
+        *self = Self::new(self.settings, Arc::clone(&self.surroundings));
+        let memory = self.chip().memory();
+        // The lengths were compared with the flash before.
+        let _ = memory.flash.fill(0, FLASH_BYTES as u64, 0xFF);
+        let _ = memory.flash.write_at(0, flash);
+        self.cpu.request_reset();
+    }
+
+    pub(super) fn pc(&self) -> u32 {
+        self.cpu.pc()
+    }
+
+    pub(super) fn cycles_worked(&self) -> u64 {
+        self.shared.cycles.load(Ordering::Relaxed) - self.waited
+    }
+
+    pub(super) fn lockup(&self) -> Option<Lockup> {
+        self.lockup.clone()
+    }
+
+    pub(super) fn run_until(&mut self, end_ns: u64) {
+        loop {
+            let limit = self.turn_of_chip(end_ns);
+            if self.chip().wires.now >= end_ns {
+                return;
+            }
+            self.turn_of_core(limit);
+        }
+    }
+
+    /// Lets the chip work on what is due; returns the cycle at which it wants to be asked again.
+    fn turn_of_chip(&mut self, end_ns: u64) -> u64 {
+        self.shared.touched.store(false, Ordering::Relaxed);
+        let cycles = self.shared.cycles.load(Ordering::Relaxed);
+        let mut chip = lock(&self.chip);
+        let mut line = lock(&self.line);
+        let now = line.ns_at(cycles).max(chip.wires.now);
+        chip.wires.now = now;
+        if chip.deadline() <= now {
+            chip.advance();
+        }
+        if line.hz != chip.wires.clocks.core || cycles - line.cycles > line.hz {
+            *line = Line { cycles, ns: now, hz: chip.wires.clocks.core.max(1) };
+        }
+        if chip.wires.has_changed_lines() {
+            for (irq, level) in chip.wires.take_changed() {
+                self.cpu.set_irq(irq, level);
+            }
+        }
+        if self.cpu.reset_requested() {
+            self.cpu.clear_reset_request();
+            chip.reset = Some(super::ResetCause::Software);
+        }
+        if let Some(cause) = chip.reset.take() {
+            chip.wires.events.push(Event::Reset { at_ns: now, cause });
+            chip.restart(cause);
+            for (irq, level) in chip.wires.take_changed() {
+                self.cpu.set_irq(irq, level);
+            }
+            *line = Line { cycles, ns: now, hz: chip.wires.clocks.core };
+            self.lockup = None;
+            self.cpu.request_reset();
+        }
+        line.cycles_at(chip.deadline().min(end_ns))
+    }
+
+    fn turn_of_core(&mut self, limit: u64) {
+        let mut cycles = self.shared.cycles.load(Ordering::Relaxed);
+        let mut steps = 0;
+        while cycles < limit && !self.shared.touched.load(Ordering::Relaxed) {
+            steps += 1;
+            if steps % STEPS_BETWEEN_LOOKS == 0 {
+                let pc = self.cpu.pc();
+                self.shared.pc.store(pc, Ordering::Relaxed);
+                cycles += self.cpu.step();
+                self.shared.cycles.store(cycles, Ordering::Relaxed);
+                if self.cpu.pc() == pc && !self.shared.touched.load(Ordering::Relaxed) {
+                    cycles = self.wait(cycles, limit);
+                }
+                if self.cpu.reset_requested() {
+                    return;
+                }
+            } else {
+                cycles += self.cpu.step();
+                self.shared.cycles.store(cycles, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// The core stands on one instruction: only an interrupt can change that, so the time jumps to the next event.
+    fn wait(&mut self, cycles: u64, limit: u64) -> u64 {
+        self.note_lockup();
+        let mut jump = limit.saturating_sub(cycles);
+        self.cpu.with_sys(|system| {
+            if system.syst_csr & 1 == 1 && system.syst_rvr != 0 {
+                // The system's timer is the core's own.
+                jump = jump.min(u64::from(system.syst_cvr).max(1) - 1);
+            }
+            system.tick_cyccnt(jump);
+            let _ = system.tick_systick(jump);
+        });
+        self.waited += jump;
+        let cycles = cycles + jump;
+        self.shared.cycles.store(cycles, Ordering::Relaxed);
+        cycles
+    }
+
+    fn note_lockup(&mut self) {
+        if self.lockup.is_some() {
+            return;
+        }
+        let regs = self.cpu.regs();
+        let exception = self.cpu.xpsr() & 0x1FF;
+        let stands = self.cpu.pc();
+        let is_asleep = self.cpu.is_asleep();
+        let (why, pc) = if self.cpu.is_locked_up() {
+            (format!("a fault in the handler of a fault ({})", self.fault()), stands)
+        } else if matches!(exception, 2..=6) {
+            let name = ["NMI", "hard fault", "memory fault", "bus fault", "usage fault"]
+                [exception as usize - 2];
+            (format!("{name} ({})", self.fault()), self.stacked_pc().unwrap_or(stands))
+        } else if exception != 0 && !is_asleep {
+            (format!("the handler of exception {exception} waits for ever"), stands)
+        } else if regs.primask && !is_asleep {
+            (
+                "it waits for ever with interrupts off, as after a failed check of the kernel"
+                    .to_owned(),
+                stands,
+            )
+        } else {
+            return;
+        };
+        self.lockup = Some(Lockup { pc, why });
+    }
+
+    /// The address of the instruction that failed, as the exception kept it.
+    fn stacked_pc(&self) -> Option<u32> {
+        let chip = lock(&self.chip);
+        let memory = chip.memory();
+        let mut word = [0; 4];
+        // Handlers that only wait push nothing; the link register says which stack has the frame.
+        let stack = if self.cpu.reg(14) & 4 == 0 { self.cpu.msp() } else { self.cpu.psp() };
+        let offset = u64::from(stack.checked_sub(SRAM_BASE)?) + 24;
+        memory.sram.read_at(offset, &mut word).ok()?;
+        Some(u32::from_le_bytes(word))
+    }
+
+    fn fault(&self) -> String {
+        let (count, address) = self.cpu.bus_faults();
+        let status = self.cpu.with_sys(|system| system.cfsr);
+        let mut text = format!("CFSR 0x{status:08x}");
+        if status & 0xFF00 != 0 && count > 0 {
+            text.push_str(&format!(", nothing is at 0x{address:08x}"));
+        }
+        if status & 0x0001_0000 != 0 {
+            text.push_str(", an undefined instruction");
+        }
+        text
+    }
+}
+
+fn map(space: &AddressSpace, region: Region, base: u64) {
+    // The regions are constants that do not overlap.
+    let _ = space.topology().map(region, base);
+}
+
+fn map_memory(space: &AddressSpace, memory: &Memory) {
+    // After a reset the flash is at 0, too.
+    for base in [0, u64::from(FLASH_BASE)] {
+        map(space, Region::ram("flash", Arc::clone(&memory.flash)), base);
+    }
+    map(space, Region::ram("sram", Arc::clone(&memory.sram)), u64::from(SRAM_BASE));
+    map(space, Region::ram("ccm", Arc::new(RamStore::new(CCM_BYTES))), CCM_BASE);
+    let system = RamStore::new(SYSTEM_BYTES);
+    let _ = system.write_at(0xA10, b"SenseDSL twin");
+    let _ = system.write_at(0xA22, &1024_u16.to_le_bytes());
+    map(space, Region::ram("system", Arc::new(system)), SYSTEM_BASE);
+}

@@ -1,0 +1,333 @@
+//! The two DMA controllers: eight streams each, eight channels a stream.
+//!
+//! A stream moves an item whenever the peripheral that its channel names asks. Moving takes no time here.
+
+use super::wires::{Request, merge};
+
+/// What is wrong or done, as the bits of a stream in the status registers.
+pub(super) const HALF: u32 = 1 << 4;
+pub(super) const COMPLETE: u32 = 1 << 5;
+pub(super) const FAILED: u32 = 1 << 3;
+const FIFO_FAILED: u32 = 1;
+
+/// Where in a status register the bits of a stream begin.
+const SHIFTS: [u32; 4] = [0, 6, 16, 22];
+
+/// Bits of a stream's CR.
+const ENABLE: u32 = 1;
+const CIRCULAR: u32 = 1 << 8;
+const DOUBLE: u32 = 1 << 18;
+const TARGET: u32 = 1 << 19;
+
+/// Which way a stream moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    FromPeripheral,
+    ToPeripheral,
+    Memory,
+}
+
+/// A stream: its registers, and where it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stream {
+    pub cr: u32,
+    pub left: u32,
+    pub peripheral: u32,
+    pub memory: [u32; 2],
+    pub fcr: u32,
+    /// What was set when it was enabled.
+    total: u32,
+    done: u32,
+    /// Bytes that wait for a whole item of memory.
+    pub pending: u64,
+    pub pending_bytes: u32,
+}
+
+impl Stream {
+    pub(super) fn is_enabled(&self) -> bool {
+        self.cr & ENABLE != 0
+    }
+
+    pub(super) fn direction(&self) -> Direction {
+        match self.cr >> 6 & 3 {
+            0 => Direction::FromPeripheral,
+            1 => Direction::ToPeripheral,
+            _ => Direction::Memory,
+        }
+    }
+
+    /// Sizes of an item at the peripheral and in memory. In direct mode both are the peripheral's.
+    pub(super) fn sizes(&self) -> (u32, u32) {
+        let peripheral = 1 << (self.cr >> 11 & 3);
+        let memory = 1 << (self.cr >> 13 & 3);
+        let is_direct = self.fcr & 4 == 0;
+        (peripheral, if is_direct { peripheral } else { memory })
+    }
+
+    /// Where the next item is at the peripheral's side.
+    pub(super) fn peripheral_address(&self) -> u32 {
+        let step = if self.cr >> 9 & 1 == 1 { self.sizes().0 } else { 0 };
+        self.peripheral.wrapping_add(step.wrapping_mul(self.done))
+    }
+
+    /// Where the `bytes`-th byte is in memory.
+    pub(super) fn memory_address(&self, bytes: u32) -> u32 {
+        let target = usize::from(self.cr & DOUBLE != 0 && self.cr & TARGET != 0);
+        let base = self.memory[target];
+        if self.cr >> 10 & 1 == 1 { base.wrapping_add(bytes) } else { base }
+    }
+
+    /// How many bytes of the peripheral's have been moved.
+    pub(super) fn moved(&self) -> u32 {
+        self.done * self.sizes().0
+    }
+
+    /// Counts an item; returns the bits of status that it sets.
+    fn count(&mut self) -> u32 {
+        self.left = self.left.saturating_sub(1);
+        self.done += 1;
+        let mut status = 0;
+        if self.left == self.total / 2 && self.total > 1 {
+            status |= HALF;
+        }
+        if self.left == 0 {
+            status |= COMPLETE;
+            self.done = 0;
+            if self.cr & (CIRCULAR | DOUBLE) == 0 {
+                self.cr &= !ENABLE;
+            } else {
+                self.left = self.total;
+                self.cr ^= if self.cr & DOUBLE == 0 { 0 } else { TARGET };
+            }
+        }
+        status
+    }
+}
+
+/// One controller.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Dma {
+    pub streams: [Stream; 8],
+    status: [u32; 2],
+}
+
+impl Dma {
+    pub(super) fn read(&self, offset: u32) -> u32 {
+        match offset {
+            0x00 => self.status[0],
+            0x04 => self.status[1],
+            0x10..=0xCC => {
+                let stream = &self.streams[((offset - 0x10) / 0x18) as usize];
+                match (offset - 0x10) % 0x18 {
+                    0x00 => stream.cr,
+                    0x04 => stream.left,
+                    0x08 => stream.peripheral,
+                    0x0C => stream.memory[0],
+                    0x10 => stream.memory[1],
+                    _ => stream.fcr | (4 << 3),
+                }
+            }
+            _ => 0,
+        }
+    }
+
+    /// Writes a register; returns the stream that was enabled by it.
+    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32) -> Option<usize> {
+        match offset {
+            0x08 => self.status[0] &= !(value & mask),
+            0x0C => self.status[1] &= !(value & mask),
+            0x10..=0xCC => {
+                let index = ((offset - 0x10) / 0x18) as usize;
+                return self
+                    .write_stream(index, (offset - 0x10) % 0x18, value, mask)
+                    .then_some(index);
+            }
+            _ => {}
+        }
+        None
+    }
+
+    fn write_stream(&mut self, index: usize, register: u32, value: u32, mask: u32) -> bool {
+        let stream = &mut self.streams[index];
+        let was_enabled = stream.is_enabled();
+        match register {
+            0x00 => {
+                let new = merge(stream.cr, value, mask);
+                // While it runs, only its interrupts can be changed, and it can be stopped.
+                stream.cr = if was_enabled { (stream.cr & !0x1F) | (new & 0x1F) } else { new };
+                if !was_enabled && stream.is_enabled() {
+                    stream.total = stream.left;
+                    stream.done = 0;
+                    (stream.pending, stream.pending_bytes) = (0, 0);
+                    return true;
+                }
+                // A stream that is stopped by hand tells it as the end.
+                if was_enabled && !stream.is_enabled() {
+                    self.raise(index, COMPLETE);
+                }
+            }
+            0x04 if !was_enabled => stream.left = merge(stream.left, value, mask) & 0xFFFF,
+            0x08 if !was_enabled => stream.peripheral = merge(stream.peripheral, value, mask),
+            0x0C => stream.memory[0] = merge(stream.memory[0], value, mask),
+            0x10 => stream.memory[1] = merge(stream.memory[1], value, mask),
+            0x14 => stream.fcr = merge(stream.fcr, value, mask) & 0x87,
+            _ => {}
+        }
+        false
+    }
+
+    pub(super) fn count(&mut self, index: usize) {
+        let status = self.streams[index].count();
+        self.raise(index, status);
+    }
+
+    pub(super) fn fail(&mut self, index: usize) {
+        self.streams[index].cr &= !ENABLE;
+        self.raise(index, FAILED);
+    }
+
+    fn raise(&mut self, index: usize, bits: u32) {
+        self.status[index / 4] |= bits << SHIFTS[index % 4];
+    }
+
+    /// Whether a stream holds its interrupt's line.
+    pub(super) fn interrupts(&self, index: usize) -> bool {
+        let status = self.status[index / 4] >> SHIFTS[index % 4];
+        let stream = &self.streams[index];
+        // DMEIE, TEIE, HTIE and TCIE stand one bit below the status that each is for.
+        status & (stream.cr << 1) & 0x3C != 0
+            || (status & FIFO_FAILED != 0 && stream.fcr & 0x80 != 0)
+    }
+}
+
+/// Who asks a stream on one of its channels (tables 42 and 43 of the manual). Streams 0 to 7 are those of DMA1.
+pub(super) fn requester(controller: usize, stream: usize, channel: u32) -> Option<Request> {
+    let table = if controller == 0 { &DMA1 } else { &DMA2 };
+    table.get(channel as usize).and_then(|row| row[stream])
+}
+
+use Request::{Adc, Dac, I2cRx, I2cTx, SpiRx, SpiTx, Timer, UsartRx, UsartTx};
+
+type Row = [Option<Request>; 8];
+
+/// Units count from 0 here.
+const DMA1: [Row; 8] = [
+    [
+        Some(SpiRx(2)),
+        None,
+        Some(SpiRx(2)),
+        Some(SpiRx(1)),
+        Some(SpiTx(1)),
+        Some(SpiTx(2)),
+        None,
+        Some(SpiTx(2)),
+    ],
+    [
+        Some(I2cRx(0)),
+        None,
+        Some(Timer(6, 0)),
+        None,
+        Some(Timer(6, 0)),
+        Some(I2cRx(0)),
+        Some(I2cTx(0)),
+        Some(I2cTx(0)),
+    ],
+    [
+        Some(Timer(3, 1)),
+        None,
+        None,
+        Some(Timer(3, 2)),
+        None,
+        None,
+        Some(Timer(3, 0)),
+        Some(Timer(3, 3)),
+    ],
+    [
+        None,
+        Some(Timer(1, 0)),
+        Some(I2cRx(2)),
+        None,
+        Some(I2cTx(2)),
+        Some(Timer(1, 1)),
+        Some(Timer(1, 2)),
+        Some(Timer(1, 0)),
+    ],
+    [
+        Some(UsartRx(4)),
+        Some(UsartRx(2)),
+        Some(UsartRx(3)),
+        Some(UsartTx(2)),
+        Some(UsartTx(3)),
+        Some(UsartRx(1)),
+        Some(UsartTx(1)),
+        Some(UsartTx(4)),
+    ],
+    [
+        None,
+        None,
+        Some(Timer(2, 4)),
+        None,
+        Some(Timer(2, 1)),
+        Some(Timer(2, 2)),
+        None,
+        Some(Timer(2, 3)),
+    ],
+    [
+        Some(Timer(4, 3)),
+        Some(Timer(4, 4)),
+        Some(Timer(4, 1)),
+        Some(Timer(4, 4)),
+        Some(Timer(4, 2)),
+        None,
+        Some(Timer(4, 0)),
+        None,
+    ],
+    [
+        None,
+        Some(Timer(5, 0)),
+        Some(I2cRx(1)),
+        Some(I2cRx(1)),
+        Some(UsartTx(2)),
+        Some(Dac(0)),
+        Some(Dac(1)),
+        Some(I2cTx(1)),
+    ],
+];
+
+const DMA2: [Row; 8] = [
+    [Some(Adc(0)), None, Some(Timer(7, 1)), None, Some(Adc(0)), None, Some(Timer(0, 1)), None],
+    [None, None, Some(Adc(1)), Some(Adc(1)), None, None, None, None],
+    [Some(Adc(2)), Some(Adc(2)), None, None, None, None, None, None],
+    [Some(SpiRx(0)), None, Some(SpiRx(0)), Some(SpiTx(0)), None, Some(SpiTx(0)), None, None],
+    [None, None, Some(UsartRx(0)), None, None, Some(UsartRx(0)), None, Some(UsartTx(0))],
+    [
+        None,
+        Some(UsartRx(5)),
+        Some(UsartRx(5)),
+        None,
+        None,
+        None,
+        Some(UsartTx(5)),
+        Some(UsartTx(5)),
+    ],
+    [
+        None,
+        Some(Timer(0, 1)),
+        Some(Timer(0, 2)),
+        Some(Timer(0, 1)),
+        Some(Timer(0, 4)),
+        Some(Timer(0, 0)),
+        Some(Timer(0, 3)),
+        None,
+    ],
+    [
+        None,
+        Some(Timer(7, 0)),
+        Some(Timer(7, 1)),
+        Some(Timer(7, 2)),
+        Some(Timer(7, 3)),
+        None,
+        None,
+        Some(Timer(7, 4)),
+    ],
+];

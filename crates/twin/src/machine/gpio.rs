@@ -1,0 +1,280 @@
+//! Ports A to I, and which peripheral each pad is led to.
+
+use std::collections::BTreeMap;
+
+use super::wires::merge;
+use crate::surroundings::Pad;
+
+/// Ports A to I.
+const PORTS: usize = 9;
+/// The largest package, so that each pad that an MCU of this type can have is known.
+const PART: &str = "STM32F407IGH6";
+
+/// What a pad is set to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Its level can be read.
+    Input,
+    /// The program sets its level.
+    Output,
+    /// A peripheral has it.
+    Alternate(u8),
+    /// For converters and the DAC; what it is after reset but for the debugger's pads is [`Mode::Input`].
+    Analog,
+}
+
+/// The resistors inside of a pad.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pull {
+    /// Neither.
+    None,
+    /// To the supply.
+    Up,
+    /// To ground.
+    Down,
+}
+
+/// How a pad is set up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PadState {
+    /// Which.
+    pub pad: Pad,
+    /// What it is for.
+    pub mode: Mode,
+    /// The wire of a peripheral that it is led to, as in `TIM3_CH1`, where the MCU has it there.
+    pub wire: Option<String>,
+    /// Whether only its low side is driven.
+    pub open_drain: bool,
+    /// Its resistors.
+    pub pull: Pull,
+    /// 0 to 3, slow to fast.
+    pub speed: u8,
+}
+
+/// Registers of a port; the names are the manual's.
+#[derive(Clone, Copy, Debug)]
+struct Port {
+    moder: u32,
+    otyper: u32,
+    ospeedr: u32,
+    pupdr: u32,
+    odr: u32,
+    lckr: u32,
+    afr: [u32; 2],
+}
+
+/// All ports.
+pub(super) struct Gpio {
+    ports: [Port; PORTS],
+    /// By pad and number of the alternate function: the peripheral's wire.
+    functions: BTreeMap<(Pad, u8), String>,
+    /// By wire: the converters' inputs, which need no setting.
+    inputs: BTreeMap<String, Pad>,
+    /// By wire: where it is led now.
+    routes: BTreeMap<String, Pad>,
+    changes: Vec<(Pad, Option<bool>)>,
+}
+
+/// The debugger's pads are its own after reset.
+fn after_reset(port: usize) -> Port {
+    let (moder, ospeedr, pupdr) = match port {
+        0 => (0xA800_0000, 0x0C00_0000, 0x6400_0000),
+        1 => (0x0000_0280, 0x0000_00C0, 0x0000_0100),
+        _ => (0, 0, 0),
+    };
+    Port { moder, otyper: 0, ospeedr, pupdr, odr: 0, lckr: 0, afr: [0; 2] }
+}
+
+fn field(register: u32, pin: u8) -> u32 {
+    (register >> (2 * u32::from(pin))) & 3
+}
+
+impl Gpio {
+    pub(super) fn new() -> Self {
+        let (mut functions, mut inputs) = (BTreeMap::new(), BTreeMap::new());
+        if let Some(found) = sensedsl_parts::find(PART) {
+            for (name, _, usages) in found.sheet.pins() {
+                let Some(pad) = Pad::named(name.as_str()) else { continue };
+                for (usage, number) in usages {
+                    let wire = usage.replace('-', "_");
+                    if let Some(number) = number {
+                        functions.insert((pad, *number), wire);
+                    } else if let Some((units, input)) = converter(&wire) {
+                        for unit in units {
+                            inputs.insert(format!("ADC{unit}_{input}"), pad);
+                        }
+                    }
+                }
+            }
+        }
+        Self {
+            ports: std::array::from_fn(after_reset),
+            functions,
+            inputs,
+            routes: BTreeMap::new(),
+            changes: Vec::new(),
+        }
+    }
+
+    /// All pads as after a reset.
+    pub(super) fn reset(&mut self) {
+        for port in 0..PORTS {
+            let before = self.drives_of(port);
+            self.ports[port] = after_reset(port);
+            self.note_changes(port, before);
+        }
+        self.route();
+    }
+
+    pub(super) fn reset_port(&mut self, port: usize) {
+        let before = self.drives_of(port);
+        self.ports[port] = after_reset(port);
+        self.note_changes(port, before);
+        self.route();
+    }
+
+    pub(super) fn pad_of(&self, wire: &str) -> Option<Pad> {
+        self.routes.get(wire).or_else(|| self.inputs.get(wire)).copied()
+    }
+
+    pub(super) fn is_pulled_up(&self, pad: Pad) -> bool {
+        self.port(pad).is_some_and(|port| field(port.pupdr, pad.pin) == 1)
+    }
+
+    fn port(&self, pad: Pad) -> Option<&Port> {
+        self.ports.get(usize::from(pad.port))
+    }
+
+    /// The level that the program gives a pad.
+    pub(super) fn drives(&self, pad: Pad) -> Option<bool> {
+        let port = self.port(pad)?;
+        let is_high = port.odr >> pad.pin & 1 == 1;
+        let is_open_drain = port.otyper >> pad.pin & 1 == 1;
+        (field(port.moder, pad.pin) == 1 && !(is_open_drain && is_high)).then_some(is_high)
+    }
+
+    pub(super) fn mode(&self, pad: Pad) -> Option<Mode> {
+        let port = self.port(pad)?;
+        Some(match field(port.moder, pad.pin) {
+            0 => Mode::Input,
+            1 => Mode::Output,
+            2 => Mode::Alternate(function_number(port, pad.pin)),
+            _ => Mode::Analog,
+        })
+    }
+
+    pub(super) fn pads(&self) -> Vec<PadState> {
+        let mut pads = Vec::new();
+        for port in 0..9_u8 {
+            for pin in 0..16_u8 {
+                let pad = Pad { port, pin };
+                let (Some(registers), Some(mode)) = (self.port(pad), self.mode(pad)) else {
+                    continue;
+                };
+                let wire = match mode {
+                    Mode::Alternate(number) => self.functions.get(&(pad, number)).cloned(),
+                    Mode::Input | Mode::Output | Mode::Analog => None,
+                };
+                let pull = match field(registers.pupdr, pin) {
+                    1 => Pull::Up,
+                    2 => Pull::Down,
+                    _ => Pull::None,
+                };
+                let speed = u8::try_from(field(registers.ospeedr, pin)).unwrap_or(0);
+                let open_drain = registers.otyper >> pin & 1 == 1;
+                pads.push(PadState { pad, mode, wire, open_drain, pull, speed });
+            }
+        }
+        pads
+    }
+
+    pub(super) fn take_changes(&mut self) -> Vec<(Pad, Option<bool>)> {
+        std::mem::take(&mut self.changes)
+    }
+
+    pub(super) fn has_changes(&self) -> bool {
+        !self.changes.is_empty()
+    }
+
+    fn drives_of(&self, port: usize) -> [Option<bool>; 16] {
+        let port = u8::try_from(port).unwrap_or(0);
+        let mut drives = [None; 16];
+        for (slot, pin) in drives.iter_mut().zip(0..16_u8) {
+            *slot = self.drives(Pad { port, pin });
+        }
+        drives
+    }
+
+    fn note_changes(&mut self, port: usize, before: [Option<bool>; 16]) {
+        let after = self.drives_of(port);
+        let number = u8::try_from(port).unwrap_or(0);
+        for ((before, after), pin) in before.iter().zip(after).zip(0..16_u8) {
+            if *before != after {
+                self.changes.push((Pad { port: number, pin }, after));
+            }
+        }
+    }
+
+    fn route(&mut self) {
+        self.routes.clear();
+        for ((pad, number), wire) in &self.functions {
+            if self.mode(*pad) == Some(Mode::Alternate(*number)) {
+                self.routes.entry(wire.clone()).or_insert(*pad);
+            }
+        }
+    }
+
+    /// `levels` are those of the port's pads, for IDR.
+    pub(super) fn read(&self, port: usize, offset: u32, levels: impl FnOnce(&Self) -> u32) -> u32 {
+        let registers = &self.ports[port];
+        match offset {
+            0x00 => registers.moder,
+            0x04 => registers.otyper,
+            0x08 => registers.ospeedr,
+            0x0C => registers.pupdr,
+            0x10 => levels(self),
+            0x14 => registers.odr,
+            0x1C => registers.lckr,
+            0x20 => registers.afr[0],
+            0x24 => registers.afr[1],
+            _ => 0,
+        }
+    }
+
+    pub(super) fn write(&mut self, port: usize, offset: u32, value: u32, mask: u32) {
+        let before = self.drives_of(port);
+        let registers = &mut self.ports[port];
+        let put = |old: &mut u32| *old = merge(*old, value, mask);
+        match offset {
+            0x00 => put(&mut registers.moder),
+            0x04 => put(&mut registers.otyper),
+            0x08 => put(&mut registers.ospeedr),
+            0x0C => put(&mut registers.pupdr),
+            0x14 => put(&mut registers.odr),
+            0x18 => {
+                let (set, clear) = (value & mask & 0xFFFF, (value & mask) >> 16);
+                registers.odr = (registers.odr & !clear) | set;
+            }
+            0x1C => put(&mut registers.lckr),
+            0x20 => put(&mut registers.afr[0]),
+            0x24 => put(&mut registers.afr[1]),
+            _ => {}
+        }
+        registers.odr &= 0xFFFF;
+        if matches!(offset, 0x00 | 0x20 | 0x24) {
+            self.route();
+        }
+        self.note_changes(port, before);
+    }
+}
+
+fn function_number(port: &Port, pin: u8) -> u8 {
+    let register = port.afr[usize::from(pin / 8)];
+    u8::try_from((register >> (4 * u32::from(pin % 8))) & 15).unwrap_or(0)
+}
+
+/// `ADC12_IN8` as the units 1 and 2 and `IN8`.
+fn converter(wire: &str) -> Option<(Vec<char>, &str)> {
+    let (units, input) = wire.strip_prefix("ADC")?.split_once('_')?;
+    Some((units.chars().collect(), input))
+}

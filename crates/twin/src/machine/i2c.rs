@@ -1,0 +1,367 @@
+//! I2C1 to I2C3, as masters. The block is the first version of ST's: F1, F2, F4, L1.
+
+use super::wires::{NEVER, Wires, merge, periods_ns};
+use crate::surroundings::{I2cEvent, I2cReply};
+
+/// Bits of SR1.
+const STARTED: u32 = 1;
+const ADDRESSED: u32 = 1 << 1;
+const FINISHED: u32 = 1 << 2;
+const RECEIVED: u32 = 1 << 6;
+const EMPTY: u32 = 1 << 7;
+const REFUSED: u32 = 1 << 10;
+const ERRORS: u32 = 0xDF00;
+/// Bits of SR2.
+const MASTER: u32 = 1;
+const BUSY: u32 = 1 << 1;
+const TRANSMITS: u32 = 1 << 2;
+/// Bits of CR1.
+const ENABLE: u32 = 1;
+const START: u32 = 1 << 8;
+const STOP: u32 = 1 << 9;
+const ACKNOWLEDGE: u32 = 1 << 10;
+const NEXT: u32 = 1 << 11;
+const RESET: u32 = 1 << 15;
+/// Bits of CR2.
+const DMA: u32 = 1 << 11;
+const LAST: u32 = 1 << 12;
+
+/// What is on the wires now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// Nothing, or the clock is held low until the program acts.
+    Rest,
+    Starting,
+    Addressing(u8),
+    Sending(u8),
+    Receiving {
+        ack: bool,
+    },
+    Stopping,
+    /// Somebody holds a wire low.
+    Hung,
+}
+
+/// One bus.
+#[derive(Debug)]
+pub(super) struct I2c {
+    unit: u8,
+    irqs: [u16; 2],
+    cr: [u32; 2],
+    oar: [u32; 2],
+    sr1: u32,
+    sr2: u32,
+    ccr: u32,
+    trise: u32,
+    dr: u8,
+    /// A byte that DR has no room for yet.
+    behind: Option<u8>,
+    waiting: Option<u8>,
+    phase: Phase,
+    until: u64,
+    has_read_status: bool,
+    /// A byte was refused by the master: no more of them come.
+    has_ended: bool,
+    /// Acknowledge, as it was one byte ago; POS delays it by one.
+    acknowledged: bool,
+    scl: String,
+    sda: String,
+}
+
+impl I2c {
+    pub(super) fn new(unit: u8) -> Self {
+        let event = match unit {
+            1 => 31,
+            2 => 33,
+            _ => 72,
+        };
+        Self {
+            unit,
+            irqs: [event, event + 1],
+            cr: [0; 2],
+            oar: [0x4000, 0],
+            sr1: 0,
+            sr2: 0,
+            ccr: 0,
+            trise: 2,
+            dr: 0,
+            behind: None,
+            waiting: None,
+            phase: Phase::Rest,
+            until: NEVER,
+            has_read_status: false,
+            has_ended: false,
+            acknowledged: false,
+            scl: format!("I2C{unit}_SCL"),
+            sda: format!("I2C{unit}_SDA"),
+        }
+    }
+
+    /// As after a reset.
+    pub(super) fn restart(&mut self, wires: &mut Wires) {
+        *self = Self::new(self.unit);
+        self.tell(wires);
+    }
+
+    fn bit_ns(&self, wires: &Wires) -> u64 {
+        let parts = match self.ccr >> 14 & 3 {
+            2 => 3,
+            3 => 25,
+            _ => 2,
+        };
+        periods_ns(u64::from(self.ccr & 0xFFF).max(1) * parts, wires.clocks.apb1).max(1)
+    }
+
+    /// Whether a wire is low though this unit leaves it alone, or leads nowhere.
+    fn is_held(&self, wires: &Wires) -> bool {
+        let is_low = |wire: &str| match wires.pad_of(wire) {
+            Some(pad) => wires.world(|world, now| world.level(pad, now)) == Some(false),
+            None => true,
+        };
+        is_low(&self.scl) || is_low(&self.sda)
+    }
+
+    pub(super) fn deadline(&self) -> u64 {
+        self.until
+    }
+
+    pub(super) fn advance(&mut self, wires: &mut Wires) {
+        while self.until <= wires.now {
+            let at = self.until;
+            self.until = NEVER;
+            self.proceed(wires);
+            self.continue_at(at, wires);
+        }
+        self.tell(wires);
+    }
+
+    fn ask(&self, event: I2cEvent, wires: &Wires) -> I2cReply {
+        wires.world(|world, now| world.i2c(self.unit, event, now))
+    }
+
+    fn hang(&mut self) {
+        self.phase = Phase::Hung;
+        self.sr2 |= BUSY;
+    }
+
+    /// What was on the wires has ended.
+    fn proceed(&mut self, wires: &Wires) {
+        let phase = std::mem::replace(&mut self.phase, Phase::Rest);
+        match phase {
+            Phase::Rest | Phase::Hung => {}
+            Phase::Starting => {
+                self.cr[0] &= !START;
+                self.sr1 = (self.sr1 & !(EMPTY | FINISHED)) | STARTED;
+                self.sr2 = (self.sr2 | MASTER | BUSY) & !TRANSMITS;
+                (self.behind, self.waiting, self.has_ended) = (None, None, false);
+            }
+            Phase::Addressing(byte) => self.addressed(byte, wires),
+            Phase::Sending(byte) => match self.ask(I2cEvent::Write(byte), wires) {
+                I2cReply::Ack | I2cReply::Byte(_) => {
+                    if self.waiting.is_none() {
+                        self.sr1 |= FINISHED;
+                    }
+                }
+                I2cReply::Nack => self.sr1 |= REFUSED,
+                I2cReply::Stuck | I2cReply::Silent => self.hang(),
+            },
+            Phase::Receiving { ack } => match self.ask(I2cEvent::Read { ack }, wires) {
+                I2cReply::Byte(byte) => self.received(byte, ack),
+                I2cReply::Ack | I2cReply::Nack => self.received(0xFF, ack),
+                I2cReply::Stuck | I2cReply::Silent => self.hang(),
+            },
+            Phase::Stopping => self.stopped(wires),
+        }
+    }
+
+    fn addressed(&mut self, byte: u8, wires: &Wires) {
+        let read = byte & 1 == 1;
+        match self.ask(I2cEvent::Start { address: byte >> 1, read }, wires) {
+            I2cReply::Ack | I2cReply::Byte(_) => {
+                // The data register of a transmitter is empty from here on.
+                self.sr1 |= if read { ADDRESSED } else { ADDRESSED | EMPTY };
+                self.sr2 = (self.sr2 & !TRANSMITS) | if read { 0 } else { TRANSMITS };
+            }
+            I2cReply::Nack => self.sr1 |= REFUSED,
+            I2cReply::Stuck | I2cReply::Silent => self.hang(),
+        }
+    }
+
+    fn received(&mut self, byte: u8, ack: bool) {
+        if self.sr1 & RECEIVED == 0 {
+            self.dr = byte;
+            self.sr1 |= RECEIVED;
+        } else {
+            self.behind = Some(byte);
+            self.sr1 |= FINISHED;
+        }
+        self.has_ended = !ack;
+    }
+
+    fn stopped(&mut self, wires: &Wires) {
+        let reply = self.ask(I2cEvent::Stop, wires);
+        self.cr[0] &= !STOP;
+        self.sr1 &= !(STARTED | ADDRESSED | FINISHED | EMPTY);
+        self.sr2 = 0;
+        if matches!(reply, I2cReply::Stuck | I2cReply::Silent) {
+            self.hang();
+        }
+    }
+
+    /// Starts what comes next, if the program has said it.
+    fn continue_at(&mut self, at: u64, wires: &Wires) {
+        if self.phase != Phase::Rest || self.cr[0] & ENABLE == 0 {
+            return;
+        }
+        let bit = self.bit_ns(wires);
+        let (one, byte_end) = (at + bit, at + 9 * bit);
+        let is_master = self.sr2 & MASTER != 0;
+        if self.sr1 & (STARTED | ADDRESSED) != 0 && self.cr[0] & STOP == 0 {
+            return;
+        }
+        let transmits = self.sr2 & TRANSMITS != 0;
+        if is_master && transmits && self.sr1 & REFUSED == 0 && self.waiting.is_some() {
+            if let Some(byte) = self.waiting.take() {
+                (self.phase, self.until) = (Phase::Sending(byte), byte_end);
+                self.sr1 |= EMPTY;
+            }
+        } else if is_master && self.cr[0] & STOP != 0 {
+            (self.phase, self.until) = (Phase::Stopping, one);
+        } else if self.cr[0] & START != 0 {
+            if !is_master && self.is_held(wires) {
+                self.sr2 |= BUSY;
+                return;
+            }
+            (self.phase, self.until) = (Phase::Starting, one);
+        } else if is_master
+            && !transmits
+            && !self.has_ended
+            && self.behind.is_none()
+            && self.sr1 & REFUSED == 0
+        {
+            let ack = self.acknowledges(wires);
+            (self.phase, self.until) = (Phase::Receiving { ack }, byte_end);
+            self.acknowledged = self.cr[0] & ACKNOWLEDGE != 0;
+        }
+    }
+
+    /// Whether the byte that comes now is acknowledged.
+    fn acknowledges(&self, wires: &Wires) -> bool {
+        let left = wires.i2c_left.get(usize::from(self.unit) - 1).copied().flatten();
+        // A byte that the DMA has not taken yet is still counted.
+        let taken_soon = u32::from(self.sr1 & RECEIVED != 0) + u32::from(self.behind.is_some());
+        if self.cr[1] & (DMA | LAST) == DMA | LAST
+            && left.is_some_and(|left| left <= 1 + taken_soon)
+        {
+            return false;
+        }
+        if self.cr[0] & NEXT != 0 { self.acknowledged } else { self.cr[0] & ACKNOWLEDGE != 0 }
+    }
+
+    fn tell(&self, wires: &mut Wires) {
+        let events = self.sr1 & 0x1F != 0
+            || (self.cr[1] >> 10 & 1 == 1 && self.sr1 & (EMPTY | RECEIVED) != 0);
+        wires.interrupt(self.irqs[0], 0, self.cr[1] >> 9 & 1 == 1 && events);
+        let errors = self.cr[1] >> 8 & 1 == 1 && self.sr1 & ERRORS != 0;
+        wires.interrupt(self.irqs[1], 0, errors);
+    }
+
+    pub(super) fn asks(&self, transmits: bool) -> bool {
+        let is_on = self.cr[1] & DMA != 0 && self.cr[0] & ENABLE != 0;
+        let flag = if transmits { EMPTY } else { RECEIVED };
+        is_on && self.sr1 & flag != 0 && (self.sr2 & TRANSMITS != 0) == transmits
+    }
+
+    pub(super) fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {
+        let value = match offset {
+            0x00 | 0x04 => self.cr[(offset / 4) as usize],
+            0x08 | 0x0C => self.oar[((offset - 8) / 4) as usize],
+            0x10 => self.take(wires),
+            0x14 => {
+                self.has_read_status = true;
+                self.sr1
+            }
+            0x18 => self.status2(wires),
+            0x1C => self.ccr,
+            0x20 => self.trise,
+            _ => 0,
+        };
+        self.tell(wires);
+        value
+    }
+
+    fn take(&mut self, wires: &Wires) -> u32 {
+        let byte = self.dr;
+        self.sr1 &= !(RECEIVED | FINISHED);
+        if let Some(next) = self.behind.take() {
+            self.dr = next;
+            self.sr1 |= RECEIVED;
+        }
+        self.continue_at(wires.now, wires);
+        u32::from(byte)
+    }
+
+    /// Reading SR2 after SR1 goes on after the address.
+    fn status2(&mut self, wires: &Wires) -> u32 {
+        let mut value = self.sr2;
+        if self.phase == Phase::Rest && self.sr2 & MASTER == 0 && self.cr[0] & ENABLE != 0 {
+            value = if self.is_held(wires) { value | BUSY } else { value & !BUSY };
+            self.sr2 = value;
+        }
+        if self.sr1 & ADDRESSED != 0 && self.has_read_status {
+            self.sr1 &= !ADDRESSED;
+            self.acknowledged = self.cr[0] & ACKNOWLEDGE != 0;
+            self.continue_at(wires.now, wires);
+        }
+        self.has_read_status = false;
+        value
+    }
+
+    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
+        match offset {
+            0x00 => self.control(merge(self.cr[0], value, mask), wires),
+            0x04 => self.cr[1] = merge(self.cr[1], value, mask),
+            0x08 | 0x0C => {
+                let register = &mut self.oar[((offset - 8) / 4) as usize];
+                *register = merge(*register, value, mask);
+            }
+            0x10 => self.put((value & 0xFF) as u8, wires),
+            // Only errors can be cleared by writing 0.
+            0x14 => self.sr1 &= value | !mask | !ERRORS,
+            0x1C => self.ccr = merge(self.ccr, value, mask),
+            0x20 => self.trise = merge(self.trise, value, mask),
+            _ => {}
+        }
+        self.continue_at(wires.now, wires);
+        self.tell(wires);
+    }
+
+    fn control(&mut self, new: u32, wires: &Wires) {
+        let was = self.cr[0];
+        self.cr[0] = new;
+        if new & RESET != 0 || (was & ENABLE != 0 && new & ENABLE == 0) {
+            // Whoever listens sees the bus released.
+            if self.sr2 & MASTER != 0 {
+                self.ask(I2cEvent::Stop, wires);
+            }
+            let (cr, names) = (self.cr, (self.scl.clone(), self.sda.clone()));
+            let kept = (self.oar, self.ccr, self.trise);
+            *self = Self::new(self.unit);
+            (self.scl, self.sda) = names;
+            self.cr = [cr[0] & !(START | STOP), cr[1]];
+            (self.oar, self.ccr, self.trise) = kept;
+        }
+    }
+
+    fn put(&mut self, byte: u8, wires: &Wires) {
+        if self.sr1 & STARTED != 0 {
+            self.sr1 &= !STARTED;
+            self.has_read_status = false;
+            self.phase = Phase::Addressing(byte);
+            self.until = wires.now + 9 * self.bit_ns(wires);
+            return;
+        }
+        self.sr1 &= !(EMPTY | FINISHED);
+        self.waiting = Some(byte);
+    }
+}

@@ -1,0 +1,156 @@
+//! Programs: ELF files, and raw bytes of the flash.
+
+use std::fmt;
+
+use object::{Endianness, Object, ObjectKind};
+
+use super::transfer::FLASH_BASE;
+
+/// How much flash the MCU has.
+pub(super) const FLASH_BYTES: usize = 1 << 20;
+/// Where the stack may begin: in SRAM or in the core's own memory, up to the end of either.
+const STACKS: [(u32, u32); 2] = [(0x2000_0000, 0x2002_0000), (0x1000_0000, 0x1001_0000)];
+
+/// Why bytes are not a program for this MCU.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ImageError {
+    /// Neither an ELF file nor a vector table.
+    NotAProgram,
+    /// An ELF file that cannot be read.
+    Damaged(String),
+    /// For another processor: the architecture that it names.
+    OtherProcessor(String),
+    /// Not an executable program, but an object file, a library, a core dump.
+    NotExecutable,
+    /// A part of it belongs at an address where there is no flash.
+    OtherAddress {
+        /// Where.
+        address: u64,
+        /// How many bytes.
+        length: u64,
+    },
+    /// More bytes than the flash has.
+    TooLong(usize),
+    /// The vector table's first words are not a stack and a program in this MCU's memory.
+    Vectors {
+        /// The stack's begin.
+        stack: u32,
+        /// The program's begin.
+        entry: u32,
+    },
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotAProgram => {
+                f.write_str("it is neither an ELF file nor the contents of a flash")
+            }
+            Self::Damaged(why) => write!(f, "the ELF file cannot be read: {why}"),
+            Self::OtherProcessor(which) => {
+                write!(f, "it is a program for another processor ({which}), not for a 32-bit Arm")
+            }
+            Self::NotExecutable => f.write_str("it is not a linked program"),
+            Self::OtherAddress { address, length } => write!(
+                f,
+                "{length} bytes of it belong at 0x{address:08x}, but the STM32F407's flash is from 0x08000000 to \
+                 0x080fffff: it was linked for another MCU"
+            ),
+            Self::TooLong(length) => {
+                write!(f, "it has {length} bytes, but the STM32F407's flash has {FLASH_BYTES}")
+            }
+            Self::Vectors { stack, entry } => write!(
+                f,
+                "its vector table has the stack at 0x{stack:08x} and begins at 0x{entry:08x}: one of them is not in \
+                 the STM32F407's memory"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ImageError {}
+
+/// The contents of the flash, from its first byte on.
+pub(super) fn flash_of(image: &[u8]) -> Result<Vec<u8>, ImageError> {
+    let flash = if image.starts_with(b"\x7FELF") { of_elf(image)? } else { of_bytes(image)? };
+    let word = |at: usize| -> Option<u32> {
+        Some(u32::from_le_bytes(flash.get(at..at + 4)?.try_into().ok()?))
+    };
+    let (Some(stack), Some(entry)) = (word(0), word(4)) else {
+        return Err(ImageError::NotAProgram);
+    };
+    let has_stack = STACKS.iter().any(|(low, high)| stack > *low && stack <= *high);
+    let begins = entry & 1 == 1 && (FLASH_BASE..FLASH_BASE + 0x0010_0000).contains(&entry);
+    if !has_stack || !begins {
+        return Err(ImageError::Vectors { stack, entry });
+    }
+    Ok(flash)
+}
+
+fn of_bytes(image: &[u8]) -> Result<Vec<u8>, ImageError> {
+    if image.len() < 8 {
+        return Err(ImageError::NotAProgram);
+    }
+    if image.len() > FLASH_BYTES {
+        return Err(ImageError::TooLong(image.len()));
+    }
+    Ok(image.to_vec())
+}
+
+fn of_elf(image: &[u8]) -> Result<Vec<u8>, ImageError> {
+    use object::elf::{FileHeader32, PT_LOAD};
+    use object::read::elf::{ElfFile, FileHeader, ProgramHeader};
+
+    // The machine is said in the header, whatever the class of the file.
+    let machine = image.get(18..20).map_or(0, |bytes| u16::from_le_bytes([bytes[0], bytes[1]]));
+    let is_little = image.get(5) == Some(&1);
+    if image.get(4) != Some(&1) || !is_little || machine != object::elf::EM_ARM {
+        return Err(ImageError::OtherProcessor(processor(machine)));
+    }
+    let file = ElfFile::<FileHeader32<Endianness>>::parse(image)
+        .map_err(|error| ImageError::Damaged(error.to_string()))?;
+    if file.kind() != ObjectKind::Executable {
+        return Err(ImageError::NotExecutable);
+    }
+    let endian = file.endian();
+    let headers = FileHeader32::<Endianness>::parse(image)
+        .and_then(|header| header.program_headers(endian, image))
+        .map_err(|error| ImageError::Damaged(error.to_string()))?;
+    let mut flash = Vec::new();
+    for header in headers.iter().filter(|header| header.p_type(endian) == PT_LOAD) {
+        // What is in RAM is copied there by the program: it stands in the flash at its load address.
+        let address = u64::from(header.p_paddr(endian));
+        let data = header
+            .data(endian, image)
+            .map_err(|()| ImageError::Damaged("a segment is cut off".to_owned()))?;
+        if data.is_empty() {
+            continue;
+        }
+        let other = ImageError::OtherAddress { address, length: data.len() as u64 };
+        let begin = address.checked_sub(u64::from(FLASH_BASE)).ok_or(other.clone())?;
+        let begin = usize::try_from(begin).map_err(|_| other.clone())?;
+        let end = begin.checked_add(data.len()).filter(|end| *end <= FLASH_BYTES).ok_or(other)?;
+        if flash.len() < end {
+            flash.resize(end, 0xFF);
+        }
+        if let Some(place) = flash.get_mut(begin..end) {
+            place.copy_from_slice(data);
+        }
+    }
+    Ok(flash)
+}
+
+fn processor(machine: u16) -> String {
+    let known = [
+        (3, "x86"),
+        (8, "MIPS"),
+        (40, "Arm of another byte order"),
+        (62, "x86-64"),
+        (83, "AVR"),
+        (94, "Xtensa"),
+        (183, "64-bit Arm"),
+        (243, "RISC-V"),
+    ];
+    let name = known.iter().find(|(number, _)| *number == machine);
+    name.map_or_else(|| format!("machine {machine}"), |(_, name)| (*name).to_owned())
+}

@@ -1,0 +1,49 @@
+//! Peripherals that firmware sets up or asks, and that do little more than remember.
+
+use super::wires::merge;
+
+/// A block of registers that remembers what is written, but for the bits that hardware sets.
+#[derive(Debug)]
+pub(super) struct Plain {
+    registers: Vec<u32>,
+    /// Offset, and bits that always read as 1.
+    ready: &'static [(u32, u32)],
+}
+
+/// The regulator is as wanted; the backup regulator is ready.
+pub(super) const PWR: &[(u32, u32)] = &[(0x04, 0x4008)];
+/// The calendar can be set, and its shadow is there.
+pub(super) const RTC: &[(u32, u32)] = &[(0x0C, 0x67)];
+/// There is always another random number.
+pub(super) const RNG: &[(u32, u32)] = &[(0x04, 1)];
+/// The flash's latency follows, nothing is busy.
+pub(super) const FLASH: &[(u32, u32)] = &[];
+
+impl Plain {
+    pub(super) fn new(bytes: u32, ready: &'static [(u32, u32)]) -> Self {
+        Self { registers: vec![0; (bytes / 4) as usize], ready }
+    }
+
+    pub(super) fn read(&self, offset: u32) -> u32 {
+        let value = self.registers.get((offset / 4) as usize).copied().unwrap_or(0);
+        self.ready
+            .iter()
+            .filter(|(at, _)| *at == offset)
+            .fold(value, |value, (_, bits)| value | bits)
+    }
+
+    pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32) {
+        if let Some(register) = self.registers.get_mut((offset / 4) as usize) {
+            *register = merge(*register, value, mask);
+        }
+    }
+}
+
+/// A generator of numbers that are the same in each run (xorshift).
+pub(super) fn next_random(state: u32) -> u32 {
+    let mut x = if state == 0 { 0x2545_F491 } else { state };
+    x ^= x << 13;
+    x ^= x >> 17;
+    x ^= x << 5;
+    x
+}

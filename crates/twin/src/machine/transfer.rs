@@ -1,0 +1,166 @@
+//! What the DMA moves: items from who asks to memory, and back.
+
+use std::sync::Arc;
+
+use rsemu::core::space::RamStore;
+
+use super::chip::Chip;
+use super::dma::{Direction, Dma, requester};
+use super::wires::Request;
+
+/// The most items that one request moves at once; a request that never ends is a mistake of a model.
+const ITEMS_MAX: usize = 70_000;
+
+/// The interrupts of the streams of both controllers.
+const IRQS: [[u16; 8]; 2] = [[11, 12, 13, 14, 15, 16, 17, 47], [56, 57, 58, 59, 60, 68, 69, 70]];
+
+/// Memory that the DMA can reach.
+#[derive(Clone)]
+pub(super) struct Memory {
+    pub flash: Arc<RamStore>,
+    pub sram: Arc<RamStore>,
+}
+
+/// Where memory begins.
+pub(super) const FLASH_BASE: u32 = 0x0800_0000;
+pub(super) const SRAM_BASE: u32 = 0x2000_0000;
+
+impl Memory {
+    fn place(&self, address: u32) -> Option<(&RamStore, u64)> {
+        let within = |store: &RamStore, base: u32| {
+            let offset = u64::from(address.wrapping_sub(base));
+            (offset < store.len()).then_some(offset)
+        };
+        if let Some(offset) = within(&self.sram, SRAM_BASE) {
+            return Some((&self.sram, offset));
+        }
+        within(&self.flash, FLASH_BASE).map(|offset| (&*self.flash, offset))
+    }
+
+    fn read(&self, address: u32) -> Option<u8> {
+        let (store, offset) = self.place(address)?;
+        store.read_u8(offset).ok()
+    }
+
+    fn write(&self, address: u32, byte: u8) -> bool {
+        let Some((store, offset)) = self.place(address) else { return false };
+        address >= SRAM_BASE && store.write_u8(offset, byte).is_ok()
+    }
+}
+
+impl Chip {
+    pub(super) fn serve_dma(&mut self) {
+        for (controller, irqs) in IRQS.iter().enumerate() {
+            for stream in 0..8 {
+                if self.dmas[controller].streams[stream].is_enabled() {
+                    self.serve_stream(controller, stream);
+                }
+            }
+            for (stream, irq) in irqs.iter().enumerate() {
+                let is_held = self.dmas[controller].interrupts(stream);
+                self.wires.interrupt(*irq, 0, is_held);
+            }
+        }
+    }
+
+    fn serve_stream(&mut self, controller: usize, stream: usize) {
+        for _ in 0..ITEMS_MAX {
+            let state = self.dmas[controller].streams[stream];
+            if !state.is_enabled() {
+                return;
+            }
+            if state.direction() != Direction::Memory {
+                let channel = state.cr >> 25 & 7;
+                let Some(request) = requester(controller, stream, channel) else { return };
+                if !self.asks(request) {
+                    return;
+                }
+                self.served(request, state.left);
+            }
+            if self.move_item(controller, stream).is_none() {
+                self.dmas[controller].fail(stream);
+                return;
+            }
+        }
+    }
+
+    fn asks(&self, request: Request) -> bool {
+        match request {
+            Request::Adc(unit) => self.adcs[unit].asks(),
+            Request::I2cRx(unit) => self.i2cs[unit].asks(false),
+            Request::I2cTx(unit) => self.i2cs[unit].asks(true),
+            Request::SpiRx(unit) => self.spis[unit].asks(false),
+            Request::SpiTx(unit) => self.spis[unit].asks(true),
+            Request::UsartRx(unit) => self.usarts[unit].asks(false),
+            Request::UsartTx(unit) => self.usarts[unit].asks(true),
+            Request::Timer(unit, channel) => self.timers[unit].asks(channel),
+            // No firmware of this generator has its DAC fed by the DMA.
+            Request::Dac(_) => false,
+        }
+    }
+
+    fn served(&mut self, request: Request, left: u32) {
+        match request {
+            Request::Timer(unit, channel) => self.timers[unit].was_served(channel),
+            Request::Adc(unit) if left == 1 => self.adcs[unit].dma_ended(),
+            Request::I2cRx(unit) => self.wires.i2c_left[unit] = Some(left.saturating_sub(1)),
+            Request::Adc(_)
+            | Request::I2cTx(_)
+            | Request::SpiRx(_)
+            | Request::SpiTx(_)
+            | Request::UsartRx(_)
+            | Request::UsartTx(_)
+            | Request::Dac(_) => {}
+        }
+    }
+
+    /// Moves an item of the peripheral's size; `None` where nothing is at an address.
+    fn move_item(&mut self, controller: usize, stream: usize) -> Option<()> {
+        let state = self.dmas[controller].streams[stream];
+        let (size, _) = state.sizes();
+        let (peripheral, memory) =
+            (state.peripheral_address(), state.memory_address(state.moved()));
+        match state.direction() {
+            Direction::FromPeripheral => {
+                let value = self.fetch(peripheral, size)?;
+                self.store_bytes(memory, value, size)?;
+            }
+            Direction::ToPeripheral => {
+                let value = self.load_bytes(memory, size)?;
+                self.put(peripheral, value, size)?;
+            }
+            Direction::Memory => {
+                let value = self.load_bytes(peripheral, size)?;
+                self.store_bytes(memory, value, size)?;
+            }
+        }
+        self.dmas[controller].count(stream);
+        Some(())
+    }
+
+    fn load_bytes(&self, address: u32, size: u32) -> Option<u32> {
+        (0..size)
+            .rev()
+            .try_fold(0, |value, at| Some(value << 8 | u32::from(self.memory.read(address + at)?)))
+    }
+
+    fn store_bytes(&self, address: u32, value: u32, size: u32) -> Option<()> {
+        let bytes = value.to_le_bytes();
+        let mut places = (0..size).zip(bytes);
+        places.all(|(at, byte)| self.memory.write(address + at, byte)).then_some(())
+    }
+}
+
+/// What is left in the stream that serves a request.
+pub(super) fn left_of(dmas: &[Dma; 2], wanted: Request) -> Option<u32> {
+    for (controller, dma) in dmas.iter().enumerate() {
+        for (stream, state) in dma.streams.iter().enumerate() {
+            if state.is_enabled()
+                && requester(controller, stream, state.cr >> 25 & 7) == Some(wanted)
+            {
+                return Some(state.left);
+            }
+        }
+    }
+    None
+}

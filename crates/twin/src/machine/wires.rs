@@ -1,0 +1,210 @@
+//! What the devices of the chip share: the time, the clocks, the pads, the lines to the interrupt controller, the world.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::gpio::Gpio;
+use crate::surroundings::{Pad, Surroundings};
+
+/// No event is due.
+pub(super) const NEVER: u64 = u64::MAX;
+/// Nanoseconds in a second.
+pub(super) const SECOND_NS: u64 = 1_000_000_000;
+/// What a converter's full scale and the DAC's are.
+pub(super) const SUPPLY_MV: f64 = 3300.0;
+
+/// Frequencies in Hz, as the clock tree is set now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Clocks {
+    pub core: u64,
+    pub apb1: u64,
+    pub apb2: u64,
+    pub timers1: u64,
+    pub timers2: u64,
+}
+
+/// Which port of the MCU a host computer is connected to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkPort {
+    /// A serial port: `2` is USART2.
+    Serial(u8),
+    /// The USB port, as a serial port of the communications class.
+    Usb,
+}
+
+/// The bytes between MCU and host.
+#[derive(Debug)]
+pub(super) struct Link {
+    pub port: LinkPort,
+    pub to_mcu: VecDeque<u8>,
+    pub from_mcu: Vec<(u64, u8)>,
+}
+
+/// Requests to the DMA controllers, by who asks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Request {
+    Adc(usize),
+    I2cRx(usize),
+    I2cTx(usize),
+    SpiRx(usize),
+    SpiTx(usize),
+    UsartRx(usize),
+    UsartTx(usize),
+    Dac(usize),
+    /// Timer and channel; channel 0 is its update.
+    Timer(usize, usize),
+}
+
+/// What went wrong or happened that a user wants to hear of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The MCU was reset, not by its power.
+    Reset {
+        /// When.
+        at_ns: u64,
+        /// By whom.
+        cause: ResetCause,
+    },
+    /// The program used a peripheral whose clock is off: reads gave 0, writes were lost. Told once for each peripheral.
+    ClockOff {
+        /// When.
+        at_ns: u64,
+        /// The peripheral's address.
+        address: u32,
+        /// The instruction's address, or one near it.
+        pc: u32,
+    },
+    /// The program used an address of a peripheral that is not modelled. Told once for each peripheral.
+    NotModelled {
+        /// When.
+        at_ns: u64,
+        /// The address.
+        address: u32,
+        /// The instruction's address, or one near it.
+        pc: u32,
+    },
+}
+
+/// Why the MCU was reset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResetCause {
+    /// The independent watchdog was not fed.
+    Watchdog,
+    /// The program asked for it.
+    Software,
+}
+
+/// What the devices share.
+pub(super) struct Wires {
+    pub now: u64,
+    pub clocks: Clocks,
+    pub gpio: Gpio,
+    pub link: Link,
+    pub events: Vec<Event>,
+    /// Timers whose trigger output fired since the chip looked last, a bit each.
+    pub triggers: u32,
+    /// Counts changes after which the world may have other edges than before.
+    pub version: u64,
+    /// How many items a stream has left for I2C's receiver, by unit: it refuses the byte after the last one.
+    pub i2c_left: [Option<u32>; 3],
+    world: Arc<Mutex<dyn Surroundings>>,
+    /// By interrupt: who holds its line, a bit each.
+    holders: [u16; IRQS],
+    changed: Vec<(u16, bool)>,
+}
+
+/// How many interrupts the MCU has.
+const IRQS: usize = 82;
+
+impl Wires {
+    pub(super) fn new(world: Arc<Mutex<dyn Surroundings>>, port: LinkPort) -> Self {
+        let link = Link { port, to_mcu: VecDeque::new(), from_mcu: Vec::new() };
+        Self {
+            now: 0,
+            clocks: super::rcc::AT_RESET,
+            gpio: Gpio::new(),
+            link,
+            events: Vec::new(),
+            triggers: 0,
+            version: 0,
+            i2c_left: [None; 3],
+            world,
+            holders: [0; IRQS],
+            changed: Vec::new(),
+        }
+    }
+
+    /// Asks or tells the world.
+    pub(super) fn world<T>(&self, ask: impl FnOnce(&mut dyn Surroundings, u64) -> T) -> T {
+        let mut world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
+        ask(&mut *world, self.now)
+    }
+
+    /// One of several devices on a line says whether it holds it.
+    pub(super) fn interrupt(&mut self, irq: u16, holder: u8, is_held: bool) {
+        let Some(holders) = self.holders.get_mut(usize::from(irq)) else { return };
+        let before = *holders;
+        let bit = 1 << holder;
+        *holders = if is_held { before | bit } else { before & !bit };
+        if (before == 0) != (*holders == 0) {
+            self.changed.push((irq, *holders != 0));
+        }
+    }
+
+    /// The lines that changed since the last time.
+    pub(super) fn take_changed(&mut self) -> Vec<(u16, bool)> {
+        std::mem::take(&mut self.changed)
+    }
+
+    pub(super) fn has_changed_lines(&self) -> bool {
+        !self.changed.is_empty()
+    }
+
+    /// The pad that a peripheral's wire is led to, as in `TIM3_CH1`.
+    pub(super) fn pad_of(&self, wire: &str) -> Option<Pad> {
+        self.gpio.pad_of(wire)
+    }
+
+    /// The level at a pad, whoever drives it.
+    pub(super) fn level(&self, pad: Pad) -> bool {
+        if let Some(level) = self.gpio.drives(pad) {
+            return level;
+        }
+        let outside = self.world(|world, now| world.level(pad, now));
+        outside.unwrap_or_else(|| self.gpio.is_pulled_up(pad))
+    }
+
+    /// The next change at a pad from outside.
+    pub(super) fn next_edge(&self, pad: Pad, after: u64) -> Option<(u64, bool)> {
+        let edge = self.world(|world, _| world.next_edge(pad, after))?;
+        // A world that names an edge in the past would stop the time.
+        Some((edge.0.max(after.saturating_add(1)), edge.1))
+    }
+
+    /// Tells the world what the MCU's outputs do now, where that changed.
+    pub(super) fn tell_outputs(&mut self) {
+        let changes = self.gpio.take_changes();
+        for (pad, level) in &changes {
+            self.world(|world, now| world.driven(*pad, *level, now));
+        }
+        if !changes.is_empty() {
+            self.version += 1;
+        }
+    }
+}
+
+/// The bits of a register after a write that reaches those of `mask`.
+pub(super) fn merge(old: u32, value: u32, mask: u32) -> u32 {
+    (old & !mask) | (value & mask)
+}
+
+/// How long `count` periods of `hz` take, rounded up.
+pub(super) fn periods_ns(count: u64, hz: u64) -> u64 {
+    let ns = (u128::from(count) * u128::from(SECOND_NS)).div_ceil(u128::from(hz.max(1)));
+    u64::try_from(ns).unwrap_or(NEVER)
+}
+
+/// How many periods of `hz` have passed in some time.
+pub(super) fn periods_in(ns: u64, hz: u64) -> u64 {
+    u64::try_from(u128::from(ns) * u128::from(hz) / u128::from(SECOND_NS)).unwrap_or(NEVER)
+}

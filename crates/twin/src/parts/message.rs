@@ -1,0 +1,247 @@
+//! The messages that a serial part sends by itself: binary ones with checksums, texts, sentences of NMEA 0183.
+
+use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
+use sensedsl_model::protocol::{Format, TextField};
+use sensedsl_model::words::Words;
+
+use super::words::{bytes, crc8};
+use crate::arith::rounded;
+use crate::truth::Subject;
+
+/// The longest time between two messages: what satellite receivers keep.
+const PERIOD_NS_MAX: u64 = 100_000_000;
+
+/// A value in the messages of a part.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    /// Index of the subject.
+    pub(crate) subject: usize,
+    /// Where a binary value begins behind the start.
+    pub(crate) byte: u16,
+    /// How a binary value is coded.
+    pub(crate) words: Option<Words>,
+    /// How it stands in a text.
+    pub(crate) text: Option<TextField>,
+    /// Of degrees: whether the sign is told by north and south.
+    pub(crate) is_latitude: bool,
+}
+
+/// A part that sends messages.
+#[derive(Clone, Debug)]
+pub(crate) struct Talker {
+    uart: Uart,
+    fields: Vec<Field>,
+    /// From one message to the next.
+    period_ns: u64,
+    /// The bytes of the message that is on the wire, and when it began.
+    message: Vec<u8>,
+    began_ns: u64,
+    sent: usize,
+    /// Messages begun so far.
+    number: u64,
+}
+
+impl Talker {
+    pub(crate) fn new(uart: Uart, fields: Vec<Field>, delay_ns: u64, subjects: &[Subject]) -> Self {
+        let mut talker = Self {
+            uart,
+            fields,
+            period_ns: 0,
+            message: Vec::new(),
+            began_ns: 0,
+            sent: 0,
+            number: 0,
+        };
+        // Fields get longer and shorter with their values.
+        let longest_ns =
+            2 * talker.byte_ns() * u64::try_from(talker.compose(subjects, 0).len()).unwrap_or(0);
+        talker.period_ns = longest_ns.max(delay_ns.min(PERIOD_NS_MAX)).max(1_000_000);
+        talker
+    }
+
+    /// From one message to the next.
+    pub(crate) const fn period_ns(&self) -> u64 {
+        self.period_ns
+    }
+
+    /// The next byte that has arrived by now.
+    pub(crate) fn next(&mut self, subjects: &[Subject], now_ns: u64) -> Option<u8> {
+        let begins_ns = self.period_ns.saturating_mul(self.number + 1);
+        if self.sent >= self.message.len() && now_ns >= begins_ns {
+            // What nobody took in the meantime is lost, as it is in a receiver.
+            self.number = now_ns / self.period_ns;
+            self.began_ns = self.period_ns.saturating_mul(self.number);
+            self.message = self.compose(subjects, self.began_ns);
+            self.sent = 0;
+        }
+        let byte = *self.message.get(self.sent)?;
+        let arrived =
+            u64::try_from(self.sent + 1).unwrap_or(u64::MAX).saturating_mul(self.byte_ns());
+        if now_ns < self.began_ns.saturating_add(arrived) {
+            return None;
+        }
+        self.sent += 1;
+        Some(byte)
+    }
+
+    /// Drops what is on the wire: the cable is torn.
+    pub(crate) fn torn(&mut self) {
+        self.message.clear();
+        self.sent = 0;
+    }
+
+    fn byte_ns(&self) -> u64 {
+        let parity = u64::from(self.uart.parity != Parity::None);
+        let bits = 1 + u64::from(self.uart.data_bits) + parity + u64::from(self.uart.stop_bits);
+        bits * 1_000_000_000 / u64::from(self.uart.baud.max(1))
+    }
+
+    /// One message of each sentence, or the one that there is.
+    fn compose(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
+        let is_text = self.fields.iter().any(|field| field.text.is_some());
+        if !is_text {
+            return self.framed(&self.binary(subjects, now_ns));
+        }
+        let mut sentences: Vec<Option<&str>> = Vec::new();
+        for text in self.fields.iter().filter_map(|field| field.text.as_ref()) {
+            if !sentences.contains(&text.sentence.as_deref()) {
+                sentences.push(text.sentence.as_deref());
+            }
+        }
+        let bodies = sentences.iter().map(|sentence| self.text(*sentence, subjects, now_ns));
+        bodies.flat_map(|body| self.framed(body.as_bytes())).collect()
+    }
+
+    fn binary(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
+        let mut body = vec![0_u8; usize::from(self.uart.length_bytes)];
+        for field in &self.fields {
+            let (Some(words), Some(subject)) = (&field.words, subjects.get(field.subject)) else {
+                continue;
+            };
+            let raw: Vec<f64> =
+                (0..subject.signals.len()).map(|element| subject.raw(element, now_ns)).collect();
+            let coded = bytes(words, &raw);
+            for (target, byte) in body.iter_mut().skip(usize::from(field.byte)).zip(coded) {
+                *target |= byte;
+            }
+        }
+        body
+    }
+
+    fn text(&self, sentence: Option<&str>, subjects: &[Subject], now_ns: u64) -> String {
+        let mut columns: Vec<String> = Vec::new();
+        let mut separator = None;
+        for field in &self.fields {
+            let Some(text) =
+                field.text.as_ref().filter(|text| text.sentence.as_deref() == sentence)
+            else {
+                continue;
+            };
+            separator = text.separator;
+            let Some(subject) = subjects.get(field.subject) else { continue };
+            let width = if text.format == Format::Degrees { 2 } else { 1 };
+            for element in 0..subject.signals.len() {
+                let first = usize::from(text.field) + element * width;
+                let raw = subject.raw(element, now_ns);
+                for (column, written) in
+                    written(text, raw, field.is_latitude).into_iter().enumerate()
+                {
+                    if columns.len() <= first + column {
+                        columns.resize(first + column + 1, String::new());
+                    }
+                    if let Some(target) = columns.get_mut(first + column) {
+                        *target = written;
+                    }
+                }
+            }
+        }
+        // A receiver that has a position says so.
+        if sentence == Some("RMC")
+            && let Some(status) = columns.get_mut(1).filter(|status| status.is_empty())
+        {
+            "A".clone_into(status);
+        }
+        let separator =
+            separator.map_or_else(|| ",".to_owned(), |byte| char::from(byte).to_string());
+        match sentence {
+            None => columns.join(&separator),
+            Some(sentence) => format!("GP{sentence}{separator}{}", columns.join(&separator)),
+        }
+    }
+
+    /// With start, checksum and end.
+    fn framed(&self, body: &[u8]) -> Vec<u8> {
+        let uart = &self.uart;
+        let mut all = [&uart.start, body].concat();
+        let summed = all.get(usize::from(uart.checksum_from)..).unwrap_or_default();
+        let sum = summed.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
+        let xor = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum ^ byte);
+        let checksum = match uart.checksum {
+            MessageChecksum::None => Vec::new(),
+            MessageChecksum::Sum8 => vec![sum.to_be_bytes()[1]],
+            MessageChecksum::Xor8 => vec![xor(summed)],
+            MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
+            MessageChecksum::Crc8DvbS2 => vec![crc8(summed, 0xD5, 0)],
+            MessageChecksum::Nmea => format!("*{:02X}", xor(body)).into_bytes(),
+        };
+        all.extend(checksum);
+        all.extend(&uart.end);
+        all
+    }
+}
+
+/// A number as it stands in a text: of degrees also the column behind it.
+fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
+    match text.format {
+        Format::Hex => vec![format!("{:X}", rounded(raw).max(0))],
+        Format::Decimal => vec![decimal(rounded(raw), u32::from(text.decimals))],
+        Format::Degrees => {
+            let whole = rounded(raw);
+            let size = whole.unsigned_abs();
+            let (degrees, rest) = (size / 10_000_000, size % 10_000_000);
+            // A minute has 1/60 of a degree, and five digits behind its point.
+            let minutes = (rest * 60 + 50) / 100;
+            let side = match (is_latitude, whole < 0) {
+                (true, false) => "N",
+                (true, true) => "S",
+                (false, false) => "E",
+                (false, true) => "W",
+            };
+            let (minutes, behind) = (minutes / 100_000, minutes % 100_000);
+            vec![format!("{degrees:02}{minutes:02}.{behind:05}"), side.to_owned()]
+        }
+    }
+}
+
+/// A number divided by a power of ten.
+fn decimal(number: i64, decimals: u32) -> String {
+    let sign = if number < 0 { "-" } else { "" };
+    let size = number.unsigned_abs();
+    let unit = 10_u64.saturating_pow(decimals);
+    if decimals == 0 {
+        return format!("{sign}{size}");
+    }
+    let digits = usize::try_from(decimals).unwrap_or(0);
+    format!("{sign}{}.{:0digits$}", size / unit, size % unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_texts() {
+        assert_eq!(decimal(-5, 2), "-0.05");
+        assert_eq!(decimal(1234, 0), "1234");
+        let degrees = TextField {
+            sentence: None,
+            field: 0,
+            separator: Some(b','),
+            format: Format::Degrees,
+            decimals: 0,
+        };
+        // The example of NMEA 0183: 48 degrees 07.038 minutes north.
+        assert_eq!(written(&degrees, 481_173_000.0, true), ["4807.03800", "N"]);
+        assert_eq!(written(&degrees, -115_166_667.0, false), ["1131.00000", "W"]);
+    }
+}

@@ -1,0 +1,319 @@
+//! A part with registers on I2C or SPI: what it answers, byte by byte, as its driver describes it.
+//!
+//! What is written is kept and can be read back. Where values stand, the world's are; where the driver knows an
+//! identity or a calibration, it is there. A trigger starts a measurement, and the part answers nobody until it is done.
+
+use std::collections::BTreeMap;
+
+use sensedsl_model::protocol::{Formula, Protocol};
+use sensedsl_model::words::Words;
+
+use super::{formula, words};
+use crate::truth::Subject;
+
+/// Bytes that a read goes on for at most.
+const READ_BYTES_MAX: usize = 2_112;
+
+/// A value of the part.
+#[derive(Clone, Debug)]
+pub(crate) struct Reading {
+    /// Index of the subject.
+    pub(crate) subject: usize,
+    /// Written to start its measurement; empty for none.
+    pub(crate) trigger: Vec<u8>,
+    /// How long that lasts.
+    pub(crate) wait_ns: u64,
+    /// Where it stands; none where it is read without a register.
+    pub(crate) register: Option<u16>,
+    /// Sent before it is read, on SPI.
+    pub(crate) select: Vec<u8>,
+    /// Sent while it is read, on SPI.
+    pub(crate) exchange: Vec<u8>,
+    /// Where its bytes begin behind the register.
+    pub(crate) byte: u16,
+    /// How it is coded; none where the formula makes it.
+    pub(crate) words: Option<Words>,
+    /// Which output of the formula it is.
+    pub(crate) output: Option<u8>,
+}
+
+/// A measurement that was started.
+#[derive(Clone, Debug)]
+struct Measurement {
+    trigger: Vec<u8>,
+    began_ns: u64,
+    ready_ns: u64,
+}
+
+/// A part with registers.
+#[derive(Clone, Debug)]
+pub(crate) struct Registers {
+    protocol: Protocol,
+    readings: Vec<Reading>,
+    written: BTreeMap<u16, u8>,
+    /// What the master has sent in this transfer.
+    sent: Vec<u8>,
+    pointer: Option<u16>,
+    measurement: Option<Measurement>,
+    /// What is read in this transfer.
+    answer: Vec<u8>,
+    at: usize,
+    began_ns: u64,
+}
+
+impl Registers {
+    pub(crate) fn new(protocol: Protocol, readings: Vec<Reading>) -> Self {
+        Self {
+            protocol,
+            readings,
+            written: BTreeMap::new(),
+            sent: Vec::new(),
+            pointer: None,
+            measurement: None,
+            answer: Vec::new(),
+            at: 0,
+            began_ns: 0,
+        }
+    }
+
+    /// The supply was gone.
+    pub(crate) fn reset(&mut self) {
+        *self = Self::new(self.protocol.clone(), std::mem::take(&mut self.readings));
+    }
+
+    /// Whether it measures and answers nobody. A part that is set up first, or is asked for several things, has a
+    /// processor of its own for its bus.
+    pub(crate) fn is_busy(&self, now_ns: u64) -> bool {
+        let first = self.readings.first().map(|one| &one.trigger);
+        let is_simple = self.protocol.init.is_empty()
+            && self.readings.iter().all(|one| Some(&one.trigger) == first);
+        is_simple && self.measurement.as_ref().is_some_and(|one| now_ns < one.ready_ns)
+    }
+
+    /// A transfer begins, or goes on in the other direction.
+    pub(crate) fn start(&mut self, read: bool, subjects: &[Subject], now_ns: u64) {
+        self.take_sent(now_ns);
+        if read {
+            self.answer = self.answer(subjects, now_ns);
+            self.at = 0;
+        }
+    }
+
+    /// The master sends a byte.
+    pub(crate) fn write(&mut self, byte: u8) {
+        if self.sent.len() < READ_BYTES_MAX {
+            self.sent.push(byte);
+        }
+    }
+
+    /// The master takes a byte.
+    pub(crate) fn read(&mut self) -> u8 {
+        let byte = self.answer.get(self.at).copied().unwrap_or(0);
+        self.at += 1;
+        byte
+    }
+
+    /// The transfer is over.
+    pub(crate) fn stop(&mut self, now_ns: u64) {
+        self.take_sent(now_ns);
+    }
+
+    /// The chip select went low.
+    pub(crate) fn select(&mut self, now_ns: u64) {
+        self.sent.clear();
+        self.answer.clear();
+        self.began_ns = now_ns;
+    }
+
+    /// The chip select went high.
+    pub(crate) fn deselect(&mut self, now_ns: u64) {
+        let is_reading =
+            self.sent.first().is_some_and(|first| first & self.protocol.read_mask != 0);
+        let is_exchange = self.readings.iter().any(|one| !one.exchange.is_empty());
+        if is_exchange || (is_reading && self.protocol.read_mask != 0) {
+            self.sent.clear();
+        } else {
+            self.take_sent(now_ns);
+        }
+    }
+
+    /// A byte goes out and another one comes in while the part is selected.
+    pub(crate) fn exchange(&mut self, out: u8, subjects: &[Subject]) -> u8 {
+        self.write(out);
+        let now_ns = self.began_ns;
+        let place = self.sent.len();
+        let said =
+            |one: &&Reading| !one.exchange.is_empty() && one.exchange.starts_with(&self.sent);
+        if let Some(first) = self.readings.iter().find(said) {
+            let same: Vec<&Reading> =
+                self.readings.iter().filter(|one| one.exchange == first.exchange).collect();
+            let bytes = merged(&self.bytes_of(&same, subjects, now_ns));
+            return place.checked_sub(1).and_then(|at| bytes.get(at)).copied().unwrap_or(0);
+        }
+        let selected = |one: &&Reading| {
+            !one.select.is_empty() && place > one.select.len() && self.sent.starts_with(&one.select)
+        };
+        if let Some(one) = self.readings.iter().find(selected) {
+            let bytes = merged(&self.bytes_of(&[one], subjects, now_ns));
+            return bytes.get(place - one.select.len() - 1).copied().unwrap_or(0);
+        }
+        let width = self.width();
+        if place <= width {
+            return 0;
+        }
+        if self.answer.is_empty() {
+            let number =
+                self.sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
+            let mask = u16::from(self.protocol.read_mask) << (8 * (width - 1));
+            self.pointer = Some(number & !mask);
+            self.answer = self.answer(subjects, now_ns);
+        }
+        self.answer.get(place - width - 1).copied().unwrap_or(0)
+    }
+
+    /// Bytes of a register's number.
+    fn width(&self) -> usize {
+        usize::from(self.protocol.register_bytes.clamp(1, 2))
+    }
+
+    /// What the bytes that were written mean: a trigger, or a register and what it is to hold.
+    fn take_sent(&mut self, now_ns: u64) {
+        let sent = std::mem::take(&mut self.sent);
+        if sent.is_empty() {
+            return;
+        }
+        if let Some(one) = self.readings.iter().find(|one| one.trigger == sent) {
+            let ready_ns = now_ns.saturating_add(one.wait_ns);
+            self.measurement = Some(Measurement { trigger: sent, began_ns: now_ns, ready_ns });
+            self.pointer = None;
+            return;
+        }
+        let width = self.width();
+        let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
+        self.pointer = Some(first);
+        for (register, byte) in (first..=u16::MAX).zip(sent.iter().skip(width)) {
+            self.written.insert(register, *byte);
+        }
+    }
+
+    /// The bytes from the selected register on.
+    fn answer(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
+        let Some(pointer) = self.pointer else {
+            let open: Vec<&Reading> = self.live().filter(|one| one.register.is_none()).collect();
+            return merged(&self.bytes_of(&open, subjects, now_ns));
+        };
+        let has_crc = |one: &&Reading| one.words.as_ref().is_some_and(|words| words.crc.is_some());
+        let exact: Vec<&Reading> =
+            self.live().filter(|one| one.register == Some(pointer)).collect();
+        if exact.is_empty()
+            && self.live().all(|one| one.register.is_none())
+            && !self.is_known(pointer)
+        {
+            // A part without registers: what was written says nothing of what is read.
+            let open: Vec<&Reading> = self.live().collect();
+            return merged(&self.bytes_of(&open, subjects, now_ns));
+        }
+        if self.protocol.is_one_by_one || exact.iter().any(has_crc) {
+            if let Some(identity) =
+                self.protocol.identity.as_ref().filter(|one| one.register == pointer)
+            {
+                return identity.expected.clone();
+            }
+            let values = merged(&self.bytes_of(&exact, subjects, now_ns));
+            return if values.is_empty() { self.kept(pointer) } else { values };
+        }
+        let mut image = self.written.clone();
+        let mut put = |first: u16, bytes: &[u8]| {
+            for (register, byte) in (first..=u16::MAX).zip(bytes) {
+                image.insert(register, *byte);
+            }
+        };
+        if let Some(identity) = &self.protocol.identity {
+            put(identity.register, &identity.expected);
+        }
+        let mut calibration = self.protocol.formula.map(formula::calibration).unwrap_or_default();
+        for (register, count) in &self.protocol.calibration {
+            let (bytes, rest) = calibration.split_at(usize::from(*count).min(calibration.len()));
+            put(*register, bytes);
+            calibration = rest;
+        }
+        let mut values: BTreeMap<u16, u8> = BTreeMap::new();
+        for one in self.live() {
+            let Some(first) = one.register else { continue };
+            for (place, byte) in self.bytes_of(&[one], subjects, now_ns).into_iter().flatten() {
+                let place = u16::try_from(place).unwrap_or(u16::MAX);
+                *values.entry(first.saturating_add(place)).or_insert(0) |= byte;
+            }
+        }
+        image.extend(values);
+        let bytes = (pointer..=u16::MAX).take(READ_BYTES_MAX);
+        bytes.map(|register| image.get(&register).copied().unwrap_or(0)).collect()
+    }
+
+    /// Whether the driver says what a register holds.
+    fn is_known(&self, register: u16) -> bool {
+        let is_identity =
+            self.protocol.identity.as_ref().is_some_and(|one| one.register == register);
+        is_identity || self.protocol.calibration.iter().any(|(first, _)| *first == register)
+    }
+
+    fn kept(&self, first: u16) -> Vec<u8> {
+        let registers = first..=first.saturating_add(8);
+        registers.map(|register| self.written.get(&register).copied().unwrap_or(0)).collect()
+    }
+
+    /// The readings whose measurement was the last one, and those that need none.
+    fn live(&self) -> impl Iterator<Item = &Reading> {
+        let last = self.measurement.as_ref().map(|one| &one.trigger);
+        self.readings.iter().filter(move |one| one.trigger.is_empty() || Some(&one.trigger) == last)
+    }
+
+    /// The bytes of readings, each with its place behind the register.
+    fn bytes_of(
+        &self,
+        readings: &[&Reading],
+        subjects: &[Subject],
+        now_ns: u64,
+    ) -> Vec<Vec<(usize, u8)>> {
+        let of = |one: &&Reading| {
+            let measured = self.measurement.as_ref().filter(|_| !one.trigger.is_empty());
+            let at_ns = measured.map_or(now_ns, |measured| measured.began_ns);
+            let bytes = match (one.output, self.protocol.formula, &one.words) {
+                (Some(_), Some(formula), _) => self.computed(formula, subjects, at_ns),
+                (_, _, Some(coded)) => {
+                    let subject = subjects.get(one.subject)?;
+                    let elements = 0..subject.signals.len();
+                    let raw: Vec<f64> = elements.map(|one| subject.raw(one, at_ns)).collect();
+                    words::bytes(coded, &raw)
+                }
+                (_, _, None) => return None,
+            };
+            let is_exchange = !one.exchange.is_empty();
+            let byte = if is_exchange || one.output.is_some() { 0 } else { one.byte };
+            let first = one.words.as_ref().map_or(byte, |words| words.on_wire(byte));
+            Some((usize::from(first)..).zip(bytes).collect())
+        };
+        readings.iter().filter_map(of).collect()
+    }
+
+    /// The raw bytes of all outputs of the formula.
+    fn computed(&self, of: Formula, subjects: &[Subject], at_ns: u64) -> Vec<u8> {
+        let wanted = [0, 1, 2].map(|output| {
+            let one = self.readings.iter().find(|one| one.output == Some(output))?;
+            Some(subjects.get(one.subject)?.raw(0, at_ns))
+        });
+        formula::raw(of, &self.protocol.parameters, wanted)
+    }
+}
+
+/// Bytes at their places in one piece.
+fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
+    let end = all.iter().flatten().map(|(place, _)| place + 1).max().unwrap_or(0);
+    let mut bytes = vec![0; end];
+    for (place, byte) in all.iter().flatten() {
+        if let Some(target) = bytes.get_mut(*place) {
+            *target |= byte;
+        }
+    }
+    bytes
+}

@@ -1,0 +1,358 @@
+//! Chips on I2C and SPI, serial parts, stations on CAN: the runtime says what to transfer, the bench answers.
+
+use sense_rt::{
+    Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
+};
+use sensedsl_codegen::job::{BoardJob, Cycle};
+use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_wire::Direction;
+
+use super::tables::{self, kept};
+use super::{Core, begins, wrapped};
+use crate::bench::{Bench, number_of};
+use crate::surroundings::{I2cEvent, I2cReply, Surroundings as _};
+
+/// Transfers that a chip makes in a millisecond at most, so that nothing goes on for ever.
+const TRANSFERS_MAX: usize = 1_000;
+
+/// One chip with its way to it.
+pub(super) struct Bus {
+    table: &'static ChipTable,
+    schema: &'static Schema,
+    chip: Box<Chip<[u8; 16_384]>>,
+    unit: u8,
+    /// Of a chip on SPI: the connection whose chip select it has.
+    selected: Option<ConnectionIndex>,
+    start_ms: u32,
+    /// When it is looked after again.
+    wakes_ms: u64,
+    /// What the host has set and the chip has not got.
+    owed: Vec<Option<Vec<u8>>>,
+    starts: u32,
+    set: Vec<Option<Vec<u8>>>,
+}
+
+impl Bus {
+    /// As at the start of the board.
+    pub(super) fn anew(&self) -> Self {
+        let commands = self.table.commands.len();
+        Self {
+            chip: Box::new(Chip::new(self.table, self.schema)),
+            wakes_ms: u64::from(self.start_ms),
+            owed: vec![None; commands],
+            set: vec![None; commands],
+            starts: 0,
+            ..*self
+        }
+    }
+
+    /// The host has set a device.
+    pub(super) fn set(&mut self, index: usize, value: &[u8]) {
+        let commands = self.table.commands.iter().zip(self.set.iter_mut().zip(&mut self.owed));
+        for (_, (set, owed)) in commands.filter(|(one, _)| usize::from(one.item) == index) {
+            *set = Some(value.to_vec());
+            *owed = Some(value.to_vec());
+        }
+    }
+
+    pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
+        if since_ms < self.wakes_ms {
+            return;
+        }
+        for _ in 0..TRANSFERS_MAX {
+            let way = (self.table.address, self.unit, self.selected);
+            let outcome = match self.chip.next(wrapped(since_ms)) {
+                Step::Write(bytes) => transfer(bench, way, bytes, &mut [], now_ns),
+                Step::WriteRead(bytes, answer) => transfer(bench, way, bytes, answer, now_ns),
+                Step::Exchange(bytes, answer) => exchange(bench, way, bytes, answer, now_ns),
+                Step::Wait(ms) => {
+                    self.wakes_ms = since_ms + u64::from(ms.max(1));
+                    break;
+                }
+            };
+            self.chip.done(outcome, &mut |item, outcome, value| core.tell(item, outcome, value));
+            if outcome != Outcome::Fresh {
+                // It is started again in the next cycle.
+                self.wakes_ms = since_ms + u64::from(self.table.cycle_ms.max(1));
+                break;
+            }
+        }
+        self.command(bench, now_ns);
+    }
+
+    /// Writes what the host has set; all of it again after a chip had to be started anew.
+    fn command(&mut self, bench: &mut Bench, now_ns: u64) {
+        if self.chip.counts().starts != self.starts {
+            self.starts = self.chip.counts().starts;
+            self.owed.clone_from(&self.set);
+        }
+        let way = (self.table.address, self.unit, self.selected);
+        for (command, owed) in self.table.commands.iter().zip(&mut self.owed) {
+            let Some(value) = owed.as_deref() else { continue };
+            let outcome = match self.chip.write(command, value) {
+                Ok(Step::Write(bytes)) => transfer(bench, way, bytes, &mut [], now_ns),
+                Ok(_) => Outcome::Invalid,
+                Err(_) => continue,
+            };
+            self.chip.done(outcome, &mut |_, _, _| {});
+            if outcome == Outcome::Fresh {
+                *owed = None;
+            }
+        }
+    }
+}
+
+type Way = (u8, u8, Option<ConnectionIndex>);
+
+/// One transfer: bytes out, then bytes in.
+fn transfer(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
+    let (address, unit, selected) = way;
+    if let Some(connection) = selected {
+        bench.drive_at(connection, Role::Cs, Some(false), now_ns);
+        for byte in out {
+            bench.spi(unit, *byte, now_ns);
+        }
+        for place in answer {
+            *place = bench.spi(unit, 0, now_ns);
+        }
+        bench.drive_at(connection, Role::Cs, Some(true), now_ns);
+        return Outcome::Fresh;
+    }
+    let outcome = i2c(bench, unit, address, out, answer, now_ns);
+    if !matches!(outcome, Outcome::TimedOut) {
+        bench.i2c(unit, I2cEvent::Stop, now_ns);
+    }
+    outcome
+}
+
+fn i2c(
+    bench: &mut Bench,
+    unit: u8,
+    address: u8,
+    out: &[u8],
+    answer: &mut [u8],
+    now_ns: u64,
+) -> Outcome {
+    let refused = |reply: I2cReply| match reply {
+        I2cReply::Ack | I2cReply::Byte(_) => None,
+        I2cReply::Nack => Some(Outcome::NotAcknowledged),
+        I2cReply::Stuck => Some(Outcome::BusError),
+        I2cReply::Silent => Some(Outcome::TimedOut),
+    };
+    if !out.is_empty() || answer.is_empty() {
+        let started = bench.i2c(unit, I2cEvent::Start { address, read: false }, now_ns);
+        if let Some(outcome) = refused(started) {
+            return outcome;
+        }
+        for byte in out {
+            if let Some(outcome) = refused(bench.i2c(unit, I2cEvent::Write(*byte), now_ns)) {
+                return outcome;
+            }
+        }
+    }
+    if answer.is_empty() {
+        return Outcome::Fresh;
+    }
+    let started = bench.i2c(unit, I2cEvent::Start { address, read: true }, now_ns);
+    if let Some(outcome) = refused(started) {
+        return outcome;
+    }
+    let last = answer.len() - 1;
+    for (index, place) in answer.iter_mut().enumerate() {
+        match bench.i2c(unit, I2cEvent::Read { ack: index < last }, now_ns) {
+            I2cReply::Byte(byte) => *place = byte,
+            other @ (I2cReply::Ack | I2cReply::Nack | I2cReply::Stuck | I2cReply::Silent) => {
+                return refused(other).unwrap_or(Outcome::BusError);
+            }
+        }
+    }
+    Outcome::Fresh
+}
+
+/// As many bytes in as out.
+fn exchange(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: u64) -> Outcome {
+    let (_, unit, selected) = way;
+    let Some(connection) = selected else { return Outcome::Invalid };
+    bench.drive_at(connection, Role::Cs, Some(false), now_ns);
+    for (byte, place) in out.iter().zip(answer) {
+        *place = bench.spi(unit, *byte, now_ns);
+    }
+    bench.drive_at(connection, Role::Cs, Some(true), now_ns);
+    Outcome::Fresh
+}
+
+/// The chips of a board.
+pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
+    let mut all = Vec::new();
+    for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
+        let is_spi = match one.connection.kind {
+            Kind::I2c(_) => false,
+            Kind::Spi(_) => true,
+            Kind::Analog(_)
+            | Kind::Icu(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => continue,
+        };
+        let Some(plan) = job.tables_of(one).and_then(|tables| tables.bus.as_ref()) else {
+            continue;
+        };
+        let formula = one.part.chip.as_ref().and_then(|chip| chip.formula);
+        let table: &'static ChipTable = kept(tables::chip(job, plan, formula));
+        let commands = table.commands.len();
+        all.push(Bus {
+            table,
+            schema,
+            chip: Box::new(Chip::new(table, schema)),
+            unit: one.unit.and_then(number_of).unwrap_or(0),
+            selected: is_spi.then_some(wiring.connection),
+            start_ms: one.cycle.start_ms,
+            wakes_ms: u64::from(one.cycle.start_ms),
+            owed: vec![None; commands],
+            set: vec![None; commands],
+            starts: 0,
+        });
+    }
+    all
+}
+
+/// A serial part.
+pub(super) struct Port {
+    table: &'static MessageTable,
+    schema: &'static Schema,
+    stream: Box<MessageStream<[u8; 16_384]>>,
+    unit: u8,
+    cycle: Cycle,
+    /// The items that were told in this cycle.
+    told: Vec<usize>,
+    /// A silence that no message has in it, and how long the line has been silent.
+    pause_ms: u64,
+    idle_ms: u64,
+}
+
+impl Port {
+    /// As at the start of the board.
+    pub(super) fn anew(&self) -> Self {
+        let stream = Box::new(MessageStream::new(self.table, self.schema));
+        Self { stream, told: Vec::new(), idle_ms: 0, ..*self }
+    }
+
+    pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
+        if begins(since_ms, self.cycle) {
+            self.told.clear();
+        }
+        self.idle_ms += 1;
+        while let Some(byte) = bench.uart_in(self.unit, now_ns) {
+            self.idle_ms = 0;
+            let told = &mut self.told;
+            self.stream.feed(&[byte], &mut |item, outcome, value| {
+                // The first value of each kind in a cycle.
+                if !told.contains(&item) {
+                    if outcome == Outcome::Fresh {
+                        told.push(item);
+                    }
+                    core.tell(item, outcome, value);
+                }
+            });
+        }
+        if self.idle_ms == self.pause_ms {
+            self.stream.gap();
+        }
+    }
+}
+
+/// The serial parts of a board.
+pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
+    let mut all = Vec::new();
+    for one in job.connections(KindName::Uart) {
+        let (Kind::Uart(uart), Some(tables)) = (&one.connection.kind, job.tables_of(one)) else {
+            continue;
+        };
+        let Some(plan) = tables.message.as_ref() else { continue };
+        let of_part = job.devices.iter().enumerate().filter(|(_, of)| {
+            of.device.part == one.connection.part && of.device.direction == Direction::Sensor
+        });
+        let fields: Vec<MessageField> =
+            of_part.filter_map(|(index, of)| tables::field(index, of.device)).collect();
+        let table: &'static MessageTable = kept(tables::message(plan, uart, fields));
+        all.push(Port {
+            table,
+            schema,
+            stream: Box::new(MessageStream::new(table, schema)),
+            unit: one.unit.and_then(number_of).unwrap_or(0),
+            cycle: one.cycle,
+            told: Vec::new(),
+            pause_ms: 2 + 30_000 / u64::from(uart.baud.max(1)),
+            idle_ms: 0,
+        });
+    }
+    all
+}
+
+/// What is heard on a CAN bus.
+#[derive(Clone)]
+pub(super) struct Stations {
+    unit: u8,
+    heard: Vec<Heard>,
+}
+
+#[derive(Clone)]
+struct Heard {
+    frame_id: u32,
+    item: usize,
+    what: Item,
+    field: MessageField,
+    cycle: Cycle,
+    is_told: bool,
+}
+
+impl Stations {
+    pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
+        for heard in self.heard.iter_mut().filter(|one| begins(since_ms, one.cycle)) {
+            heard.is_told = false;
+        }
+        while let Some(frame) = bench.can_in(self.unit, now_ns) {
+            let data = frame.data.get(..usize::from(frame.length)).unwrap_or_default();
+            let takers = self.heard.iter_mut().filter(|one| one.frame_id == frame.id);
+            for heard in takers.filter(|one| !one.is_told) {
+                let mut value = vec![0; heard.what.bytes()];
+                if let Some(outcome) = heard.field.read(&heard.what, data, &mut value) {
+                    heard.is_told = true;
+                    core.tell(heard.item, outcome, &mut value);
+                }
+            }
+        }
+    }
+}
+
+/// The CAN buses of a board.
+pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
+    let mut all: Vec<Stations> = Vec::new();
+    let schema = tables::schema(job);
+    let devices = job.devices.iter().zip(schema.items).enumerate();
+    for (item, (one, what)) in devices {
+        let (Some(can), Direction::Sensor) = (one.device.kind.can(), one.device.direction) else {
+            continue;
+        };
+        let Some(field) = tables::field(item, one.device) else { continue };
+        let unit = one.unit.and_then(number_of).unwrap_or(0);
+        let field = MessageField { byte: can.byte.into(), ..field };
+        let heard = Heard {
+            frame_id: can.frame_id,
+            item,
+            what: *what,
+            field,
+            cycle: one.cycle,
+            is_told: false,
+        };
+        match all.iter_mut().find(|bus| bus.unit == unit) {
+            Some(bus) => bus.heard.push(heard),
+            None => all.push(Stations { unit, heard: vec![heard] }),
+        }
+    }
+    all
+}

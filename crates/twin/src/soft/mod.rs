@@ -1,0 +1,344 @@
+//! A board's job without its MCU: what generated firmware does, done here, in virtual time.
+//!
+//! It has the tables that the generator prints, and the runtime of firmware in Rust (`sense-rt`) works on them: chips
+//! are started, identified and read over their buses byte by byte, messages are taken apart, edges are measured, values
+//! filtered, reports put together. What stands in for hardware is here: converters, timers, ports and threads. So this
+//! proves wire, tables and coding of values, and nothing of registers, pads, interrupts, clocks, DMA or stacks.
+
+mod buses;
+mod sensors;
+mod tables;
+
+use std::collections::{BTreeMap, VecDeque};
+
+use sense_rt::{
+    BoardHealth, Cause, Channel, Filter, FilterTable, Health, Host, Outcome, Record, Reporter,
+    ReporterConfig, Schema, Store,
+};
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::KindName;
+use sensedsl_wire::Direction;
+
+use crate::bench::Bench;
+use buses::{Bus, Port, Stations};
+use sensors::{Captures, Contacts, Converter, Encoders};
+use tables::kept;
+
+const MS_NS: u64 = 1_000_000;
+/// How often the reporter looks, at most.
+const REPORT_MS: u32 = 10;
+/// Bytes that a link takes at once.
+const QUEUE_BYTES: usize = 16_384;
+/// What a link without a line speed carries in a millisecond: bulk transfers of full-speed USB.
+const USB_BYTES_A_MS: u64 = 1_000;
+
+type Values = Store<[u8; 16_384]>;
+type Records = Health<[Record; 256]>;
+type AnyFilter = Filter<[u8; 49_152]>;
+
+/// A board that does its job in this program.
+pub struct SoftBoard {
+    bench: Bench,
+    shape: Shape,
+    state: State,
+    now_ms: u64,
+    link: Link,
+    /// What the host has set, with the time in milliseconds.
+    received: Vec<(u64, usize, Vec<u8>)>,
+    starts: u32,
+}
+
+/// What stays the same when the board starts again.
+struct Shape {
+    schema: &'static Schema,
+    cycles_ms: &'static [u32],
+    filters: BTreeMap<usize, &'static FilterTable>,
+    config: ReporterConfig,
+    /// Bytes that the link carries in a millisecond, in thousandths.
+    link_speed: u64,
+    has_link: bool,
+    buses: Vec<Bus>,
+    ports: Vec<Port>,
+    stations: Vec<Stations>,
+    converters: Vec<Converter>,
+    captures: Vec<Captures>,
+    contacts: Vec<Contacts>,
+    encoders: Vec<Encoders>,
+}
+
+/// What a start begins anew.
+struct State {
+    core: Core,
+    reporter: Box<Reporter<[u8; 65_536]>>,
+    buses: Vec<Bus>,
+    ports: Vec<Port>,
+    stations: Vec<Stations>,
+    converters: Vec<Converter>,
+    captures: Vec<Captures>,
+    contacts: Vec<Contacts>,
+    encoders: Vec<Encoders>,
+    began_ms: u64,
+}
+
+/// Values and how the devices are.
+struct Core {
+    store: Box<Values>,
+    health: Box<Records>,
+    filters: BTreeMap<usize, Box<AnyFilter>>,
+    now_ms: u32,
+}
+
+impl Core {
+    fn tell(&mut self, index: usize, outcome: Outcome, value: &mut [u8]) {
+        let filter = self.filters.get_mut(&index).map(|filter| &mut ***filter);
+        self.store.tell(&mut self.health, filter, index, outcome, value, self.now_ms);
+    }
+}
+
+/// The bytes between board and host.
+#[derive(Default)]
+struct Link {
+    inbox: VecDeque<u8>,
+    queue: VecDeque<u8>,
+    sent: VecDeque<u8>,
+    /// Thousandths of a byte that the line may still carry.
+    credit: u64,
+}
+
+impl Channel for Link {
+    fn is_open(&mut self) -> bool {
+        true
+    }
+
+    fn read(&mut self, bytes: &mut [u8]) -> usize {
+        let count = bytes.len().min(self.inbox.len());
+        for (place, byte) in bytes.iter_mut().zip(self.inbox.drain(..count)) {
+            *place = byte;
+        }
+        count
+    }
+
+    fn room(&mut self) -> usize {
+        QUEUE_BYTES - self.queue.len().min(QUEUE_BYTES)
+    }
+
+    fn is_empty(&mut self) -> bool {
+        self.queue.is_empty()
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> bool {
+        self.queue.extend(bytes);
+        true
+    }
+}
+
+/// What the reporter sees of the board.
+struct Side<'a> {
+    core: &'a mut Core,
+    buses: &'a mut Vec<Bus>,
+    received: &'a mut Vec<(u64, usize, Vec<u8>)>,
+    now_ms: u64,
+    starts: u32,
+}
+
+impl Host for Side<'_> {
+    fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health)) {
+        task(&mut self.core.store, &mut self.core.health);
+    }
+
+    fn apply(&mut self, index: usize, value: &[u8]) {
+        self.core.store.put(index, value);
+        for bus in self.buses.iter_mut() {
+            bus.set(index, value);
+        }
+        self.received.push((self.now_ms, index, value.to_vec()));
+    }
+
+    fn describe(&mut self, board: &mut BoardHealth) {
+        board.reset_cause = if self.starts > 1 { Cause::Power } else { Cause::Unknown };
+    }
+}
+
+impl SoftBoard {
+    /// A board with its bench, before it has power.
+    #[must_use]
+    pub fn new(job: &BoardJob<'_>, bench: Bench) -> Self {
+        let shape = Shape::new(job);
+        let state = State::new(&shape, 0);
+        let (received, link) = (Vec::new(), Link::default());
+        Self { bench, shape, state, now_ms: 0, link, received, starts: 1 }
+    }
+
+    /// The virtual time.
+    #[must_use]
+    pub fn now_ns(&self) -> u64 {
+        self.now_ms * MS_NS
+    }
+
+    /// What is around the board.
+    #[must_use]
+    pub fn bench(&self) -> &Bench {
+        &self.bench
+    }
+
+    /// The host sends bytes.
+    pub fn link_write(&mut self, bytes: &[u8]) {
+        let room = QUEUE_BYTES.saturating_sub(self.link.inbox.len());
+        self.link.inbox.extend(bytes.iter().take(room));
+    }
+
+    /// What has arrived at the host since the last call.
+    pub fn link_read(&mut self) -> Vec<u8> {
+        self.link.sent.drain(..).collect()
+    }
+
+    /// What the host has set since the last call: milliseconds, the device's place in the schema, the value's bytes.
+    pub fn received(&mut self) -> Vec<(u64, usize, Vec<u8>)> {
+        std::mem::take(&mut self.received)
+    }
+
+    /// Goes on to a time.
+    pub fn run_until(&mut self, until_ns: u64) {
+        while self.now_ns() + MS_NS <= until_ns {
+            self.step();
+        }
+    }
+
+    /// One millisecond.
+    fn step(&mut self) {
+        self.now_ms += 1;
+        let now_ns = self.now_ns();
+        if self.bench.is_off(now_ns) {
+            self.state.began_ms = u64::MAX;
+            self.link.queue.clear();
+            self.link.inbox.clear();
+            return;
+        }
+        if self.state.began_ms == u64::MAX {
+            self.bench.power_up();
+            self.state = State::new(&self.shape, self.now_ms - 1);
+            self.starts += 1;
+        }
+        let since_ms = self.now_ms - self.state.began_ms - 1;
+        self.serve(since_ms, now_ns);
+        self.report(since_ms);
+        self.carry(now_ns);
+    }
+
+    /// All threads but the reporter.
+    fn serve(&mut self, since_ms: u64, now_ns: u64) {
+        let State {
+            core, buses, ports, stations, converters, captures, contacts, encoders, ..
+        } = &mut self.state;
+        core.now_ms = wrapped(since_ms);
+        let bench = &mut self.bench;
+        buses.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        ports.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        stations.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        converters.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        captures.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        contacts.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+        encoders.iter_mut().for_each(|one| one.step(core, bench, since_ms, now_ns));
+    }
+
+    fn report(&mut self, since_ms: u64) {
+        if !self.shape.has_link || !since_ms.is_multiple_of(u64::from(self.shape.config.cycle_ms)) {
+            return;
+        }
+        let (received, starts, now_ms) = (&mut self.received, self.starts, self.now_ms);
+        let State { core, buses, reporter, .. } = &mut self.state;
+        let mut side = Side { core, buses, received, now_ms, starts };
+        reporter.cycle(since_ms * 1_000, &mut self.link, &mut side);
+    }
+
+    /// What the line carries in a millisecond.
+    fn carry(&mut self, now_ns: u64) {
+        let link = &mut self.link;
+        link.credit =
+            (link.credit + self.shape.link_speed).min(2 * self.shape.link_speed.max(1_000));
+        while link.credit >= 1_000
+            && let Some(byte) = link.queue.pop_front()
+        {
+            link.credit -= 1_000;
+            link.sent.push_back(byte);
+        }
+        link.sent.extend(self.bench.garbage(now_ns));
+    }
+}
+
+impl Shape {
+    fn new(job: &BoardJob<'_>) -> Self {
+        let schema = kept(tables::schema(job));
+        let devices = job.devices.iter();
+        let cycles_ms: Vec<u32> = devices
+            .map(|one| {
+                let is_event = one.device.kind.name() == KindName::Icu
+                    || one.device.direction == Direction::Actuator;
+                if is_event { 0 } else { one.cycle.delay_ms }
+            })
+            .collect();
+        let filters = job.devices.iter().enumerate();
+        let filters =
+            filters.filter_map(|(index, one)| Some((index, kept(tables::filter(one.device)?))));
+        let link = &job.board.link;
+        let fastest = cycles_ms.iter().copied().filter(|cycle| *cycle > 0).min();
+        let usual = REPORT_MS.min(fastest.unwrap_or(REPORT_MS));
+        let cycle_ms = link.rate_hz.map_or(usual, |rate| 1_000 / rate.max(1)).max(1);
+        let speed = u64::from(link.baud) / 10;
+        Self {
+            schema,
+            filters: filters.collect(),
+            config: ReporterConfig { schema, cycle_ms, silence_ms: link.silence_ms.unwrap_or(0) },
+            link_speed: match link.transport {
+                Transport::Uart => speed.max(1),
+                Transport::Usb | Transport::None => USB_BYTES_A_MS * 1_000,
+            },
+            has_link: link.transport != Transport::None,
+            buses: buses::buses(job, schema),
+            ports: buses::ports(job, schema),
+            stations: buses::stations(job),
+            converters: sensors::converters(job),
+            captures: sensors::captures(job),
+            contacts: sensors::contacts(job),
+            encoders: sensors::encoders(job),
+            cycles_ms: cycles_ms.leak(),
+        }
+    }
+}
+
+impl State {
+    fn new(shape: &Shape, now_ms: u64) -> Self {
+        let filters = shape.filters.iter();
+        let filters = filters.map(|(index, table)| (*index, Box::new(Filter::new(table))));
+        Self {
+            core: Core {
+                store: Box::new(Store::new(shape.schema)),
+                health: Box::new(Health::new(shape.cycles_ms)),
+                filters: filters.collect(),
+                now_ms: 0,
+            },
+            reporter: Box::new(Reporter::new(shape.config)),
+            buses: shape.buses.iter().map(Bus::anew).collect(),
+            ports: shape.ports.iter().map(Port::anew).collect(),
+            stations: shape.stations.clone(),
+            converters: shape.converters.clone(),
+            captures: shape.captures.clone(),
+            contacts: shape.contacts.clone(),
+            encoders: shape.encoders.clone(),
+            began_ms: now_ms,
+        }
+    }
+}
+
+/// Milliseconds as the runtime counts them.
+fn wrapped(ms: u64) -> u32 {
+    u32::try_from(ms & u64::from(u32::MAX)).unwrap_or(0)
+}
+
+/// Whether a cycle begins in this millisecond.
+const fn begins(since_ms: u64, cycle: sensedsl_codegen::job::Cycle) -> bool {
+    let start = cycle.start_ms as u64;
+    let delay = if cycle.delay_ms == 0 { 1 } else { cycle.delay_ms as u64 };
+    since_ms >= start && (since_ms - start).is_multiple_of(delay)
+}

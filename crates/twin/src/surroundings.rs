@@ -1,0 +1,184 @@
+//! What the pads and buses of an MCU are connected to.
+//!
+//! The machine asks, the world answers. All times are virtual nanoseconds since the board got power, and they never go
+//! backwards from one call to the next, with one exception that is said: [`Surroundings::next_edge`] asks about the
+//! future.
+
+use std::fmt;
+
+/// A pad of the MCU: port `0` is A, and pins count from 0 to 15.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Pad {
+    /// 0 for port A, 1 for port B, and so on.
+    pub port: u8,
+    /// 0 to 15.
+    pub pin: u8,
+}
+
+impl Pad {
+    /// The pad that is called `name`, as in `PA5`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let mut letters = name.strip_prefix('P')?.chars();
+        let port = letters.next().filter(char::is_ascii_uppercase)?;
+        let digits = letters.as_str();
+        let pin: u8 = digits.parse().ok().filter(|pin| *pin < 16 && !digits.starts_with('+'))?;
+        let port = u8::try_from(u32::from(port) - u32::from('A')).ok()?;
+        Some(Self { port, pin })
+    }
+}
+
+impl fmt::Display for Pad {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "P{}{}", char::from(b'A'.saturating_add(self.port)), self.pin)
+    }
+}
+
+/// What the MCU does on an I2C bus as its master.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum I2cEvent {
+    /// A start, or a repeated one, and the address of 7 bits.
+    Start {
+        /// Without the bit for the direction.
+        address: u8,
+        /// Whether the master reads.
+        read: bool,
+    },
+    /// The master sends a byte.
+    Write(u8),
+    /// The master takes a byte.
+    Read {
+        /// Whether it acknowledges the byte, and so wants another one.
+        ack: bool,
+    },
+    /// The bus is released.
+    Stop,
+}
+
+/// What the bus answers to an [`I2cEvent`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum I2cReply {
+    /// Somebody pulled SDA low: the address or the byte was taken. After [`I2cEvent::Stop`]: the bus is free.
+    Ack,
+    /// Nobody did.
+    Nack,
+    /// What the master read.
+    Byte(u8),
+    /// Somebody holds SDA low. The bus stays busy until the master has clocked it free by hand.
+    Stuck,
+    /// Somebody holds SCL low: nothing more happens on the bus, until [`Surroundings::level`] says that SCL is high.
+    Silent,
+}
+
+/// A frame of a CAN bus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CanFrame {
+    /// 11 bits, or 29 where `extended` is set.
+    pub id: u32,
+    /// Whether the identifier has 29 bits.
+    pub extended: bool,
+    /// A request for a frame, which has no data.
+    pub remote: bool,
+    /// How many bytes of `data` count, 8 at most.
+    pub length: u8,
+    /// What is sent.
+    pub data: [u8; 8],
+}
+
+/// What the MCU's pads and buses are connected to. Times are virtual nanoseconds since the board got power.
+///
+/// Units are numbered as the MCU's manual does it: `1` is I2C1, USART1, SPI1, TIM1, CAN1; channels of a timer and of
+/// the DAC start at 1. A method that nothing is connected to has a body that says so, so that a test's world names only
+/// what it is about.
+pub trait Surroundings: Send {
+    /// What a converter samples at a pad.
+    fn millivolts(&mut self, pad: Pad, now_ns: u64) -> f64 {
+        let _ = (pad, now_ns);
+        0.0
+    }
+
+    /// The level that somebody outside drives; `None`: nobody drives it, and the pull decides. A source of a voltage
+    /// drives its pad, too, and a resistor that pulls a bus up drives its wires high: firmware looks for loose wires.
+    fn level(&mut self, pad: Pad, now_ns: u64) -> Option<bool> {
+        let _ = (pad, now_ns);
+        None
+    }
+
+    /// The first change of [`Surroundings::level`] after a time, and the level from then on. Captures, encoders and
+    /// external interrupts live on it. A world that changes its mind (because the MCU drove a pad, say) does so before
+    /// the time that it gave, and the machine asks again after each [`Surroundings::driven`].
+    fn next_edge(&mut self, pad: Pad, after_ns: u64) -> Option<(u64, bool)> {
+        let _ = (pad, after_ns);
+        None
+    }
+
+    /// An output of the MCU changed: triggers, chip selects, LEDs. `None`: the MCU does not drive the pad any more.
+    fn driven(&mut self, pad: Pad, level: Option<bool>, now_ns: u64) {
+        let _ = (pad, level, now_ns);
+    }
+
+    /// The MCU is the master of an I2C bus.
+    fn i2c(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
+        let _ = (unit, now_ns);
+        match event {
+            I2cEvent::Start { .. } | I2cEvent::Write(_) => I2cReply::Nack,
+            I2cEvent::Read { .. } => I2cReply::Byte(0xFF),
+            I2cEvent::Stop => I2cReply::Ack,
+        }
+    }
+
+    /// The MCU shifts a byte out of an SPI port, and another one in. Whom it is for say the chip selects.
+    fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
+        let _ = (unit, out, now_ns);
+        0xFF
+    }
+
+    /// A byte that has arrived at a serial port, if there is one. Asked as often as the port can take one, about once a
+    /// byte's time.
+    fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
+        let _ = (unit, now_ns);
+        None
+    }
+
+    /// A byte has left a serial port.
+    fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
+        let _ = (unit, byte, now_ns);
+    }
+
+    /// A frame that has arrived on a CAN bus, if there is one.
+    fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
+        let _ = (unit, now_ns);
+        None
+    }
+
+    /// A frame has left on a CAN bus.
+    fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
+        let _ = (unit, frame, now_ns);
+    }
+
+    /// A channel of a timer has another waveform than before. A width of 0 is off.
+    fn pwm(&mut self, timer: u8, channel: u8, period_ns: u64, width_ns: u64, now_ns: u64) {
+        let _ = (timer, channel, period_ns, width_ns, now_ns);
+    }
+
+    /// An output of the DAC has another voltage than before.
+    fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
+        let _ = (channel, millivolts, now_ns);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Pad;
+
+    #[test]
+    fn pads_have_names() {
+        let pad = Pad { port: 4, pin: 15 };
+        assert_eq!(pad.to_string(), "PE15");
+        assert_eq!(Pad::named("PE15"), Some(pad));
+        assert_eq!(Pad::named("PA0"), Some(Pad { port: 0, pin: 0 }));
+        for wrong in ["", "P", "PA", "PA16", "pa1", "A1", "P1", "PAA1", "PA+1"] {
+            assert_eq!(Pad::named(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! What a device ought to report: from the world's value in the device's own unit back to the number on the wire.
+//!
+//! A host shows `curve(scale * raw + offset)`. Here the same way is gone backwards, so that the world can be written in
+//! degrees and centimetres, and the parts get what the hardware would have measured.
+
+use sensedsl_model::design::{Device, DeviceIndex, Presentation};
+use sensedsl_wire::{Scalar, ScalarType};
+
+use crate::arith::{rounded, signed_number};
+use crate::world::Signal;
+
+/// How raw numbers are shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    factor: f64,
+    offset: f64,
+    curve: Vec<(f64, f64)>,
+}
+
+impl Scale {
+    /// The one of a device.
+    #[must_use]
+    pub fn of(shown: &Presentation) -> Self {
+        let factor = shown.scale.filter(|factor| *factor != 0.0).unwrap_or(1.0);
+        let mut curve = shown.curve.clone();
+        curve.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Self { factor, offset: shown.offset.unwrap_or(0.0), curve }
+    }
+
+    /// What a host shows of a raw number.
+    #[must_use]
+    pub fn shown(&self, raw: f64) -> f64 {
+        let linear = self.factor * raw + self.offset;
+        interpolated(&self.curve, linear).unwrap_or(linear)
+    }
+
+    /// The raw number that is shown as this one. Beyond the ends of a curve it is that of the nearer end.
+    #[must_use]
+    pub fn raw(&self, shown: f64) -> f64 {
+        let linear = self.before_curve(shown);
+        (linear - self.offset) / self.factor
+    }
+
+    /// Finds the place on the curve by halving the piece that the value is on.
+    fn before_curve(&self, shown: f64) -> f64 {
+        let (Some(first), Some(last)) = (self.curve.first(), self.curve.last()) else {
+            return shown;
+        };
+        let pieces = self.curve.windows(2).filter_map(|pair| match pair {
+            [one, next] => Some((*one, *next)),
+            _ => None,
+        });
+        for (one, next) in pieces {
+            let (least, greatest) = (one.1.min(next.1), one.1.max(next.1));
+            if shown >= least && shown <= greatest {
+                return halved(one.0, next.0, |at| {
+                    let value = interpolated(&[one, next], at).unwrap_or(at);
+                    if next.1 >= one.1 { value < shown } else { value > shown }
+                });
+            }
+        }
+        if (shown - first.1).abs() <= (shown - last.1).abs() { first.0 } else { last.0 }
+    }
+
+    /// By how much the raw number has to change for the shown one to change by one, at most.
+    #[must_use]
+    pub fn shown_step(&self, raw: f64) -> f64 {
+        let (above, below) = (self.shown(raw + 1.0), self.shown(raw - 1.0));
+        (above - below).abs() / 2.0
+    }
+}
+
+/// The least place between two ends from which on the condition does not hold any more, to the precision of a double.
+pub(crate) fn halved(mut from: f64, mut to: f64, is_before: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..64 {
+        let middle = from + (to - from) / 2.0;
+        if is_before(middle) {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    to
+}
+
+fn interpolated(curve: &[(f64, f64)], at: f64) -> Option<f64> {
+    let (first, last) = (curve.first()?, curve.last()?);
+    if at <= first.0 {
+        return Some(first.1);
+    }
+    let next = curve.partition_point(|point| point.0 <= at);
+    let (Some(before), Some(after)) = (curve.get(next.checked_sub(1)?), curve.get(next)) else {
+        return Some(last.1);
+    };
+    let width = after.0 - before.0;
+    let share = if width == 0.0 { 0.0 } else { (at - before.0) / width };
+    Some(before.1 + (after.1 - before.1) * share)
+}
+
+/// A device and what happens to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subject {
+    /// Which device of the design.
+    pub device: DeviceIndex,
+    /// Its name.
+    pub name: String,
+    /// Its identifier on the link.
+    pub id: u8,
+    /// What an element is.
+    pub scalar: ScalarType,
+    /// How it is shown.
+    pub scale: Scale,
+    /// What each of its elements does.
+    pub signals: Vec<Signal>,
+}
+
+impl Subject {
+    /// A device with what happens to it.
+    #[must_use]
+    pub fn new(index: DeviceIndex, device: &Device, signals: Vec<Signal>) -> Self {
+        Self {
+            device: index,
+            name: device.name.value.clone(),
+            id: device.id.value,
+            scalar: device.value.value.scalar,
+            scale: Scale::of(&device.shown),
+            signals,
+        }
+    }
+
+    /// The world's value of an element, in the device's own unit.
+    #[must_use]
+    pub fn shown(&self, element: usize, now_ns: u64) -> f64 {
+        self.signals.get(element).map_or(0.0, |signal| signal.at(now_ns))
+    }
+
+    /// The raw number of an element, before it is rounded.
+    #[must_use]
+    pub fn raw(&self, element: usize, now_ns: u64) -> f64 {
+        self.scale.raw(self.shown(element, now_ns))
+    }
+
+    /// The same as a whole number.
+    #[must_use]
+    pub fn whole(&self, element: usize, now_ns: u64) -> i64 {
+        rounded(self.raw(element, now_ns))
+    }
+}
+
+/// A number in the type that carries it; what does not fit is the nearest that does.
+#[must_use]
+pub fn scalar(of: ScalarType, raw: f64) -> Scalar {
+    #[expect(clippy::cast_possible_truncation, reason = "the type has no more digits")]
+    match of {
+        ScalarType::Float32 => Scalar::Float32(raw as f32),
+        ScalarType::Float64 => Scalar::Float64(raw),
+        ScalarType::Bool => Scalar::Bool(rounded(raw) != 0),
+        ScalarType::Uint8 | ScalarType::Uint16 | ScalarType::Uint32 | ScalarType::Uint64 => {
+            Scalar::Unsigned(u64::try_from(within(of, raw)).unwrap_or(0))
+        }
+        ScalarType::Int8 | ScalarType::Int16 | ScalarType::Int32 | ScalarType::Int64 => {
+            Scalar::Signed(within(of, raw))
+        }
+    }
+}
+
+fn within(of: ScalarType, raw: f64) -> i64 {
+    let (least, greatest) = of.integer_range().unwrap_or((0, 0));
+    let number = i128::from(rounded(raw)).clamp(least, greatest);
+    i64::try_from(number).unwrap_or(i64::MAX)
+}
+
+/// A scalar as a real number.
+#[must_use]
+pub fn real(scalar: Scalar) -> f64 {
+    match scalar {
+        Scalar::Bool(flag) => f64::from(u8::from(flag)),
+        Scalar::Unsigned(number) => crate::arith::number(number),
+        Scalar::Signed(number) => signed_number(number),
+        Scalar::Float32(number) => f64::from(number),
+        Scalar::Float64(number) => number,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scale(factor: f64, offset: f64, curve: &[(f64, f64)]) -> Scale {
+        let curve = curve.to_vec();
+        Scale::of(&Presentation {
+            scale: Some(factor),
+            offset: Some(offset),
+            curve,
+            ..Presentation::default()
+        })
+    }
+
+    #[test]
+    fn what_is_shown_of_a_raw_number_leads_back_to_it() {
+        let falling = [(0.4, 80.0), (1.3, 20.0), (2.8, 4.0)];
+        let rising = [(0.0, -10.0), (1.0, 0.0), (3.3, 95.0)];
+        for scale in [
+            scale(1.0, 0.0, &[]),
+            scale(-0.25, 40.0, &[]),
+            scale(3.3 / 4095.0, 0.0, &falling),
+            scale(3.3 / 4095.0, 0.0, &rising),
+        ] {
+            for raw in (500..3400).step_by(37) {
+                let raw = f64::from(raw);
+                let back = scale.raw(scale.shown(raw));
+                assert!((back - raw).abs() < 1e-6, "{scale:?} {raw} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_beyond_a_curve_is_at_its_end() {
+        let scale = scale(1.0, 0.0, &[(0.4, 80.0), (1.3, 20.0)]);
+        assert!((scale.raw(90.0) - 0.4).abs() < 1e-9);
+        assert!((scale.raw(-5.0) - 1.3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_the_nearest_that_does() {
+        assert_eq!(scalar(ScalarType::Uint8, 300.0), Scalar::Unsigned(255));
+        assert_eq!(scalar(ScalarType::Uint8, -3.0), Scalar::Unsigned(0));
+        assert_eq!(scalar(ScalarType::Int16, -1e9), Scalar::Signed(-32768));
+        assert_eq!(scalar(ScalarType::Bool, 0.7), Scalar::Bool(true));
+    }
+}

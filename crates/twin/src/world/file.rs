@@ -1,0 +1,326 @@
+//! From the text of a world to its signals and faults. Everything that is wrong is said with its place.
+
+use sensedsl_diagnostics::codes::{
+    e0540_world_unreadable as unreadable, e0541_world_unknown as unknown,
+    e0542_world_value as value, e0543_world_time as time, e0544_world_fault as fault_code,
+};
+use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_model::design::{Design, Device, DeviceIndex, Transport};
+use sensedsl_wire::Direction;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::entry::{Entry, duration};
+use super::fault::{Fault, FaultKind};
+use super::{Shape, Signal, World};
+use crate::arith::scrambled;
+use crate::range::{is_counter, shown_range};
+use crate::truth::Scale;
+
+/// How long the board has no supply where a fault does not say it.
+const RESET_NS: u64 = 100_000_000;
+/// How long garbage arrives.
+const GARBAGE_NS: u64 = 20_000_000;
+
+/// What a world is read for.
+pub struct Scene<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// The devices of the board that is simulated.
+    pub devices: &'a [DeviceIndex],
+    /// How the board talks to its host.
+    pub transport: Transport,
+    /// What chance begins with where the text says nothing, or instead of what it says.
+    pub seed: Option<u64>,
+    /// The text of a file beside the world, or why it was not read.
+    pub samples: &'a dyn Fn(&str) -> Result<String, String>,
+}
+
+/// Reads a world.
+#[must_use]
+pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnostic>) {
+    let mut reader = Reader { file, scene, said: Vec::new(), world: World::default() };
+    match DeTable::parse(text) {
+        Ok(table) => reader.read(table.get_ref()),
+        Err(error) => {
+            let range = error.span().unwrap_or(0..0);
+            let span = Span::new(file, range.start.min(text.len())..range.end.min(text.len()));
+            reader.said.push(unreadable::not_toml(span, error.message()));
+        }
+    }
+    reader.world.faults.sort_by_key(|one| one.at_ns);
+    (reader.world, reader.said)
+}
+
+/// Reading one text.
+struct Reader<'a> {
+    file: FileId,
+    scene: &'a Scene<'a>,
+    said: Vec<Diagnostic>,
+    world: World,
+}
+
+type Table<'i> = DeTable<'i>;
+
+impl<'a> Reader<'a> {
+    fn span<T>(&self, of: &Spanned<T>) -> Span {
+        Span::new(self.file, of.span())
+    }
+
+    fn read(&mut self, table: &Table<'_>) {
+        if let Some(seed) = table.get("seed") {
+            match whole(seed.get_ref()) {
+                Some(seed) => self.world.seed = Some(seed),
+                None => {
+                    let wanted = "a whole number from 0 on";
+                    let said =
+                        unreadable::wrong_sort(self.span(seed), "`seed`", wanted, "seed = 7");
+                    self.said.push(said);
+                }
+            }
+        }
+        for (key, value) in table {
+            match key.get_ref().as_ref() {
+                "seed" => {}
+                "devices" => self.devices(value),
+                "fault" => self.faults(value),
+                other => {
+                    let all = ["seed", "devices", "fault"];
+                    let near = nearest(other, all);
+                    let span = self.span(key);
+                    let list = "`seed`, `[devices]` and `[[fault]]`";
+                    self.said.push(unknown::unknown_word(span, other, "a world", near, list));
+                }
+            }
+        }
+    }
+
+    fn devices(&mut self, value: &Spanned<DeValue<'_>>) {
+        let Some(table) = value.get_ref().as_table() else {
+            let example = "[devices]";
+            let said = unreadable::wrong_sort(self.span(value), "`devices`", "a table", example);
+            self.said.push(said);
+            return;
+        };
+        for (name, value) in table {
+            let span = self.span(name);
+            if let Some((index, device)) = self.sensor(span, name.get_ref()) {
+                let signals = self.signals(index, device, value);
+                self.world.signals.extend(signals.map(|signals| (index, signals)));
+            }
+        }
+    }
+
+    /// The sensor of that name on the board.
+    fn sensor(&mut self, span: Span, name: &str) -> Option<(DeviceIndex, &'a Device)> {
+        let scene: &'a Scene<'a> = self.scene;
+        let design = scene.design;
+        let all = (0..).map(DeviceIndex).zip(&design.devices);
+        let Some((index, device)) = all.into_iter().find(|(_, one)| one.name.value == name) else {
+            let here = scene.devices.iter().filter_map(|index| design.device(*index));
+            let sensors = here.filter(|one| one.direction == Direction::Sensor);
+            let names: Vec<&str> = sensors.map(|one| one.name.value.as_str()).collect();
+            let list: Vec<String> = names.iter().take(12).map(|name| format!("`{name}`")).collect();
+            let near = nearest(name, names.iter().copied());
+            self.said.push(unknown::unknown_device(span, name, near, &list.join(", ")));
+            return None;
+        };
+        let why = if !scene.devices.contains(&index) {
+            "is not on the simulated board"
+        } else if device.direction == Direction::Actuator {
+            "is an actuator: the host sets it"
+        } else {
+            return Some((index, device));
+        };
+        self.said.push(unknown::not_simulated(span, name, why));
+        None
+    }
+
+    /// What each element of a sensor does.
+    fn signals(
+        &mut self,
+        index: DeviceIndex,
+        device: &Device,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<Vec<Signal>> {
+        let (count, name) = (device.value.value.count(), device.name.value.clone());
+        let entries: Vec<&Spanned<DeValue<'_>>> = match value.get_ref().as_array() {
+            None => vec![value],
+            Some(list) if list.len() == count => list.iter().collect(),
+            Some(list) => {
+                let span = self.span(value);
+                self.said.push(value::wrong_count(span, &name, list.len(), count));
+                return None;
+            }
+        };
+        let mut signals = Vec::new();
+        for entry in entries {
+            let span = self.span(entry);
+            let read = Entry { file: self.file, samples: self.scene.samples, name: &name };
+            match read.signal(entry) {
+                Ok(mut signal) => {
+                    turns(device, &mut signal);
+                    self.said.extend(impossible(device, &signal, span));
+                    signals.push(signal);
+                }
+                Err(said) => {
+                    self.said.push(*said);
+                    return None;
+                }
+            }
+        }
+        if let [one] = signals.as_slice() {
+            signals = vec![one.clone(); count];
+        }
+        let seed = self.scene.seed.or(self.world.seed).unwrap_or(0);
+        for (element, signal) in (0..).zip(&mut signals) {
+            signal.key = key(seed, index, element);
+        }
+        Some(signals)
+    }
+
+    fn faults(&mut self, value: &Spanned<DeValue<'_>>) {
+        let Some(list) = value.get_ref().as_array() else {
+            let wanted = "a block of its own";
+            let said = unreadable::wrong_sort(self.span(value), "`fault`", wanted, "[[fault]]");
+            self.said.push(said);
+            return;
+        };
+        for one in list {
+            match self.fault(one) {
+                Ok(fault) => self.world.faults.extend(fault),
+                Err(said) => self.said.push(*said),
+            }
+        }
+    }
+
+    fn fault(&mut self, value: &Spanned<DeValue<'_>>) -> Result<Option<Fault>, Box<Diagnostic>> {
+        let span = self.span(value);
+        let Some(table) = value.get_ref().as_table() else {
+            return Err(unreadable::wrong_sort(span, "a fault", "a table", "[[fault]]").into());
+        };
+        for key in table.keys() {
+            let (all, word) = (["kind", "device", "at", "for"], key.get_ref().as_ref());
+            if !all.contains(&word) {
+                let list = "`kind`, `device`, `at` and `for`";
+                let (at, near) = (self.span(key), nearest(word, all));
+                return Err(unknown::unknown_word(at, word, "a fault", near, list).into());
+            }
+        }
+        let missing = |needs, example| unreadable::missing(span, "a fault", needs, example);
+        let word = table.get("kind").ok_or_else(|| missing("kind", "kind = \"no_answer\""))?;
+        let kind = self.fault_kind(word)?;
+        let at = table.get("at").ok_or_else(|| missing("at", "at = \"3 s\""))?;
+        let at_ns = duration(self.file, at)?;
+        let lasts_ns = match table.get("for") {
+            Some(lasts) => duration(self.file, lasts)?,
+            None if kind == FaultKind::Reset => RESET_NS,
+            None if kind == FaultKind::Garbage => GARBAGE_NS,
+            None => return Err(missing("for", "for = \"500 ms\"").into()),
+        };
+        let fault = Fault { kind, device: None, at_ns, until_ns: at_ns.saturating_add(lasts_ns) };
+        let (spanned, device) = match table.get("device") {
+            None if kind.is_of_board() => {
+                if kind == FaultKind::Garbage && self.scene.transport == Transport::None {
+                    return Err(fault_code::no_link(span, kind.name()).into());
+                }
+                return Ok(Some(fault));
+            }
+            None => return Err(missing("device", "device = \"USRear\"").into()),
+            Some(device) if kind.is_of_board() => {
+                return Err(fault_code::no_device(self.span(device), kind.name()).into());
+            }
+            Some(device) => (self.span(device), device.get_ref().as_str().unwrap_or_default()),
+        };
+        let Some((index, device)) = self.sensor(spanned, device) else { return Ok(None) };
+        let on = device.kind.name();
+        if kind.fits(on) {
+            return Ok(Some(Fault { device: Some(index), ..fault }));
+        }
+        let name = &device.name.value;
+        let why = fault_code::no_such_wire(spanned, kind.name(), name, on.name(), kind.needs());
+        Err(why.into())
+    }
+
+    fn fault_kind(&self, word: &Spanned<DeValue<'_>>) -> Result<FaultKind, Box<Diagnostic>> {
+        let (span, text) = (self.span(word), word.get_ref().as_str().unwrap_or_default());
+        let known = FaultKind::ALL.into_iter().find(|kind| kind.name() == text);
+        known.ok_or_else(|| {
+            let all = FaultKind::ALL.map(FaultKind::name);
+            unknown::unknown_word(span, text, "a fault", nearest(text, all), &all.join(", ")).into()
+        })
+    }
+}
+
+/// What chance begins with for one quantity.
+pub(crate) fn key(seed: u64, device: DeviceIndex, element: u64) -> u64 {
+    let device = u64::try_from(device.0).unwrap_or(u64::MAX);
+    scrambled(scrambled(seed ^ scrambled(device)) ^ element)
+}
+
+/// What counts edges goes from point to point and does not jump: nothing turns so fast.
+fn turns(device: &Device, signal: &mut Signal) {
+    if let Shape::Points { is_straight, .. } = &mut signal.shape {
+        *is_straight |= is_turning(device);
+    }
+}
+
+fn is_turning(device: &Device) -> bool {
+    device.kind.encoder().is_some() || is_counter(&device.kind, device)
+}
+
+/// Why a device cannot do what a signal wants.
+fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
+    let name = &device.name.value;
+    if is_counter(&device.kind, device) && signal.falls() {
+        return Some(value::falls(span, name));
+    }
+    if is_turning(device) && matches!(signal.shape, Shape::Square { .. }) {
+        return Some(value::jumps(span, name));
+    }
+    let (least, greatest) = signal.bounds()?;
+    let plain = Signal { noise: 0.0, ..signal.clone() };
+    let (least, greatest) = plain.bounds().unwrap_or((least, greatest));
+    let (low, high) = shown_range(device)?;
+    let scale = Scale::of(&device.shown);
+    let slack = scale.shown_step(scale.raw(low)).max(scale.shown_step(scale.raw(high))) / 2.0
+        + (high - low).abs() * 1e-9;
+    let wrong =
+        [least, greatest].into_iter().find(|one| *one < low - slack || *one > high + slack)?;
+    let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+    let range = format!("{} to {}{unit}", short(low), short(high));
+    Some(value::out_of_range(span, name, &short(wrong), &range))
+}
+
+/// A number for people: six digits that count.
+fn short(number: f64) -> String {
+    let text = format!("{number:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text.is_empty() || text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A whole number from 0 on.
+fn whole(value: &DeValue<'_>) -> Option<u64> {
+    let integer = value.as_integer()?;
+    u64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}
+
+/// The time and value of points, which must go forwards.
+pub(super) fn forwards(
+    span: Span,
+    times: impl IntoIterator<Item = u64>,
+) -> Result<(), Box<Diagnostic>> {
+    let mut before: Option<u64> = None;
+    for at in times {
+        if let Some(before) = before.filter(|before| at <= *before) {
+            return Err(time::backwards(span, &seconds(at), &seconds(before)).into());
+        }
+        before = Some(at);
+    }
+    Ok(())
+}
+
+/// A time for people.
+fn seconds(at_ns: u64) -> String {
+    format!("{} s", short(crate::arith::number(at_ns) / 1e9))
+}

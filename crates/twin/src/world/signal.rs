@@ -1,0 +1,281 @@
+//! What a quantity of the world does over time: a value at each moment, and between which values it was in a span.
+
+use crate::arith::{TURN, chance, number, sine};
+
+/// The time for which noise keeps its value: shorter than any cycle of a device.
+const NOISE_NS: u64 = 1_000_000;
+/// Nanoseconds of a second.
+const SECOND_NS: f64 = 1e9;
+
+/// A quantity over time, in the device's own unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    /// What it does.
+    pub shape: Shape,
+    /// How far chance moves it up or down.
+    pub noise: f64,
+    /// Which chance: different for each quantity and seed.
+    pub key: u64,
+}
+
+/// What a quantity does without noise.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// It stays what it is.
+    Constant(f64),
+    /// It goes from one value to another, and stays there.
+    Ramp {
+        /// At the start.
+        from: f64,
+        /// At the end.
+        to: f64,
+        /// How long that takes.
+        over_ns: u64,
+    },
+    /// It swings.
+    Sine {
+        /// Around this.
+        offset: f64,
+        /// By so much to either side.
+        amplitude: f64,
+        /// Of one swing.
+        period_ns: u64,
+    },
+    /// It is one value for half of a period, and the other for the other half.
+    Square {
+        /// At the start.
+        first: f64,
+        /// After half of a period.
+        second: f64,
+        /// Of both.
+        period_ns: u64,
+    },
+    /// It grows by the same in each second.
+    Rate {
+        /// At the start.
+        from: f64,
+        /// In a second.
+        a_second: f64,
+    },
+    /// Points in the order of time: the first value before the first one, the last after the last one.
+    Points {
+        /// Time and value.
+        points: Vec<(u64, f64)>,
+        /// Whether it goes straight from one to the next, and does not jump.
+        is_straight: bool,
+    },
+}
+
+impl Signal {
+    /// Without noise.
+    #[must_use]
+    pub const fn of(shape: Shape) -> Self {
+        Self { shape, noise: 0.0, key: 0 }
+    }
+
+    /// The value at a moment.
+    #[must_use]
+    pub fn at(&self, now_ns: u64) -> f64 {
+        let value = self.shape.at(now_ns);
+        if self.noise == 0.0 {
+            return value;
+        }
+        value + self.noise * chance(self.key ^ (now_ns / NOISE_NS))
+    }
+
+    /// The least and the greatest value in a span of time, both ends included.
+    #[must_use]
+    pub fn range(&self, from_ns: u64, to_ns: u64) -> (f64, f64) {
+        let (least, greatest) = self.shape.range(from_ns, to_ns.max(from_ns));
+        (least - self.noise.abs(), greatest + self.noise.abs())
+    }
+
+    /// The least and the greatest value that it ever has; none where it has no bounds.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(f64, f64)> {
+        match &self.shape {
+            Shape::Rate { a_second, .. } if *a_second != 0.0 => None,
+            Shape::Constant(_)
+            | Shape::Ramp { .. }
+            | Shape::Sine { .. }
+            | Shape::Square { .. }
+            | Shape::Rate { .. }
+            | Shape::Points { .. } => Some(self.range(0, u64::MAX)),
+        }
+    }
+
+    /// Whether it ever becomes less.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        match &self.shape {
+            Shape::Constant(_) => false,
+            Shape::Ramp { from, to, .. } => to < from,
+            Shape::Rate { a_second, .. } => *a_second < 0.0,
+            Shape::Sine { amplitude, .. } => *amplitude != 0.0,
+            Shape::Square { first, second, .. } => first != second,
+            Shape::Points { points, .. } => !points.is_sorted_by(|one, next| one.1 <= next.1),
+        }
+    }
+}
+
+impl Shape {
+    fn at(&self, now_ns: u64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Ramp { from, to, over_ns } => {
+                let share = number(now_ns.min(*over_ns)) / number((*over_ns).max(1));
+                from + (to - from) * share
+            }
+            Self::Sine { offset, amplitude, period_ns } => {
+                offset + amplitude * sine(phase(now_ns, *period_ns))
+            }
+            Self::Square { first, second, period_ns } => {
+                if phase(now_ns, *period_ns) < TURN / 2 {
+                    *first
+                } else {
+                    *second
+                }
+            }
+            Self::Rate { from, a_second } => from + a_second * (number(now_ns) / SECOND_NS),
+            Self::Points { points, is_straight } => at_points(points, *is_straight, now_ns),
+        }
+    }
+
+    fn range(&self, from_ns: u64, to_ns: u64) -> (f64, f64) {
+        let mut range = ordered(self.at(from_ns), self.at(to_ns));
+        let mut take = |value: f64| range = (range.0.min(value), range.1.max(value));
+        match self {
+            Self::Constant(_) | Self::Ramp { .. } | Self::Rate { .. } => {}
+            Self::Sine { offset, amplitude, period_ns } => {
+                let quarter = TURN / 4;
+                if passes(from_ns, to_ns, *period_ns, quarter) {
+                    take(offset + amplitude);
+                }
+                if passes(from_ns, to_ns, *period_ns, 3 * quarter) {
+                    take(offset - amplitude);
+                }
+            }
+            Self::Square { first, second, period_ns } => {
+                if passes(from_ns, to_ns, *period_ns, 0) {
+                    take(*first);
+                }
+                if passes(from_ns, to_ns, *period_ns, TURN / 2) {
+                    take(*second);
+                }
+            }
+            Self::Points { points, .. } => {
+                let start = points.partition_point(|point| point.0 < from_ns);
+                let end = points.partition_point(|point| point.0 <= to_ns);
+                points.get(start..end).unwrap_or_default().iter().for_each(|one| take(one.1));
+                // What jumps at a point had the value of the point before until then.
+                let before = start.checked_sub(1).and_then(|before| points.get(before));
+                before.into_iter().for_each(|one| {
+                    if matches!(self, Self::Points { is_straight: false, .. }) {
+                        take(one.1);
+                    }
+                });
+            }
+        }
+        range
+    }
+}
+
+fn ordered(one: f64, other: f64) -> (f64, f64) {
+    if one <= other { (one, other) } else { (other, one) }
+}
+
+/// Where a moment is in its period, in 2^-32 of it.
+fn phase(now_ns: u64, period_ns: u64) -> u64 {
+    let period = u128::from(period_ns.max(1));
+    let share = (u128::from(now_ns) % period) * u128::from(TURN) / period;
+    u64::try_from(share).unwrap_or(0)
+}
+
+/// Whether a periodic signal passes a phase in a span of time.
+fn passes(from_ns: u64, to_ns: u64, period_ns: u64, at: u64) -> bool {
+    let period_ns = period_ns.max(1);
+    let offset = u128::from(period_ns) * u128::from(at) / u128::from(TURN);
+    let offset = u64::try_from(offset).unwrap_or(0);
+    let whole = from_ns.saturating_sub(offset).div_ceil(period_ns);
+    whole.checked_mul(period_ns).is_some_and(|start| {
+        let next = start.saturating_add(offset);
+        next >= from_ns && next <= to_ns
+    })
+}
+
+fn at_points(points: &[(u64, f64)], is_straight: bool, now_ns: u64) -> f64 {
+    let next = points.partition_point(|point| point.0 <= now_ns);
+    let (before, after) = (next.checked_sub(1).and_then(|at| points.get(at)), points.get(next));
+    match (before, after) {
+        (Some(before), Some(after)) if is_straight => {
+            let share = number(now_ns - before.0) / number((after.0 - before.0).max(1));
+            before.1 + (after.1 - before.1) * share
+        }
+        (Some(one), _) | (None, Some(one)) => one.1,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const S: u64 = 1_000_000_000;
+
+    fn shapes() -> Vec<Shape> {
+        let points = vec![(S, 3.0), (2 * S, -1.0), (2 * S + 5, 7.0), (6 * S, 0.5)];
+        vec![
+            Shape::Constant(3.5),
+            Shape::Ramp { from: 1.0, to: -4.0, over_ns: 3 * S },
+            Shape::Sine { offset: 2.0, amplitude: 5.0, period_ns: 3 * S },
+            Shape::Square { first: 1.0, second: 4.0, period_ns: S },
+            Shape::Rate { from: 10.0, a_second: 2.5 },
+            Shape::Points { points: points.clone(), is_straight: true },
+            Shape::Points { points, is_straight: false },
+        ]
+    }
+
+    #[test]
+    fn a_value_is_never_outside_of_the_range_of_its_span() {
+        for shape in shapes() {
+            for noise in [0.0, 0.25] {
+                let signal = Signal { shape: shape.clone(), noise, key: 7 };
+                for start in (0..8 * S).step_by(333_000_007) {
+                    for span in [0, 1, S / 7, S, 4 * S] {
+                        let (least, greatest) = signal.range(start, start + span);
+                        for step in 0..=50 {
+                            let value = signal.at(start + span * step / 50);
+                            let within = value >= least - 1e-9 && value <= greatest + 1e-9;
+                            assert!(within, "{signal:?} {start} {span}: {value}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_range_is_no_wider_than_what_there_is() {
+        for shape in shapes() {
+            let signal = Signal::of(shape);
+            for start in (0..8 * S).step_by(333_000_007) {
+                let values = (0..=10_000).map(|step| signal.at(start + S * step / 10_000));
+                let seen = values.fold((f64::MAX, f64::MIN), |(l, g), v| (l.min(v), g.max(v)));
+                let (least, greatest) = signal.range(start, start + S);
+                assert!(
+                    seen.0 - least < 0.6 && greatest - seen.1 < 0.6
+                        || matches!(signal.shape, Shape::Points { .. }),
+                    "{signal:?} at {start}: {seen:?} {least} {greatest}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn noise_is_the_same_for_the_same_seed_alone() {
+        let of = |key| Signal { shape: Shape::Constant(0.0), noise: 1.0, key };
+        let run = |key| (0..100).map(|ms| of(key).at(ms * 1_000_000)).collect::<Vec<_>>();
+        assert_eq!(run(3), run(3));
+        assert_ne!(run(3), run(4));
+    }
+}

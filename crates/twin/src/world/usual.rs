@@ -1,0 +1,158 @@
+//! What sensors measure of which a world says nothing: something that moves within their range, each at a pace of its
+//! own, so that a board without any world shows live values and no two of them are alike.
+
+use sensedsl_model::design::{Device, DeviceIndex};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::Mode;
+use sensedsl_model::protocol::Format;
+use sensedsl_model::words::{Code, Words};
+use sensedsl_wire::ScalarType;
+
+use super::signal::{Shape, Signal};
+use crate::arith::{nanoseconds, number};
+use crate::range::{is_counter, raw_range};
+use crate::truth::Scale;
+
+/// Raw numbers in a row are never further away from 0 than this without a reason.
+const FAR: f64 = 30_000.0;
+
+/// What a sensor does of which a world says nothing.
+#[must_use]
+pub fn usual(index: DeviceIndex, device: &Device) -> Vec<Signal> {
+    let elements = u64::try_from(device.value.value.count()).unwrap_or(1);
+    let place = u64::try_from(index.0).unwrap_or(0);
+    (0..elements).map(|element| Signal::of(shape(device, place * 5 + element))).collect()
+}
+
+fn shape(device: &Device, place: u64) -> Shape {
+    let pace = number(place % 11);
+    let scale = Scale::of(&device.shown);
+    if is_counter(&device.kind, device) {
+        let (zero, each) = (scale.shown(0.0), scale.shown(1.0) - scale.shown(0.0));
+        return Shape::Rate { from: zero, a_second: each * (20.0 + 7.0 * pace) };
+    }
+    let period_ns = nanoseconds((4.0 + 0.7 * pace) * 1e9);
+    if device.value.value.scalar == ScalarType::Bool || is_one_bit(device) {
+        let (first, second) = (scale.shown(0.0), scale.shown(1.0));
+        return Shape::Square { first, second, period_ns: period_ns / 2 };
+    }
+    let (low, high) = sound_range(device, &scale);
+    // A width or a count of elements is a whole number, and what is near to the ends is least like a measurement.
+    let middle = low + (high - low) * (0.5 + 0.02 * (pace - 5.0));
+    let (centre, reach) = (scale.shown(middle), scale.shown(high) - scale.shown(low));
+    Shape::Sine { offset: centre, amplitude: reach * 0.3, period_ns }
+}
+
+fn is_one_bit(device: &Device) -> bool {
+    Words::of(device).is_some_and(|words| words.bits == 1)
+}
+
+/// Raw numbers that are like those of a measurement, and none of which is invalid.
+fn sound_range(device: &Device, scale: &Scale) -> (f64, f64) {
+    let (mut low, mut high) = likely_range(device);
+    if let Some((least, greatest)) = raw_range(device) {
+        let named = named_range(device).map(|(from, to)| (scale.raw(from), scale.raw(to)));
+        let named =
+            named.map(|(one, other)| (one.min(other).max(least), one.max(other).min(greatest)));
+        if let Some(named) = named.filter(|(from, to)| from < to) {
+            (low, high) = named;
+        }
+        (low, high) = (low.max(least), high.min(greatest));
+        if low >= high {
+            let width = greatest - least;
+            (low, high) = (least + 0.1 * width, least + 0.9 * width);
+        }
+    }
+    if let (Some(first), Some(last)) = (device.shown.curve.first(), device.shown.curve.last()) {
+        let [one, other] = [first, last].map(|point| scale.raw(point.1));
+        (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
+    }
+    let shown = [device.shown.min, device.shown.max].map(|end| end.map(|end| scale.raw(end)));
+    if let [Some(one), Some(other)] = shown
+        && one.min(other) < high
+        && one.max(other) > low
+    {
+        (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
+    }
+    largest_piece((low, high), &device.filter.invalid)
+}
+
+/// What is usual of a quantity, in its unit, as people measure it in a room.
+fn named_range(device: &Device) -> Option<(f64, f64)> {
+    match device.shown.quantity.as_deref()? {
+        "cm" => Some((20.0, 250.0)),
+        "mm" => Some((100.0, 1_500.0)),
+        "m" => Some((0.5, 80.0)),
+        "degC" => Some((15.0, 30.0)),
+        "%" => Some((20.0, 80.0)),
+        "lx" => Some((50.0, 500.0)),
+        "V" => Some((0.5, 3.0)),
+        "A" => Some((0.1, 1.5)),
+        "m/s" => Some((0.5, 5.0)),
+        _ => None,
+    }
+}
+
+/// The largest part of a range in which nothing is invalid.
+fn largest_piece(range: (f64, f64), invalid: &[(f64, f64)]) -> (f64, f64) {
+    let mut holes = invalid.to_vec();
+    holes.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut best = (range.0, range.0);
+    let mut from = range.0;
+    for (start, end) in holes.into_iter().chain([(range.1 + 1.0, range.1 + 1.0)]) {
+        let to = (start - 1.0).min(range.1);
+        if to - from > best.1 - best.0 {
+            best = (from, to);
+        }
+        from = from.max(end + 1.0);
+    }
+    best
+}
+
+fn likely_range(device: &Device) -> (f64, f64) {
+    let coding = &device.coding;
+    if let Some(output) = coding.output {
+        return match (&device.kind, output) {
+            (Kind::I2c(i2c), 0) if i2c.length_bytes == 4 => (50_000.0, 500_000.0),
+            (_, 0) => (1_500.0, 3_000.0),
+            (_, 1) => (98_000.0 * 256.0, 103_000.0 * 256.0),
+            (_, _) => (30.0 * 1_024.0, 70.0 * 1_024.0),
+        };
+    }
+    if let Some(text) = &coding.text {
+        return match text.format {
+            Format::Degrees => (577_000_000.0, 577_100_000.0),
+            Format::Decimal | Format::Hex => (10.0, 240.0),
+        };
+    }
+    match &device.kind {
+        Kind::Icu(icu) => {
+            let ticks = |us: f64| us * f64::from(icu.tick_hz) / 1e6;
+            match icu.mode {
+                Mode::Width if icu.pulse_us.is_some() => (ticks(500.0), ticks(12_000.0)),
+                Mode::Width | Mode::Ppm => (ticks(1_050.0), ticks(1_950.0)),
+                Mode::Period => (ticks(5_000.0), ticks(20_000.0)),
+                Mode::Frequency => (10.0, 200.0),
+                Mode::Duty => (1_000.0, 9_000.0),
+                Mode::Count => (0.0, 0.0),
+            }
+        }
+        Kind::Encoder(_) => (-2_000.0, 2_000.0),
+        Kind::Analog(_) => (400.0, 3_700.0),
+        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => of_words(device),
+        Kind::Digital(_) | Kind::Pwm(_) | Kind::Dac(_) => (0.0, 1.0),
+    }
+}
+
+fn of_words(device: &Device) -> (f64, f64) {
+    let Some(words) = Words::of(device) else { return (0.0, 100.0) };
+    match (words.code, crate::parts::words::range(&words)) {
+        // A month, a weekday, an hour.
+        (Code::Bcd, _) => (1.0, 7.0),
+        (_, None) => (-100.0, 100.0),
+        (_, Some((least, greatest))) if least < 0.0 => {
+            ((least * 0.5).max(-FAR), (greatest * 0.5).min(FAR))
+        }
+        (_, Some((_, greatest))) => (greatest * 0.1, (greatest * 0.9).min(FAR)),
+    }
+}

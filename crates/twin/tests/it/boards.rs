@@ -1,0 +1,50 @@
+//! Whole boards: all examples, as the world is when nobody says anything of it, and in the worlds that they come with.
+
+use std::fs;
+
+use crate::run::plainly;
+
+fn example(name: &str) -> String {
+    let path = format!("{}/../../examples/{name}.sense", env!("CARGO_MANIFEST_DIR"));
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn every_sensor_of_every_example_reports_what_the_world_does() {
+    for name in
+        ["fig2", "miniature_car", "line_follower", "quadcopter", "arm", "greenhouse", "rover"]
+    {
+        let run = plainly(&example(name), "", 5);
+        let wrong = run.wrong();
+        assert!(wrong.is_empty(), "{name}: {wrong:#?}");
+        for one in &run.judged {
+            // What comes once a minute has come twice at most.
+            assert!(one.reports > 0, "{name}: {} reported nothing", one.name);
+        }
+        assert_eq!(run.dropped, 0, "{name}");
+    }
+}
+
+#[test]
+fn a_run_is_the_same_to_the_byte() {
+    let text = example("miniature_car");
+    let world =
+        "seed = 3\n[devices]\nIRRear = { sine = 5, offset = 15, period = \"2 s\", noise = 1 }\n";
+    let runs = [(); 2].map(|()| plainly(&text, world, 3).bytes);
+    assert_eq!(runs[0], runs[1]);
+    assert!(runs[0].len() > 1_000);
+}
+
+#[test]
+fn the_worlds_of_the_examples_are_kept() {
+    for (name, world) in [
+        ("fig2", "fig2"),
+        ("miniature_car", "car"),
+        ("line_follower", "line_follower"),
+        ("quadcopter", "quadcopter"),
+    ] {
+        let path = format!("{}/../../examples/worlds/{world}.toml", env!("CARGO_MANIFEST_DIR"));
+        let run = plainly(&example(name), &fs::read_to_string(path).unwrap(), 7);
+        assert!(run.wrong().is_empty(), "{name}: {:#?}", run.wrong());
+    }
+}

@@ -1,0 +1,137 @@
+//! What the judge has to catch: reports that were tampered with.
+
+use sensedsl_wire::Scalar;
+
+use crate::run::{Values, plainly, simulate};
+
+const CAR: &str = "board STM32F4DiscoveryBoard {
+    sensor Near returns uint16 { id = 1; type = analog; delay = 20; scale = 0.1; quantity = cm; }
+    sensor Far returns uint16 { id = 2; type = analog; delay = 20; scale = 0.1; quantity = cm; }
+    sensor Rear returns uint16 { id = 3; driver = srf08; address = 0x70; delay = 100; }
+    sensor Left returns uint32 { id = 4; type = icu; }
+    sensor Right returns uint32 { id = 5; type = icu; }
+    chip Climate { driver = bme280; delay = 100 ms;
+        sensor Temperature returns int32 { id = 6; }
+        sensor Pressure returns uint32 { id = 7; } }
+    sensor Line returns uint16[3] { id = 8; type = analog; delay = 20; }
+}";
+const WORLD: &str = "[devices]
+Near = { sine = 80, offset = 150, period = \"3 s\", noise = 0.5 }
+Far = { ramp = [10, 400], over = \"6 s\" }
+Rear = { ramp = [30, 300], over = \"6 s\" }
+Left = { rate = 50 }
+Right = { rate = 90 }
+Temperature = { sine = 5, offset = 20, period = \"4 s\" }
+Line = [500, 1500, { sine = 500, offset = 2500, period = \"2 s\" }]
+";
+
+fn with(tamper: impl FnMut(u64, &mut Values)) -> Vec<String> {
+    let run = simulate(CAR, WORLD, 3, tamper);
+    run.judged.into_iter().filter(|one| one.wrong > 0).map(|one| one.name).collect()
+}
+
+fn change(id: u8, mut how: impl FnMut(u64) -> u64) -> impl FnMut(u64, &mut Values) {
+    move |_, values| {
+        for (_, elements) in values.iter_mut().filter(|(of, _)| *of == id) {
+            for element in elements {
+                match element {
+                    Scalar::Unsigned(number) => *number = how(*number),
+                    Scalar::Signed(number) => {
+                        *number = i64::try_from(how(number.unsigned_abs())).unwrap();
+                    }
+                    Scalar::Bool(_) | Scalar::Float32(_) | Scalar::Float64(_) => {}
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_right_is_found_right() {
+    let run = plainly(CAR, WORLD, 3);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    for one in &run.judged {
+        assert!(one.reports >= 10, "{}: {}", one.name, one.reports);
+    }
+}
+
+#[test]
+fn another_scale_is_wrong() {
+    assert_eq!(with(change(1, |raw| raw * 21 / 20)), ["Near"]);
+    assert_eq!(with(change(3, |raw| raw * 254 / 100)), ["Rear"]);
+    assert_eq!(with(change(7, |raw| raw / 256)), ["Pressure"]);
+    assert_eq!(with(change(4, |raw| raw * 2)), ["Left"]);
+}
+
+#[test]
+fn another_order_of_bytes_is_wrong() {
+    let swapped = |raw: u64| u64::from(u16::try_from(raw).unwrap().swap_bytes());
+    assert_eq!(with(change(2, swapped)), ["Far"]);
+    assert_eq!(with(change(3, swapped)), ["Rear"]);
+}
+
+#[test]
+fn one_degree_is_wrong() {
+    assert_eq!(with(change(6, |raw| raw + 100)), ["Temperature"]);
+}
+
+#[test]
+fn swapped_devices_are_wrong() {
+    let swap = |(one, other): (u8, u8)| {
+        move |_: u64, values: &mut Values| {
+            for (id, _) in values.iter_mut() {
+                *id = if *id == one {
+                    other
+                } else if *id == other {
+                    one
+                } else {
+                    *id
+                };
+            }
+        }
+    };
+    assert_eq!(with(swap((1, 2))), ["Near", "Far"]);
+    assert_eq!(with(swap((4, 5))), ["Left", "Right"]);
+    let turned = |_: u64, values: &mut Values| {
+        values.iter_mut().filter(|(id, _)| *id == 8).for_each(|(_, all)| all.rotate_left(1));
+    };
+    assert_eq!(with(turned), ["Line"]);
+}
+
+#[test]
+fn old_values_are_wrong() {
+    // What was measured 300 ms ago.
+    let mut queue: Vec<(u64, Vec<Scalar>)> = Vec::new();
+    let late = move |now: u64, values: &mut Values| {
+        for (_, elements) in values.iter_mut().filter(|(id, _)| *id == 1) {
+            queue.push((now, elements.clone()));
+            let then = queue.iter().rev().find(|(at, _)| at + 300_000_000 <= now);
+            if let Some((_, old)) = then.or(queue.first()) {
+                elements.clone_from(old);
+            }
+        }
+    };
+    assert_eq!(with(late), ["Near"]);
+    // A value that stands still.
+    let mut first = None;
+    let still = move |_: u64, values: &mut Values| {
+        for (_, elements) in values.iter_mut().filter(|(id, _)| *id == 3) {
+            elements.clone_from(first.get_or_insert_with(|| elements.clone()));
+        }
+    };
+    assert_eq!(with(still), ["Rear"]);
+}
+
+#[test]
+fn what_does_not_come_is_wrong() {
+    let lost = |now: u64, values: &mut Values| {
+        if now > 500_000_000 {
+            values.retain(|(id, _)| *id != 2);
+        }
+    };
+    let run = simulate(CAR, WORLD, 8, lost);
+    let wrong: Vec<&str> =
+        run.judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect();
+    assert_eq!(wrong, ["Far"]);
+    assert!(run.of("Far").worst.as_ref().unwrap().expected.is_none());
+}

@@ -1,0 +1,56 @@
+//! Every driver of the library that measures: what its part is made to say by a world comes back through the tables and
+//! the runtime.
+
+use sensedsl_model::facts;
+use sensedsl_wire::Direction;
+
+use crate::run::{plainly, with_job};
+
+/// Drivers that no single board of the examples carries with all its values are tried one by one.
+#[test]
+fn every_driver_reports_what_the_world_does() {
+    let mut tried = 0;
+    let mut failed = Vec::new();
+    for text in examples() {
+        let has_sensor = with_job(&text, |job| {
+            job.devices.iter().any(|one| one.device.direction == Direction::Sensor)
+        });
+        if !has_sensor {
+            continue;
+        }
+        tried += 1;
+        let run = plainly(&text, "", 1);
+        let silent = run.judged.iter().filter(|one| one.reports == 0).map(|one| &one.name);
+        let silent: Vec<_> = silent.collect();
+        if !silent.is_empty() {
+            failed.push(format!("silent: {silent:?} of {text}"));
+        }
+        if !run.wrong().is_empty() {
+            failed.push(format!("{:#?} of {text}", run.wrong()));
+        }
+    }
+    assert!(failed.is_empty(), "{} of {tried}: {}", failed.len(), failed.join("\n\n"));
+    assert!(tried > 60, "{tried}");
+}
+
+/// A board with nothing but one part, and all of its values.
+fn examples() -> Vec<String> {
+    let parts = facts::all();
+    parts.iter().map(board).collect()
+}
+
+fn board(part: &facts::PartFacts) -> String {
+    if let [only] = part.values.as_slice()
+        && only.name.is_none()
+    {
+        return facts::example(part);
+    }
+    let address = match (part.address, part.addresses.first()) {
+        (None, Some(first)) => format!("address = {first};"),
+        (_, _) => String::new(),
+    };
+    let name = &part.name;
+    format!(
+        "board B on NUCLEO_F446RE {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}"
+    )
+}

@@ -1,0 +1,15 @@
+//! Boards that do their job in this program, and the judge that compares what they report with the world.
+#![allow(missing_docs, reason = "tests need none")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::disallowed_methods,
+    reason = "a test may panic, and reads the examples"
+)]
+
+mod boards;
+mod judged;
+mod library;
+mod run;
+mod worlds;

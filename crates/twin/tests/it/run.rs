@@ -1,0 +1,111 @@
+//! Simulating a text with a world, as the command does.
+
+use sensedsl_codegen::job::{BoardJob, jobs};
+use sensedsl_diagnostics::{Diagnostic, SourceMap};
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_twin::soft::SoftBoard;
+use sensedsl_twin::world::{self, Scene, World};
+use sensedsl_wire::{Decoder, Direction, Event, Scalar};
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+pub(crate) type Values = Vec<(u8, Vec<Scalar>)>;
+
+/// What came of a run.
+pub(crate) struct Run {
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) reports: Vec<(u64, Values)>,
+    pub(crate) judged: Vec<Judged>,
+    pub(crate) dropped: u64,
+}
+
+impl Run {
+    pub(crate) fn of(&self, name: &str) -> &Judged {
+        self.judged.iter().find(|one| one.name == name).unwrap_or_else(|| panic!("no {name}"))
+    }
+
+    pub(crate) fn wrong(&self) -> Vec<String> {
+        let all = self.judged.iter().filter(|one| one.wrong > 0);
+        all.map(|one| format!("{}: {} of {}, {:?}", one.name, one.wrong, one.reports, one.worst))
+            .collect()
+    }
+}
+
+/// Makes the board's job of a text and hands it on.
+pub(crate) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
+    let mut workspace = Workspace::default();
+    workspace.open("board.sense", text);
+    let snapshot = workspace.snapshot("board.sense", On { board: None, target: None }, &NoFiles);
+    let answer = snapshot.solve(&Ask::default());
+    let Some((design, wiring)) = answer.wired() else {
+        panic!("{text}: {:#?}", answer.diagnostics)
+    };
+    let job = jobs(design, wiring).next().unwrap();
+    then(&job)
+}
+
+/// Reads a world for a job.
+pub(crate) fn read(job: &BoardJob<'_>, text: &str, seed: u64) -> (World, Vec<Diagnostic>) {
+    let mut sources = SourceMap::default();
+    let file = sources.add("world.toml", text);
+    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+    let samples = |name: &str| match name {
+        "drive.csv" => Ok("t,speed,other\n0,10,1\n1.0,20,\n2.0,20,3\n".to_owned()),
+        "bad.csv" => Ok("t,speed\n0,1\n2,5\n1,3\n".to_owned()),
+        _ => Err("there is no such file".to_owned()),
+    };
+    let scene = Scene {
+        design: job.design,
+        devices: &devices,
+        transport: job.board.link.transport,
+        seed: Some(seed),
+        samples: &samples,
+    };
+    world::read(file, text, &scene)
+}
+
+/// Runs a text with a world; the reports go through `tamper` before they are judged.
+pub(crate) fn simulate(
+    text: &str,
+    world: &str,
+    seconds: u64,
+    mut tamper: impl FnMut(u64, &mut Values),
+) -> Run {
+    with_job(text, |job| {
+        let (world, said) = read(job, world, 7);
+        assert!(said.is_empty(), "{said:#?}");
+        let bench = Bench::new(job, &world, 7);
+        let mut judge = Judge::new(job, &bench);
+        let mut board = SoftBoard::new(job, bench);
+        let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
+        let (mut all, mut reports) = (Vec::new(), Vec::new());
+        for ms in 1..=seconds * 1_000 {
+            board.run_until(ms * 1_000_000);
+            let bytes = board.link_read();
+            all.extend_from_slice(&bytes);
+            decoder.feed(&bytes, |event| {
+                if let Event::Report(_, mut values) = event {
+                    tamper(ms * 1_000_000, &mut values);
+                    judge.take(ms * 1_000_000, &values);
+                    reports.push((ms * 1_000_000, values));
+                }
+            });
+        }
+        let judged = judge.finish(board.now_ns());
+        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes() }
+    })
+}
+
+/// The same without tampering.
+pub(crate) fn plainly(text: &str, world: &str, seconds: u64) -> Run {
+    simulate(text, world, seconds, |_, _| {})
+}

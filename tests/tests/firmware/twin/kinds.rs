@@ -1,0 +1,259 @@
+//! The smallest design of each kind on the twin: what the world has is what the host is told, and what the host sets
+//! is what the pads do.
+
+use std::collections::BTreeMap;
+
+use sensedsl_twin::CanFrame;
+use sensedsl_twin::machine::LinkPort;
+use sensedsl_wire::Direction::{Actuator, Sensor};
+use sensedsl_wire::ScalarType::{Bool, Float32, Int16, Int32, Uint8, Uint16, Uint32};
+use sensedsl_wire::{Checksum, Scalar, Schema};
+
+use super::bench::{Bench, MS, Square, pad, schema, unsigned, values};
+use crate::firmware::chibios::tree;
+use crate::firmware::tools::root;
+
+/// The design of a kind on a Discovery board, its link over a serial port.
+fn design(kind: &str) -> String {
+    let path = root().join("tests/firmware/kinds").join(format!("{kind}.sense"));
+    let text = std::fs::read_to_string(path).unwrap();
+    let head = "board STM32F407G_DISC1 {\n    link { transport = uart; unit = USART3; }";
+    let release = if kind == "dac" { "\n    release CS43L22;" } else { "" };
+    text.replacen("board BOARD {", &format!("{head}{release}"), 1)
+}
+
+fn bench(kind: &str) -> Option<Bench> {
+    let name = format!("twin_{kind}");
+    Some(Bench::build(&tree()?, &name, &design(kind), "production", LinkPort::Serial(3)))
+}
+
+fn items(
+    items: &[(u8, sensedsl_wire::Direction, &str, sensedsl_wire::ScalarType, Option<u16>)],
+) -> Schema {
+    schema(Checksum::Crc16, items)
+}
+
+/// A frame of the host, with its checksum.
+fn frame(values: &[u8]) -> Vec<u8> {
+    let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
+        (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
+            (crc << 1) ^ if crc & 0x8000 == 0 { 0 } else { 0x1021 }
+        })
+    });
+    let payload = [values, &[255], &crc.to_be_bytes()].concat();
+    [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
+}
+
+#[test]
+fn analog_values_are_those_of_the_pads() {
+    let Some(mut bench) = bench("analog") else { return };
+    bench.world().voltages =
+        BTreeMap::from([(pad("PC1"), (330.0, 1.0)), (pad("PC4"), (1650.0, 0.0))]);
+    bench.run_until_ms(1_500);
+    let schema =
+        items(&[(1, Sensor, "Distance", Uint16, None), (2, Sensor, "Battery", Float32, None)]);
+    let reports = bench.reports(&schema);
+    let distances = values(&reports, 1);
+    // One each 20 ms.
+    assert!((74..=75).contains(&distances.len()), "{}", distances.len());
+    for (at, value) in distances {
+        // A ramp of 1 mV a millisecond is converted up to 11 ms before the report is there.
+        let volts = |at: u64| (330.0 + at as f64 / MS as f64) / 3300.0 * 4096.0;
+        let (low, high) = (volts(at.saturating_sub(11 * MS)) - 1.0, volts(at) + 1.0);
+        let value = unsigned(&value) as f64;
+        assert!(low <= value && value <= high, "{at}: {value} is not in {low} to {high}");
+    }
+    assert_eq!(values(&reports, 2)[0].1, [Scalar::Float32(2048.0)]);
+}
+
+#[test]
+fn frames_of_a_can_bus_come_and_go() {
+    let Some(mut bench) = bench("can") else { return };
+    bench.run_until_ms(300);
+    let frame_of = |id, value: u8| {
+        let data = [9, 9, 0x12, value, 9, 9, 9, 9];
+        CanFrame { id, extended: false, remote: false, length: 8, data }
+    };
+    // A frame of another identifier is not for this board.
+    bench.world().to_can.extend([frame_of(0x121, 1), frame_of(0x120, 0x34)]);
+    bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
+    bench.run_until_ms(2_500);
+    bench.assert_wires(&[("PD0", "CAN1_RX"), ("PD1", "CAN1_TX")]);
+    let schema = items(&[(1, Sensor, "Speed", Uint16, None), (2, Actuator, "Torque", Int16, None)]);
+    let speeds = values(&bench.reports(&schema), 1);
+    assert_eq!(speeds.iter().map(|(_, value)| unsigned(value)).collect::<Vec<_>>(), [0x1234]);
+    let sent = bench.world().from_can.clone();
+    let first = sent.first().unwrap();
+    assert!(first.extended && first.id == 0x18FF_1234, "{first:?}");
+    assert_eq!(first.data.get(..usize::from(first.length)), Some(&[0xFE, 0xDC][..]));
+}
+
+#[test]
+fn the_dac_follows_the_host() {
+    let Some(mut bench) = bench("dac") else { return };
+    bench.run_until_ms(100);
+    bench.machine.link_write(&frame(&[1, 0x08, 0x00]));
+    bench.run_until_ms(150);
+    let outputs = bench.world().outputs.clone();
+    let half = outputs.values().filter(|millivolts| (**millivolts - 1650.0).abs() < 1.0);
+    assert_eq!(half.count(), 1, "{outputs:?}");
+}
+
+#[test]
+fn digital_inputs_count_and_settle_and_outputs_follow() {
+    let Some(mut bench) = bench("digital") else { return };
+    let drops = Square { half_ns: 5 * MS, shift_ns: 2 * MS };
+    bench.world().squares.insert(pad("PC4"), drops);
+    bench.run_until_ms(200);
+    // Active low, with a pull-up: nobody drives it, so it is off.
+    bench.world().levels.insert(pad("PC1"), false);
+    bench.machine.link_write(&frame(&[3, 0]));
+    bench.run_until_ms(1_000);
+    let schema = items(&[
+        (1, Sensor, "Bumper", Bool, None),
+        (2, Sensor, "Drops", Uint32, None),
+        (3, Actuator, "Light", Bool, None),
+    ]);
+    let reports = bench.reports(&schema);
+    let bumps: Vec<Scalar> = values(&reports, 1).iter().map(|(_, value)| value[0]).collect();
+    assert_eq!(bumps.first(), Some(&Scalar::Bool(false)));
+    assert_eq!(bumps.last(), Some(&Scalar::Bool(true)));
+    let counts = values(&reports, 2);
+    assert!(counts.len() > 50, "{}", counts.len());
+    for (at, value) in counts {
+        // A rising edge each 10 ms since 2 ms; a report is 11 ms old at most.
+        let (newest, oldest) =
+            ((at - 2 * MS) / (10 * MS) + 1, at.saturating_sub(13 * MS) / (10 * MS));
+        let value = unsigned(&value);
+        assert!(oldest <= value && value <= newest, "{at}: {value} is not in {oldest} to {newest}");
+    }
+    assert_eq!(bench.world().driven.get(&pad("PC13")), Some(&Some(false)));
+}
+
+#[test]
+fn an_encoder_counts_every_edge_of_both_tracks() {
+    let Some(mut bench) = bench("encoder") else { return };
+    let half_ns = 100_000;
+    // The first track leads: the wheel turns forward, a count each 50 us.
+    let tracks = [("PE9", 20 * MS), ("PE11", 20 * MS + half_ns / 2)];
+    for (name, shift_ns) in tracks {
+        bench.world().squares.insert(pad(name), Square { half_ns, shift_ns });
+    }
+    bench.run_until_ms(300);
+    bench.assert_wires(&[("PE9", "TIM1_CH1"), ("PE11", "TIM1_CH2")]);
+    let schema = items(&[(1, Sensor, "Turns", Int32, None)]);
+    let turns = values(&bench.reports(&schema), 1);
+    assert!(turns.len() > 25, "{}", turns.len());
+    for (at, value) in turns.iter().filter(|(at, _)| *at > 40 * MS) {
+        let [Scalar::Signed(value)] = value[..] else { panic!("{value:?}") };
+        let expected = i64::try_from((at - 20 * MS) / (half_ns / 2)).unwrap();
+        // Serialisation and the cycle: 1 ms.
+        assert!((expected - 30..=expected + 1).contains(&value), "{at}: {value}, not {expected}");
+    }
+}
+
+#[test]
+fn chips_on_an_i2c_bus_are_read_and_written() {
+    let Some(mut bench) = bench("i2c") else { return };
+    let heading = [0x01, 0x02, 0x03, 0x04, 0xFF, 0xFE];
+    let registers =
+        heading.into_iter().zip(3..).map(|(value, register)| (register, value)).collect();
+    let range = BTreeMap::from([(2, 0x01), (3, 0x23)]);
+    let chips = [(0x70, range), (0x1E, registers), (0x22, BTreeMap::new())];
+    bench.world().chips = BTreeMap::from(chips);
+    bench.run_until_ms(400);
+    bench.machine.link_write(&frame(&[3, 0xAB, 0xCD]));
+    bench.run_until_ms(600);
+    bench.assert_wires(&[("PA8", "I2C3_SCL"), ("PC9", "I2C3_SDA")]);
+    let schema = items(&[
+        (1, Sensor, "Range", Uint16, None),
+        (2, Sensor, "Heading", sensedsl_wire::ScalarType::Int16, Some(3)),
+        (3, Actuator, "Lamps", Uint16, None),
+    ]);
+    let reports = bench.reports(&schema);
+    let ranges = values(&reports, 1);
+    assert!(
+        ranges.len() >= 4 && ranges.iter().all(|(_, value)| unsigned(value) == 0x0123),
+        "{ranges:?}"
+    );
+    let headings = values(&reports, 2);
+    let wanted = [0x0102, 0x0304, -2].map(Scalar::Signed);
+    assert!(
+        headings.len() >= 25 && headings.iter().all(|(_, value)| *value == wanted),
+        "{headings:?}"
+    );
+    let written = &bench.world().written;
+    assert!(written.contains(&(0x22, vec![0x10, 0xAB, 0xCD])), "{written:?}");
+    assert!(written.contains(&(0x70, vec![0x00, 0x51])), "{written:?}");
+}
+
+#[test]
+fn a_frequency_is_captured() {
+    let Some(mut bench) = bench("icu") else { return };
+    bench.world().squares.insert(pad("PE5"), Square { half_ns: 400_000, shift_ns: MS });
+    bench.run_until_ms(300);
+    let schema = items(&[(1, Sensor, "Wheel", Uint32, None)]);
+    let wheel = values(&bench.reports(&schema), 1);
+    let late: Vec<u64> =
+        wheel.iter().filter(|(at, _)| *at > 50 * MS).map(|(_, value)| unsigned(value)).collect();
+    // 800 us are 1250 Hz.
+    assert!(
+        late.len() > 20 && late.iter().all(|value| (1_249..=1_250).contains(value)),
+        "{late:?}"
+    );
+}
+
+#[test]
+fn pulses_have_the_widths_that_the_host_sets() {
+    let Some(mut bench) = bench("pwm") else { return };
+    bench.run_until_ms(50);
+    let steering = |bench: &Bench| bench.world().waves[&(9, 1)];
+    // Half of 1 to 2 ms, until the host says something.
+    assert_eq!(steering(&bench), (20 * MS, 1_500_000));
+    bench.machine.link_write(&frame(&[1, 0x27, 0x10]));
+    bench.run_until_ms(100);
+    assert_eq!(steering(&bench), (20 * MS, 2_000_000));
+    bench.machine.link_write(&frame(&[1, 0x00, 0x00]));
+    bench.run_until_ms(150);
+    assert_eq!(steering(&bench), (20 * MS, 1_000_000));
+}
+
+#[test]
+fn chips_on_an_spi_bus_are_read_and_written() {
+    let Some(mut bench) = bench("spi") else { return };
+    bench.world().spi_answers.extend([0x5A]);
+    bench.run_until_ms(300);
+    bench.machine.link_write(&frame(&[2, 0x77]));
+    bench.run_until_ms(400);
+    let schema = items(&[(1, Sensor, "Angle", Uint16, None), (2, Actuator, "Pot", Uint8, None)]);
+    let angles = values(&bench.reports(&schema), 1);
+    assert!(
+        angles.len() > 30 && angles.iter().all(|(_, value)| unsigned(value) == 0x5A5A),
+        "{angles:?}"
+    );
+    let world = bench.world();
+    assert!(world.spi_sent.windows(2).any(|bytes| bytes == [0x00, 0x77]), "{:?}", world.spi_sent);
+    // A chip is selected for each transfer.
+    assert!(world.chip_selects() > 30);
+}
+
+#[test]
+fn messages_of_a_serial_port_are_taken() {
+    let Some(mut bench) = bench("uart") else { return };
+    let message = |low: u8, high: u8| {
+        let body = [0x59, 0x59, low, high];
+        let sum = body.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+        [&body[..], &[sum]].concat()
+    };
+    bench.run_until_ms(20);
+    // The first one is damaged.
+    bench.world().to_uart.extend([0x59, 0x59, 7, 7, 0]);
+    bench.world().to_uart.extend(message(0x34, 0x12));
+    bench.run_until_ms(1_200);
+    bench.world().to_uart.extend(message(0x78, 0x56));
+    bench.run_until_ms(2_500);
+    let schema = items(&[(1, Sensor, "Frame", Uint16, None)]);
+    let frames = values(&bench.reports(&schema), 1);
+    let frames: Vec<u64> = frames.iter().map(|(_, value)| unsigned(value)).collect();
+    assert_eq!(frames, [0x1234, 0x5678]);
+}
