@@ -6,7 +6,8 @@ use std::path::Path;
 
 use sensedsl_board::catalog::{self, Board, Entry};
 use sensedsl_board::pin::PinName;
-use sensedsl_board::profile::Transport;
+use sensedsl_board::profile::{self, Target, Transport};
+use sensedsl_board::signal::Function;
 use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
@@ -53,6 +54,39 @@ fn there_are_many_and_each_has_its_names() {
         .iter()
         .filter(|entry| entry.table().pins.iter().filter(|pin| pin.header.is_some()).count() >= 10);
     assert!(with_headers.count() >= 50);
+}
+
+/// What a system's drivers serve can be switched to a pad: the number of its alternate function is known.
+/// F1 has none.
+#[test]
+fn alternate_functions_of_served_pins_are_known() {
+    let mut unknown = Vec::new();
+    let mut numbers = 0;
+    for entry in catalog::all() {
+        let Ok(Target::Profile(profile)) = profile::find(profile::DEFAULT, entry.mcu) else {
+            continue;
+        };
+        if profile.family == "STM32F1" {
+            continue;
+        }
+        for pin in &whole(entry).pins {
+            for usage in &pin.usages {
+                let function = usage.signal.function();
+                let is_analog = matches!(function, Function::Adc { .. } | Function::Dac { .. });
+                if is_analog || !profile.serves(function) {
+                    continue;
+                }
+                let number =
+                    usage.alternate.or_else(|| profile.alternate(&usage.signal, &pin.name));
+                numbers += usize::from(number.is_some());
+                if number.is_none() {
+                    unknown.push(format!("{}: {} at {}", entry.name, usage.signal, pin.name));
+                }
+            }
+        }
+    }
+    assert!(numbers > 1_000, "{numbers}");
+    assert!(unknown.is_empty(), "{unknown:#?}");
 }
 
 fn pin<'a>(table: &'a Table, name: &PinName, of: &str) -> &'a Pin {

@@ -2,9 +2,9 @@
 //! profile covers, built with the tree of ChibiOS that `CHIBIOS` names.
 //!
 //! `cells` makes designs and firmware, `build` calls make and reads what comes of it, `table` prints.
-//! Everything is built in a scratch folder. A cell is a whole build, with its own configuration, so its
-//! sizes are those of a user's program; with `ccache` on the machine what is the same in many cells is
-//! compiled once.
+//! Everything is built in a scratch folder, one a board. A cell is a whole program with its own
+//! configuration, so its sizes are those of a user's; what is the same in many cells is compiled once, with
+//! `ccache` on the machine also what is the same on many boards.
 
 mod build;
 mod cells;
@@ -17,7 +17,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context as _, Result, bail, ensure};
 
-use build::Built;
+use build::{Built, Came};
 use cells::{Cell, Made};
 
 use crate::say;
@@ -76,6 +76,8 @@ enum Outcome {
     NoWiring(String),
     /// Built; without the kinds that did not fit beside the others.
     Built(Built, Vec<&'static str>),
+    /// Larger than the MCU's memory.
+    TooLarge(String),
     /// Neither generated nor built, and why.
     Failed(String),
 }
@@ -104,22 +106,30 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// Works on several cells at once; the result is in the order of the cells.
+/// Works on several boards at once; the result is in the order of the cells. The cells of a board are
+/// built in one folder, one after the other.
 fn run_all(cells: Vec<Cell>, jobs: usize, tree: &Path, scratch: &Path) -> Vec<Done> {
+    let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
+    let boards: Vec<&[(usize, &Cell)]> =
+        numbered.chunk_by(|(_, one), (_, next)| one.board == next.board).collect();
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, Outcome)>> = Mutex::default();
+    let work = || {
+        while let Some(board) = boards.get(next.fetch_add(1, Ordering::Relaxed)) {
+            for (at, cell) in *board {
+                let outcome = outcome(cell, tree, &scratch.join(&cell.board));
+                tell(cell, &outcome, *at, cells.len());
+                results.lock().unwrap_or_else(PoisonError::into_inner).push((*at, outcome));
+            }
+            if let Some((_, cell)) = board.first() {
+                // What is left there is removed with the scratch folder.
+                let _ = std::fs::remove_dir_all(scratch.join(&cell.board));
+            }
+        }
+    };
     std::thread::scope(|scope| {
         for _ in 0..jobs {
-            let _ = scope.spawn(|| {
-                loop {
-                    let at = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(cell) = cells.get(at) else { return };
-                    let outcome = outcome(cell, tree, &scratch.join(at.to_string()));
-                    tell(cell, &outcome, at, cells.len());
-                    let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
-                    results.push((at, outcome));
-                }
-            });
+            let _ = scope.spawn(work);
         }
     });
     let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -134,7 +144,8 @@ fn outcome(cell: &Cell, tree: &Path, folder: &Path) -> Outcome {
         Made::NoWiring(why) => Outcome::NoWiring(why),
         Made::Refused(why) => Outcome::Failed(why),
         Made::Files(files, left_out) => match build::build(&files, tree, folder) {
-            Ok(built) => Outcome::Built(built, left_out),
+            Ok(Came::Built(built)) => Outcome::Built(built, left_out),
+            Ok(Came::TooLarge(why)) => Outcome::TooLarge(why),
             Err(error) => Outcome::Failed(format!("{error:#}")),
         },
     }
@@ -147,6 +158,7 @@ fn tell(cell: &Cell, outcome: &Outcome, at: usize, all: usize) {
         Outcome::NotOffered => "not offered".to_owned(),
         Outcome::NoWiring(_) => "no wiring".to_owned(),
         Outcome::Built(built, _) => built.sizes(),
+        Outcome::TooLarge(why) => format!("too large: {why}"),
         Outcome::Failed(why) => format!("FAILED: {why}"),
     };
     let (board, kind) = (&cell.board, &cell.kind);

@@ -23,55 +23,143 @@ pub(super) struct Built {
     pub(super) bss: u64,
     /// Of our files, each once.
     pub(super) warnings: BTreeSet<String>,
+    /// Without the shell, because with it the program is larger than the MCU's memory.
+    pub(super) is_production: bool,
+}
+
+/// What building came to.
+pub(super) enum Came {
+    Built(Built),
+    /// Larger than the MCU's memory in both modes; what the linker says of the smaller one.
+    TooLarge(String),
 }
 
 impl Built {
     pub(super) fn sizes(&self) -> String {
-        let Self { text, data, bss, warnings } = self;
+        let Self { text, data, bss, warnings, is_production } = self;
         let count =
             if warnings.is_empty() { String::new() } else { format!(", {} W", warnings.len()) };
-        format!("{text}/{data}/{bss}{count}")
+        let mode = if *is_production { " P" } else { "" };
+        format!("{text}/{data}/{bss}{mode}{count}")
     }
 }
 
-/// Writes and builds the firmware of one board, and removes what was built.
-pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Built> {
+/// Writes and builds the firmware of one board. What an earlier build in the folder left is used
+/// again where nothing that it is made of has changed: the kernel, mostly.
+pub(super) fn build(files: &FileSet, tree: &Path, folder: &Path) -> Result<Came> {
+    let board = write(files, folder)?;
+    let mut too_large = String::new();
+    for mode in ["development", "production"] {
+        let output = make(&board, tree, mode)?.output().context("make")?;
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.success() {
+            let mut built = sizes(&board.join(format!("build/{mode}/sense.elf")))?;
+            built.warnings = ours(&said);
+            built.is_production = mode == "production";
+            return Ok(Came::Built(built));
+        }
+        let Some(overflow) = said.lines().find_map(overflow) else {
+            let words = ["error: ", "undefined reference", "***"];
+            let is_error = |line: &&str| words.iter().any(|word| line.contains(word));
+            let error = said.lines().find(is_error).or(said.lines().next());
+            bail!("{}", error.unwrap_or("make failed and says nothing").trim());
+        };
+        too_large = overflow;
+    }
+    Ok(Came::TooLarge(too_large))
+}
+
+/// What the linker says of a program that is larger than the memory. Where the tree's linker file fills the
+/// rest with the heap, it is asked to go back instead.
+fn overflow(line: &str) -> Option<String> {
+    if let Some((_, back)) = line.split_once("cannot move location counter backwards (from ") {
+        let (from, to) = back.trim_end_matches(')').split_once(" to ")?;
+        let number = |text: &str| u64::from_str_radix(text, 16).ok();
+        let bytes = number(from)?.checked_sub(number(to)?)?;
+        return Some(format!("the memory for variables overflowed by {bytes} bytes"));
+    }
+    let (_, rest) = line.split_once("region `")?;
+    let (region, bytes) = rest.split_once("' overflowed by ")?;
+    Some(format!("{region} overflowed by {bytes}"))
+}
+
+/// Makes the folder hold these files and what was built, and nothing else; gives that of the Makefile.
+fn write(files: &FileSet, folder: &Path) -> Result<PathBuf> {
     let mut board = None;
     for (path, entry) in files.iter() {
         let to = folder.join(path);
+        if path.ends_with("/Makefile") {
+            board = to.parent().map(Path::to_path_buf);
+        }
+        if std::fs::read(&to).is_ok_and(|bytes| bytes == entry.bytes) {
+            continue;
+        }
         if let Some(parent) = to.parent() {
             std::fs::create_dir_all(parent)?;
         }
         std::fs::write(&to, &entry.bytes).with_context(|| to.display().to_string())?;
-        if path.ends_with("/Makefile") {
-            board = to.parent().map(Path::to_path_buf);
-        }
     }
     let board = board.context("no Makefile was generated")?;
-    let output = make(&board, tree).output().context("make")?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    if !output.status.success() {
-        let error = said.lines().find(|line| line.contains("error") || line.contains("***"));
-        bail!("{}", error.or(said.lines().next()).unwrap_or("make failed and says nothing").trim());
-    }
-    let mut built = sizes(&board.join("build/development/sense.elf"))?;
-    built.warnings = ours(&said);
-    std::fs::remove_dir_all(folder)?;
-    Ok(built)
+    let wanted: BTreeSet<PathBuf> = files.iter().map(|(path, _)| folder.join(path)).collect();
+    remove_others(&board, &wanted)?;
+    Ok(board)
 }
 
-fn make(board: &Path, tree: &Path) -> Command {
+/// Removes the sources of an earlier design.
+fn remove_others(folder: &Path, wanted: &BTreeSet<PathBuf>) -> Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() && !path.ends_with("build") {
+            remove_others(&path, wanted)?;
+        } else if path.is_file() && !wanted.contains(&path) {
+            std::fs::remove_file(&path)?;
+        }
+    }
+    Ok(())
+}
+
+/// Leaves out the sources of the tree that would compile to nothing. The tree can do so by itself where
+/// it can read the switches; it does not follow the includes of ours, so the preprocessor reads them.
+fn modules(board: &Path, tree: &Path, mode: &str) -> Result<Vec<String>> {
+    let shell = if mode == "production" { "FALSE" } else { "TRUE" };
+    let makefile = std::fs::read_to_string(board.join("Makefile"))?;
+    let base = makefile.lines().find_map(|line| line.strip_prefix("BASE_CFG := $(CHIBIOS)/"));
+    let base = tree.join(base.context("the Makefile names no configuration")?);
+    let read = |name: &str, define: &str| {
+        let mut compiler = Command::new("arm-none-eabi-gcc");
+        let path = base.join(name);
+        compiler.args(["-E", "-dM", "-DTRUE=TRUE", "-DFALSE=FALSE", "-I", "."]);
+        compiler.arg(format!("-D{define}=\"{}\"", path.display()));
+        compiler.arg(format!("-DUP_SHELL={shell}")).arg(format!("cfg/{name}")).current_dir(board);
+        let output = compiler.output().context("arm-none-eabi-gcc")?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let is_switch = |line: &&str| line.ends_with(" TRUE") && !line.contains('"');
+        let switches: Vec<&str> = text.lines().filter(is_switch).collect();
+        anyhow::ensure!(!switches.is_empty(), "{name} switches nothing on");
+        Ok(switches.join(" ").replace('#', ""))
+    };
+    let kernel = read("chconf.h", "UP_BASE_CHCONF")?;
+    Ok(vec![
+        "USE_SMART_BUILD=yes".to_owned(),
+        format!("HALCONF={}", read("halconf.h", "UP_BASE_HALCONF")?),
+        format!("CHCONF={kernel}"),
+        format!("CHLIBCONF={kernel}"),
+    ])
+}
+
+fn make(board: &Path, tree: &Path, mode: &str) -> Result<Command> {
     let mut make = Command::new("make");
     make.current_dir(board).arg("--silent").arg(format!("CHIBIOS={}", tree.display()));
     make.arg(format!("CWARN={WARNINGS}")).arg(format!("USE_OPT={OPTIONS}"));
     // Without the linker's map and the compiler's listings, which nobody reads.
-    make.arg("./build/development/sense.elf");
+    make.arg(format!("UP_MODE={mode}")).arg(format!("./build/{mode}/sense.elf"));
+    make.args(modules(board, tree, mode)?);
     if which("ccache") {
         make.arg("CC=ccache arm-none-eabi-gcc")
             .arg("AS=ccache arm-none-eabi-gcc -x assembler-with-cpp");
         make.env("CCACHE_NOHASHDIR", "1").env("CCACHE_SLOPPINESS", "time_macros");
     }
-    make
+    Ok(make)
 }
 
 fn which(tool: &str) -> bool {
@@ -91,7 +179,13 @@ fn sizes(program: &Path) -> Result<Built> {
     let sections = String::from_utf8_lossy(&output.stdout).into_owned();
     let heap = sections.lines().filter(|line| line.starts_with(".heap"));
     let heap = heap.filter_map(|line| line.split_whitespace().nth(1)?.parse::<u64>().ok()).sum();
-    Ok(Built { text, data, bss: bss.saturating_sub(heap), warnings: BTreeSet::new() })
+    Ok(Built {
+        text,
+        data,
+        bss: bss.saturating_sub(heap),
+        warnings: BTreeSet::new(),
+        is_production: false,
+    })
 }
 
 /// Warnings whose place is in our files.
@@ -106,6 +200,16 @@ fn ours(said: &str) -> BTreeSet<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn programs_that_are_too_large_are_told() {
+        let back = "ld:rules_memory.ld:314 cannot move location counter backwards (from 200011e8 to 20001000)";
+        let told = "the memory for variables overflowed by 488 bytes";
+        assert_eq!(overflow(back).as_deref(), Some(told));
+        let region = "ld: region `flash0' overflowed by 12 bytes";
+        assert_eq!(overflow(region).as_deref(), Some("flash0 overflowed by 12 bytes"));
+        assert_eq!(overflow("collect2: error: ld returned 1 exit status"), None);
+    }
 
     #[test]
     fn only_warnings_of_our_files_count() {

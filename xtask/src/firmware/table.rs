@@ -11,8 +11,9 @@ const HEAD: &str = "# Firmware, board by board
 Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
 by `cargo xtask firmware --matrix`: text, data and bss of the development build in bytes, shell and link among them,
 without the heap, which is whatever is left. `all` is a design with all kinds that the board's MCU has, as far as they
-fit on its pins together; `2 W` are two warnings of our own files. Fig. 2 and the paper's car are `fig2` and `car`. `·`: the MCU has no such unit, or ChibiOS no
-driver for it. `-`: the units are there, but not on free pins of this board.
+fit on its pins together. Fig. 2 and the paper's car are `fig2` and `car`. `P`: the development build is larger than the
+MCU's memory, the production build is not. `·`: the MCU has no such unit, or ChibiOS no driver for it. `-`: the units are
+there, but not on free pins of this board. `2 W` are two warnings of our own files.
 ";
 
 /// The whole page.
@@ -54,6 +55,7 @@ fn mark(outcome: &Outcome) -> &'static str {
         Outcome::NotOffered => "·",
         Outcome::NoWiring(_) => "-",
         Outcome::Built(..) => "built",
+        Outcome::TooLarge(_) => "too large",
         Outcome::Failed(_) => "**failed**",
     }
 }
@@ -64,11 +66,12 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
     let built = count(|outcome| matches!(outcome, Outcome::Built(..)));
     let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
     let none = count(|outcome| matches!(outcome, Outcome::NoWiring(_)));
+    let large = count(|outcome| matches!(outcome, Outcome::TooLarge(_)));
     let not = count(|outcome| matches!(outcome, Outcome::NotOffered));
     let families: BTreeSet<&str> = boards.iter().map(|one| one.cell.family.as_str()).collect();
     let mut text = format!(
-        "\n{} boards of {} families: {built} cells built, {failed} failed, {none} without a wiring, {not} \
-         not offered.\n",
+        "\n{} boards of {} families: {built} cells built, {failed} failed, {large} larger than the \
+         memory, {none} without a wiring, {not} not offered.\n",
         boards.len(),
         families.len()
     );
@@ -86,6 +89,10 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
     list("Failed", &|one| {
         let Outcome::Failed(why) = &one.outcome else { return None };
         Some(format!("`{}`", why.replace('`', "'")))
+    });
+    list("Larger than the MCU's memory", &|one| {
+        let Outcome::TooLarge(why) = &one.outcome else { return None };
+        Some(why.clone())
     });
     list("Warnings of our files", &|one| {
         let Outcome::Built(built, _) = &one.outcome else { return None };

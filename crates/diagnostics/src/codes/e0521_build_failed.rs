@@ -11,7 +11,9 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "make failed",
     explanation: r#"Everything that the build needs was there, and make ended with an error, which stands above the message. Where
 it names a file in `user/`, the mistake is in your own code. A `_Static_assert` of `generated/sense_hw.c` says that
-your ChibiOS tree is not what the wiring was computed for (other clocks, another DMA stream).
+your ChibiOS tree is not what the wiring was computed for (other clocks, another DMA stream). Where the linker says
+`overflowed by` or `cannot move location counter backwards`, the program is larger than the MCU's memory: `--production`
+leaves the shell out, which saves a third or more.
 
 Way out: mend what the first error names. `make -C FOLDER CHIBIOS=… USE_VERBOSE_COMPILE=yes` shows the whole
 commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a bug of SenseDSL.
