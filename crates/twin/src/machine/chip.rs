@@ -87,11 +87,6 @@ impl Chip {
         self.memory.clone()
     }
 
-    /// The host has something to send.
-    pub(super) fn link_has_bytes(&mut self) {
-        self.usb.link_has_bytes(&mut self.wires);
-    }
-
     /// All peripherals as after a reset; the backup domain keeps what it has.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);

@@ -8,6 +8,7 @@ use rsemu::core::error::BusError;
 use rsemu::core::space::{
     AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy,
 };
+use rsemu::cpu::arm::v7m::sys::Exception;
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
 use super::Settings;
@@ -313,16 +314,30 @@ impl Core {
         self.lockup = Some(Lockup { pc, why });
     }
 
-    /// The address of the instruction that failed, as the exception kept it.
+    /// The address of the instruction that failed, as the exception kept it. The handler may have lost what said
+    /// which stack that is on: a thread's is the process stack, if it has one, a handler's is the main stack.
     fn stacked_pc(&self) -> Option<u32> {
+        let of_process = self.framed_pc(self.cpu.psp());
+        let of_main = self.framed_pc(self.cpu.msp());
+        let active = (1..Exception::COUNT).filter(|number| {
+            let number = u16::try_from(*number).unwrap_or(0);
+            self.cpu.with_sys(|system| system.is_active(Exception(number)))
+        });
+        if active.count() > 1 { of_main } else { of_process.or(of_main) }
+    }
+
+    /// The program counter in an exception's frame, where it is one.
+    fn framed_pc(&self, stack: u32) -> Option<u32> {
         let chip = lock(&self.chip);
         let memory = chip.memory();
-        let mut word = [0; 4];
-        // Handlers that only wait push nothing; the link register says which stack has the frame.
-        let stack = if self.cpu.reg(14) & 4 == 0 { self.cpu.msp() } else { self.cpu.psp() };
-        let offset = u64::from(stack.checked_sub(SRAM_BASE)?) + 24;
-        memory.sram.read_at(offset, &mut word).ok()?;
-        Some(u32::from_le_bytes(word))
+        let offset = u64::from(stack.checked_sub(SRAM_BASE)?);
+        let word = |at: u64| {
+            let mut bytes = [0; 4];
+            memory.sram.read_at(offset + at, &mut bytes).ok()?;
+            Some(u32::from_le_bytes(bytes))
+        };
+        let (pc, status) = (word(24)?, word(28)?);
+        (status >> 24 & 1 == 1).then_some(pc)
     }
 
     fn fault(&self) -> String {

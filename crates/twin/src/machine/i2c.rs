@@ -60,7 +60,7 @@ pub(super) struct I2c {
     phase: Phase,
     until: u64,
     has_read_status: bool,
-    /// A byte was refused by the master: no more of them come.
+    /// A byte was refused, by whomever: no more of them come.
     has_ended: bool,
     /// Acknowledge, as it was one byte ago; POS delays it by one.
     acknowledged: bool,
@@ -162,7 +162,7 @@ impl I2c {
                         self.sr1 |= FINISHED;
                     }
                 }
-                I2cReply::Nack => self.sr1 |= REFUSED,
+                I2cReply::Nack => self.refuse(),
                 I2cReply::Stuck | I2cReply::Silent => self.hang(),
             },
             Phase::Receiving { ack } => match self.ask(I2cEvent::Read { ack }, wires) {
@@ -182,9 +182,15 @@ impl I2c {
                 self.sr1 |= if read { ADDRESSED } else { ADDRESSED | EMPTY };
                 self.sr2 = (self.sr2 & !TRANSMITS) | if read { 0 } else { TRANSMITS };
             }
-            I2cReply::Nack => self.sr1 |= REFUSED,
+            I2cReply::Nack => self.refuse(),
             I2cReply::Stuck | I2cReply::Silent => self.hang(),
         }
+    }
+
+    /// Nothing more goes over the bus until a stop or a start, also when the flag is cleared before.
+    fn refuse(&mut self) {
+        self.sr1 |= REFUSED;
+        self.has_ended = true;
     }
 
     fn received(&mut self, byte: u8, ack: bool) {
@@ -220,7 +226,7 @@ impl I2c {
             return;
         }
         let transmits = self.sr2 & TRANSMITS != 0;
-        if is_master && transmits && self.sr1 & REFUSED == 0 && self.waiting.is_some() {
+        if is_master && transmits && !self.has_ended && self.waiting.is_some() {
             if let Some(byte) = self.waiting.take() {
                 (self.phase, self.until) = (Phase::Sending(byte), byte_end);
                 self.sr1 |= EMPTY;
@@ -233,12 +239,7 @@ impl I2c {
                 return;
             }
             (self.phase, self.until) = (Phase::Starting, one);
-        } else if is_master
-            && !transmits
-            && !self.has_ended
-            && self.behind.is_none()
-            && self.sr1 & REFUSED == 0
-        {
+        } else if is_master && !transmits && !self.has_ended && self.behind.is_none() {
             let ack = self.acknowledges(wires);
             (self.phase, self.until) = (Phase::Receiving { ack }, byte_end);
             self.acknowledged = self.cr[0] & ACKNOWLEDGE != 0;

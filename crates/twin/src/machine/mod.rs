@@ -1,8 +1,8 @@
 //! An emulated STM32F407 that runs a program as it is.
 //!
 //! In comes an image ([`Machine::load`]) and what a host sends; out go what the host receives, and events. The core,
-//! its interrupt controller and its exceptions are rsemu's ([`core`]); everything else on the chip is here, a file a
-//! device, in [`chip`]. What the pads are connected to says [`Surroundings`](crate::Surroundings).
+//! its interrupt controller and its exceptions are rsemu's (`core.rs`); everything else on the chip is here, a file a
+//! device (`chip.rs`). What the pads are connected to says [`Surroundings`](crate::Surroundings).
 //!
 //! The core counts cycles of its own clock, all else nanoseconds; where the core waits in a loop of one instruction the
 //! time jumps to the next event. Nothing here reads a clock or draws numbers, so a run is the same each time.
@@ -104,9 +104,7 @@ impl Machine {
 
     /// The host sends: bytes arrive at the line's speed.
     pub fn link_write(&mut self, bytes: &[u8]) {
-        let mut chip = self.core.chip();
-        chip.wires.link.to_mcu.extend(bytes);
-        chip.link_has_bytes();
+        self.core.chip().wires.link.to_mcu.extend(bytes);
     }
 
     /// How many bytes of the host's have not arrived yet.

@@ -112,9 +112,9 @@ impl Timer {
         u64::from(self.arr) + 1
     }
 
-    /// Whether time moves the counter, and not edges.
+    /// Whether time moves the counter, and not edges. A period of 0 blocks it.
     fn runs(&self) -> bool {
-        self.cr1 & 1 != 0 && !matches!(self.smcr & 7, 1..=3 | 7)
+        self.cr1 & 1 != 0 && self.arr != 0 && !matches!(self.smcr & 7, 1..=3 | 7)
     }
 
     /// The count from the base on, not wrapped.
@@ -180,7 +180,8 @@ impl Timer {
         if self.sr >> (1 + channel) & 1 == 1 {
             self.sr |= 0x200 << channel;
         }
-        self.ccr[channel] = self.count(at);
+        // An edge that comes with a tick of the counter takes the count before it.
+        self.ccr[channel] = self.count(at.saturating_sub(1));
         self.raise_channel(channel);
     }
 

@@ -139,15 +139,15 @@ impl Chip {
     }
 
     fn load_bytes(&self, address: u32, size: u32) -> Option<u32> {
-        (0..size)
-            .rev()
-            .try_fold(0, |value, at| Some(value << 8 | u32::from(self.memory.read(address + at)?)))
+        (0..size).rev().try_fold(0, |value, at| {
+            Some(value << 8 | u32::from(self.memory.read(address.wrapping_add(at))?))
+        })
     }
 
     fn store_bytes(&self, address: u32, value: u32, size: u32) -> Option<()> {
         let bytes = value.to_le_bytes();
         let mut places = (0..size).zip(bytes);
-        places.all(|(at, byte)| self.memory.write(address + at, byte)).then_some(())
+        places.all(|(at, byte)| self.memory.write(address.wrapping_add(at), byte)).then_some(())
     }
 }
 

@@ -7,6 +7,8 @@ use super::wires::{LinkPort, Wires, merge};
 
 /// Endpoints in each direction.
 const ENDPOINTS: usize = 4;
+/// Memory of all FIFOs together.
+const FIFO_BYTES: usize = 1280;
 /// Interrupts of the core (GINTSTS).
 const SOF: u32 = 1 << 3;
 const RECEIVED: u32 = 1 << 4;
@@ -110,8 +112,6 @@ impl Usb {
         *self = Self::new();
         self.tell(wires);
     }
-
-    pub(super) fn link_has_bytes(&mut self, _: &mut Wires) {}
 
     pub(super) fn deadline(&self) -> u64 {
         self.host.next_ns
@@ -335,7 +335,10 @@ impl Usb {
             }
             0x1000..=0x4FFF => {
                 let endpoint = &mut self.ins[(offset / 0x1000 - 1) as usize];
-                endpoint.fifo.extend(value.to_le_bytes());
+                // What the FIFOs' memory has no room for is lost.
+                if endpoint.fifo.len() < FIFO_BYTES {
+                    endpoint.fifo.extend(value.to_le_bytes());
+                }
             }
             _ => {
                 if let Some(register) = self.registers.get_mut((offset / 4) as usize) {

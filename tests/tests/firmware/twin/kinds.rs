@@ -57,9 +57,9 @@ fn analog_values_are_those_of_the_pads() {
     // One each 20 ms.
     assert!((74..=75).contains(&distances.len()), "{}", distances.len());
     for (at, value) in distances {
-        // A ramp of 1 mV a millisecond is converted up to 11 ms before the report is there.
+        // A ramp of 1 mV a millisecond is converted up to 12 ms before the report is there.
         let volts = |at: u64| (330.0 + at as f64 / MS as f64) / 3300.0 * 4096.0;
-        let (low, high) = (volts(at.saturating_sub(11 * MS)) - 1.0, volts(at) + 1.0);
+        let (low, high) = (volts(at.saturating_sub(12 * MS)) - 1.0, volts(at) + 1.0);
         let value = unsigned(&value) as f64;
         assert!(low <= value && value <= high, "{at}: {value} is not in {low} to {high}");
     }
@@ -108,7 +108,8 @@ fn digital_inputs_count_and_settle_and_outputs_follow() {
     // Active low, with a pull-up: nobody drives it, so it is off.
     bench.world().levels.insert(pad("PC1"), false);
     bench.machine.link_write(&frame(&[3, 0]));
-    bench.run_until_ms(1_000);
+    // The contact is read once a second.
+    bench.run_until_ms(2_100);
     let schema = items(&[
         (1, Sensor, "Bumper", Bool, None),
         (2, Sensor, "Drops", Uint32, None),
