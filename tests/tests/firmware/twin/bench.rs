@@ -22,7 +22,7 @@ pub(super) struct Square {
 
 impl Square {
     fn level(self, now: u64) -> bool {
-        now >= self.shift_ns && (now - self.shift_ns) / self.half_ns % 2 == 0
+        now >= self.shift_ns && ((now - self.shift_ns) / self.half_ns).is_multiple_of(2)
     }
 
     fn next(self, after: u64) -> (u64, bool) {
