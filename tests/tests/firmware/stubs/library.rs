@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_model::facts::{self, EXAMPLE_BOARD};
+use sensedsl_model::facts;
 use sensedsl_tests::{files, is_thorough, read};
 
 use super::super::facts::Folder;
