@@ -11,7 +11,7 @@ use super::designs::{Made, make};
 
 /// What is not made for the first board of each family, with its codes: without a wiring (E0401) where the MCU lacks the
 /// unit or the board the pins, where its clocks do not fit (E0620), or where its link cannot be had (E0504).
-const NOT_MADE: [&str; 15] = [
+const NOT_MADE: [&str; 12] = [
     "BLACKPILL_F401CC kinds/can E0401",
     "BLACKPILL_F401CC kinds/dac E0401",
     "BLUEPILL_F103C8 kinds/can E0401",
@@ -24,9 +24,6 @@ const NOT_MADE: [&str; 15] = [
     "NUCLEO_H7A3ZI_Q kinds/spi E0620",
     "NUCLEO_H7A3ZI_Q mixed/chips E0620",
     "NUCLEO_H7A3ZI_Q mixed/usb E0504",
-    "NUCLEO_L432KC kinds/icu E0620",
-    "NUCLEO_L432KC mixed/messages E0620",
-    "NUCLEO_L432KC mixed/motors E0620",
 ];
 
 /// A board of each family and each choice of drivers in it: the first in the catalog, or all where everything is asked
