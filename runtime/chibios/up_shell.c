@@ -122,6 +122,39 @@ static void command_sensors(BaseSequentialStream *out, int argc, char *argv[]) {
   }
 }
 
+static void print_health(BaseSequentialStream *out, size_t index) {
+  static const char *const statuses[] = {"never read", "good", "stale", "failed", "invalid"};
+  static const char *const causes[] = {"not acknowledged", "bus errors", "arbitrations lost", "timed out",
+                                       "wrong checksums", "invalid"};
+  const up_field_t *field = &up_config.schema->fields[index];
+  up_health_row_t row;
+  size_t i;
+
+  up_lock();
+  up_health_row(up_health(), index, up_now_ms(), &row);
+  up_unlock();
+  chprintf(out, "%3u %-24s %s", (unsigned)field->id, field->name, statuses[row.status]);
+  if (row.age_ms < UP_AGE_LONG) {
+    chprintf(out, ", last value %lu ms ago", (unsigned long)row.age_ms);
+  }
+  for (i = 0U; i < UP_FAULTS; i++) {
+    if (row.counts[i] > 0U) {
+      chprintf(out, ", %u %s", (unsigned)row.counts[i], causes[i]);
+    }
+  }
+  chprintf(out, SHELL_NEWLINE_STR);
+}
+
+static void command_health(BaseSequentialStream *out, int argc, char *argv[]) {
+  size_t i;
+
+  (void)argc;
+  (void)argv;
+  for (i = 0U; i < up_config.schema->fields_count; i++) {
+    print_health(out, i);
+  }
+}
+
 static bool find_field(const char *name, size_t *index) {
   size_t i;
 
@@ -263,7 +296,7 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
 static const ShellCommand commands[] = {
     {"sensors", command_sensors}, {"print", command_print},   {"stream", command_stream},
     {"link", command_link},       {"schema", command_schema}, {"threads", command_threads},
-    {"doctor", command_doctor},
+    {"health", command_health},   {"doctor", command_doctor},
     {NULL, NULL},
 };
 

@@ -74,7 +74,7 @@ class Board:
         self.idle_range = range(named["__idle_thread"][0] & ~1, (named["__idle_thread"][0] & ~1) + named["__idle_thread"][1])
         # The linker may have put it into its only caller.
         self.halt = named.get("chSysHalt", (0, 0))[0] & ~1
-        self.stacks = [(value, value + size, name) for value, size, name in self.symbols if name.startswith("task_") and name.endswith("_stack")]
+        self.stacks = [(value, value + size, name) for value, size, name in self.symbols if name.endswith("_stack")]
         self.process = (named["__process_stack_base__"][0], named["__process_stack_end__"][0])
         sp, pc = (int.from_bytes(uc.mem_read(0x08000000 + at, 4), "little") for at in (0, 4))
         uc.reg_write(arm.UC_ARM_REG_MSP, sp)
