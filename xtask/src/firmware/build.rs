@@ -9,8 +9,9 @@ use sensedsl_codegen::fileset::FileSet;
 
 /// What our files are compiled with; the tree's own warnings are not looked at.
 const WARNINGS: &str = "-Wall -Wextra -Wundef -Wstrict-prototypes -Wconversion";
-/// As in the generated Makefile, without what debuggers need: the program is the same.
-const OPTIONS: &str = "-O2 -fomit-frame-pointer";
+/// As in the generated Makefile, without what debuggers need, and without link-time optimisation, which would take
+/// most of the time: programs are about a tenth larger than a user's.
+const OPTIONS: &str = "-Os -fomit-frame-pointer";
 /// The folders of our files, as the compiler names them.
 const OURS: [&str; 4] = ["generated/", "cfg/", "user/", "uproxy/"];
 
@@ -151,6 +152,7 @@ fn make(board: &Path, tree: &Path, mode: &str) -> Result<Command> {
     let mut make = Command::new("make");
     make.current_dir(board).arg("--silent").arg(format!("CHIBIOS={}", tree.display()));
     make.arg(format!("CWARN={WARNINGS}")).arg(format!("USE_OPT={OPTIONS}"));
+    make.arg("USE_LTO=no");
     // Without the linker's map and the compiler's listings, which nobody reads.
     make.arg(format!("UP_MODE={mode}")).arg(format!("./build/{mode}/sense.elf"));
     make.args(modules(board, tree, mode)?);

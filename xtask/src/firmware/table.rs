@@ -10,7 +10,7 @@ const HEAD: &str = "# Firmware, board by board
 
 Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
 by `cargo xtask firmware --matrix`: text, data and bss of the development build in bytes, shell and link among them,
-without the heap, which is whatever is left. `all` is a design with all kinds that the board's MCU has, as far as they
+without the heap, which is whatever is left, and without link-time optimisation, which saves another tenth. `all` is a design with all kinds that the board's MCU has, as far as they
 fit on its pins together. Fig. 2 and the paper's car are `fig2` and `car`. `P`: the development build is larger than the
 MCU's memory, the production build is not. `·`: the MCU has no such unit, or ChibiOS no driver for it. `-`: the units are
 there, but not on free pins of this board. `2 W` are two warnings of our own files.
