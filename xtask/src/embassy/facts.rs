@@ -10,6 +10,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Facts {
     pub(crate) target: String,
+    /// How the names of parts begin that have no profile.
+    pub(crate) without: Vec<String>,
     pub(crate) kernel: Vec<String>,
     pub(crate) blocks: BTreeMap<String, Block>,
     pub(crate) family: BTreeMap<String, Family>,

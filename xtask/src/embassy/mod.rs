@@ -29,6 +29,9 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let facts = Facts::read()?;
     let mut families: BTreeMap<String, Vec<Chip>> = BTreeMap::new();
     for chip in metadata::read(&folder)? {
+        if facts.without.iter().any(|start| chip.name.starts_with(start)) {
+            continue;
+        }
         // Variants of one name differ in what no part number tells.
         if facts.family.contains_key(&chip.family) && !chip.name.contains('-') {
             families.entry(chip.family.clone()).or_default().push(chip);
