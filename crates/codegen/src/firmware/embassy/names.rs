@@ -208,11 +208,13 @@ impl Names {
         self.peripherals.iter().find(own).map_or(unit, |one| one.hal.as_str())
     }
 
-    /// What the HAL calls a DMA channel: `DMA1_CH0` of `1,0`.
+    /// What the HAL calls a DMA channel: `DMA1_CH0` of `1,0`. None where it has no such channel by number, as for
+    /// the basic controllers of H7.
     #[must_use]
     pub fn channel(&self, stream: &str) -> Option<String> {
         let (controller, stream) = stream.split_once(',')?;
-        Some(self.dma.replace("{controller}", controller).replace("{stream}", stream))
+        let name = self.dma.replace("{controller}", controller).replace("{stream}", stream);
+        self.interrupts.iter().any(|one| one.name == name).then_some(name)
     }
 
     /// The interrupt of a unit, a DMA channel or a line.
