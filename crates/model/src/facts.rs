@@ -21,7 +21,7 @@ use crate::parts::ReadPart;
 use crate::protocol::{Coding, Filter, Protocol};
 use crate::value::{Dimension, Measure, Value};
 
-pub use example::{EXAMPLE_BOARD, example, example_on};
+pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
 
 /// A part of the library.
 #[derive(Clone, Debug)]

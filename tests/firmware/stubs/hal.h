@@ -232,6 +232,8 @@ void rccEnableTIM5(bool in_sleep);
 void rccResetTIM5(void);
 void rccEnableTIM8(bool in_sleep);
 void rccResetTIM8(void);
+void rccEnableTIM20(bool in_sleep);
+void rccResetTIM20(void);
 
 /* ---- DMA ---- */
 

@@ -18,9 +18,15 @@ const DELAYS_MS: [u32; 3] = [100, 200, 1_000];
 /// device where there is one.
 #[must_use]
 pub fn example(part: &PartFacts) -> String {
+    example_on(part, example_board(part))
+}
+
+/// The board of a part's example.
+#[must_use]
+pub fn example_board(part: &PartFacts) -> &'static str {
     let is_inverted = |one: &ValueFacts| one.kind.uart().is_some_and(|uart| uart.is_inverted);
     let inverts = part.values.iter().any(is_inverted);
-    example_on(part, if inverts { INVERTING_BOARD } else { EXAMPLE_BOARD })
+    if inverts { INVERTING_BOARD } else { EXAMPLE_BOARD }
 }
 
 /// As [`example`], on another board.

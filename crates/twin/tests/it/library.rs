@@ -49,8 +49,6 @@ fn board(part: &facts::PartFacts) -> String {
         (None, Some(first)) => format!("address = {first};"),
         (_, _) => String::new(),
     };
-    let name = &part.name;
-    format!(
-        "board B on NUCLEO_F446RE {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}"
-    )
+    let (name, board) = (&part.name, facts::example_board(part));
+    format!("board B on {board} {{ chip Part {{ driver = {name}; {address} delay = 100 ms; }} }}")
 }
