@@ -25,10 +25,16 @@ mod random;
 
 pub use random::Random;
 
-/// Whether everything that tests are quick without is asked for too: `SENSEDSL_THOROUGH=1`.
+/// Whether everything that tests are quick without is asked for too: `SENSEDSL_THOROUGH=1`, as CI does.
 #[must_use]
 pub fn is_thorough() -> bool {
-    std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("1")
+    std::env::var("SENSEDSL_THOROUGH").is_ok_and(|level| level == "1" || level == "2")
+}
+
+/// Whether what takes many minutes is asked for too: `SENSEDSL_THOROUGH=2`.
+#[must_use]
+pub fn is_exhaustive() -> bool {
+    std::env::var("SENSEDSL_THOROUGH").as_deref() == Ok("2")
 }
 
 /// The first few of them; all where everything is asked for.

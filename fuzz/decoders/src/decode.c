@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "up_decode.h"
+#include "up_health.h"
 #include "up_memo.h"
 
 static void put(sense_decoded_t *decoded, const void *bytes, size_t size) {
@@ -16,7 +17,11 @@ static void put(sense_decoded_t *decoded, const void *bytes, size_t size) {
 }
 
 static void on_values(void *context, const up_stamp_t *stamp, const uint8_t *items, size_t size) {
-  (void)stamp;
+  if (stamp != NULL) {
+    const uint8_t bytes[6] = {(uint8_t)'S', (uint8_t)(stamp->time_us >> 24), (uint8_t)(stamp->time_us >> 16),
+                              (uint8_t)(stamp->time_us >> 8), (uint8_t)stamp->time_us, stamp->counter};
+    put(context, bytes, sizeof bytes);
+  }
   put(context, "R", 1U);
   put(context, items, size);
   put(context, ".", 1U);
@@ -33,10 +38,18 @@ static void on_hello(void *context, uint32_t hash) {
   }
 }
 
-/* The other decoders of the fuzzer are asked for reports and hellos alone. */
 static void on_health(void *context, const uint8_t *payload, size_t size) {
-  put(context, (direction == UP_TO_BOARD) ? "A" : "D", 1U);
-  put(context, payload, size);
+  up_health_board_t board;
+
+  if (size == 0U) {
+    put(context, "A", 1U);
+  } else if (up_health_read_board(payload, size, &board)) {
+    put(context, "D", 1U);
+    put(context, payload, size);
+  } else {
+    put(context, "V", 1U);
+    put(context, &payload[1], 1U);
+  }
 }
 
 /* What a generator prints as a switch, from a table: any schema comes at run time. */
@@ -53,6 +66,7 @@ static void read_schema(const sense_stream_t *stream, up_wire_t *wire) {
   memset(item_of, 0, sizeof item_of);
   wire->direction = (uint8_t)direction;
   wire->has_checksum = stream->crc16 != 0U;
+  wire->has_stamp = stream->stamp != 0U && direction == UP_TO_HOST;
   for (i = 0U; i < stream->items_count; i++) {
     const sense_item_t *one = &stream->items[i];
     if ((one->to_board != 0) == (direction == UP_TO_BOARD)) {
@@ -60,6 +74,7 @@ static void read_schema(const sense_stream_t *stream, up_wire_t *wire) {
       values_bytes += 1U + up_type_bytes(one->type) * one->count;
     }
   }
+  values_bytes += (wire->has_stamp && values_bytes > 0U) ? 6U : 0U;
   wire->values_bytes_max = (uint16_t)values_bytes;
   payload_bytes = (direction == UP_TO_BOARD) ? 2U : UP_HEALTH_BOARD_BYTES + UP_HEALTH_DEVICE_BYTES * stream->items_count;
   wire->health_bytes = (uint16_t)((direction == UP_TO_BOARD) ? 0U : payload_bytes);

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::catalog;
-use sensedsl_tests::{files, is_thorough, read};
+use sensedsl_tests::{files, is_exhaustive, read};
 
 use super::super::tools::root;
 use super::compiler::{Firmware, compile_all, is_here, macros_of, profile_of};
@@ -37,7 +37,7 @@ fn boards() -> Vec<String> {
             let name = entry.name.replace('-', "_");
             let mut drivers = macros_of(&name);
             drivers.retain(|one| one.starts_with("-DSTUB_"));
-            if is_thorough() || seen.insert((profile.family.clone(), drivers)) {
+            if is_exhaustive() || seen.insert((profile.family.clone(), drivers)) {
                 boards.push(name);
             }
         }
@@ -86,7 +86,7 @@ fn every_family_and_kind_compiles_with_the_stubs() {
     let (said, read) = compile_all("families", &all);
     eprintln!("{} firmwares, {read} files read", all.len());
     assert!(said.is_empty(), "{} of {}:\n{}", said.len(), all.len(), said.concat());
-    if !is_thorough() {
+    if !is_exhaustive() {
         assert_eq!(not_made, NOT_MADE);
     }
     assert!(all.len() >= 140 && read >= 500, "{} firmwares, {read} files", all.len());
