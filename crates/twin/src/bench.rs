@@ -1,7 +1,7 @@
 //! The bench: a board's wiring, with parts behind its pins and a world around them.
 //!
-//! In: what is to run on a board, and a world. Out: [`Surroundings`] for an emulated MCU, and the same by connections
-//! for a board that knows no pads. Faults of the world happen here.
+//! In: what is to run on a board, and a world. Out: [`Surroundings`](crate::Surroundings) for an emulated MCU, and
+//! the same by connections for a board that knows no pads. Faults of the world happen here.
 
 use std::collections::BTreeMap;
 

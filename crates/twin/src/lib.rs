@@ -6,7 +6,7 @@
 //! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
 //! models the world answers.
 //!
-//! [`world`] says what happens around a board, [`bench`] puts parts behind its pins, [`soft`] does the board's job in
+//! [`world`] says what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's job in
 //! this program, and [`judge`] compares what it reports with the world. No part of it reads a file or a clock.
 
 mod arith;

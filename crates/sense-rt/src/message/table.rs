@@ -213,7 +213,7 @@ impl MessageTable {
         checksum_from: 0,
     };
 
-    /// The memory of a [`MessageStream`].
+    /// The memory of a `MessageStream`.
     #[must_use]
     pub const fn stream_bytes(&self, schema: &Schema) -> usize {
         self.bytes_max as usize + schema.value_bytes_max()
