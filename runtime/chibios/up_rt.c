@@ -56,7 +56,7 @@ void up_result(size_t field, up_result_t result, void *value) {
 
     result = up_config.filter(own->filter, own->state, &up_config.schema->fields[field], up_now_ms(), value);
     if (result == UP_NOTHING) {
-      /* A measurement all the same, which the host has no need of. */
+      /* The device answered; the filter keeps the value from the host. */
       note(field, UP_FRESH);
     }
   }

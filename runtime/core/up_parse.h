@@ -1,8 +1,8 @@
 /*
  * Numbers in the text of a device, into the type of a field. Integers are rounded half away from zero and saturate.
  *
- * Spaces around a number are no part of it. No text at all is UP_NOTHING, anything that is not wholly a number is
- * UP_INVALID, and then nothing is stored.
+ * Spaces around a number are ignored. An empty text gives UP_NOTHING; a text that is not a number gives UP_INVALID.
+ * Neither stores anything.
  */
 #ifndef UP_PARSE_H
 #define UP_PARSE_H

@@ -1,8 +1,8 @@
 //! Numbers in the text of a device, into the type of an item. Integers are rounded half away from
 //! zero and saturate.
 //!
-//! Spaces around a number are no part of it. No text at all is `Nothing`, anything that is not wholly
-//! a number is `Invalid`, and then nothing is stored.
+//! Spaces around a number are ignored. An empty text gives `Nothing`; a text that is not a number
+//! gives `Invalid`. Neither stores anything.
 
 use crate::convert::{divide, store_signed_ratio, store_unsigned};
 use crate::outcome::Outcome;

@@ -120,7 +120,7 @@ impl Store {
             told = filter.apply(item, now_ms, value);
         }
         if told == Outcome::Nothing {
-            // A measurement all the same, which the host has no need of.
+            // The device answered; the filter keeps the value from the host.
             health.note(index, outcome, now_ms);
         } else {
             self.tell_plain(health, index, told, value, now_ms);

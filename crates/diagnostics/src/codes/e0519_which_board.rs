@@ -35,7 +35,7 @@ pub fn unknown(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
         .help(format!("there is one of {}", boards.join(", ")))
 }
 
-/// The file has no board of that name, or nothing is on it: the boards that carry devices.
+/// `name` is no board of the file, or one that carries no devices; `boards` are those that do.
 #[must_use]
 pub fn not_in_file(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no board `{name}` carries a device of this file"))

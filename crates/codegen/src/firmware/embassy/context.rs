@@ -30,7 +30,7 @@ pub(super) struct Wired<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// None where there is no chip of that name or no timer for the clock.
+    /// `None` when Embassy has no chip of the board's name, or the profile no timer for the clock.
     pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
         let profile = job.profile?;
         let names = Names::of(profile).ok()?;
