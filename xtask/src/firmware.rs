@@ -10,7 +10,7 @@ mod build;
 mod cells;
 mod table;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -23,7 +23,7 @@ use cells::{Cell, Made};
 use crate::say;
 
 const USAGE: &str = "CHIBIOS=FOLDER cargo xtask firmware --matrix [--boards A,B] [--kinds a,b] [--jobs N] \
-                     [--scratch FOLDER] [--write]";
+                     [--scratch FOLDER] [--resume LOG] [--write]";
 
 /// The page that a complete run writes.
 const PAGE: &str = "docs/firmware-matrix.md";
@@ -35,6 +35,8 @@ struct Options {
     kinds: Option<BTreeSet<String>>,
     jobs: usize,
     scratch: Option<PathBuf>,
+    /// What an earlier run of the same sources printed: the cells that it has built are not built again.
+    resume: Option<PathBuf>,
     write: bool,
 }
 
@@ -51,6 +53,7 @@ impl Options {
                 "--kinds" => options.kinds = listed(next()?),
                 "--jobs" => options.jobs = next()?.parse().context(USAGE)?,
                 "--scratch" => options.scratch = Some(next()?.into()),
+                "--resume" => options.resume = Some(next()?.into()),
                 "--write" => options.write = true,
                 _ => bail!(USAGE),
             }
@@ -91,7 +94,13 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         std::env::temp_dir().join(format!("sensedsl-matrix-{}", std::process::id()))
     });
     let cells = cells::all(options.boards.as_ref(), options.kinds.as_ref())?;
-    let done = run_all(cells, options.jobs, &tree, &scratch);
+    let earlier = match &options.resume {
+        Some(log) => {
+            earlier(&std::fs::read_to_string(log).with_context(|| log.display().to_string())?)
+        }
+        None => Earlier::new(),
+    };
+    let done = run_all(cells, options.jobs, &tree, &scratch, &earlier);
     if options.scratch.is_none() {
         std::fs::remove_dir_all(&scratch).with_context(|| scratch.display().to_string())?;
     }
@@ -106,9 +115,29 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     Ok(())
 }
 
+/// Programs that an earlier run has built, by board and kind.
+type Earlier = BTreeMap<(String, String), Built>;
+
+/// Reads what `tell` wrote. A program with warnings is left out, because the line does not have them.
+fn earlier(log: &str) -> Earlier {
+    let built = |line: &str| {
+        let (_, cell) = line.split_once(' ')?;
+        let (cell, sizes) = cell.split_once(": ")?;
+        let (board, kind) = cell.split_once(' ')?;
+        Some(((board.to_owned(), kind.to_owned()), Built::from_sizes(sizes)?))
+    };
+    log.lines().filter_map(built).collect()
+}
+
 /// Works on several boards at once; the result is in the order of the cells. The cells of a board are
 /// built in one folder, one after the other.
-fn run_all(cells: Vec<Cell>, jobs: usize, tree: &Path, scratch: &Path) -> Vec<Done> {
+fn run_all(
+    cells: Vec<Cell>,
+    jobs: usize,
+    tree: &Path,
+    scratch: &Path,
+    earlier: &Earlier,
+) -> Vec<Done> {
     let numbered: Vec<(usize, &Cell)> = cells.iter().enumerate().collect();
     let boards: Vec<&[(usize, &Cell)]> =
         numbered.chunk_by(|(_, one), (_, next)| one.board == next.board).collect();
@@ -117,7 +146,7 @@ fn run_all(cells: Vec<Cell>, jobs: usize, tree: &Path, scratch: &Path) -> Vec<Do
     let work = || {
         while let Some(board) = boards.get(next.fetch_add(1, Ordering::Relaxed)) {
             for (at, cell) in *board {
-                let outcome = outcome(cell, tree, &scratch.join(&cell.board));
+                let outcome = outcome(cell, tree, &scratch.join(&cell.board), earlier);
                 tell(cell, &outcome, *at, cells.len());
                 results.lock().unwrap_or_else(PoisonError::into_inner).push((*at, outcome));
             }
@@ -138,16 +167,21 @@ fn run_all(cells: Vec<Cell>, jobs: usize, tree: &Path, scratch: &Path) -> Vec<Do
     cells.into_iter().zip(results).map(pair).collect()
 }
 
-fn outcome(cell: &Cell, tree: &Path, folder: &Path) -> Outcome {
+fn outcome(cell: &Cell, tree: &Path, folder: &Path, earlier: &Earlier) -> Outcome {
     match cells::make(cell) {
         Made::NotOffered => Outcome::NotOffered,
         Made::NoWiring(why) => Outcome::NoWiring(why),
         Made::Refused(why) => Outcome::Failed(why),
-        Made::Files(files, left_out) => match build::build(&files, tree, folder) {
-            Ok(Came::Built(built)) => Outcome::Built(built, left_out),
-            Ok(Came::TooLarge(why)) => Outcome::TooLarge(why),
-            Err(error) => Outcome::Failed(format!("{error:#}")),
-        },
+        Made::Files(files, left_out) => {
+            if let Some(built) = earlier.get(&(cell.board.clone(), cell.kind.clone())) {
+                return Outcome::Built(built.clone(), left_out);
+            }
+            match build::build(&files, tree, folder) {
+                Ok(Came::Built(built)) => Outcome::Built(built, left_out),
+                Ok(Came::TooLarge(why)) => Outcome::TooLarge(why),
+                Err(error) => Outcome::Failed(format!("{error:#}")),
+            }
+        }
     }
 }
 

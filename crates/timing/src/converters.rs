@@ -16,6 +16,22 @@ pub fn depth(samples: impl Iterator<Item = u16>) -> u16 {
     if most > 1 { most.next_multiple_of(2) } else { most }
 }
 
+/// The sampling times that the inputs of one group get, ascending, where they asked for these and the group can have
+/// `most` different ones: the shortest as asked, all others the longest.
+fn sampling_times(most: Option<u8>, mut asked: Vec<Cycles>) -> Vec<Cycles> {
+    asked.sort_unstable();
+    let (Some(most), Some(longest)) = (most, asked.last().copied()) else { return asked };
+    let mut different = asked.clone();
+    different.dedup();
+    let own = different.into_iter().take(usize::from(most).saturating_sub(1)).last();
+    for time in &mut asked {
+        if own.is_none_or(|own| *time > own) {
+            *time = longest;
+        }
+    }
+    asked
+}
+
 pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
     let Some(profile) = context.board.profile() else { return Vec::new() };
     let hz = converter_hz(context);
@@ -37,14 +53,10 @@ pub(crate) fn rows(context: &Context<'_>, work: &Work) -> Vec<Row> {
         row.clock_hz = hz;
         row.a_second = Some(Count::Conversions(per_second(conversions, cycle.delay_ms)));
         row.cycle_ns = hz.zip(profile.adc.conversion_cycles).and_then(|(hz, conversion)| {
-            let halves: Option<Vec<u64>> = analogs
-                .iter()
-                .map(|analog| {
-                    let sampling = sampling(&profile.adc, analog.sampling_cycles)?;
-                    Some(halves(sampling) + halves(conversion))
-                })
-                .collect();
-            let row_halves: u64 = halves?.into_iter().sum();
+            let asked = analogs.iter().map(|analog| sampling(&profile.adc, analog.sampling_cycles));
+            let times = sampling_times(profile.adc.sampling_times, asked.collect::<Option<_>>()?);
+            let row_halves: u64 =
+                times.into_iter().map(|time| halves(time) + halves(conversion)).sum();
             Some(clocks_ns(row_halves * u64::from(depth), hz.saturating_mul(2)))
         });
         row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
@@ -67,7 +79,19 @@ fn halves(cycles: Cycles) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::depth;
+    use sensedsl_board::profile::Cycles;
+
+    use super::{depth, sampling_times};
+
+    #[test]
+    fn inputs_share_the_sampling_times_of_their_group() {
+        let cycles = |times: &[u32]| times.iter().copied().map(Cycles::new).collect::<Vec<_>>();
+        let get = |most| sampling_times(most, cycles(&[20, 7, 39, 7]));
+        assert_eq!(get(None), cycles(&[7, 7, 20, 39]));
+        assert_eq!(get(Some(1)), cycles(&[39, 39, 39, 39]));
+        assert_eq!(get(Some(2)), cycles(&[7, 7, 39, 39]));
+        assert_eq!(get(Some(3)), cycles(&[7, 7, 20, 39]));
+    }
 
     #[test]
     fn a_group_of_several_rows_has_an_even_number() {

@@ -43,6 +43,17 @@ impl Built {
         let mode = if *is_production { " P" } else { "" };
         format!("{text}/{data}/{bss}{mode}{count}")
     }
+
+    /// The reverse, for a program without warnings.
+    pub(super) fn from_sizes(sizes: &str) -> Option<Self> {
+        let (numbers, is_production) = match sizes.strip_suffix(" P") {
+            Some(numbers) => (numbers, true),
+            None => (sizes, false),
+        };
+        let numbers: Result<Vec<u64>, _> = numbers.split('/').map(str::parse).collect();
+        let [text, data, bss] = *numbers.ok()?.as_slice() else { return None };
+        Some(Self { text, data, bss, warnings: BTreeSet::new(), is_production })
+    }
 }
 
 /// Writes and builds the firmware of one board. What an earlier build in the folder left is used

@@ -9,11 +9,12 @@ use super::{Done, Outcome};
 const HEAD: &str = "# Firmware, board by board
 
 Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
-by `cargo xtask firmware --matrix`: text, data and bss of the development build in bytes, shell and link among them,
-without the heap, which is whatever is left, and without link-time optimisation, which saves another tenth. `all` is a design with all kinds that the board's MCU has, as far as they
-fit on its pins together. Fig. 2 and the paper's car are `fig2` and `car`. `P`: the development build is larger than the
-MCU's memory, the production build is not. `·`: the MCU has no such unit, or ChibiOS no driver for it. `-`: the units are
-there, but not on free pins of this board. `2 W` are two warnings of our own files.
+by `cargo xtask firmware --matrix`. A cell says text, data and bss of the development build in bytes, with shell and
+link. The heap, which is whatever is left, is not counted, and link-time optimisation, which saves another tenth, is off.
+`all` is a design with all kinds that the board's MCU has, as far as they fit on its pins together; `fig2` and `car` are
+the paper's examples. `P`: the development build is larger than the MCU's memory, the production build is not. `·`: the
+MCU has no such unit, or ChibiOS no driver for it. `-`: the units are there, but not on free pins of this board. `2 W`
+are two warnings of our own files.
 ";
 
 /// The whole page.

@@ -177,6 +177,9 @@ pub struct Adcs {
     pub sample_cycles: Vec<Cycles>,
     /// The one that is taken when nothing is said.
     pub sample_cycles_default: Cycles,
+    /// How many different sampling times the inputs of one group can have, where it is not one each. The last one
+    /// serves whoever asks for that or less.
+    pub sampling_times: Option<u8>,
     /// Bits of a result.
     pub resolution_bits: u8,
     /// Inputs in one conversion group.
