@@ -178,6 +178,9 @@ struct Dacs {
     switch: String,
     /// The driver objects of a converter's outputs, from the first on.
     drivers: BTreeMap<String, Vec<String>>,
+    /// The option for the priority of an output's interrupt, and a value that the core has, where not every demo
+    /// says one and the driver's own is for larger cores.
+    priority: Option<[String; 2]>,
 }
 
 /// A USB device.
@@ -315,13 +318,15 @@ impl Names {
         Some(Setting::new(&apply(option, unit), &value))
     }
 
-    /// The driver object of a converter's output, counted from 1, and the option that turns it on.
-    pub(super) fn dac(&self, unit: &str, channel: u8) -> Option<(String, String)> {
+    /// The driver object of a converter's output, counted from 1, and the options that turn it on.
+    pub(super) fn dac(&self, unit: &str, channel: u8) -> Option<(String, Vec<Setting>)> {
         let dacs = self.dacs.as_ref()?;
         let place = usize::from(channel).checked_sub(1)?;
         let driver = dacs.drivers.get(unit)?.get(place)?.clone();
-        let switch = dacs.switch.replace("{channel}", &channel.to_string());
-        Some((driver, apply(&switch, unit)))
+        let option = |rule: &str| apply(&rule.replace("{channel}", &channel.to_string()), unit);
+        let switch = Setting::new(&option(&dacs.switch), "TRUE");
+        let priority = dacs.priority.iter().map(|[name, value]| Setting::new(&option(name), value));
+        Some((driver, std::iter::once(switch).chain(priority).collect()))
     }
 
     /// The options that choose source and divider of the converters' clock.

@@ -29,7 +29,8 @@ struct Output {
     field: String,
     element: u16,
     driver: String,
-    switch: String,
+    /// The options that turn it on.
+    settings: Vec<Setting>,
     /// The code at the start: that of the failsafe, or no voltage.
     init: u16,
     /// The code that is taken when the host is silent.
@@ -52,7 +53,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     if outputs.is_empty() {
         return section;
     }
-    section.mcu = outputs.iter().map(|one| Setting::new(&one.switch, "TRUE")).collect();
+    section.mcu = outputs.iter().flat_map(|one| one.settings.clone()).collect();
     let start = |one: &Output| format!("(void)dacStart(&{}, &{}_config);", one.driver, one.ident);
     section.starts = outputs.iter().map(start).collect();
     section.applies = applies(&outputs);
@@ -72,7 +73,7 @@ fn output(
     let Kind::Dac(dac) = &wired.connection.kind else { return None };
     let usage = wired.pad(Role::Out)?.usage?;
     let Function::Dac { channel, .. } = usage.signal.function() else { return None };
-    let (driver, switch) = context.names.dac(wired.unit?, *channel)?;
+    let (driver, settings) = context.names.dac(wired.unit?, *channel)?;
     let failsafe = dac.failsafe.map(code);
     Some(Output {
         ident: wired.ident.clone(),
@@ -80,7 +81,7 @@ fn output(
         field: device.name().to_owned(),
         element: wired.element(),
         driver,
-        switch,
+        settings,
         init: failsafe.unwrap_or(0),
         failsafe,
     })
