@@ -87,7 +87,12 @@ impl Chip {
         self.memory.clone()
     }
 
-    /// All peripherals as after a reset; the backup domain keeps what it has.
+    /// Whether the watchdog runs: it ends what stands still.
+    pub(super) fn is_watched(&self) -> bool {
+        self.iwdg.deadline() != NEVER
+    }
+
+    /// All peripherals as after a reset; the backup domain keeps what it has, unless power went.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);
         for register in [0x30, 0x34, 0x38, 0x40, 0x44] {
@@ -195,6 +200,10 @@ impl Chip {
     pub(super) fn put(&mut self, address: u32, value: u32, size: u32) -> Option<()> {
         let (base, _, device, gate) = map::find(address)?;
         let shift = 8 * (address & 3);
+        // A 0 changes nothing that a reset has left: ChibiOS clears the DMA's streams before it gives them a clock.
+        if value == 0 && gate.is_some_and(|(register, bit)| !self.rcc.is_enabled(register, bit)) {
+            return Some(());
+        }
         if !self.has_clock(*device, address, *base, *gate) {
             return Some(());
         }

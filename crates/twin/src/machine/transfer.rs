@@ -37,6 +37,13 @@ impl Memory {
         within(&self.flash, FLASH_BASE).map(|offset| (&*self.flash, offset))
     }
 
+    /// A word of the SRAM.
+    pub(super) fn word(&self, address: u32) -> Option<u32> {
+        let mut bytes = [0; 4];
+        self.sram.read_at(u64::from(address.checked_sub(SRAM_BASE)?), &mut bytes).ok()?;
+        Some(u32::from_le_bytes(bytes))
+    }
+
     fn read(&self, address: u32) -> Option<u8> {
         let (store, offset) = self.place(address)?;
         store.read_u8(offset).ok()
