@@ -33,6 +33,10 @@ const PATIENCE_NS: u64 = 3 * SECOND_NS;
 /// Bits of the status register: where in a block of conditional instructions the core is, and the exception it handles.
 const BLOCK: u32 = 0x0600_FC00;
 const EXCEPTION: u32 = 0x1FF;
+/// In a stacked status: a word aligns the stack.
+const ALIGNED: u32 = 1 << 9;
+/// What is in the link register of a handler is this or more.
+const EXC_RETURN: u32 = 0xFFFF_FFE0;
 /// The core is looked at for waiting every so many steps.
 const STEPS_BETWEEN_LOOKS: u32 = 8;
 
@@ -311,33 +315,41 @@ impl Core {
         }
     }
 
-    /// One instruction.
+    /// One instruction, or the way into a handler.
     fn step(&self) -> u64 {
         let before = self.cpu.xpsr();
         let cycles = self.cpu.step();
-        if before & BLOCK != 0 && before & EXCEPTION != 0 {
-            self.mend_block(before);
+        if before & BLOCK != 0 {
+            self.keep_block(before);
         }
         cycles
     }
 
-    /// Puts the core back into the block of conditional instructions that a handler has interrupted. Where the handler
-    /// returns with a conditional instruction itself, rsemu leaves out one instruction of the interrupted block. What was
-    /// on the stack says where that block was.
-    fn mend_block(&self, before: u32) {
+    /// Keeps the place in a block of conditional instructions over an exception. rsemu 0.0.7 forgets it when it stacks
+    /// the status, so that the rest of the block would be executed whatever its condition, and goes on by one
+    /// instruction too many where a handler returns with a conditional instruction of its own.
+    fn keep_block(&self, before: u32) {
         let after = self.cpu.xpsr();
         if after & EXCEPTION == before & EXCEPTION {
             return;
         }
-        let (pc, stack) = (self.cpu.pc(), self.cpu.reg(13));
+        let is_same = |one: u32, other: u32| (one ^ other) & !(BLOCK | ALIGNED) == 0;
         let chip = lock(&self.chip);
+        let link = self.cpu.reg(14);
+        let frame = if link & 4 != 0 { self.cpu.psp() } else { self.cpu.msp() };
+        let kept = frame.checked_add(28).and_then(|at| chip.memory.word(at));
+        if let Some(kept) = kept.filter(|kept| link >= EXC_RETURN && is_same(*kept, before)) {
+            chip.memory.put_word(frame + 28, kept | before & BLOCK);
+            return;
+        }
+        let (pc, stack) = (self.cpu.pc(), self.cpu.reg(13));
         // With and without the registers of the floating-point unit and a word that aligns the stack.
         for behind in [4, 8, 76, 80] {
             let kept = stack.checked_sub(behind).and_then(|at| chip.memory.word(at));
             let from = stack.checked_sub(behind + 4).and_then(|at| chip.memory.word(at));
             if let (Some(kept), Some(from)) = (kept, from)
                 && from & !1 == pc
-                && (kept ^ after) & !(BLOCK | 1 << 9) == 0
+                && is_same(kept, after)
             {
                 self.cpu.set_xpsr(after & !BLOCK | kept & BLOCK);
                 return;
