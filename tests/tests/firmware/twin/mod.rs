@@ -3,7 +3,9 @@
 //! Built with the feature `machine`; needs a ChibiOS tree.
 
 mod bench;
+mod faults;
 mod kinds;
+mod trial;
 
 use std::collections::BTreeMap;
 
