@@ -21,7 +21,7 @@ fn examples_agree_with_their_worlds() {
         let (file, world) =
             (format!("examples/{name}.sense"), format!("examples/worlds/{world}.toml"));
         let ran = sensedsl(["simulate", &file, "--world", &world, "--judge"]).run().exits(0);
-        assert!(ran.stderr.contains("agree with the world"), "{name}: {}", ran.stderr);
+        assert!(ran.stdout.contains("agree with the world"), "{name}: {}", ran.stdout);
         // Every sensor of the table has reported.
         let rows = ran.stdout.lines().skip(1).filter(|line| line.starts_with("  "));
         let counts = rows.map(|row| row.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap());
@@ -71,8 +71,9 @@ fn a_seed_gives_the_same_bytes() {
     let scratch = Scratch::new("frames");
     let frames = |name: &str, seed: &str| {
         let path = scratch.join(name);
-        let call = ["simulate", CAR, "--judge", "--seconds", "3", "--seed", seed, "--frames"];
-        let _ = sensedsl(call).arg(&path).run().exits(0);
+        let world = ["--world", "examples/worlds/car.toml", "--judge", "--seconds", "3"];
+        let call = sensedsl(["simulate", CAR]).args(world).args(["--seed", seed, "--frames"]);
+        let _ = call.arg(&path).run().exits(0);
         std::fs::read(path).unwrap()
     };
     let once = frames("once", "5");
@@ -153,5 +154,4 @@ fn a_generated_host_reads_the_pseudo_terminal() {
         }
     }
     assert!(missing.is_empty(), "{missing:?} in {read:#?}");
-    assert!(read[0].contains("agree"), "{}", read[0]);
 }

@@ -173,6 +173,12 @@ impl EmulatedBoard {
         std::mem::take(&mut self.misled)
     }
 
+    /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
+    #[must_use]
+    pub fn waves(&self) -> std::collections::BTreeMap<(u8, u8), (u64, u64)> {
+        self.bench().waves().clone()
+    }
+
     /// The host sends bytes.
     pub fn link_write(&mut self, bytes: &[u8]) {
         if !self.is_off {

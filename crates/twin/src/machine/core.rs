@@ -439,7 +439,8 @@ impl Core {
     fn framed_pc(&self, stack: u32) -> Option<u32> {
         let chip = lock(&self.chip);
         let memory = chip.memory();
-        let (pc, status) = (memory.word(stack.checked_add(24)?)?, memory.word(stack.checked_add(28)?)?);
+        let (pc, status) =
+            (memory.word(stack.checked_add(24)?)?, memory.word(stack.checked_add(28)?)?);
         (status >> 24 & 1 == 1).then_some(pc)
     }
 

@@ -5,6 +5,7 @@
 mod bench;
 mod faults;
 mod kinds;
+mod seeded;
 mod trial;
 
 use std::collections::BTreeMap;

@@ -14,7 +14,8 @@ use sensedsl_twin::machine::{Event as Told, Lockup};
 use sensedsl_twin::pads::Misled;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{
-    Decoder, Direction, Event, Health, encode_health_request, encode_hello_request,
+    Decoder, Direction, Event, Health, Scalar, encode_health_request, encode_hello_request,
+    encode_report,
 };
 
 use super::bench::{MS, folder};
@@ -32,6 +33,8 @@ pub(super) struct Trial {
     /// Identifiers that were reported, with the time in milliseconds.
     pub reported: Vec<(u64, u8)>,
     pub dropped: u64,
+    /// What the outputs of the rover are not.
+    pub outputs: Vec<String>,
 }
 
 impl Trial {
@@ -86,7 +89,8 @@ pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: 
         let mut board = EmulatedBoard::new(job, bench, image).unwrap();
         let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
         let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
-        let mut misled = Vec::new();
+        let (mut misled, mut outputs) = (Vec::new(), Vec::new());
+        let motor = job.schema.items.iter().any(|item| item.name == "Motor");
         for ms in 1..=seconds * 1_000 {
             if ms == 500 {
                 board.link_write(&encode_hello_request(&job.schema));
@@ -94,7 +98,19 @@ pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: 
             if asks_ms.contains(&ms) {
                 board.link_write(&encode_health_request(&job.schema));
             }
+            // Full speed for 400 ms of messages; then the host is silent.
+            if motor && (1_500..1_900).contains(&ms) && ms % 100 == 0 {
+                let values = [(20, vec![Scalar::Unsigned(10_000)])];
+                let bytes = encode_report(&job.schema, Direction::Actuator, &values);
+                board.link_write(&bytes.unwrap());
+            }
             board.run_until(ms * MS);
+            for (at, name, width) in PULSES {
+                let found = board.waves().get(&(9, 1)).copied();
+                if motor && ms == at && found != Some((20 * MS, width)) {
+                    outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
+                }
+            }
             decoder.feed(&board.link_read(), |event| match event {
                 Event::Report(_, values) => {
                     judge.take(ms * MS, &values);
@@ -118,9 +134,17 @@ pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: 
             health,
             reported,
             dropped: decoder.dropped_bytes(),
+            outputs,
         }
     })
 }
+
+/// When the rover's motor has pulses of which width.
+const PULSES: [(u64, &str, u64); 3] = [
+    (1_000, "before the host says something", 1_500_000),
+    (1_900, "as the host wants it", 2_000_000),
+    (3_000, "when the host is silent", 1_500_000),
+];
 
 /// The design that has one of everything.
 pub(super) fn rover() -> String {
