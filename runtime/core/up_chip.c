@@ -341,6 +341,11 @@ static size_t next_triggered(const step_t *step) {
   return found;
 }
 
+/* One more than a time that is not 0: the millisecond in which it begins is cut short. */
+static uint32_t whole_ms(uint32_t wait_ms) {
+  return (wait_ms == 0U) ? 0U : wait_ms + 1U;
+}
+
 /* Reads what is ready and triggers the next, so often that one that needs no time is read at once. */
 static void run_triggered(const step_t *step) {
   up_chip_state_t *state = step->state;
@@ -367,7 +372,7 @@ static void run_triggered(const step_t *step) {
       return;
     }
     set_next(step, transfer);
-    state->transfers[transfer].ready_ms = step->now_ms + step->chip->transfers[transfer].wait_ms;
+    state->transfers[transfer].ready_ms = step->now_ms + whole_ms(step->chip->transfers[transfer].wait_ms);
     state->in_flight = (uint8_t)(transfer + 1U);
   }
 }

@@ -33,6 +33,7 @@ mod parts;
 mod prolog;
 mod proof;
 mod silicon;
+mod simulate;
 mod single_files;
 mod soft_units;
 mod spreadsheets;

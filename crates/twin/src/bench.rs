@@ -38,6 +38,8 @@ pub struct Bench {
     senders: BTreeMap<u8, Vec<(PartIndex, can::Sender)>>,
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
+    /// By timer and channel: period and width of its pulses.
+    waves: BTreeMap<(u8, u8), (u64, u64)>,
     faults: Vec<Fault>,
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
@@ -90,6 +92,7 @@ impl Bench {
             talkers: BTreeMap::new(),
             senders: BTreeMap::new(),
             talked_to: BTreeMap::new(),
+            waves: BTreeMap::new(),
             faults: world.faults.clone(),
             broken: Vec::new(),
             seed,
@@ -128,6 +131,12 @@ impl Bench {
             (fault.kind.is_of_board() || is_own).then_some((fault.at_ns, fault.until_ns))
         };
         self.faults.iter().zip(&self.broken).filter_map(hits).collect()
+    }
+
+    /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
+    #[must_use]
+    pub fn waves(&self) -> &BTreeMap<(u8, u8), (u64, u64)> {
+        &self.waves
     }
 
     /// Whether the board has no supply.

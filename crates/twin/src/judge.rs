@@ -86,6 +86,8 @@ struct Accused {
     /// What a count may have begun with, less what the world had: from, to.
     bases: Vec<Option<(f64, f64)>>,
     last_ns: Option<u64>,
+    /// When a value may have been measured at the earliest, because no host was there to take it before.
+    waits_from_ns: Option<u64>,
 }
 
 impl Judge {
@@ -154,6 +156,7 @@ impl Accused {
             is_relative: is_encoder || is_counter(&device.kind, device),
             bases: vec![None; subject.signals.len()],
             last_ns: None,
+            waits_from_ns: Some(0),
             subject: subject.clone(),
         }
     }
@@ -165,6 +168,7 @@ impl Accused {
             self.judged.excused += 1;
             // A board that has started again counts anew.
             self.bases.iter_mut().for_each(|base| *base = None);
+            self.waits_from_ns = Some(now_ns);
             return;
         }
         self.judged.reports += 1;
@@ -181,6 +185,7 @@ impl Accused {
                 worst = Some(wrong);
             }
         }
+        self.waits_from_ns = None;
         self.note(worst);
     }
 
@@ -195,6 +200,7 @@ impl Accused {
     /// The raw numbers that an element can have had when what arrives now was measured.
     fn expected(&self, now_ns: u64, element: usize) -> (f64, f64) {
         let from_ns = now_ns.saturating_sub(self.judged.age_ns);
+        let from_ns = self.waits_from_ns.map_or(from_ns, |first_ns| from_ns.min(first_ns));
         let signal = self.subject.signals.get(element);
         let (least, greatest) = signal.map_or((0.0, 0.0), |signal| signal.range(from_ns, now_ns));
         let ends = [least, greatest].map(|end| self.subject.scale.raw(end));

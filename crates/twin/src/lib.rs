@@ -7,13 +7,17 @@
 //! models the world answers.
 //!
 //! [`world`] says what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's job in
-//! this program, and [`judge`] compares what it reports with the world. No part of it reads a file or a clock.
+//! this program, `emulated` does it with an image on the machine, and [`judge`] compares what it reports with the world. No part of it reads a file or a clock.
 
 mod arith;
 pub mod bench;
+#[cfg(feature = "machine")]
+pub mod emulated;
 pub mod judge;
 #[cfg(feature = "machine")]
 pub mod machine;
+#[cfg(feature = "machine")]
+pub mod pads;
 mod parts;
 pub mod range;
 pub mod soft;

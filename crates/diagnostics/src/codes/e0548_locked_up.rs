@@ -9,8 +9,9 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0548",
     severity: Severity::Error,
     title: "the firmware locked up",
-    explanation: r#"The processor of the emulated board cannot go on: a fault within a fault, or an instruction that does not exist. On real
-hardware the watchdog would reset the board, or it would stand still.
+    explanation: r#"The processor of the emulated board does nothing more: a fault, a failed check of the kernel, a sleep from which nothing
+wakes it, or a program that the watchdog resets again and again. On real hardware the board would stand still, or start
+without end.
 
 Way out: `arm-none-eabi-addr2line -e sense.elf ADDRESS` tells the line of the source at the address that the message has.
 "#,

@@ -122,6 +122,7 @@ codes! {
     e0547_no_machine,
     e0548_locked_up,
     e0549_judged_wrong,
+    e0550_pad_not_as_planned,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

@@ -312,7 +312,10 @@ impl Chip {
             Pending::Trigger(transfer) => {
                 self.set_next(transfer);
                 let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
-                set_ready_ms(&mut self.memory, transfer, self.now_ms.wrapping_add(wait_ms));
+                // One more, for the first millisecond is cut short.
+                let whole_ms = if wait_ms == 0 { 0 } else { wait_ms.wrapping_add(1) };
+                let ready_ms = self.now_ms.wrapping_add(whole_ms);
+                set_ready_ms(&mut self.memory, transfer, ready_ms);
                 self.in_flight = Some(transfer);
                 if let Stage::Turn(turns) = self.stage {
                     self.stage = Stage::Turn(turns + 1);

@@ -102,6 +102,10 @@ impl Surroundings for Bench {
         byte
     }
 
+    fn pwm(&mut self, timer: u8, channel: u8, period_ns: u64, width_ns: u64, _: u64) {
+        self.waves.insert((timer, channel), (period_ns, width_ns));
+    }
+
     fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
         let faults: Vec<PartIndex> = self
             .faults

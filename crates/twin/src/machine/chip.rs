@@ -87,7 +87,12 @@ impl Chip {
         self.memory.clone()
     }
 
-    /// All peripherals as after a reset; the backup domain keeps what it has.
+    /// Whether the watchdog runs: it ends what stands still.
+    pub(super) fn is_watched(&self) -> bool {
+        self.iwdg.deadline() != NEVER
+    }
+
+    /// All peripherals as after a reset; the backup domain keeps what it has, unless power went.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);
         for register in [0x30, 0x34, 0x38, 0x40, 0x44] {
@@ -184,7 +189,7 @@ impl Chip {
     pub(super) fn fetch(&mut self, address: u32, size: u32) -> Option<u32> {
         let (base, _, device, gate) = map::find(address)?;
         let shift = 8 * (address & 3);
-        if !self.has_clock(*device, address, *base, *gate) {
+        if !self.has_clock(*device, address, *base, *gate, false) {
             return Some(0);
         }
         let word = self.read(*device, (address - base) & !3);
@@ -195,7 +200,10 @@ impl Chip {
     pub(super) fn put(&mut self, address: u32, value: u32, size: u32) -> Option<()> {
         let (base, _, device, gate) = map::find(address)?;
         let shift = 8 * (address & 3);
-        if !self.has_clock(*device, address, *base, *gate) {
+        // A 0 changes nothing that a reset has left, and flags that are cleared were not set: ChibiOS does both.
+        let is_clear = matches!(device, Device::Dma(_)) && matches!(address - base, 0x08 | 0x0C);
+        let is_lost = value != 0 && !is_clear;
+        if !self.has_clock(*device, address, *base, *gate, is_lost) {
             return Some(());
         }
         let mask = if size >= 4 { u32::MAX } else { ((1 << (8 * size)) - 1) << shift };
@@ -214,6 +222,7 @@ impl Chip {
         address: u32,
         base: u32,
         gate: Option<(u32, u32)>,
+        is_lost: bool,
     ) -> bool {
         let is_on = match (device, gate) {
             (Device::Adc, _) => {
@@ -228,7 +237,7 @@ impl Chip {
             (_, None) => true,
         };
         let is_modelled = device != Device::Other;
-        if (!is_on || !is_modelled) && !self.told.contains(&base) {
+        if (!is_on && is_lost || is_on && !is_modelled) && !self.told.contains(&base) {
             self.told.push(base);
             let (at_ns, pc) = (self.wires.now, self.pc);
             self.wires.events.push(if is_on {

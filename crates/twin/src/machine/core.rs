@@ -28,6 +28,15 @@ const CCM_BYTES: u64 = 64 << 10;
 /// The maker's memory: the unique number, and how much flash there is.
 const SYSTEM_BASE: u64 = 0x1FFF_7000;
 const SYSTEM_BYTES: u64 = 0x1000;
+/// What stands so long without a watchdog stands for ever.
+const PATIENCE_NS: u64 = 3 * SECOND_NS;
+/// Bits of the status register: where in a block of conditional instructions the core is, and the exception it handles.
+const BLOCK: u32 = 0x0600_FC00;
+const EXCEPTION: u32 = 0x1FF;
+/// In a stacked status: a word aligns the stack.
+const ALIGNED: u32 = 1 << 9;
+/// What is in the link register of a handler is this or more.
+const EXC_RETURN: u32 = 0xFFFF_FFE0;
 /// The core is looked at for waiting every so many steps.
 const STEPS_BETWEEN_LOOKS: u32 = 8;
 
@@ -145,6 +154,9 @@ pub(super) struct Core {
     surroundings: Arc<Mutex<dyn Surroundings>>,
     waited: u64,
     lockup: Option<Lockup>,
+    /// Where the core stands, and since when.
+    stands: Option<(u32, u64)>,
+    is_off: bool,
 }
 
 impl Core {
@@ -171,7 +183,18 @@ impl Core {
         }
         let cpu = ArmV7m::new(Config::CORTEX_M4F.with_priority_bits(4));
         cpu.attach_space(Arc::new(space));
-        Self { cpu, chip, line, shared, settings, surroundings, waited: 0, lockup: None }
+        Self {
+            cpu,
+            chip,
+            line,
+            shared,
+            settings,
+            surroundings,
+            waited: 0,
+            lockup: None,
+            stands: None,
+            is_off: false,
+        }
     }
 
     pub(super) fn chip(&self) -> MutexGuard<'_, Chip> {
@@ -205,8 +228,28 @@ impl Core {
             if self.chip().wires.now >= end_ns {
                 return;
             }
-            self.turn_of_core(limit);
+            if self.is_off {
+                let passed = self.shared.cycles.load(Ordering::Relaxed).max(limit);
+                self.waited += passed - self.shared.cycles.swap(passed, Ordering::Relaxed);
+            } else {
+                self.turn_of_core(limit);
+            }
         }
+    }
+
+    /// Takes the supply away, or gives it back. Memory without power has lost what was in it.
+    pub(super) fn power(&mut self, is_on: bool) {
+        if self.is_off != is_on {
+            return;
+        }
+        self.is_off = !is_on;
+        let mut chip = lock(&self.chip);
+        let memory = chip.memory();
+        // The length is the memory's own.
+        let _ = memory.sram.fill(0, SRAM_BYTES, 0xA5);
+        let link = &mut chip.wires.link;
+        link.to_mcu.clear();
+        chip.reset = Some(super::ResetCause::Power);
     }
 
     /// Lets the chip work on what is due; returns the cycle at which it wants to be asked again.
@@ -233,13 +276,15 @@ impl Core {
             chip.reset = Some(super::ResetCause::Software);
         }
         if let Some(cause) = chip.reset.take() {
-            chip.wires.events.push(Event::Reset { at_ns: now, cause });
+            if !self.is_off {
+                chip.wires.events.push(Event::Reset { at_ns: now, cause });
+            }
             chip.restart(cause);
             for (irq, level) in chip.wires.take_changed() {
                 self.cpu.set_irq(irq, level);
             }
             *line = Line { cycles, ns: now, hz: chip.wires.clocks.core };
-            self.lockup = None;
+            (self.lockup, self.stands) = (None, None);
             self.cpu.request_reset();
         }
         line.cycles_at(chip.deadline().min(end_ns))
@@ -253,17 +298,61 @@ impl Core {
             if steps % STEPS_BETWEEN_LOOKS == 0 {
                 let pc = self.cpu.pc();
                 self.shared.pc.store(pc, Ordering::Relaxed);
-                cycles += self.cpu.step();
+                cycles += self.step();
                 self.shared.cycles.store(cycles, Ordering::Relaxed);
                 if self.cpu.pc() == pc && !self.shared.touched.load(Ordering::Relaxed) {
                     cycles = self.wait(cycles, limit);
+                } else {
+                    self.stands = None;
                 }
                 if self.cpu.reset_requested() {
                     return;
                 }
             } else {
-                cycles += self.cpu.step();
+                cycles += self.step();
                 self.shared.cycles.store(cycles, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// One instruction, or the way into a handler.
+    fn step(&self) -> u64 {
+        let before = self.cpu.xpsr();
+        let cycles = self.cpu.step();
+        if before & BLOCK != 0 {
+            self.keep_block(before);
+        }
+        cycles
+    }
+
+    /// Keeps the place in a block of conditional instructions over an exception. rsemu 0.0.7 forgets it when it stacks
+    /// the status, so that the rest of the block would be executed whatever its condition, and goes on by one
+    /// instruction too many where a handler returns with a conditional instruction of its own.
+    fn keep_block(&self, before: u32) {
+        let after = self.cpu.xpsr();
+        if after & EXCEPTION == before & EXCEPTION {
+            return;
+        }
+        let is_same = |one: u32, other: u32| (one ^ other) & !(BLOCK | ALIGNED) == 0;
+        let chip = lock(&self.chip);
+        let link = self.cpu.reg(14);
+        let frame = if link & 4 != 0 { self.cpu.psp() } else { self.cpu.msp() };
+        let kept = frame.checked_add(28).and_then(|at| chip.memory.word(at));
+        if let Some(kept) = kept.filter(|kept| link >= EXC_RETURN && is_same(*kept, before)) {
+            chip.memory.put_word(frame + 28, kept | before & BLOCK);
+            return;
+        }
+        let (pc, stack) = (self.cpu.pc(), self.cpu.reg(13));
+        // With and without the registers of the floating-point unit and a word that aligns the stack.
+        for behind in [4, 8, 76, 80] {
+            let kept = stack.checked_sub(behind).and_then(|at| chip.memory.word(at));
+            let from = stack.checked_sub(behind + 4).and_then(|at| chip.memory.word(at));
+            if let (Some(kept), Some(from)) = (kept, from)
+                && from & !1 == pc
+                && is_same(kept, after)
+            {
+                self.cpu.set_xpsr(after & !BLOCK | kept & BLOCK);
+                return;
             }
         }
     }
@@ -271,6 +360,7 @@ impl Core {
     /// The core stands on one instruction: only an interrupt can change that, so the time jumps to the next event.
     fn wait(&mut self, cycles: u64, limit: u64) -> u64 {
         self.note_lockup();
+        self.note_standstill();
         let mut jump = limit.saturating_sub(cycles);
         self.cpu.with_sys(|system| {
             if system.syst_csr & 1 == 1 && system.syst_rvr != 0 {
@@ -284,6 +374,25 @@ impl Core {
         let cycles = cycles + jump;
         self.shared.cycles.store(cycles, Ordering::Relaxed);
         cycles
+    }
+
+    /// Nothing has moved the core for long, and no watchdog will.
+    fn note_standstill(&mut self) {
+        let (pc, now_ns) = (self.cpu.pc(), self.chip().wires.now);
+        let since_ns = match self.stands {
+            Some((at, since_ns)) if at == pc => since_ns,
+            _ => self.stands.insert((pc, now_ns)).1,
+        };
+        if self.lockup.is_some() || now_ns - since_ns < PATIENCE_NS || self.chip().is_watched() {
+            return;
+        }
+        let seconds = PATIENCE_NS / SECOND_NS;
+        let why = if self.cpu.is_asleep() {
+            format!("it sleeps, and nothing has woken it for {seconds} s")
+        } else {
+            format!("it stands on one instruction, and nothing has interrupted it for {seconds} s")
+        };
+        self.lockup = Some(Lockup { pc, why });
     }
 
     fn note_lockup(&mut self) {
@@ -330,13 +439,8 @@ impl Core {
     fn framed_pc(&self, stack: u32) -> Option<u32> {
         let chip = lock(&self.chip);
         let memory = chip.memory();
-        let offset = u64::from(stack.checked_sub(SRAM_BASE)?);
-        let word = |at: u64| {
-            let mut bytes = [0; 4];
-            memory.sram.read_at(offset + at, &mut bytes).ok()?;
-            Some(u32::from_le_bytes(bytes))
-        };
-        let (pc, status) = (word(24)?, word(28)?);
+        let (pc, status) =
+            (memory.word(stack.checked_add(24)?)?, memory.word(stack.checked_add(28)?)?);
         (status >> 24 & 1 == 1).then_some(pc)
     }
 

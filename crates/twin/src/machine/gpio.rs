@@ -41,8 +41,9 @@ pub struct PadState {
     pub pad: Pad,
     /// What it is for.
     pub mode: Mode,
-    /// The wire of a peripheral that it is led to, as in `TIM3_CH1`, where the MCU has it there.
-    pub wire: Option<String>,
+    /// The wires of a peripheral that it is led to, as in `TIM3_CH1`, where the MCU has them there. One number may stand
+    /// for two: a timer's channel and its external trigger.
+    pub wires: Vec<String>,
     /// Whether only its low side is driven.
     pub open_drain: bool,
     /// Its resistors.
@@ -66,8 +67,8 @@ struct Port {
 /// All ports.
 pub(super) struct Gpio {
     ports: [Port; PORTS],
-    /// By pad and number of the alternate function: the peripheral's wire.
-    functions: BTreeMap<(Pad, u8), String>,
+    /// By pad and number of the alternate function: the peripheral's wires.
+    functions: BTreeMap<(Pad, u8), Vec<String>>,
     /// By wire: the converters' inputs, which need no setting.
     inputs: BTreeMap<String, Pad>,
     /// By wire: where it is led now.
@@ -91,14 +92,15 @@ fn field(register: u32, pin: u8) -> u32 {
 
 impl Gpio {
     pub(super) fn new() -> Self {
-        let (mut functions, mut inputs) = (BTreeMap::new(), BTreeMap::new());
+        let mut functions: BTreeMap<(Pad, u8), Vec<String>> = BTreeMap::new();
+        let mut inputs = BTreeMap::new();
         if let Some(found) = sensedsl_parts::find(PART) {
             for (name, _, usages) in found.sheet.pins() {
                 let Some(pad) = Pad::named(name.as_str()) else { continue };
                 for (usage, number) in usages {
                     let wire = usage.replace('-', "_");
                     if let Some(number) = number {
-                        functions.insert((pad, *number), wire);
+                        functions.entry((pad, *number)).or_default().push(wire);
                     } else if let Some((units, input)) = converter(&wire) {
                         for unit in units {
                             inputs.insert(format!("ADC{unit}_{input}"), pad);
@@ -171,7 +173,7 @@ impl Gpio {
                 let (Some(registers), Some(mode)) = (self.port(pad), self.mode(pad)) else {
                     continue;
                 };
-                let wire = match mode {
+                let wires = match mode {
                     Mode::Alternate(number) => self.functions.get(&(pad, number)).cloned(),
                     Mode::Input | Mode::Output | Mode::Analog => None,
                 };
@@ -182,7 +184,8 @@ impl Gpio {
                 };
                 let speed = u8::try_from(field(registers.ospeedr, pin)).unwrap_or(0);
                 let open_drain = registers.otyper >> pin & 1 == 1;
-                pads.push(PadState { pad, mode, wire, open_drain, pull, speed });
+                let wires = wires.unwrap_or_default();
+                pads.push(PadState { pad, mode, wires, open_drain, pull, speed });
             }
         }
         pads
@@ -217,9 +220,11 @@ impl Gpio {
 
     fn route(&mut self) {
         self.routes.clear();
-        for ((pad, number), wire) in &self.functions {
+        for ((pad, number), wires) in &self.functions {
             if self.mode(*pad) == Some(Mode::Alternate(*number)) {
-                self.routes.entry(wire.clone()).or_insert(*pad);
+                for wire in wires {
+                    self.routes.entry(wire.clone()).or_insert(*pad);
+                }
             }
         }
     }

@@ -135,6 +135,11 @@ impl Machine {
         std::mem::take(&mut self.core.chip().wires.events)
     }
 
+    /// Takes the supply away, or gives it back: as after a brown-out the program begins anew, and memory is lost.
+    pub fn power(&mut self, is_on: bool) {
+        self.core.power(is_on);
+    }
+
     /// Whether the core will do nothing more until a reset, and why. The watchdog may still bite.
     #[must_use]
     pub fn halt(&self) -> Option<Lockup> {

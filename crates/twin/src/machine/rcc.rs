@@ -48,13 +48,17 @@ impl Rcc {
         self.registers[index(BDCR)] = bdcr;
     }
 
-    /// A reset that is not the power's: the causes before stay until the program clears them.
+    /// A reset. The causes before stay until the program clears them, or power goes, which takes the backup domain, too.
     pub(super) fn reset(&mut self, cause: ResetCause) {
+        if cause == ResetCause::Power {
+            self.registers = [0; 36];
+        }
         self.reset_registers();
         self.registers[index(CSR)] |= CAUSE_PIN
             | match cause {
                 ResetCause::Watchdog => CAUSE_WATCHDOG,
                 ResetCause::Software => CAUSE_SOFTWARE,
+                ResetCause::Power => CAUSE_POWER,
             };
     }
 

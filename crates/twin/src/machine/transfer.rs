@@ -37,6 +37,21 @@ impl Memory {
         within(&self.flash, FLASH_BASE).map(|offset| (&*self.flash, offset))
     }
 
+    /// A word of the SRAM.
+    pub(super) fn word(&self, address: u32) -> Option<u32> {
+        let mut bytes = [0; 4];
+        self.sram.read_at(u64::from(address.checked_sub(SRAM_BASE)?), &mut bytes).ok()?;
+        Some(u32::from_le_bytes(bytes))
+    }
+
+    /// Writes a word of the SRAM.
+    pub(super) fn put_word(&self, address: u32, word: u32) {
+        for (at, byte) in (address..).zip(word.to_le_bytes()) {
+            // Nothing is there but for the SRAM.
+            self.write(at, byte);
+        }
+    }
+
     fn read(&self, address: u32) -> Option<u8> {
         let (store, offset) = self.place(address)?;
         store.read_u8(offset).ok()

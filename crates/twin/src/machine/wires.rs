@@ -58,7 +58,7 @@ pub(super) enum Request {
 /// What went wrong or happened that a user wants to hear of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The MCU was reset, not by its power.
+    /// The MCU was reset.
     Reset {
         /// When.
         at_ns: u64,
@@ -88,6 +88,8 @@ pub enum Event {
 /// Why the MCU was reset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResetCause {
+    /// The supply was gone.
+    Power,
     /// The independent watchdog was not fed.
     Watchdog,
     /// The program asked for it.

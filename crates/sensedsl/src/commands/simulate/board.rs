@@ -1,6 +1,7 @@
 //! The board that is simulated: its job in this program, or an image of firmware on an emulated MCU.
 
 use sensedsl_codegen::job::BoardJob;
+use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::soft::SoftBoard;
 
@@ -16,6 +17,8 @@ pub(super) trait Board {
     fn received(&mut self) -> Vec<(usize, Vec<u8>)>;
     /// Where and why the firmware does not run any more.
     fn halted(&self) -> Option<(u64, String)>;
+    /// What the firmware has done wrong since the last call, told of the file.
+    fn wrongs(&mut self, at: Span) -> Vec<Diagnostic>;
     /// What a user wants to hear of since the last call.
     fn news(&mut self) -> Vec<String>;
 }
@@ -40,6 +43,10 @@ impl Board for SoftBoard {
 
     fn halted(&self) -> Option<(u64, String)> {
         None
+    }
+
+    fn wrongs(&mut self, _: Span) -> Vec<Diagnostic> {
+        Vec::new()
     }
 
     fn news(&mut self) -> Vec<String> {

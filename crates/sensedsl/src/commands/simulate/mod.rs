@@ -21,6 +21,8 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_model::{What, apply_allows};
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
+#[cfg(feature = "twin")]
+use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::world::{self, Scene, World};
 
 use super::input;
@@ -139,9 +141,12 @@ fn machine(
         let name = &board.name.value;
         return Err(e0546_image_refused::other_mcu(scenery.at, name, mcu).into());
     }
-    match emulated::Emulated::new(scenery.job, bench, image) {
+    match EmulatedBoard::new(scenery.job, bench, image) {
         Ok(machine) => Ok(Box::new(machine)),
-        Err(why) => Err(e0546_image_refused::refused(scenery.at, &shown(firmware), &why).into()),
+        Err(why) => {
+            let (image, why) = (shown(firmware), why.to_string());
+            Err(e0546_image_refused::refused(scenery.at, &image, &why).into())
+        }
     }
 }
 

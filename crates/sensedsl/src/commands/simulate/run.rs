@@ -50,7 +50,11 @@ pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -
     if let Some(path) = &args.frames {
         write_whole(path, &session.frames)?;
     }
-    if status == Status::Done && args.judge { session.verdict() } else { Ok(status) }
+    match status {
+        Status::Done if args.judge => session.verdict(),
+        Status::Done if session.is_wrong => Ok(Status::Wrong),
+        other => Ok(other),
+    }
 }
 
 /// A board, and who listens to it.
@@ -66,6 +70,8 @@ struct Session<'a> {
     is_known: bool,
     is_stranger: bool,
     last: Option<Health>,
+    /// The firmware has done something that the plan does not say.
+    is_wrong: bool,
 }
 
 impl<'a> Session<'a> {
@@ -82,6 +88,7 @@ impl<'a> Session<'a> {
             is_known: false,
             is_stranger: false,
             last: None,
+            is_wrong: false,
         }
     }
 
@@ -117,6 +124,10 @@ impl<'a> Session<'a> {
         });
         for (index, value) in self.board.received() {
             self.set(index, &value);
+        }
+        for wrong in self.board.wrongs(self.scenery.at) {
+            self.is_wrong = true;
+            self.scenery.say(wrong)?;
         }
         for news in self.board.news() {
             self.scenery.terminal.aside(&news)?;
@@ -269,7 +280,7 @@ impl<'a> Session<'a> {
 
     /// What the judge has found out.
     fn verdict(self) -> Result<Status> {
-        let Self { scenery, judge, now_ns, .. } = self;
+        let Self { scenery, judge, now_ns, is_wrong, .. } = self;
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 5]> = judged.iter().map(cells).collect();
         let heads = [
@@ -302,7 +313,7 @@ impl<'a> Session<'a> {
         scenery
             .terminal
             .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
-        Ok(Status::Done)
+        Ok(if is_wrong { Status::Wrong } else { Status::Done })
     }
 }
 

@@ -1,0 +1,206 @@
+//! A board's image on the emulated MCU, in the same bench as the board that does its job in this program.
+//!
+//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program stands, and what it has done to
+//! the pads at each start that the plan does not say.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_model::design::Transport;
+
+use crate::bench::{Bench, number_of};
+use crate::machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
+use crate::pads::{Misled, Planned, misled, planned};
+
+/// The crystal of the boards that have this MCU.
+const CRYSTAL_HZ: u64 = 8_000_000;
+const MS_NS: u64 = 1_000_000;
+/// When pads are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
+/// pads to itself for a moment.
+const LOOK_NS: u64 = 1_000 * MS_NS;
+const LOOKS: u32 = 4;
+const LOOKS_APART_NS: u64 = 7 * MS_NS;
+/// A program that is reset so often without having been told to does nothing but start.
+const RESETS_MAX: u32 = 3;
+
+/// The MCU with what is around it.
+pub struct EmulatedBoard {
+    machine: Machine,
+    bench: Arc<Mutex<Bench>>,
+    planned: Vec<Planned>,
+    garbage: Vec<u8>,
+    garbage_ms: u64,
+    is_off: bool,
+    look: Option<Look>,
+    misled: Vec<Misled>,
+    events: Vec<Event>,
+    resets: u32,
+    loops: Option<Lockup>,
+    pc: u32,
+}
+
+/// When the pads are looked at next, how often still, and what was wrong each time so far.
+struct Look {
+    at_ns: u64,
+    left: u32,
+    wrong: Option<Vec<Misled>>,
+}
+
+impl Look {
+    fn after(start_ns: u64) -> Self {
+        Self { at_ns: start_ns + LOOK_NS, left: LOOKS, wrong: None }
+    }
+}
+
+impl EmulatedBoard {
+    /// Puts an image into the MCU's flash.
+    ///
+    /// # Errors
+    ///
+    /// When it is not a program for this MCU.
+    pub fn new(job: &BoardJob<'_>, bench: Bench, image: &[u8]) -> Result<Self, ImageError> {
+        let unit = job.link.as_ref().and_then(|link| number_of(link.unit));
+        let link = match (job.board.link.transport, unit) {
+            (Transport::Uart, Some(unit)) => LinkPort::Serial(unit),
+            (Transport::Uart | Transport::Usb | Transport::None, _) => LinkPort::Usb,
+        };
+        let bench = Arc::new(Mutex::new(bench));
+        let settings = Settings { crystal_hz: CRYSTAL_HZ, link };
+        let mut machine = Machine::new(settings, Arc::clone(&bench) as _);
+        machine.load(image)?;
+        Ok(Self {
+            machine,
+            bench,
+            planned: planned(job),
+            garbage: Vec::new(),
+            garbage_ms: 0,
+            is_off: false,
+            look: Some(Look::after(0)),
+            misled: Vec::new(),
+            events: Vec::new(),
+            resets: 0,
+            loops: None,
+            pc: 0,
+        })
+    }
+
+    fn bench(&self) -> MutexGuard<'_, Bench> {
+        self.bench.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The virtual time.
+    #[must_use]
+    pub fn now_ns(&self) -> u64 {
+        self.machine.now_ns()
+    }
+
+    /// How many cycles the core has worked, without those that it waited.
+    #[must_use]
+    pub fn cycles_worked(&self) -> u64 {
+        self.machine.cycles_worked()
+    }
+
+    /// Goes on to a time, a millisecond after the other: the supply may go in each of them.
+    pub fn run_until(&mut self, until_ns: u64) {
+        while self.garbage_ms < until_ns / MS_NS {
+            self.garbage_ms += 1;
+            let now_ns = self.garbage_ms * MS_NS;
+            self.supply(now_ns);
+            self.machine.run_until(now_ns);
+            let garbage = self.bench().garbage(now_ns);
+            self.garbage.extend(garbage);
+            self.follow();
+            self.look(now_ns);
+        }
+        self.machine.run_until(until_ns);
+        self.follow();
+    }
+
+    /// Takes the supply away and gives it back, as the world has it.
+    fn supply(&mut self, now_ns: u64) {
+        let is_off = self.bench().is_off(now_ns);
+        if is_off != self.is_off {
+            self.is_off = is_off;
+            self.machine.power(!is_off);
+            self.look = None;
+            if !is_off {
+                self.bench().power_up();
+            }
+        }
+    }
+
+    /// Takes what has happened.
+    fn follow(&mut self) {
+        for event in self.machine.events() {
+            if let Event::Reset { at_ns, cause } = &event {
+                self.look = Some(Look::after(*at_ns));
+                self.resets = if *cause == ResetCause::Power { 0 } else { self.resets + 1 };
+                if self.resets >= RESETS_MAX && self.loops.is_none() {
+                    let whom = match cause {
+                        ResetCause::Watchdog => "the watchdog",
+                        ResetCause::Software => "the program itself",
+                        ResetCause::Power => "its supply",
+                    };
+                    let why = format!("{whom} has reset it {} times", self.resets);
+                    self.loops = Some(Lockup { pc: self.pc, why });
+                }
+            }
+            self.events.push(event);
+        }
+        self.pc = self.machine.pc();
+    }
+
+    /// Compares the pads with the plan, when it is time.
+    fn look(&mut self, now_ns: u64) {
+        let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
+        let now = misled(&self.planned, &self.machine.pads());
+        let still = match look.wrong.take() {
+            None => now,
+            Some(before) => before.into_iter().filter(|one| now.contains(one)).collect(),
+        };
+        look.left -= 1;
+        look.at_ns = now_ns + LOOKS_APART_NS;
+        if look.left > 0 && !still.is_empty() {
+            look.wrong = Some(still);
+            return;
+        }
+        self.look = None;
+        self.misled.extend(still);
+    }
+
+    /// The pads that are not as planned, since the last call.
+    pub fn misled(&mut self) -> Vec<Misled> {
+        std::mem::take(&mut self.misled)
+    }
+
+    /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
+    #[must_use]
+    pub fn waves(&self) -> std::collections::BTreeMap<(u8, u8), (u64, u64)> {
+        self.bench().waves().clone()
+    }
+
+    /// The host sends bytes.
+    pub fn link_write(&mut self, bytes: &[u8]) {
+        if !self.is_off {
+            self.machine.link_write(bytes);
+        }
+    }
+
+    /// What has arrived at the host since the last call.
+    pub fn link_read(&mut self) -> Vec<u8> {
+        let mut bytes = std::mem::take(&mut self.garbage);
+        bytes.extend(self.machine.link_read().into_iter().map(|(_, byte)| byte));
+        bytes
+    }
+
+    /// Where and why the program does nothing more.
+    #[must_use]
+    pub fn halt(&self) -> Option<Lockup> {
+        self.loops.clone().or_else(|| self.machine.halt())
+    }
+
+    /// What has happened since the last call that a user wants to hear of.
+    pub fn events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+}

@@ -1,0 +1,165 @@
+//! How pads must be set up, from the wiring alone, and which are not.
+//!
+//! In: a board's job, and how the pads of the emulated MCU are. Out: what differs. Nothing here is shared with the
+//! generators, which decide the same a second time.
+
+use sensedsl_codegen::job::{BoardJob, Pad as Wired};
+use sensedsl_model::kind::digital::Pull as Wanted;
+use sensedsl_model::kind::{Kind, Role};
+
+use crate::machine::{Mode, PadState, Pull};
+use crate::surroundings::Pad;
+
+/// How a pad must be set up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Planned {
+    pad: Pad,
+    title: String,
+    mode: Mode,
+    /// The wire that it is led to, as the table spells it.
+    wire: Option<String>,
+    /// Whether only its low side may be driven; none where it drives nothing.
+    open_drain: Option<bool>,
+    /// Any of them will do.
+    pulls: &'static [Pull],
+}
+
+/// A pad that is not as planned.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Misled {
+    /// The device, or the link.
+    pub title: String,
+    /// The pad.
+    pub pad: Pad,
+    /// How it should be.
+    pub expected: String,
+    /// How it is.
+    pub found: String,
+}
+
+const FREE: &[Pull] = &[Pull::None];
+const UP: &[Pull] = &[Pull::Up];
+const DOWN: &[Pull] = &[Pull::Down];
+/// The lines of a bus have resistors outside, which its pads may help.
+const BUS: &[Pull] = &[Pull::None, Pull::Up];
+const ANY: &[Pull] = &[Pull::None, Pull::Up, Pull::Down];
+
+/// The pads of all devices and of a serial link.
+pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<Planned> {
+    let devices = job.connections.iter().flat_map(|one| {
+        let kind = &one.connection.kind;
+        one.pads.iter().filter_map(move |pad| of_kind(&one.title, kind, pad))
+    });
+    let link = job.link.iter().flat_map(|link| &link.pads).filter_map(|pad| {
+        let pulls = if pad.role == Role::Rx { BUS } else { FREE };
+        led("the link", pad, pad.alternate?, Some(false), pulls)
+    });
+    devices.chain(link).collect()
+}
+
+fn of_kind(title: &str, kind: &Kind, pad: &Wired<'_>) -> Option<Planned> {
+    let named = Pad::named(&pad.pin.name.to_string())?;
+    let plain = |mode, open_drain, pulls| {
+        let title = title.to_owned();
+        Some(Planned { pad: named, title, mode, wire: None, open_drain, pulls })
+    };
+    if matches!(pad.role, Role::Cs | Role::Trigger) {
+        return plain(Mode::Output, Some(false), ANY);
+    }
+    let driven = (!pad.role.is_driven_by_device()).then_some(false);
+    match kind {
+        Kind::Analog(_) | Kind::Dac(_) => plain(Mode::Analog, None, FREE),
+        Kind::Digital(_) if pad.role == Role::Out => plain(Mode::Output, Some(false), ANY),
+        Kind::Digital(own) => plain(
+            Mode::Input,
+            None,
+            match own.pull {
+                Wanted::None => FREE,
+                Wanted::Up => UP,
+                Wanted::Down => DOWN,
+            },
+        ),
+        Kind::I2c(_) => led(title, pad, pad.alternate?, Some(true), BUS),
+        Kind::Uart(own) if pad.role == Role::Rx => {
+            led(title, pad, pad.alternate?, None, if own.is_inverted { DOWN } else { UP })
+        }
+        Kind::Spi(_) => led(title, pad, pad.alternate?, driven, ANY),
+        Kind::Can(_) if pad.role == Role::Rx => led(title, pad, pad.alternate?, None, BUS),
+        Kind::Uart(_) | Kind::Icu(_) | Kind::Encoder(_) | Kind::Pwm(_) | Kind::Can(_) => {
+            led(title, pad, pad.alternate?, driven, FREE)
+        }
+    }
+}
+
+/// A pad that a peripheral has.
+fn led(
+    title: &str,
+    pad: &Wired<'_>,
+    number: u8,
+    open_drain: Option<bool>,
+    pulls: &'static [Pull],
+) -> Option<Planned> {
+    Some(Planned {
+        pad: Pad::named(&pad.pin.name.to_string())?,
+        title: title.to_owned(),
+        mode: Mode::Alternate(number),
+        wire: pad.usage.map(|usage| usage.signal.to_string()),
+        open_drain,
+        pulls,
+    })
+}
+
+/// What is not as planned.
+pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
+    let differs = |one: &Planned| {
+        let state = states.iter().find(|state| state.pad == one.pad)?;
+        let drives = one.open_drain.is_none_or(|open_drain| open_drain == state.open_drain);
+        let is_right = state.mode == one.mode && drives && one.pulls.contains(&state.pull);
+        (!is_right).then(|| Misled {
+            title: one.title.clone(),
+            pad: one.pad,
+            expected: expected(one),
+            found: found(one, state),
+        })
+    };
+    planned.iter().filter_map(differs).collect()
+}
+
+fn mode(of: Mode) -> String {
+    match of {
+        Mode::Input => "an input".to_owned(),
+        Mode::Output => "an output".to_owned(),
+        Mode::Alternate(number) => format!("alternate function {number}"),
+        Mode::Analog => "analog".to_owned(),
+    }
+}
+
+fn pull(of: Pull) -> &'static str {
+    match of {
+        Pull::None => "no pull",
+        Pull::Up => "pulled up",
+        Pull::Down => "pulled down",
+    }
+}
+
+fn drive(is_open_drain: bool) -> &'static str {
+    if is_open_drain { "open drain" } else { "push-pull" }
+}
+
+fn expected(one: &Planned) -> String {
+    let wire = one.wire.as_ref().map(|wire| format!(" ({wire})")).unwrap_or_default();
+    let drive = one.open_drain.map(|drains| format!(", {}", drive(drains))).unwrap_or_default();
+    let pulls: Vec<&str> = one.pulls.iter().map(|one| pull(*one)).collect();
+    let pulls =
+        if one.pulls.len() == 3 { String::new() } else { format!(", {}", pulls.join(" or ")) };
+    format!("{}{wire}{drive}{pulls}", mode(one.mode))
+}
+
+fn found(one: &Planned, state: &PadState) -> String {
+    let wires = state.wires.join(", ");
+    let wires = if wires.is_empty() { wires } else { format!(" ({wires})") };
+    let drive = one.open_drain.map(|_| format!(", {}", drive(state.open_drain)));
+    let pulls = if one.pulls.len() == 3 { "" } else { pull(state.pull) };
+    let comma = if pulls.is_empty() { "" } else { ", " };
+    format!("{}{wires}{}{comma}{pulls}", mode(state.mode), drive.unwrap_or_default())
+}

@@ -1,0 +1,149 @@
+//! What breaks around a board, on a real image: the others go on, health names the device and the cause, and the broken
+//! one comes back.
+
+use sensedsl_twin::machine::{Event, ResetCause};
+use sensedsl_wire::{Causes, DeviceHealth, ResetCause as Cause, Status};
+
+use super::bench::folder;
+use super::trial::{Trial, image, rover, rover_image, rover_world, run};
+use crate::firmware::chibios::{build, tree};
+
+const NEAR: u8 = 1;
+const REAR: u8 = 3;
+const WHEEL: u8 = 4;
+const STEERING: u8 = 5;
+const LIDAR: u8 = 8;
+const SPEED: u8 = 9;
+const IMU: u8 = 11;
+
+/// Ten seconds of the rover with a fault from 4 s on, for 3 s; health at 6.5 s and at the end.
+fn with(fault: &str) -> Option<Trial> {
+    let world = format!("{}\n[[fault]]\n{fault}\n", rover_world());
+    let trial = run(&rover(), &world, rover_image()?, 10, &[6_500, 9_900]);
+    assert!(trial.halt.is_none() && trial.misled.is_empty(), "{:?} {:?}", trial.halt, trial.misled);
+    assert!(trial.wrong().is_empty(), "{fault}: {:#?}", trial.wrong());
+    Some(trial)
+}
+
+fn with_device(kind: &str, device: &str) -> Option<Trial> {
+    with(&format!("kind = \"{kind}\"\ndevice = \"{device}\"\nat = \"4 s\"\nfor = \"3 s\""))
+}
+
+fn health(trial: &Trial, at: usize, id: u8) -> DeviceHealth {
+    let (_, health) = &trial.health[at];
+    *health.devices.iter().find(|one| one.id == id).unwrap()
+}
+
+fn faults(causes: Causes) -> u32 {
+    causes.counts().into_iter().map(u32::from).sum()
+}
+
+/// Those that have nothing to do with it report all the time, and the broken one before and after.
+#[track_caller]
+fn others_go_on(trial: &Trial, broken: u8) {
+    for id in [NEAR, WHEEL, STEERING, SPEED] {
+        if id != broken {
+            assert!(trial.reports_of(id, 4_000, 7_000) > 20, "{id} is silent");
+        }
+    }
+    assert!(trial.reports_of(broken, 0, 4_000) > 0 && trial.reports_of(broken, 8_500, 10_000) > 0);
+    assert_eq!(health(trial, 1, broken).status, Status::Good);
+}
+
+#[test]
+fn a_chip_that_does_not_answer() {
+    let Some(trial) = with_device("no_answer", "Rear") else { return };
+    others_go_on(&trial, REAR);
+    let rear = health(&trial, 0, REAR);
+    assert!(rear.status == Status::Failed && rear.causes.not_acknowledged > 3, "{rear:?}");
+    assert_eq!(trial.reports_of(REAR, 4_300, 7_000), 0);
+    assert_eq!(faults(health(&trial, 1, IMU).causes), 0);
+}
+
+#[test]
+fn a_bus_that_is_held() {
+    for kind in ["stuck_sda", "hang"] {
+        let Some(trial) = with_device(kind, "Rear") else { return };
+        others_go_on(&trial, REAR);
+        let rear = health(&trial, 0, REAR);
+        assert!(rear.status != Status::Good && faults(rear.causes) > 0, "{kind}: {rear:?}");
+        let causes = rear.causes;
+        let of_bus = causes.timed_out + causes.bus_error + causes.arbitration_lost;
+        assert!(of_bus > 0, "{kind}: {causes:?}");
+    }
+}
+
+#[test]
+fn a_torn_cable() {
+    let Some(trial) = with_device("torn", "Rear") else { return };
+    others_go_on(&trial, REAR);
+    assert!(health(&trial, 0, REAR).causes.not_acknowledged > 3);
+    let Some(trial) = with_device("torn", "Wheel") else { return };
+    assert!(trial.reports_of(WHEEL, 4_100, 7_000) < 3);
+    assert!(trial.reports_of(WHEEL, 8_500, 10_000) > 20);
+    assert!(trial.reports_of(NEAR, 4_000, 7_000) > 20);
+}
+
+#[test]
+fn inputs_that_fall_silent() {
+    for (name, id) in [("Lidar", LIDAR), ("Speed", SPEED), ("Steering", STEERING)] {
+        let Some(trial) = with_device("silent", name) else { return };
+        others_go_on(&trial, id);
+        let broken = health(&trial, 0, id);
+        assert!(broken.status != Status::Good && broken.age_ms >= 2_000, "{name}: {broken:?}");
+    }
+}
+
+#[test]
+fn a_supply_that_breaks_down() {
+    let Some(trial) = with("kind = \"reset\"\nat = \"4 s\"\nfor = \"200 ms\"") else { return };
+    let resets: Vec<_> = trial.told.iter().collect();
+    let is_power = |one: &&&Event| matches!(one, Event::Reset { cause: ResetCause::Power, .. });
+    assert_eq!(resets.iter().filter(is_power).count(), 1, "{resets:?}");
+    assert_eq!(trial.reports_of(NEAR, 4_010, 4_190), 0);
+    assert!(trial.reports_of(NEAR, 5_500, 10_000) > 100);
+    assert!(trial.reports_of(IMU, 5_500, 10_000) > 100);
+    let (_, health) = &trial.health[0];
+    assert!(health.uptime_ms < 2_400 && health.reset_cause == Cause::Power, "{health:?}");
+}
+
+#[test]
+fn garbage_on_the_link() {
+    let Some(trial) = with("kind = \"garbage\"\nat = \"4 s\"\nfor = \"500 ms\"") else { return };
+    assert!(trial.dropped > 0);
+    assert!(trial.reports_of(NEAR, 4_600, 10_000) > 200);
+}
+
+/// A thread that hangs is ended by the watchdog, and the board says afterwards which one it was.
+#[test]
+fn a_thread_that_hangs() {
+    let Some(tree) = tree() else { return };
+    let board = folder("trial_hang", &rover());
+    let user = "#include \"up_life.h\"\n#include \"up_rt.h\"\n\
+                void sense_transform_Rear(uint16_t *value) {\n  (void)value;\n\
+                while (up_now_ms() > 2000U && up_reset_cause() != UP_CAUSE_WATCHDOG) {\n  }\n}\n";
+    std::fs::write(board.join("user/user.c"), user).unwrap();
+    build(&tree, &board, "production");
+    let trial = run(&rover(), &rover_world(), &image(&board), 14, &[13_500]);
+    let is_bite = |one: &&Event| matches!(one, Event::Reset { cause: ResetCause::Watchdog, .. });
+    assert_eq!(trial.told.iter().filter(is_bite).count(), 1, "{:?}", trial.told);
+    let (_, health) = trial.health.first().unwrap();
+    assert_eq!(health.reset_cause, Cause::Watchdog);
+    // One of the devices of the thread that serves the bus.
+    assert!([REAR, IMU].contains(&health.reset_device), "{}", health.reset_device);
+    assert!(trial.reports_of(REAR, 10_000, 14_000) > 10);
+}
+
+/// What does nothing but start ends the run, with the reason.
+#[test]
+fn a_program_that_only_starts() {
+    let Some(tree) = tree() else { return };
+    let board = folder("trial_loop", &rover());
+    let user = "#include \"up_rt.h\"\n\
+                void sense_transform_Rear(uint16_t *value) {\n  (void)value;\n  for (;;) {\n  }\n}\n";
+    std::fs::write(board.join("user/user.c"), user).unwrap();
+    build(&tree, &board, "production");
+    let trial = run(&rover(), &rover_world(), &image(&board), 40, &[]);
+    let halt = trial.halt.unwrap();
+    assert!(halt.why.contains("the watchdog has reset it 3 times"), "{halt}");
+}

@@ -1,0 +1,299 @@
+//! Mistakes put into the generated C of a rover, one at a time: who notices them when the program runs in its world?
+//!
+//! `docs/seeded-mistakes.md` is the table, written by `SENSEDSL_THOROUGH=2 SENSEDSL_BLESS=1 cargo test --workspace
+//! --test all --features sensedsl-tests/machine firmware::twin::seeded`. Otherwise the first few are made again.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::bench::folder;
+use super::trial::{rover, rover_world, run};
+use crate::firmware::chibios::tree;
+use crate::firmware::tools::root;
+
+const HARDWARE: &str = "generated/sense_hw.c";
+const MCU: &str = "cfg/mcuconf.h";
+const ENCODER: &str = "uproxy/chibios/up_encoder.c";
+const COUNT: usize = 48;
+
+/// What is wrong, in which file, the text that is replaced first, and with what.
+type Seed = (&'static str, &'static str, &'static str, &'static str);
+
+const SEEDS: [Seed; COUNT] = [
+    (
+        "pad of an analog sensor: another of its bank",
+        HARDWARE,
+        "PAL_LINE(GPIOC, 4U), PAL_MODE_INPUT_ANALOG",
+        "PAL_LINE(GPIOC, 3U), PAL_MODE_INPUT_ANALOG",
+    ),
+    (
+        "converter channel",
+        HARDWARE,
+        "ADC_SQR3_SQ2_N(ADC_CHANNEL_IN14)",
+        "ADC_SQR3_SQ2_N(ADC_CHANNEL_IN13)",
+    ),
+    (
+        "alternate function of a capture",
+        HARDWARE,
+        "PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(2)",
+        "PAL_LINE(GPIOB, 4U), PAL_MODE_ALTERNATE(3)",
+    ),
+    (
+        "pad of a capture: another of its bank",
+        HARDWARE,
+        "/* PB4 */ {PAL_LINE(GPIOB, 4U)",
+        "/* PB4 */ {PAL_LINE(GPIOB, 5U)",
+    ),
+    (
+        "alternate function of a bus",
+        HARDWARE,
+        "PAL_LINE(GPIOB, 8U), PAL_MODE_ALTERNATE(4)",
+        "PAL_LINE(GPIOB, 8U), PAL_MODE_ALTERNATE(9)",
+    ),
+    (
+        "a bus is driven",
+        HARDWARE,
+        "PAL_MODE_ALTERNATE(4) | PAL_STM32_OTYPE_OPENDRAIN",
+        "PAL_MODE_ALTERNATE(4)",
+    ),
+    ("pull of a contact is left out", HARDWARE, "PAL_MODE_INPUT_PULLUP", "PAL_MODE_INPUT"),
+    (
+        "pull of a contact to the other side",
+        HARDWARE,
+        "PAL_MODE_INPUT_PULLUP",
+        "PAL_MODE_INPUT_PULLDOWN",
+    ),
+    (
+        "pull of a serial input is left out",
+        HARDWARE,
+        "PAL_MODE_ALTERNATE(7) | PAL_STM32_PUPDR_PULLUP",
+        "PAL_MODE_ALTERNATE(7)",
+    ),
+    ("a pad is left out", HARDWARE, "    /* PD0 */ {", "    // {"),
+    (
+        "alternate function of the motor",
+        HARDWARE,
+        "PAL_LINE(GPIOE, 5U), PAL_MODE_ALTERNATE(3)",
+        "PAL_LINE(GPIOE, 5U), PAL_MODE_ALTERNATE(1)",
+    ),
+    (
+        "alternate function of a track of the encoder",
+        HARDWARE,
+        "PAL_LINE(GPIOE, 11U), PAL_MODE_ALTERNATE(1)",
+        "PAL_LINE(GPIOE, 11U), PAL_MODE_ALTERNATE(2)",
+    ),
+    (
+        "chip select is an input",
+        HARDWARE,
+        "PAL_LINE(GPIOC, 13U), PAL_MODE_OUTPUT_PUSHPULL",
+        "PAL_LINE(GPIOC, 13U), PAL_MODE_INPUT",
+    ),
+    (
+        "two analog sensors are swapped",
+        HARDWARE,
+        ".group = 0U, .column = 0U}",
+        ".group = 0U, .column = 1U}",
+    ),
+    (
+        "number of samples in the sum",
+        HARDWARE,
+        ".element = 0U, .samples = 32U",
+        ".element = 0U, .samples = 16U",
+    ),
+    ("full scale", HARDWARE, ".full = 4095U", ".full = 1023U"),
+    ("address of a chip", HARDWARE, ".address = 0x70U", ".address = 0x71U"),
+    ("register of a chip", HARDWARE, "rear_select_0[] = {0x02U}", "rear_select_0[] = {0x03U}"),
+    ("trigger of a chip", HARDWARE, "{0x00U, 0x51U}", "{0x00U, 0x50U}"),
+    ("wait for a chip", HARDWARE, ".wait_ms = 65U", ".wait_ms = 6U"),
+    (
+        "length of a reading",
+        HARDWARE,
+        ".wait_ms = 65U,\n        .length = 2U",
+        ".wait_ms = 65U,\n        .length = 1U",
+    ),
+    (
+        "byte order of a chip",
+        HARDWARE,
+        ".word_bytes = 2U,\n                .is_signed = true",
+        ".word_bytes = 2U,\n                .little_endian = true,\n                .is_signed = true",
+    ),
+    ("sign of a chip's words", HARDWARE, "                .is_signed = true,\n", ""),
+    (
+        "where a chip's values begin",
+        HARDWARE,
+        "imu_select_0[] = {0x3bU}",
+        "imu_select_0[] = {0x3dU}",
+    ),
+    (
+        "what is written to set up a chip: another identity",
+        HARDWARE,
+        "imu_identity_expected[] = {0x68U}",
+        "imu_identity_expected[] = {0x70U}",
+    ),
+    (
+        "SCL and SDA for the recovery",
+        HARDWARE,
+        ".scl = PAL_LINE(GPIOB, 8U)",
+        ".scl = PAL_LINE(GPIOB, 7U)",
+    ),
+    ("clock of a bus", HARDWARE, ".clock_speed = 400000U", ".clock_speed = 100000U"),
+    ("register on SPI", HARDWARE, "angle_select_0[] = {0x3fU}", "angle_select_0[] = {0x3eU}"),
+    ("mode of SPI", HARDWARE, " | SPI_CR1_CPHA", ""),
+    ("byte order of a serial message", HARDWARE, "                .little_endian = true,\n", ""),
+    (
+        "place in a serial message",
+        HARDWARE,
+        ".format = UP_FORMAT_BINARY,\n        .byte = 0U",
+        ".format = UP_FORMAT_BINARY,\n        .byte = 2U",
+    ),
+    ("speed of a serial port", HARDWARE, ".speed = 115200U", ".speed = 57600U"),
+    ("checksum of a message", HARDWARE, "UP_CHECKSUM_SUM8", "UP_CHECKSUM_XOR8"),
+    ("identifier of a CAN frame", HARDWARE, ".identifier = 0x120U", ".identifier = 0x121U"),
+    ("filter of a CAN frame", HARDWARE, "0x120U << 21, 0x120U << 21", "0x121U << 21, 0x121U << 21"),
+    (
+        "place in a CAN frame",
+        HARDWARE,
+        ".byte = 2U,\n        .is_extended",
+        ".byte = 3U,\n        .is_extended",
+    ),
+    ("bit rate of a CAN bus", HARDWARE, ".bitrate_hz = 500000U", ".bitrate_hz = 250000U"),
+    ("divider of a timer that measures", HARDWARE, ".frequency = 1000000U", ".frequency = 500000U"),
+    (
+        "edge of a measured pulse",
+        HARDWARE,
+        ".mode = ICU_INPUT_ACTIVE_HIGH,\n    .frequency = 1000000U",
+        ".mode = ICU_INPUT_ACTIVE_LOW,\n    .frequency = 1000000U",
+    ),
+    (
+        "capture channel",
+        HARDWARE,
+        ".width_cb = steering_on_width,\n    .overflow_cb = up_icu_on_overflow,\n    .channel = ICU_CHANNEL_1",
+        ".width_cb = steering_on_width,\n    .overflow_cb = up_icu_on_overflow,\n    .channel = ICU_CHANNEL_2",
+    ),
+    (
+        "another timer",
+        HARDWARE,
+        "{.driver = &ICUD3, .raw = &steering_raw}",
+        "{.driver = &ICUD2, .raw = &steering_raw}",
+    ),
+    ("phase of the encoder", ENCODER, "timer->CCER = 0U;", "timer->CCER = STM32_TIM_CCER_CC1P;"),
+    ("edges of one track only", ENCODER, "STM32_TIM_SMCR_SMS(3U)", "STM32_TIM_SMCR_SMS(1U)"),
+    ("level of a contact", HARDWARE, ".is_low_active = true", ".is_low_active = false"),
+    ("inverted pulses", HARDWARE, "PWM_OUTPUT_ACTIVE_HIGH", "PWM_OUTPUT_ACTIVE_LOW"),
+    ("shortest pulse", HARDWARE, ".width = {3000U, 6000U}", ".width = {3300U, 6000U}"),
+    (
+        "failsafe",
+        HARDWARE,
+        "void sense_failsafe(void) {\n  up_pwm_set_level(&motor_pwm, 5000U)",
+        "void sense_failsafe(void) {\n  up_pwm_set_level(&motor_pwm, 0U)",
+    ),
+    (
+        "DMA stream without the request",
+        MCU,
+        "STM32_DMA_STREAM_ID(2, 4)",
+        "STM32_DMA_STREAM_ID(2, 1)",
+    ),
+];
+
+/// Those that nobody notices here, and why.
+const UNSEEN: &[(&str, &str)] = &[
+    (
+        "mode of SPI",
+        "parts of the simulated world take bytes, not edges of a clock; the reader of `docs/mutants.md` sees it.",
+    ),
+    (
+        "clock of a bus",
+        "a slower clock is within what every part on the bus stands; the reader of `docs/mutants.md` sees it.",
+    ),
+];
+
+/// Who noticed, in words; empty for nobody.
+fn noticed(tree: &Path, board: &Path) -> String {
+    let mut make = Command::new("make");
+    make.current_dir(board).args(["-j2", "UP_MODE=production", "USE_LTO=no"]);
+    let output = make.arg(format!("CHIBIOS={}", tree.display())).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    if !output.status.success() || said.contains("warning") {
+        return "compiler".to_owned();
+    }
+    let image = super::trial::image(board);
+    let trial = run(&rover(), &rover_world(), &image, 5, &[]);
+    if let Some(halt) = &trial.halt {
+        return format!("the program stops: {}", halt.why);
+    }
+    let mut all = Vec::new();
+    let pads: Vec<String> =
+        trial.misled.iter().map(|one| format!("{} of {}", one.pad, one.title)).collect();
+    if !pads.is_empty() {
+        all.push(format!("pads ({})", pads.join(", ")));
+    }
+    let wrong = trial.judged.iter().filter(|one| one.wrong > 0 || one.reports == 0);
+    let wrong: Vec<&str> = wrong.map(|one| one.name.as_str()).collect();
+    if !wrong.is_empty() {
+        all.push(format!("judge ({})", wrong.join(", ")));
+    }
+    if !trial.outputs.is_empty() {
+        all.push("outputs (Motor)".to_owned());
+    }
+    all.join(", ")
+}
+
+const INTRO: &str = "# Mistakes that a run notices
+
+Does a simulated run notice when the firmware is wrong? Each line is a mistake that is put into the generated C of a
+rover with one device of each kind (`tests/firmware/trial/rover.sense`), alone. The program is built with ChibiOS and
+runs on the [twin](twin.md) for five seconds, in a world where everything moves. It is noticed by the compiler, by the
+comparison of the pads with the plan (E0550), by the judge of the reports (E0549), by what the motor does, or because
+the program stops (E0548).
+
+The page is written by the test that makes the mistakes (`tests/tests/firmware/twin/seeded.rs`). What a reader of the
+generated files notices without running them is in [mutants.md](mutants.md); which mistakes in Rust the types refuse,
+in `tests/tests/embassy.rs`.
+
+| mistake | noticed by |
+| --- | --- |
+";
+
+#[test]
+fn mistakes_are_noticed() {
+    let Some(tree) = tree() else { return };
+    let board = folder("seeded", &rover());
+    let is_whole = sensedsl_tests::is_exhaustive();
+    assert_eq!(noticed(&tree, &board), "", "the rover is wrong without a mistake");
+    let path = root().join("docs/seeded-mistakes.md");
+    let mut rows = Vec::new();
+    for (what, file, find, with) in SEEDS.iter().take(if is_whole { COUNT } else { 3 }) {
+        let path = board.join(file);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(find), "{what}: {file} has no `{find}`");
+        std::fs::write(&path, text.replacen(find, with, 1)).unwrap();
+        let by = noticed(&tree, &board);
+        std::fs::write(&path, text).unwrap();
+        eprintln!("{what}: {by}");
+        rows.push((*what, by));
+    }
+    let unseen: Vec<&str> = rows.iter().filter(|row| row.1.is_empty()).map(|row| row.0).collect();
+    let table: String = rows.iter().map(|(what, by)| format!("| {what} | {by} |\n")).collect();
+    if is_whole && std::env::var("SENSEDSL_BLESS").is_ok() {
+        let mut page =
+            format!("{INTRO}{table}\n## Nobody notices\n\nOf {COUNT} mistakes {}:\n", unseen.len());
+        for what in &unseen {
+            let why = UNSEEN.iter().find(|one| one.0 == *what).map_or("", |one| one.1);
+            page.push_str(&format!("\n- **{what}**: {why}\n"));
+        }
+        std::fs::write(&path, page).unwrap();
+    }
+    let known: Vec<&str> = UNSEEN.iter().map(|one| one.0).collect();
+    assert!(unseen.iter().all(|what| known.contains(what)), "nobody notices {unseen:?}");
+    assert!(sensedsl_tests::read(&path).contains(&table), "docs/seeded-mistakes.md is old");
+}
+
+/// Each mistake is of a text that is there, so that the list follows the templates.
+#[test]
+fn mistakes_are_of_texts_that_are_there() {
+    let board = folder("seeded-texts", &rover());
+    for (what, file, find, _) in SEEDS {
+        let text = std::fs::read_to_string(board.join(file)).unwrap();
+        assert!(text.contains(find), "{what}: {file} has no `{find}`");
+    }
+}

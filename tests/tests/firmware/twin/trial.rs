@@ -1,0 +1,174 @@
+//! A real image in a simulated world before a judge, as `simulate --firmware IMAGE --judge` runs it.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use sensedsl_codegen::job::{BoardJob, jobs};
+use sensedsl_diagnostics::SourceMap;
+use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::emulated::EmulatedBoard;
+use sensedsl_twin::judge::{Judge, Judged};
+use sensedsl_twin::machine::{Event as Told, Lockup};
+use sensedsl_twin::pads::Misled;
+use sensedsl_twin::world::{self, Scene};
+use sensedsl_wire::{
+    Decoder, Direction, Event, Health, Scalar, encode_health_request, encode_hello_request,
+    encode_report,
+};
+
+use super::bench::{MS, folder};
+use crate::firmware::chibios::{build, tree};
+use crate::firmware::tools::root;
+
+/// What came of a run.
+pub(super) struct Trial {
+    pub judged: Vec<Judged>,
+    pub misled: Vec<Misled>,
+    pub halt: Option<Lockup>,
+    pub told: Vec<Told>,
+    /// What the board said of itself, with the time.
+    pub health: Vec<(u64, Health)>,
+    /// Identifiers that were reported, with the time in milliseconds.
+    pub reported: Vec<(u64, u8)>,
+    pub dropped: u64,
+    /// What the outputs of the rover are not.
+    pub outputs: Vec<String>,
+}
+
+impl Trial {
+    pub(super) fn wrong(&self) -> Vec<String> {
+        let all = self.judged.iter().filter(|one| one.wrong > 0);
+        all.map(|one| format!("{}: {} of {}, {:?}", one.name, one.wrong, one.reports, one.worst))
+            .collect()
+    }
+
+    pub(super) fn reports_of(&self, id: u8, from_ms: u64, to_ms: u64) -> usize {
+        let hits = |one: &&(u64, u8)| one.1 == id && (from_ms..to_ms).contains(&one.0);
+        self.reported.iter().filter(hits).count()
+    }
+}
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
+        Err(Unread::Missing)
+    }
+}
+
+/// Makes the first board's job of a text and hands it on.
+pub(super) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
+    let mut workspace = Workspace::default();
+    workspace.open("board.sense", text);
+    let snapshot = workspace.snapshot("board.sense", On { board: None, target: None }, &NoFiles);
+    let answer = snapshot.solve(&Ask::default());
+    let Some((design, wiring)) = answer.wired() else { panic!("{:#?}", answer.diagnostics) };
+    let job = jobs(design, wiring).next().unwrap();
+    then(&job)
+}
+
+/// Runs an image of a text's board; asks how it is at those times.
+pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: &[u64]) -> Trial {
+    with_job(text, |job| {
+        let mut sources = SourceMap::default();
+        let file = sources.add("world.toml", world);
+        let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+        let scene = Scene {
+            design: job.design,
+            devices: &devices,
+            transport: job.board.link.transport,
+            seed: None,
+            samples: &|_| Err("there are no files".to_owned()),
+        };
+        let (world, said) = world::read(file, world, &scene);
+        assert!(said.is_empty(), "{said:#?}");
+        let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
+        let mut judge = Judge::new(job, &bench);
+        let mut board = EmulatedBoard::new(job, bench, image).unwrap();
+        let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
+        let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut misled, mut outputs) = (Vec::new(), Vec::new());
+        let motor = job.schema.items.iter().any(|item| item.name == "Motor");
+        for ms in 1..=seconds * 1_000 {
+            if ms == 500 {
+                board.link_write(&encode_hello_request(&job.schema));
+            }
+            if asks_ms.contains(&ms) {
+                board.link_write(&encode_health_request(&job.schema));
+            }
+            // Full speed for 400 ms of messages; then the host is silent.
+            if motor && (1_500..1_900).contains(&ms) && ms % 100 == 0 {
+                let values = [(20, vec![Scalar::Unsigned(10_000)])];
+                let bytes = encode_report(&job.schema, Direction::Actuator, &values);
+                board.link_write(&bytes.unwrap());
+            }
+            board.run_until(ms * MS);
+            for (at, name, width) in PULSES {
+                let found = board.waves().get(&(9, 1)).copied();
+                if motor && ms == at && found != Some((20 * MS, width)) {
+                    outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
+                }
+            }
+            decoder.feed(&board.link_read(), |event| match event {
+                Event::Report(_, values) => {
+                    judge.take(ms * MS, &values);
+                    reported.extend(values.iter().map(|(id, _)| (ms, *id)));
+                }
+                Event::Hello(hash) => assert_eq!(hash, job.schema.hash()),
+                Event::Health(found) => health.push((ms, found)),
+                Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
+            });
+            told.extend(board.events());
+            misled.extend(board.misled());
+            if board.halt().is_some() {
+                break;
+            }
+        }
+        Trial {
+            judged: judge.finish(board.now_ns()),
+            misled,
+            halt: board.halt(),
+            told,
+            health,
+            reported,
+            dropped: decoder.dropped_bytes(),
+            outputs,
+        }
+    })
+}
+
+/// When the rover's motor has pulses of which width.
+const PULSES: [(u64, &str, u64); 3] = [
+    (1_000, "before the host says something", 1_500_000),
+    (1_900, "as the host wants it", 2_000_000),
+    (3_000, "when the host is silent", 1_500_000),
+];
+
+/// The design that has one of everything.
+pub(super) fn rover() -> String {
+    std::fs::read_to_string(root().join("tests/firmware/trial/rover.sense")).unwrap()
+}
+
+/// Its world, without faults.
+pub(super) fn rover_world() -> String {
+    std::fs::read_to_string(root().join("tests/firmware/trial/rover.toml")).unwrap()
+}
+
+/// The program of a board's folder.
+pub(super) fn image(board: &Path) -> Vec<u8> {
+    std::fs::read(board.join("build/production/sense.elf")).unwrap()
+}
+
+/// The rover's image, built once; none without a tree.
+pub(super) fn rover_image() -> Option<&'static [u8]> {
+    static IMAGE: OnceLock<Option<Vec<u8>>> = OnceLock::new();
+    let built = IMAGE.get_or_init(|| {
+        let tree: PathBuf = tree()?;
+        let board = folder("trial_rover", &rover());
+        build(&tree, &board, "production");
+        Some(image(&board))
+    });
+    built.as_deref()
+}

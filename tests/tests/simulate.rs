@@ -1,0 +1,157 @@
+//! The command `simulate`, as users run it: verdicts, exit statuses, the same bytes for the same seed, and a generated
+//! host application that takes the pseudo-terminal for a board.
+
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use sensedsl_tests::{Scratch, binary, has, root, sensedsl};
+
+const FIG2: &str = "examples/fig2.sense";
+const CAR: &str = "examples/miniature_car.sense";
+
+#[test]
+fn examples_agree_with_their_worlds() {
+    for (name, world) in [
+        ("fig2", "fig2"),
+        ("miniature_car", "car"),
+        ("line_follower", "line_follower"),
+        ("quadcopter", "quadcopter"),
+    ] {
+        let (file, world) =
+            (format!("examples/{name}.sense"), format!("examples/worlds/{world}.toml"));
+        let ran = sensedsl(["simulate", &file, "--world", &world, "--judge"]).run().exits(0);
+        assert!(ran.stdout.contains("agree with the world"), "{name}: {}", ran.stdout);
+        // Every sensor of the table has reported.
+        let rows = ran.stdout.lines().skip(1).filter(|line| line.starts_with("  "));
+        let counts = rows.map(|row| row.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap());
+        let counts: Vec<u64> = counts.collect();
+        assert!(!counts.is_empty() && counts.iter().all(|count| *count > 0), "{}", ran.stdout);
+    }
+}
+
+/// What is wrong with file, world or call ends with the status that scripts rely on, and with a code.
+#[test]
+fn statuses_and_codes() {
+    let scratch = Scratch::new("simulate");
+    let world = |name: &str, text: &str| scratch.write(name, text).display().to_string();
+    let unknown = world("unknown.toml", "[devices]\nNobody = 3\n");
+    let broken = world("broken.toml", "[devices\n");
+    let beyond = world("beyond.toml", "[[fault]]\nkind = \"tornado\"\nat = \"1 s\"\n");
+    let image = world("image.bin", "no program");
+    let mute = scratch.write(
+        "mute.sense",
+        "board STM32F4DiscoveryBoard { actuator A accepts uint16 { id = 1; type = pwm; } }",
+    );
+    let mute = mute.display().to_string();
+    let cases: &[(&[&str], i32, &str)] = &[
+        (&["simulate", FIG2, "--world", &unknown, "--judge"], 1, "E0541"),
+        (&["simulate", FIG2, "--world", &broken, "--judge"], 1, "E0540"),
+        (&["simulate", FIG2, "--world", &beyond, "--judge"], 1, "E054"),
+        (&["simulate", &mute, "--judge"], 1, "E0549"),
+        (&["simulate", FIG2, "--board", "Nobody", "--judge"], 2, "E0519"),
+        (&["simulate", "no such file", "--judge"], 2, ""),
+        (&["simulate", FIG2, "--world", "no such file", "--judge"], 2, ""),
+        (&["simulate", FIG2, "--firmware", "no such file", "--judge"], 2, ""),
+        // Without the emulated MCU: it is not there. With it: that is no program.
+        (&["simulate", FIG2, "--firmware", &image, "--judge"], 1, "error[E054"),
+        (&["simulate", FIG2, "--judge", "--stdout"], 2, ""),
+        (&["simulate", FIG2, "--judge", "--seconds", "soon"], 2, ""),
+    ];
+    for (arguments, status, code) in cases {
+        let ran = sensedsl(*arguments).run();
+        assert_eq!(ran.status, *status, "{arguments:?}\n{}\n{}", ran.stdout, ran.stderr);
+        assert!(ran.stderr.contains(code), "{arguments:?}: {}", ran.stderr);
+        assert!(!ran.stderr.is_empty(), "{arguments:?} fails without a word");
+    }
+}
+
+#[test]
+fn a_seed_gives_the_same_bytes() {
+    let scratch = Scratch::new("frames");
+    let frames = |name: &str, seed: &str| {
+        let path = scratch.join(name);
+        let world = ["--world", "examples/worlds/car.toml", "--judge", "--seconds", "3"];
+        let call = sensedsl(["simulate", CAR]).args(world).args(["--seed", seed, "--frames"]);
+        let _ = call.arg(&path).run().exits(0);
+        std::fs::read(path).unwrap()
+    };
+    let once = frames("once", "5");
+    assert!(once.len() > 1_000, "{}", once.len());
+    assert!(once == frames("again", "5"));
+    assert!(once != frames("other", "6"));
+}
+
+#[test]
+fn health_and_lines_are_printed() {
+    let ran = sensedsl(["simulate", FIG2, "--judge", "--health"]).run().exits(0);
+    assert!(ran.stdout.contains("USRear        good"), "{}", ran.stdout);
+    let ran = sensedsl(["simulate", FIG2, "--stdout", "--seconds", "2"]).run().exits(0);
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    assert!(lines.len() > 50 && lines.iter().all(|line| line.contains(" s  ")), "{}", ran.stdout);
+    assert!(ran.stdout.contains("USRear ") && ran.stdout.contains(" cm"), "{}", ran.stdout);
+}
+
+/// Ended with the test, whatever becomes of it.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Running {
+    fn new(command: &mut Command) -> Self {
+        Self(command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap())
+    }
+
+    fn lines(&mut self) -> impl Iterator<Item = String> + use<> {
+        BufReader::new(self.0.stdout.take().unwrap()).lines().map_while(Result::ok)
+    }
+}
+
+fn monitor(scratch: &Scratch, file: &str, board: &str) -> std::path::PathBuf {
+    let out = scratch.join("out");
+    let _ = sensedsl(["generate", file, "--quiet", "-o"]).arg(&out).run().exits(0);
+    let program = scratch.join("monitor");
+    let host: &Path = &out.join("host/cpp");
+    let built = Command::new("g++")
+        .args(["-std=c++17", "-pthread"])
+        .arg(format!("-I{}", host.join("include").display()))
+        .arg(host.join(format!("src/monitor_{board}.cpp")))
+        .arg("-o")
+        .arg(&program)
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    program
+}
+
+/// The end of the README's first minutes: live values from a simulated car, in the generated host application.
+#[test]
+fn a_generated_host_reads_the_pseudo_terminal() {
+    if !has("g++") {
+        return;
+    }
+    let scratch = Scratch::new("host");
+    let program = monitor(&scratch, CAR, "STM32F4DiscoveryBoard");
+    let mut simulate = Command::new(binary());
+    simulate.args(["simulate", CAR, "--seconds", "60"]).current_dir(root()).stderr(Stdio::null());
+    let mut board = Running::new(&mut simulate);
+    let mut said = board.lines();
+    let name = said.find_map(|line| line.strip_prefix("the board is at ").map(str::to_owned));
+    let mut host = Running::new(Command::new(program).arg(name.unwrap()));
+    let wanted = ["IRFrontRight = ", "USFront = ", "WheelLeftA = ", "RCSteering = "];
+    let mut missing: Vec<&str> = wanted.to_vec();
+    let mut read = Vec::new();
+    for line in host.lines().take(500) {
+        missing.retain(|one| !line.starts_with(one));
+        read.push(line);
+        if missing.is_empty() {
+            break;
+        }
+    }
+    assert!(missing.is_empty(), "{missing:?} in {read:#?}");
+}
