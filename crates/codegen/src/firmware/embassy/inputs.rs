@@ -1,20 +1,25 @@
 //! Digital inputs and encoders: a task for each cycle looks at them.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::kind::digital::Pull;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, channel, late, scalar};
-use super::filter;
+use super::{contacts, filter};
 use super::section::{Field, Section, Start, Watched};
 use crate::job::Cycle;
 
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for ((_, cycle), devices) in context.classes(KindName::Digital) {
-        let is_sensor = |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor;
-        let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_sensor).collect();
+        let has_edges = |one: &Wired<'_>| {
+            one.wires.first().and_then(|wire| contacts::digital(wire)?.edge).is_some()
+        };
+        // Those with edges are the reporter's.
+        let is_read = |one: &&Wired<'_>| {
+            one.device.device.direction == Direction::Sensor && !has_edges(one)
+        };
+        let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_read).collect();
         if !sensors.is_empty() {
             digital(context, cycle, &sensors, &mut section);
         }
@@ -35,20 +40,19 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
         let value = wired.device.device.value.value;
         let mut levels = Vec::new();
         for wire in &wired.wires {
-            let (Some(pad), Kind::Digital(own)) = (wire.pad(Role::In), &wire.connection.kind)
-            else {
+            let (Some(pad), Some(own)) = (wire.pad(Role::In), contacts::digital(wire)) else {
                 continue;
             };
-            let pull = match own.pull {
-                Pull::Up => "Pull::Up",
-                Pull::Down => "Pull::Down",
-                Pull::None => "Pull::None",
-            };
+            if contacts::is_kept(own) {
+                let not = if own.active_low { "!" } else { "" };
+                levels.push(format!("{not}{}.level()", contacts::name(wire)));
+                continue;
+            }
             section.fields.push(Field {
                 name: wire.ident.clone(),
                 comment: wire.place(),
                 type_: "Input<'static>".to_owned(),
-                make: format!("Input::new(p.{}, {pull})", pad.pin.name),
+                make: format!("Input::new(p.{}, {})", pad.pin.name, contacts::pull(own)),
             });
             parameters.push_str(&format!(", {}: Input<'static>", wire.ident));
             arguments.push(format!("wiring.{}", wire.ident));
@@ -76,7 +80,8 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
     ));
     let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
-    section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
+    let device = devices.first().map_or(0, |one| one.device.device.id.value);
+    section.watched.push(Watched::new(constant, cycle, device));
 }
 
 /// The reporter looks at a counter so often that no wrap is lost.

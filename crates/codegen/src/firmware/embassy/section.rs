@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::Diagnostic;
 
 use super::context::Context;
+use crate::job::{Cycle, JobConnection, JobStream};
 
 /// What one kind adds. Every text is Rust; `plan.rs` puts the sections together and looks into none.
 #[derive(Debug, Default)]
@@ -27,6 +28,8 @@ pub(super) struct Section {
     /// What the host sets: the fields of `Outputs`, and what is done for an item.
     pub(super) outputs: Vec<Field>,
     pub(super) sets: BTreeMap<usize, Vec<String>>,
+    /// What is done with outputs at the start.
+    pub(super) begins: Vec<String>,
     /// What is done when the host is silent.
     pub(super) fails: Vec<String>,
     /// The cycles of the tasks, which the watchdog watches.
@@ -71,7 +74,16 @@ pub(super) struct Field {
 pub(super) struct Watched {
     /// The constant with its number.
     pub(super) constant: String,
+    /// So long it may take to a beat, beside what every task may be late.
     pub(super) cycle_ms: u32,
+    /// The identifier of its first device.
+    pub(super) device: u8,
+}
+
+impl Watched {
+    pub(super) fn new(constant: String, cycle: Cycle, device: u8) -> Self {
+        Self { constant, cycle_ms: cycle.delay_ms.saturating_add(cycle.start_ms), device }
+    }
 }
 
 /// A kind of device.
@@ -81,6 +93,20 @@ impl Section {
     /// Binds a handler to an interrupt.
     pub(super) fn bind(&mut self, interrupt: &str, handler: String) {
         self.handlers.entry(interrupt.to_owned()).or_default().insert(handler);
+    }
+
+    /// The DMA channel of a request of a unit, with its handler bound; none where there is none.
+    pub(super) fn stream(
+        &mut self,
+        context: &Context<'_>,
+        wire: &JobConnection<'_>,
+        request: &str,
+    ) -> Option<String> {
+        let of = |one: &&JobStream<'_>| one.request.ends_with(request);
+        let channel = context.names.channel(wire.streams.iter().find(of)?.stream)?;
+        let interrupt = context.names.interrupt(&channel, "GLOBAL")?;
+        self.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
+        Some(channel)
     }
 
     /// Takes over what another has.
@@ -99,6 +125,7 @@ impl Section {
         for (index, sets) in other.sets {
             self.sets.entry(index).or_default().extend(sets);
         }
+        self.begins.append(&mut other.begins);
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
         self.runtime.append(&mut other.runtime);
