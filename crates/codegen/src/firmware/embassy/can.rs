@@ -12,7 +12,7 @@ use sensedsl_wire::Direction;
 use super::chip::{coding, list};
 use super::context::Context;
 use super::filter;
-use super::section::{Field, Section, Start, Watched};
+use super::section::{Field, Keep, Section, Start, Watched};
 use crate::job::{Cycle, JobConnection};
 use crate::part::ValuePlan;
 use crate::print::snake;
@@ -86,6 +86,15 @@ fn identifier(identifier: u32) -> String {
         format!("crate::rt::can::extended({identifier:#X})")
     } else {
         format!("crate::rt::can::standard({identifier:#X})")
+    }
+}
+
+/// The half of a bus that sends.
+fn keep(parameter: &str, name: &str) -> Keep {
+    Keep {
+        name: parameter.to_owned(),
+        type_: "hal::can::CanTx<'static>".to_owned(),
+        from: format!("{name}_tx"),
     }
 }
 
@@ -226,7 +235,7 @@ impl Bus<'_> {
         let upper = self.unit.to_uppercase();
         if self.frames.is_empty() {
             // Whoever holds the half keeps the bus on.
-            section.keeps.push((format!("{name}_tx"), "hal::can::CanTx<'static>".to_owned()));
+            section.keeps.push(keep(&format!("_{name}_tx"), name));
             return;
         }
         let frames: String = self
@@ -248,7 +257,7 @@ impl Bus<'_> {
                 ));
             }
         }
-        section.keeps.push((format!("mut {name}_tx"), "hal::can::CanTx<'static>".to_owned()));
+        section.keeps.push(keep(&format!("mut {name}_tx"), name));
         section.polls.push(format!("rt::can::send(&mut {name}_tx, &{upper}_FRAMES);"));
     }
 }

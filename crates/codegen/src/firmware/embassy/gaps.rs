@@ -1,7 +1,6 @@
 //! What there is no firmware for yet. A gap is told; nothing is left out in silence.
 
 use sensedsl_board::signal::{Function, TimerLine};
-use sensedsl_model::kind::icu::{Edge, Mode};
 use sensedsl_model::kind::{Kind, KindName, Role};
 
 use super::names::Names;
@@ -23,7 +22,6 @@ pub(super) const KINDS: &[KindName] = &[
 
 /// What a connection needs and no code is made for.
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
-    let is_array = connection.connection.element.is_some();
     match &connection.connection.kind {
         Kind::Pwm(_) if is_complementary(connection) => {
             Some("complementary outputs in Embassy's firmware")
@@ -35,15 +33,6 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         Kind::Can(_) if connection.unit.is_some_and(|unit| unit == "CAN2" || unit == "CAN3") => {
             Some("the second CAN controller in Embassy's firmware")
         }
-        Kind::Icu(_) if is_array => Some("an array of captures in Embassy's firmware"),
-        Kind::Icu(icu) if icu.mode == Mode::Ppm => Some("pulse trains in Embassy's firmware"),
-        Kind::Icu(_) if connection.pad(Role::Trigger).is_some() => {
-            Some("the trigger of a capture in Embassy's firmware")
-        }
-        Kind::Icu(icu) if icu.mode != Mode::Count && icu.edge != Edge::Rising => {
-            Some("widths and periods from a falling edge in Embassy's firmware")
-        }
-        Kind::Encoder(_) if is_array => Some("an array of encoders in Embassy's firmware"),
         Kind::Analog(_)
         | Kind::I2c(_)
         | Kind::Icu(_)

@@ -6,8 +6,8 @@ use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, channel, late, scalar};
 use super::{contacts, filter};
-use super::section::{Field, Section, Start, Watched};
-use crate::job::Cycle;
+use super::section::{Field, Keep, Section, Start, Watched};
+use crate::job::{Cycle, JobConnection};
 
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
@@ -84,39 +84,51 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
     section.watched.push(Watched::new(constant, cycle, device));
 }
 
-/// The reporter looks at a counter so often that no wrap is lost.
+/// The reporter looks at counters so often that no wrap is lost.
 fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Option<()> {
-    let wire = wired.wires.first()?;
+    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
+    let mut state = String::new();
+    let filter = filter::pass(context, wired.index, section, &mut state);
+    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    let mut counts = String::new();
+    for (at, wire) in wired.wires.iter().enumerate() {
+        counter(context, wire, section)?;
+        counts.push_str(&format!("{ident}_counters[{at}].step({}_qei.count());\n", wire.ident));
+    }
+    section.states.push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
+    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    section.polls.push(format!(
+        "let before = {ident}_counters.map(|counter| counter.total());\n{counts}\
+         let counts = {ident}_counters.map(|counter| counter.total());\n\
+         if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
+         for (at, count) in counts.into_iter().enumerate() {{\n        \
+         store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
+         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+        value.size_bytes(),
+        scalar(value.scalar),
+        value.scalar.size_bytes(),
+        wired.device.ident.to_uppercase()
+    ));
+    Some(())
+}
+
+/// The timer of two tracks, which the reporter keeps.
+fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Option<()> {
     let (unit, a, b) = (wire.unit?, wire.pad(Role::A)?, wire.pad(Role::B)?);
-    let (hal, value) = (context.peripheral(unit), wired.device.device.value.value);
+    let hal = context.peripheral(unit);
     // The HAL takes either order of the channels.
     let (first, second) = (channel(a)?, channel(b)?);
+    let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
     section.fields.push(Field {
         name: wire.ident.clone(),
         comment: wire.place(),
-        type_: format!("hal::timer::qei::Qei<'static, {hal}>"),
+        type_: type_.clone(),
         make: format!(
             "hal::timer::qei::Qei::new::<hal::timer::Ch{first}, hal::timer::Ch{second}>(p.{hal}, p.{}, p.{}, Default::default())",
             a.pin.name, b.pin.name
         ),
     });
-    let ident = &wire.ident;
-    let mut state = String::new();
-    let filter = filter::pass(context, wired.index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
-    section.keeps.push((ident.clone(), format!("hal::timer::qei::Qei<'static, {hal}>")));
-    section.states.push(format!(
-        "let (mut {ident}_counter, mut {ident}_repeat) = (Counter::NEW, Repeat::NEW);"
-    ));
-    section.polls.push(format!(
-        "let before = {ident}_counter.total();\n{ident}_counter.step({ident}.count());\n\
-         let count = {ident}_counter.total();\n\
-         if {ident}_repeat.is_due(count != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
-         store_count({}, i64::from(count), &mut value);\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        value.size_bytes(),
-        scalar(value.scalar),
-        wired.device.ident.to_uppercase()
-    ));
+    let from = format!("wiring.{}", wire.ident);
+    section.keeps.push(Keep { name: format!("{}_qei", wire.ident), type_, from });
     Some(())
 }

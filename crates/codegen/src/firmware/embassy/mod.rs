@@ -25,6 +25,7 @@ mod message;
 mod names;
 mod outputs;
 mod plan;
+mod pulse;
 mod render;
 mod runtime;
 mod section;

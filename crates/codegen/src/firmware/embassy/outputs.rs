@@ -36,25 +36,30 @@ fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
 }
 
 fn digital(context: &Context<'_>, section: &mut Section) {
-    for wired in actuators(context, KindName::Digital) {
+    // Some are of no device: a part has them at their level for good.
+    for wire in context.job.connections(KindName::Digital) {
+        let (Some(pad), Some(own)) = (wire.pad(Role::Out), contacts::digital(wire)) else {
+            continue;
+        };
+        section.outputs.push(Field {
+            name: wire.ident.clone(),
+            comment: wire.place(),
+            type_: "Output<'static>".to_owned(),
+            make: format!(
+                "Output::new(p.{}, {}, Speed::Low)",
+                pad.pin.name,
+                level_of(own, own.initial)
+            ),
+        });
+    }
+    let actuators = actuators(context, KindName::Digital).into_iter();
+    for wired in actuators.filter(|wired| !bridge::is_bridge(wired)) {
         for (at, wire) in wired.wires.iter().enumerate() {
-            let (Some(pad), Some(own)) = (wire.pad(Role::Out), contacts::digital(wire)) else {
-                continue;
-            };
-            let (ident, pin) = (&wire.ident, &pad.pin.name);
-            let initial = level_of(own, own.initial);
-            section.outputs.push(Field {
-                name: ident.clone(),
-                comment: wire.place(),
-                type_: "Output<'static>".to_owned(),
-                make: format!("Output::new(p.{pin}, {initial}, Speed::Low)"),
-            });
-            if bridge::is_bridge(&wired) {
-                continue;
-            }
+            let Some(own) = contacts::digital(wire) else { continue };
             let (scalar, bytes) = element(&wired, at);
             section.sets.entry(wired.index).or_default().push(format!(
-                "outputs.{ident}.set_level(if {scalar}.load({bytes}) != 0 {{ {} }} else {{ {} }});",
+                "outputs.{}.set_level(if {scalar}.load({bytes}) != 0 {{ {} }} else {{ {} }});",
+                wire.ident,
                 level_of(own, true),
                 level_of(own, false)
             ));

@@ -8,8 +8,8 @@ use sensedsl_wire::{Checksum, Direction};
 use super::context::{Context, scalar};
 use super::levels::{self, Level};
 use super::names::Pll;
-use super::section::{Field, Handlers, Peripheral, Section, Start, Watched};
-use super::{analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, serial, spi};
+use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
+use super::{analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi};
 
 /// All kinds, in the order in which their tasks are started.
 const PERIPHERALS: &[Peripheral] = &[
@@ -21,6 +21,7 @@ const PERIPHERALS: &[Peripheral] = &[
     serial::plan,
     can::plan,
     icu::plan,
+    pulse::plan,
     contacts::plan,
     inputs::plan,
 ];
@@ -46,7 +47,7 @@ pub(super) struct Plan {
     pub(super) starts: Vec<String>,
     /// Priorities above the lowest.
     pub(super) levels: Vec<Level>,
-    pub(super) keeps: Vec<(String, String)>,
+    pub(super) keeps: Vec<Keep>,
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<String>,
     /// By item: what is done when the host sets it.
@@ -114,7 +115,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let led = led.filter(|led| !taken(led.pin.as_str()));
     let mut call = "reporter(wiring.watchdog".to_owned();
     call.push_str(if led.is_some() { ", wiring.led" } else { "" });
-    call.extend(section.keeps.iter().map(|(name, _)| format!(", wiring.{name}")));
+    call.extend(section.keeps.iter().map(|keep| format!(", {}", keep.from)));
     section.starts.push(Start::Task(0, call + ")"));
     let levels = levels::levels(context, &section.starts, diagnostics);
     Plan {

@@ -20,8 +20,8 @@ pub(super) struct Section {
     pub(super) tables: Vec<String>,
     /// Statements that start tasks.
     pub(super) starts: Vec<Start>,
-    /// What of the wiring the reporter keeps: name and type.
-    pub(super) keeps: Vec<(String, String)>,
+    /// What the reporter keeps.
+    pub(super) keeps: Vec<Keep>,
     /// What else it keeps, and what it looks at in each cycle.
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<String>,
@@ -67,6 +67,16 @@ pub(super) struct Field {
     pub(super) comment: String,
     pub(super) type_: String,
     pub(super) make: String,
+}
+
+/// Something that the reporter keeps.
+#[derive(Clone, Debug)]
+pub(super) struct Keep {
+    /// Its parameter, which may be `mut`.
+    pub(super) name: String,
+    pub(super) type_: String,
+    /// What is handed over for it.
+    pub(super) from: String,
 }
 
 /// A task that must make its cycles.
