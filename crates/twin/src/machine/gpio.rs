@@ -96,7 +96,10 @@ impl Gpio {
             for (name, _, usages) in found.sheet.pins() {
                 let Some(pad) = Pad::named(name.as_str()) else { continue };
                 for (usage, number) in usages {
+                    // A wire that is a timer's trigger as well is called by its channel.
                     let wire = usage.replace('-', "_");
+                    let channel = wire.strip_suffix("_ETR").filter(|name| name.contains("_CH"));
+                    let wire = channel.map_or(wire.clone(), str::to_owned);
                     if let Some(number) = number {
                         functions.insert((pad, *number), wire);
                     } else if let Some((units, input)) = converter(&wire) {
