@@ -96,12 +96,14 @@ impl Gpio {
             for (name, _, usages) in found.sheet.pins() {
                 let Some(pad) = Pad::named(name.as_str()) else { continue };
                 for (usage, number) in usages {
-                    // A wire that is a timer's trigger as well is called by its channel.
                     let wire = usage.replace('-', "_");
-                    let channel = wire.strip_suffix("_ETR").filter(|name| name.contains("_CH"));
-                    let wire = channel.map_or(wire.clone(), str::to_owned);
                     if let Some(number) = number {
-                        functions.insert((pad, *number), wire);
+                        // A pad that leads to a channel and to the trigger of one timer is called by the channel.
+                        if wire.ends_with("_ETR") {
+                            let _ = functions.entry((pad, *number)).or_insert(wire);
+                        } else {
+                            functions.insert((pad, *number), wire);
+                        }
                     } else if let Some((units, input)) = converter(&wire) {
                         for unit in units {
                             inputs.insert(format!("ADC{unit}_{input}"), pad);
