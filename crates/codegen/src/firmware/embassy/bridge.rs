@@ -4,10 +4,10 @@ use sensedsl_model::design::Connection;
 use sensedsl_model::kind::{Kind, KindName};
 use sensedsl_model::protocol::Drive;
 
+use super::contacts;
 use super::context::{Context, Wired, scalar};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
-use super::contacts;
 use crate::job::JobConnection;
 
 /// The level of an output that is always on.

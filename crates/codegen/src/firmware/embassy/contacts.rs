@@ -128,7 +128,8 @@ fn input(
 /// The handler of an interrupt, which lines may share.
 fn handler(interrupt: &str, statics: &[String], section: &mut Section) {
     let name = format!("{interrupt}_EDGES");
-    let all: String = statics.iter().map(|one| format!("        {one}.on_interrupt();\n")).collect();
+    let all: String =
+        statics.iter().map(|one| format!("        {one}.on_interrupt();\n")).collect();
     section.bind(interrupt, format!("crate::{name}"));
     section.items.push(format!(
         "/// Edges on the lines of this interrupt.\n\
@@ -136,7 +137,9 @@ fn handler(interrupt: &str, statics: &[String], section: &mut Section) {
          impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {name} {{\n    \
          unsafe fn on_interrupt() {{\n{all}    }}\n}}"
     ));
-    section.begins.push(format!("// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"));
+    section
+        .begins
+        .push(format!("// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"));
 }
 
 /// The reporter takes what the interrupts have seen.

@@ -5,8 +5,8 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, channel, late, scalar};
-use super::{contacts, filter};
 use super::section::{Field, Keep, Section, Start, Watched};
+use super::{contacts, filter};
 use crate::job::{Cycle, JobConnection};
 
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
@@ -16,9 +16,8 @@ pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
             one.wires.first().and_then(|wire| contacts::digital(wire)?.edge).is_some()
         };
         // Those with edges are the reporter's.
-        let is_read = |one: &&Wired<'_>| {
-            one.device.device.direction == Direction::Sensor && !has_edges(one)
-        };
+        let is_read =
+            |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor && !has_edges(one);
         let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_read).collect();
         if !sensors.is_empty() {
             digital(context, cycle, &sensors, &mut section);
@@ -95,7 +94,9 @@ fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> O
         counter(context, wire, section)?;
         counts.push_str(&format!("{ident}_counters[{at}].step({}_qei.count());\n", wire.ident));
     }
-    section.states.push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
+    section
+        .states
+        .push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
     section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
     section.polls.push(format!(
         "let before = {ident}_counters.map(|counter| counter.total());\n{counts}\

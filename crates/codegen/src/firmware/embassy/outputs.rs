@@ -240,7 +240,9 @@ fn dac(context: &Context<'_>, section: &mut Section) {
             let Kind::Dac(own) = &wire.connection.kind else { continue };
             let safe = own.failsafe.map(|safe| set(level(safe).min(4_095).to_string()));
             // Until the host speaks it is as silent as later.
-            section.begins.extend(safe.iter().map(|safe| format!("outputs(|outputs| {safe});").replace(";);", ");")));
+            section.begins.extend(
+                safe.iter().map(|safe| format!("outputs(|outputs| {safe});").replace(";);", ");")),
+            );
             section.fails.extend(safe);
         }
     }

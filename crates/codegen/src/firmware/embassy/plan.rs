@@ -9,7 +9,9 @@ use super::context::{Context, scalar};
 use super::levels::{self, Level};
 use super::names::Pll;
 use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
-use super::{analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi};
+use super::{
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+};
 
 /// All kinds, in the order in which their tasks are started.
 const PERIPHERALS: &[Peripheral] = &[

@@ -39,8 +39,7 @@ pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
                 make: format!("Output::new(p.{}, Level::Low, Speed::Low)", pad.pin.name),
             });
             let first = || (device.id.value, Vec::new());
-            let (_, lines) =
-                classes.entry((wired.device.cycle, pulse_us)).or_insert_with(first);
+            let (_, lines) = classes.entry((wired.device.cycle, pulse_us)).or_insert_with(first);
             lines.push(Line {
                 ident,
                 group: device.group.as_ref().map(|group| group.name.clone()),

@@ -36,8 +36,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         if refuse(context, wire, uart, diagnostics) {
             continue;
         }
-        let says = wire.pad(Role::Tx).is_some()
-            && !(plan.init.is_empty() && plan.commands.is_empty());
+        let says =
+            wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
         let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
         let port = Port { wire, unit, uart, plan, said };
         section.tables.extend(message::tables(context, plan));
