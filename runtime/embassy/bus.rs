@@ -1,46 +1,84 @@
-//! Devices on register buses: the runtime says what is to be sent and read, and the bus does it.
+//! Parts on register buses: the runtime says what is to be sent and read, and a line does it.
 
-use embassy_stm32::i2c::{self, I2c, Master};
-use embassy_stm32::mode::Async;
-use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
-use embassy_sync::mutex::Mutex;
-use embassy_time::{Duration, with_timeout};
+use embassy_time::Duration;
 use sense_rt::{Chip, Outcome, Sink, Step};
 
 use super::now_ms;
+use super::shared::Tell;
 
-/// A bus that several tasks share.
-pub type I2cBus = Mutex<CriticalSectionRawMutex, I2c<'static, Async, Master>>;
+/// What a part is reached over: a bus, with whatever chooses the part.
+pub trait Line {
+    /// Makes one transfer.
+    async fn transfer(&mut self, address: u8, step: Step<'_>, timeout: Duration) -> Outcome;
+}
 
-/// What came of a transfer.
-fn outcome(result: Result<Result<(), i2c::Error>, embassy_time::TimeoutError>) -> Outcome {
-    match result {
-        Ok(Ok(())) => Outcome::Fresh,
-        Ok(Err(i2c::Error::Nack)) => Outcome::NotAcknowledged,
-        Ok(Err(i2c::Error::Arbitration)) => Outcome::ArbitrationLost,
-        Ok(Err(i2c::Error::Timeout)) | Err(_) => Outcome::TimedOut,
-        Ok(Err(_)) => Outcome::BusError,
-    }
+/// A command as it was written last: the number of the host's value, and that of the chip's start.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Written {
+    sequence: u32,
+    starts: u32,
+}
+
+impl Written {
+    /// Never.
+    pub const NEW: Self = Self { sequence: 0, starts: 0 };
 }
 
 /// Makes all transfers of a chip that are due; returns how many milliseconds there is nothing to do.
-pub async fn serve_i2c(bus: &I2cBus, chip: &mut Chip, timeout: Duration, sink: &mut Sink<'_>) -> u32 {
+pub async fn serve<L: Line>(line: &mut L, chip: &mut Chip, timeout: Duration, sink: &mut Sink<'_>) -> u32 {
     let address = chip.table().address;
+    let mut has_failed = false;
     loop {
-        let mut bus = bus.lock().await;
         let outcome = match chip.next(now_ms()) {
-            Step::Wait(ms) => return ms,
-            Step::Write(bytes) => outcome(with_timeout(timeout, bus.write(address, bytes)).await),
-            Step::WriteRead([], bytes) => {
-                outcome(with_timeout(timeout, bus.read(address, bytes)).await)
+            Step::Wait(ms) => {
+                // A chip that only takes commands says so of them.
+                if has_failed && !chip.is_running() {
+                    let fault = chip.fault();
+                    chip.table().commands.iter().for_each(|command| sink(command.item.into(), fault, &mut []));
+                }
+                return ms;
             }
-            Step::WriteRead(select, bytes) => {
-                outcome(with_timeout(timeout, bus.write_read(address, select, bytes)).await)
+            step @ (Step::Write(_) | Step::WriteRead(..) | Step::Exchange(..)) => {
+                line.transfer(address, step, timeout).await
             }
-            // Of SPI only.
-            Step::Exchange(..) => Outcome::BusError,
         };
-        drop(bus);
         chip.done(outcome, sink);
+        has_failed |= !chip.is_running() && chip.fault() != Outcome::Nothing;
+    }
+}
+
+/// Writes what the host has set since, or what a chip has forgotten. `value` is room for any value.
+pub async fn write<L: Line>(
+    line: &mut L,
+    chip: &mut Chip,
+    written: &mut [Written],
+    timeout: Duration,
+    board: &dyn Tell,
+    value: &mut [u8],
+) {
+    let table = chip.table();
+    for (command, written) in table.commands.iter().zip(written) {
+        if !chip.is_running() {
+            return;
+        }
+        let index = usize::from(command.item);
+        let now = Written { sequence: board.wanted(index, value), starts: chip.counts().starts };
+        if now.sequence == 0 || now == *written {
+            continue;
+        }
+        let outcome = match chip.write(command, value) {
+            Ok(step) => {
+                let outcome = line.transfer(table.address, step, timeout).await;
+                chip.done(outcome, &mut |_, _, _| {});
+                outcome
+            }
+            Err(outcome) => outcome,
+        };
+        if matches!(outcome, Outcome::Fresh | Outcome::Invalid) {
+            *written = now;
+        }
+        if outcome != Outcome::Fresh {
+            board.tell(None, index, outcome, &mut []);
+        }
     }
 }

@@ -7,14 +7,37 @@ use embassy_stm32::timer::pwm_input::PwmInput;
 use embassy_stm32::timer::{Channel, GeneralInstance4Channel};
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
-use embassy_time::Instant;
-use sense_rt::Captured;
+use embassy_stm32::gpio::Output;
+use embassy_time::{Duration, Instant, Timer, block_for};
+use sense_rt::{Captured, Train, TrainConfig};
 
 /// What was captured so far; it stands in a `static`.
 pub type Seen = Mutex<CriticalSectionRawMutex, Cell<Captured>>;
 
 pub const fn nothing() -> Seen {
     Mutex::new(Cell::new(Captured::NEW))
+}
+
+/// What was seen of a pulse train; it stands in a `static`.
+pub type SeenTrain = Mutex<CriticalSectionRawMutex, Cell<Train>>;
+
+pub const fn no_train() -> SeenTrain {
+    Mutex::new(Cell::new(Train::NEW))
+}
+
+/// A shorter pulse is not worth a wait of the tasks.
+const SHORT_US: u32 = 100;
+
+/// A pulse of at least that length.
+pub async fn pulse(pin: &mut Output<'static>, length_us: u32) {
+    let length = Duration::from_micros(length_us.into());
+    pin.set_high();
+    if length_us < SHORT_US {
+        block_for(length);
+    } else {
+        Timer::after(length).await;
+    }
+    pin.set_low();
 }
 
 /// The edges that count.
@@ -80,6 +103,27 @@ pub async fn measure<T: GeneralInstance4Channel>(
             } else {
                 captured.on_edge();
             }
+        });
+    }
+}
+
+/// Measures the intervals of a pulse train, for ever. What is longer than the timer counts is a gap.
+pub async fn train<T: GeneralInstance4Channel>(
+    mut timer: PwmInput<'static, T>,
+    config: &TrainConfig,
+    seen: &SeenTrain,
+) -> ! {
+    timer.enable();
+    let longest_us = 65_535_000_000 / u64::from(config.tick_hz.max(1));
+    let mut last: Option<Instant> = None;
+    loop {
+        let ticks = timer.wait_for_period().await;
+        let now = Instant::now();
+        let is_whole = last.replace(now).is_some_and(|last| (now - last).as_micros() <= longest_us);
+        seen.lock(|cell| {
+            let mut train = cell.get();
+            train.on_interval(config, if is_whole { ticks } else { u32::MAX });
+            cell.set(train);
         });
     }
 }

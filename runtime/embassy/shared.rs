@@ -11,6 +11,8 @@ use super::now_ms;
 struct Known<const VALUES: usize, const ITEMS: usize> {
     store: Store<[u8; VALUES]>,
     health: Health<[Record; ITEMS]>,
+    /// How often the host has set each item; 0 for never.
+    sets: [u32; ITEMS],
 }
 
 /// See above; it stands in a `static`.
@@ -20,7 +22,7 @@ pub struct Shared<const VALUES: usize, const ITEMS: usize> {
 
 impl<const VALUES: usize, const ITEMS: usize> Shared<VALUES, ITEMS> {
     pub const fn new(schema: &'static Schema, cycles_ms: &'static [u32]) -> Self {
-        let known = Known { store: Store::new(schema), health: Health::new(cycles_ms) };
+        let known = Known { store: Store::new(schema), health: Health::new(cycles_ms), sets: [0; ITEMS] };
         Self { known: Mutex::new(RefCell::new(known)) }
     }
 
@@ -28,7 +30,7 @@ impl<const VALUES: usize, const ITEMS: usize> Shared<VALUES, ITEMS> {
     pub fn with<R>(&self, task: impl FnOnce(&mut Store, &mut Health) -> R) -> R {
         self.known.lock(|known| {
             let mut known = known.borrow_mut();
-            let Known { store, health } = &mut *known;
+            let Known { store, health, .. } = &mut *known;
             task(store, health)
         })
     }
@@ -38,10 +40,36 @@ impl<const VALUES: usize, const ITEMS: usize> Shared<VALUES, ITEMS> {
 pub trait Tell: Sync {
     /// What a reading came to.
     fn tell(&self, filter: Option<&mut Filter>, index: usize, outcome: Outcome, value: &mut [u8]);
+    /// The host has set an item.
+    fn set(&self, index: usize, value: &[u8]);
+    /// Copies what the host has set an item to; returns the how manieth value it is, 0 where there is none.
+    fn wanted(&self, index: usize, value: &mut [u8]) -> u32;
 }
 
 impl<const VALUES: usize, const ITEMS: usize> Tell for Shared<VALUES, ITEMS> {
     fn tell(&self, filter: Option<&mut Filter>, index: usize, outcome: Outcome, value: &mut [u8]) {
         self.with(|store, health| store.tell(health, filter, index, outcome, value, now_ms()));
+    }
+
+    fn set(&self, index: usize, value: &[u8]) {
+        self.known.lock(|known| {
+            let mut known = known.borrow_mut();
+            let Known { store, health, sets } = &mut *known;
+            store.put(index, value);
+            health.note(index, Outcome::Fresh, now_ms());
+            if let Some(sets) = sets.get_mut(index) {
+                *sets = sets.wrapping_add(1).max(1);
+            }
+        });
+    }
+
+    fn wanted(&self, index: usize, value: &mut [u8]) -> u32 {
+        self.known.lock(|known| {
+            let known = known.borrow();
+            for (to, from) in value.iter_mut().zip(known.store.get(index).unwrap_or_default()) {
+                *to = *from;
+            }
+            known.sets.get(index).copied().unwrap_or(0)
+        })
     }
 }

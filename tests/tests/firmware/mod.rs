@@ -13,6 +13,7 @@ mod chibios;
 mod codecs;
 mod core;
 mod details;
+mod embassy;
 mod emulated;
 mod facts;
 mod mutants;

@@ -40,6 +40,8 @@ pub(crate) struct Family {
     pub(crate) sampling: toml::Value,
     pub(crate) target: String,
     pub(crate) hz: u32,
+    /// The register with the cause of the last reset.
+    pub(crate) reset: Option<String>,
     #[serde(default)]
     pub(crate) excludes: Vec<String>,
     pub(crate) converter: Option<Converter>,

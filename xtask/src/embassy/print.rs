@@ -308,7 +308,7 @@ fn system(
     writeln!(
         text,
         "\n# What only the generator for Embassy reads: how the HAL spells things.\n[system]\ntarget = \"{}\"\n\
-         adc = {{ new = \"{}\", read = \"{}\" }}\ni2c = \"{}\"\ncan = \"{}\"\ndma = \"{}\"\nafio = {}\nsource = \"{}\"",
+         adc = {{ new = \"{}\", read = \"{}\" }}\ni2c = \"{}\"\nusart = \"{}\"\n{}can = \"{}\"\ndma = \"{}\"\nafio = {}\nsource = \"{}\"",
         own.target,
         own.new,
         own.read,
@@ -317,6 +317,12 @@ fn system(
             .map(|chip| version(chip, "I2C1"))
             .find(|version| !version.is_empty())
             .unwrap_or(""),
+        chips
+            .iter()
+            .flat_map(|chip| ["USART1", "USART2"].map(|unit| version(chip, unit)))
+            .find(|version| !version.is_empty())
+            .unwrap_or(""),
+        own.reset.as_ref().map_or(String::new(), |register| format!("reset = \"{register}\"\n")),
         can.first().copied().unwrap_or("none"),
         if is_general { "GPDMA{controller}_CH{stream}" } else { "DMA{controller}_CH{stream}" },
         chips.iter().any(|chip| chip.family == "STM32F1"),

@@ -291,7 +291,11 @@ impl Chip {
     fn write(&mut self, device: Device, offset: u32, value: u32, mask: u32) {
         let wires = &mut self.wires;
         match device {
-            Device::Gpio(port) => wires.gpio.write(port, offset, value, mask),
+            Device::Gpio(port) => {
+                wires.gpio.write(port, offset, value, mask);
+                // A pad may be led to a timer that runs already.
+                wires.version += u64::from(matches!(offset, 0x00 | 0x20 | 0x24));
+            }
             Device::Timer(unit) => self.timers[unit].write(offset, value, mask, wires),
             Device::Usart(unit) => self.usarts[unit].write(offset, value, mask, wires),
             Device::Spi(unit) => self.spis[unit].write(offset, value, mask, wires),

@@ -173,7 +173,12 @@ impl Bench {
     }
 
     pub(super) fn load(board: &std::path::Path, mode: &str, link: LinkPort) -> Self {
-        let image = std::fs::read(board.join("build").join(mode).join("sense.elf")).unwrap();
+        Self::of(&board.join("build").join(mode).join("sense.elf"), link)
+    }
+
+    /// A board with a program.
+    pub(super) fn of(program: &std::path::Path, link: LinkPort) -> Self {
+        let image = std::fs::read(program).unwrap();
         let world = Arc::new(Mutex::new(World::default()));
         let settings = Settings { crystal_hz: 8_000_000, link };
         let mut machine =

@@ -11,6 +11,7 @@ use sensedsl_wire::{Checksum, Scalar, Schema};
 
 use super::bench::{Bench, MS, Square, pad, schema, unsigned, values};
 use crate::firmware::chibios::tree;
+use crate::firmware::embassy;
 use crate::firmware::tools::root;
 
 /// The design of a kind on a Discovery board, its link over a serial port.
@@ -22,9 +23,54 @@ fn design(kind: &str) -> String {
     text.replacen("board BOARD {", &format!("{head}{release}"), 1)
 }
 
-fn bench(kind: &str) -> Option<Bench> {
+fn chibios_bench(kind: &str) -> Option<Bench> {
     let name = format!("twin_{kind}");
     Some(Bench::build(&tree()?, &name, &design(kind), "production", LinkPort::Serial(3)))
+}
+
+fn embassy_bench(kind: &str) -> Option<Bench> {
+    let program = embassy::program(&format!("twin_embassy_{kind}"), &design(kind))?;
+    Some(Bench::of(&program, LinkPort::Serial(3)))
+}
+
+/// Each test on both targets, with the image of the kind.
+macro_rules! on_both {
+    ($($kind:literal: $name:ident,)*) => {
+        mod on_chibios {
+            $(
+                #[test]
+                fn $name() {
+                    if let Some(bench) = super::chibios_bench($kind) {
+                        super::$name(bench);
+                    }
+                }
+            )*
+        }
+
+        mod on_embassy {
+            $(
+                #[test]
+                fn $name() {
+                    if let Some(bench) = super::embassy_bench($kind) {
+                        super::$name(bench);
+                    }
+                }
+            )*
+        }
+    };
+}
+
+on_both! {
+    "analog": analog_values_are_those_of_the_pads,
+    "can": frames_of_a_can_bus_come_and_go,
+    "dac": the_dac_follows_the_host,
+    "digital": digital_inputs_count_and_settle_and_outputs_follow,
+    "encoder": an_encoder_counts_every_edge_of_both_tracks,
+    "i2c": chips_on_an_i2c_bus_are_read_and_written,
+    "icu": a_frequency_is_captured,
+    "pwm": pulses_have_the_widths_that_the_host_sets,
+    "spi": chips_on_an_spi_bus_are_read_and_written,
+    "uart": messages_of_a_serial_port_are_taken,
 }
 
 fn items(
@@ -44,9 +90,7 @@ fn frame(values: &[u8]) -> Vec<u8> {
     [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
 }
 
-#[test]
-fn analog_values_are_those_of_the_pads() {
-    let Some(mut bench) = bench("analog") else { return };
+fn analog_values_are_those_of_the_pads(mut bench: Bench) {
     bench.world().voltages =
         BTreeMap::from([(pad("PC1"), (330.0, 1.0)), (pad("PC4"), (1650.0, 0.0))]);
     bench.run_until_ms(1_500);
@@ -66,9 +110,7 @@ fn analog_values_are_those_of_the_pads() {
     assert_eq!(values(&reports, 2)[0].1, [Scalar::Float32(2048.0)]);
 }
 
-#[test]
-fn frames_of_a_can_bus_come_and_go() {
-    let Some(mut bench) = bench("can") else { return };
+fn frames_of_a_can_bus_come_and_go(mut bench: Bench) {
     bench.run_until_ms(300);
     let frame_of = |id, value: u8| {
         let data = [9, 9, 0x12, value, 9, 9, 9, 9];
@@ -88,9 +130,7 @@ fn frames_of_a_can_bus_come_and_go() {
     assert_eq!(first.data.get(..usize::from(first.length)), Some(&[0xFE, 0xDC][..]));
 }
 
-#[test]
-fn the_dac_follows_the_host() {
-    let Some(mut bench) = bench("dac") else { return };
+fn the_dac_follows_the_host(mut bench: Bench) {
     bench.run_until_ms(100);
     bench.machine.link_write(&frame(&[1, 0x08, 0x00]));
     bench.run_until_ms(150);
@@ -99,9 +139,7 @@ fn the_dac_follows_the_host() {
     assert_eq!(half.count(), 1, "{outputs:?}");
 }
 
-#[test]
-fn digital_inputs_count_and_settle_and_outputs_follow() {
-    let Some(mut bench) = bench("digital") else { return };
+fn digital_inputs_count_and_settle_and_outputs_follow(mut bench: Bench) {
     let drops = Square { half_ns: 5 * MS, shift_ns: 2 * MS };
     bench.world().squares.insert(pad("PC4"), drops);
     bench.run_until_ms(200);
@@ -131,9 +169,7 @@ fn digital_inputs_count_and_settle_and_outputs_follow() {
     assert_eq!(bench.world().driven.get(&pad("PC13")), Some(&Some(false)));
 }
 
-#[test]
-fn an_encoder_counts_every_edge_of_both_tracks() {
-    let Some(mut bench) = bench("encoder") else { return };
+fn an_encoder_counts_every_edge_of_both_tracks(mut bench: Bench) {
     let half_ns = 100_000;
     // The first track leads: the wheel turns forward, a count each 50 us.
     let tracks = [("PE9", 20 * MS), ("PE11", 20 * MS + half_ns / 2)];
@@ -153,9 +189,7 @@ fn an_encoder_counts_every_edge_of_both_tracks() {
     }
 }
 
-#[test]
-fn chips_on_an_i2c_bus_are_read_and_written() {
-    let Some(mut bench) = bench("i2c") else { return };
+fn chips_on_an_i2c_bus_are_read_and_written(mut bench: Bench) {
     let heading = [0x01, 0x02, 0x03, 0x04, 0xFF, 0xFE];
     let registers =
         heading.into_iter().zip(3..).map(|(value, register)| (register, value)).collect();
@@ -188,9 +222,7 @@ fn chips_on_an_i2c_bus_are_read_and_written() {
     assert!(written.contains(&(0x70, vec![0x00, 0x51])), "{written:?}");
 }
 
-#[test]
-fn a_frequency_is_captured() {
-    let Some(mut bench) = bench("icu") else { return };
+fn a_frequency_is_captured(mut bench: Bench) {
     bench.world().squares.insert(pad("PE5"), Square { half_ns: 400_000, shift_ns: MS });
     bench.run_until_ms(300);
     let schema = items(&[(1, Sensor, "Wheel", Uint32, None)]);
@@ -204,9 +236,7 @@ fn a_frequency_is_captured() {
     );
 }
 
-#[test]
-fn pulses_have_the_widths_that_the_host_sets() {
-    let Some(mut bench) = bench("pwm") else { return };
+fn pulses_have_the_widths_that_the_host_sets(mut bench: Bench) {
     bench.run_until_ms(50);
     let steering = |bench: &Bench| bench.world().waves[&(9, 1)];
     // Half of 1 to 2 ms, until the host says something.
@@ -219,9 +249,7 @@ fn pulses_have_the_widths_that_the_host_sets() {
     assert_eq!(steering(&bench), (20 * MS, 1_000_000));
 }
 
-#[test]
-fn chips_on_an_spi_bus_are_read_and_written() {
-    let Some(mut bench) = bench("spi") else { return };
+fn chips_on_an_spi_bus_are_read_and_written(mut bench: Bench) {
     bench.world().spi_answers.extend([0x5A]);
     bench.run_until_ms(300);
     bench.machine.link_write(&frame(&[2, 0x77]));
@@ -238,9 +266,7 @@ fn chips_on_an_spi_bus_are_read_and_written() {
     assert!(world.chip_selects() > 30);
 }
 
-#[test]
-fn messages_of_a_serial_port_are_taken() {
-    let Some(mut bench) = bench("uart") else { return };
+fn messages_of_a_serial_port_are_taken(mut bench: Bench) {
     let message = |low: u8, high: u8| {
         let body = [0x59, 0x59, low, high];
         let sum = body.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));

@@ -105,7 +105,8 @@ fn task(
         wires.iter().map(|wire| format!(", wiring.{}", wire.ident)).collect();
     let call = format!("{ident}({}{})", snake(unit), arguments.concat());
     section.starts.push(Start::Task(cycle.prio, call));
-    section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
+    let device = wires.first().map_or(0, |wire| context.id_of(wire));
+    section.watched.push(Watched::new(constant, cycle, device));
 }
 
 /// Samples one device, whose inputs are converted one right after the other.
@@ -135,9 +136,25 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         ));
     }
     let value = wired.device.device.value.value;
+    let upper = wired.device.ident.to_uppercase();
+    let formula = wired.wires.first().and_then(|one| {
+        let mut formulas = context.job.tables_of(one)?.formulas.iter();
+        formulas.find(|plan| plan.field == wired.device.name())
+    });
+    let how = match formula {
+        Some(plan) => {
+            let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
+            format!(
+                "rt::analog::Value::Computed(&sense_rt::{}, {}, &[{}])",
+                plan.formula.trim_start_matches("up_formula_").to_uppercase(),
+                plan.output,
+                parameters.join(", ")
+            )
+        }
+        None => "rt::analog::Value::Mean".to_owned(),
+    };
     text.push_str(&format!(
-        "        }}\n        rt::analog::tell(&BOARD, {filter}, tables::{}, {}, &samples, {count}, &mut [0; {}]);\n",
-        wired.device.ident.to_uppercase(),
+        "        }}\n        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
         scalar(value.scalar),
         value.size_bytes(),
     ));

@@ -1,7 +1,7 @@
 //! The tables of a chip in Rust: constants of the runtime's types.
 
 use super::context::Context;
-use crate::part::{BusPlan, CommandPlan, ReadingPlan, TransferPlan, ValuePlan};
+use crate::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
 /// The table of a part on a register bus.
 pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
@@ -11,10 +11,7 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
         text.push_str(&format!("    {what}: {value},\n"));
     };
     if !plan.init.is_empty() {
-        let steps = plan.init.iter().map(|step| {
-            format!("InitStep {{ bytes: {}, pause_ms: {} }}", bytes(&step.bytes), step.pause_ms)
-        });
-        line("init", list(steps));
+        line("init", init(&plan.init));
     }
     if let Some(one) = &plan.identity {
         let (select, expected, mask) = (bytes(&one.select), bytes(&one.expected), bytes(&one.mask));
@@ -45,19 +42,26 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
     text
 }
 
-fn list(entries: impl Iterator<Item = String>) -> String {
+pub(super) fn list(entries: impl Iterator<Item = String>) -> String {
     let entries: String = entries.map(|entry| format!("        {entry},\n")).collect();
     format!("&[\n{entries}    ]")
 }
 
 /// A byte of a plan, which is spelled as C has it.
-fn byte(c: &str) -> String {
+pub(super) fn byte(c: &str) -> String {
     c.trim_end_matches('U').to_owned()
 }
 
-fn bytes(all: &[String]) -> String {
+pub(super) fn bytes(all: &[String]) -> String {
     let all: Vec<String> = all.iter().map(|one| byte(one)).collect();
     format!("&[{}]", all.join(", "))
+}
+
+/// How a part is set up.
+pub(super) fn init(steps: &[InitPlan]) -> String {
+    list(steps.iter().map(|step| {
+        format!("InitStep {{ bytes: {}, pause_ms: {} }}", bytes(&step.bytes), step.pause_ms)
+    }))
 }
 
 fn transfer(plan: &TransferPlan) -> String {
@@ -72,17 +76,12 @@ fn transfer(plan: &TransferPlan) -> String {
     )
 }
 
-/// The index of a device's item.
-fn item(context: &Context<'_>, field: &str) -> usize {
-    context.job.devices.iter().position(|one| one.name() == field).unwrap_or_default()
-}
-
 fn reading(context: &Context<'_>, plan: &ReadingPlan) -> String {
     let output = plan.output.map_or("None".to_owned(), |output| format!("Some({output})"));
     let value = plan.value.as_ref().map_or("Coding::NEW".to_owned(), coding);
     format!(
         "Reading {{ item: {}, offset: {}, transfer: {}, output: {output}, value: {value} }}",
-        item(context, &plan.field),
+        context.item(&plan.field),
         plan.offset,
         plan.transfer
     )
@@ -92,12 +91,12 @@ fn command(context: &Context<'_>, plan: &CommandPlan) -> String {
     format!(
         "Command {{ prefix: {}, item: {}, value: {} }}",
         bytes(&plan.prefix),
-        item(context, &plan.field),
+        context.item(&plan.field),
         coding(&plan.value)
     )
 }
 
-fn coding(plan: &ValuePlan) -> String {
+pub(super) fn coding(plan: &ValuePlan) -> String {
     let code = match plan.code {
         "UP_CODE_FLOAT" => "Code::Float",
         "UP_CODE_BCD" => "Code::Bcd",

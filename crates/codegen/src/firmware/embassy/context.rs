@@ -60,6 +60,23 @@ impl<'a> Context<'a> {
         classes
     }
 
+    /// The identifier of the first device of a wire; 0 where it has none.
+    pub(super) fn id_of(&self, wire: &JobConnection<'_>) -> u8 {
+        let own = wire.devices.iter().filter_map(|index| self.job.devices.get(*index));
+        own.map(|one| one.device.id.value).next().unwrap_or(0)
+    }
+
+    /// The clock of a unit.
+    pub(super) fn unit_hz(&self, unit: &str) -> Option<u32> {
+        let clock = self.profile.unit(unit)?.clock.as_deref()?;
+        self.profile.clocks_hz.get(clock).copied()
+    }
+
+    /// The index of a device's item.
+    pub(super) fn item(&self, field: &str) -> usize {
+        self.job.devices.iter().position(|one| one.name() == field).unwrap_or_default()
+    }
+
     /// What the HAL calls a unit.
     pub(super) fn peripheral(&self, unit: &str) -> String {
         self.names.peripheral(unit).to_owned()

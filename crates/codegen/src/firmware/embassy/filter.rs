@@ -1,5 +1,7 @@
 //! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
 
+use sensedsl_model::design::PartIndex;
+
 use super::context::Context;
 use super::section::Section;
 use crate::part::FilterPlan;
@@ -20,6 +22,32 @@ pub(super) fn pass(
          Filter::new(&tables::{upper}_FILTER);\n"
     ));
     format!("Some(&mut *{ident}_filter)")
+}
+
+/// The filters of all items of parts: what a task keeps, and an expression for that of the item `index`.
+pub(super) fn of_parts(
+    context: &Context<'_>,
+    is_own: impl Fn(PartIndex) -> bool,
+    section: &mut Section,
+) -> (String, String) {
+    let (mut state, mut arms) = (String::new(), String::new());
+    for (index, device) in context.job.devices.iter().enumerate() {
+        if !is_own(device.device.part) {
+            continue;
+        }
+        let mut own = String::new();
+        let pass = pass(context, index, section, &mut own);
+        if !own.is_empty() {
+            state.push_str(&format!("    {own}"));
+            arms.push_str(&format!("{index} => {pass}, "));
+        }
+    }
+    let pass = if arms.is_empty() {
+        "None".to_owned()
+    } else {
+        format!("match index {{ {arms}_ => None }}")
+    };
+    (state, pass)
 }
 
 /// The filter of an item.

@@ -1,9 +1,9 @@
 //! What there is no firmware for yet. A gap is told; nothing is left out in silence.
 
-use sensedsl_model::kind::icu::{Edge, Mode};
+use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_model::kind::{Kind, KindName, Role};
-use sensedsl_wire::Direction;
 
+use super::names::Names;
 use crate::job::{BoardJob, JobConnection};
 
 /// The kinds that there is code for.
@@ -15,44 +15,23 @@ pub(super) const KINDS: &[KindName] = &[
     KindName::Digital,
     KindName::Pwm,
     KindName::Dac,
+    KindName::Uart,
+    KindName::Spi,
+    KindName::Can,
 ];
 
 /// What a connection needs and no code is made for.
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
-    let devices = connection.devices.iter().filter_map(|index| job.devices.get(*index));
-    for device in devices {
-        if device.device.coding.drive.is_some() {
-            return Some("bridges in Embassy's firmware");
-        }
-    }
-    if connection.connection.name.is_some() {
-        return Some("chips with several connections in Embassy's firmware");
-    }
-    let plan = job.tables_of(connection);
-    let is_actuator = connection.connection.direction == Direction::Actuator;
-    let is_array = connection.connection.element.is_some();
     match &connection.connection.kind {
-        Kind::Analog(_) if plan.is_some_and(|plan| !plan.formulas.is_empty()) => {
-            Some("a formula of an analog value in Embassy's firmware")
+        Kind::Pwm(_) if is_complementary(connection) => {
+            Some("complementary outputs in Embassy's firmware")
         }
-        Kind::I2c(_)
-            if plan
-                .and_then(|plan| plan.bus.as_ref())
-                .is_some_and(|bus| !bus.commands.is_empty()) =>
-        {
-            Some("a chip that is written to in Embassy's firmware")
+        Kind::I2c(_) | Kind::Spi(_) if on_buses(job, connection) > 1 => {
+            Some("parts with two connections to buses in Embassy's firmware")
         }
-        Kind::Icu(_) if is_array => Some("an array of captures in Embassy's firmware"),
-        Kind::Icu(icu) if icu.mode == Mode::Ppm => Some("pulse trains in Embassy's firmware"),
-        Kind::Icu(_) if connection.pad(Role::Trigger).is_some() => {
-            Some("the trigger of a capture in Embassy's firmware")
-        }
-        Kind::Icu(icu) if icu.mode != Mode::Count && icu.edge != Edge::Rising => {
-            Some("widths and periods from a falling edge in Embassy's firmware")
-        }
-        Kind::Encoder(_) if is_array => Some("an array of encoders in Embassy's firmware"),
-        Kind::Digital(own) if !is_actuator && (own.edge.is_some() || own.debounce_us > 0) => {
-            Some("an input with edges or a debounce time in Embassy's firmware")
+        Kind::Can(_) if !has_can_banks(job) => Some("FDCAN controllers in Embassy's firmware"),
+        Kind::Can(_) if connection.unit.is_some_and(|unit| unit == "CAN2" || unit == "CAN3") => {
+            Some("the second CAN controller in Embassy's firmware")
         }
         Kind::Analog(_)
         | Kind::I2c(_)
@@ -65,4 +44,20 @@ pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Optio
         | Kind::Dac(_)
         | Kind::Can(_) => None,
     }
+}
+
+/// Whether an output is the complement of its timer's channel.
+fn is_complementary(connection: &JobConnection<'_>) -> bool {
+    let function = connection.pad(Role::Out).and_then(|pad| Some(pad.usage?.signal.function()));
+    matches!(function, Some(Function::Timer { line: TimerLine::Inverted, .. }))
+}
+
+/// Connections of the same part to buses of the same kind.
+fn on_buses(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> usize {
+    let kind = connection.connection.kind.name();
+    job.connections(kind).filter(|one| one.connection.part == connection.connection.part).count()
+}
+
+fn has_can_banks(job: &BoardJob<'_>) -> bool {
+    job.profile.is_some_and(|profile| Names::of(profile).is_ok_and(|names| names.has_can_banks()))
 }

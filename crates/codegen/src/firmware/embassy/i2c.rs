@@ -3,17 +3,13 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::design::PartIndex;
 use sensedsl_model::kind::{KindName, Role};
 
-use super::context::{Context, late};
-use super::section::{Field, Section, Start, Watched};
-use super::{chip, filter};
-use crate::job::{Cycle, JobConnection};
+use super::chips::{self, Bus, Reach, Served};
+use super::context::Context;
+use super::section::{Field, Section, Start};
+use crate::job::JobConnection;
 use crate::print::snake;
-
-/// Time for a device to think, beside the bits.
-const TIMEOUT_BASE_MS: u32 = 10;
 
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
@@ -30,10 +26,29 @@ pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
         section.starts.push(Start::Make(format!(
             "let {name}: &'static I2cBus = {unit}_BUS.init(Mutex::new(wiring.{name}));"
         )));
-        section.runtime.insert("bus.rs");
-        tasks(context, unit, &on_bus, &mut section);
+        section.runtime.insert("i2c.rs");
+        let bus = Bus { unit, type_: "I2cBus", on_bus: &on_bus, hz: hz(&on_bus) };
+        chips::tasks(context, &bus, reach, &mut section);
     }
     section
+}
+
+/// Every part is reached by its address.
+fn reach(served: &[Served<'_>]) -> Reach {
+    let line = |one: &Served<'_>| {
+        format!("    let mut {}_line = rt::i2c::I2cLine(bus);\n", one.plan.prefix)
+    };
+    Reach {
+        parameters: String::new(),
+        arguments: String::new(),
+        lines: served.iter().map(line).collect(),
+    }
+}
+
+/// The clock that all parts of a bus take.
+fn hz(on_bus: &[&JobConnection<'_>]) -> u32 {
+    let all = on_bus.iter().filter_map(|one| one.connection.kind.i2c()).map(|i2c| i2c.speed_hz);
+    all.min().unwrap_or(100_000).max(1)
 }
 
 /// The bus, in the words of the HAL.
@@ -46,107 +61,22 @@ fn bus(
     let first = on_bus.first()?;
     let hal = context.peripheral(unit);
     let (scl, sda) = (first.pad(Role::Scl)?, first.pad(Role::Sda)?);
-    let stream = |signal: &str| {
-        let of = |one: &&crate::job::JobStream<'_>| one.request.ends_with(signal);
-        context.names.channel(first.streams.iter().find(of)?.stream)
-    };
-    let (tx, rx) = (stream("_TX")?, stream("_RX")?);
-    for channel in [&tx, &rx] {
-        let interrupt = context.names.interrupt(channel, "GLOBAL")?;
-        section.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
-    }
+    let (tx, rx) = (section.stream(context, first, "_TX")?, section.stream(context, first, "_RX")?);
     for (signal, handler) in [("EV", "EventInterruptHandler"), ("ER", "ErrorInterruptHandler")] {
         // A unit with one interrupt for both has it under either name.
         let interrupt = context.names.interrupt(unit, signal)?;
         section.bind(interrupt, format!("hal::i2c::{handler}<{hal}>"));
     }
-    let hz =
-        on_bus.iter().filter_map(|one| one.connection.kind.i2c()).map(|i2c| i2c.speed_hz).min()?;
     let who: Vec<&str> = on_bus.iter().map(|one| one.title.as_str()).collect();
     Some(Field {
         name: snake(unit),
         comment: format!("{unit} at {} and {}: {}", scl.pin.name, sda.pin.name, who.join(", ")),
         type_: "hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>".to_owned(),
         make: format!(
-            "hal::i2c::I2c::new(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, bus({hz}))",
-            scl.pin.name, sda.pin.name
+            "hal::i2c::I2c::new(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, bus({}))",
+            scl.pin.name,
+            sda.pin.name,
+            hz(on_bus)
         ),
     })
-}
-
-fn tasks(context: &Context<'_>, unit: &str, on_bus: &[&JobConnection<'_>], section: &mut Section) {
-    let mut cycles: BTreeMap<Cycle, Vec<PartIndex>> = BTreeMap::new();
-    for one in on_bus {
-        let parts = cycles.entry(one.cycle).or_default();
-        if !parts.contains(&one.connection.part) {
-            parts.push(one.connection.part);
-        }
-    }
-    for (cycle, parts) in cycles {
-        let ident = cycle.ident(unit);
-        let constant = ident.to_uppercase();
-        let plans = context.job.parts.iter().filter(|part| parts.contains(&part.index));
-        let plans: Vec<_> = plans.filter_map(|part| part.plan.bus.as_ref()).collect();
-        let hz = on_bus.iter().filter_map(|one| one.connection.kind.i2c()).map(|i2c| i2c.speed_hz);
-        let hz = hz.min().unwrap_or(100_000).max(1);
-        let bytes = plans.iter().map(|plan| plan.work_bytes + 4).max().unwrap_or(4);
-        let bits_ms = u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(2 * 9 * 1_000) / hz;
-        let mut text = format!(
-            "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(bus: &'static I2cBus) {{\n{}",
-            cycle.title(unit),
-            late(cycle)
-        );
-        for plan in &plans {
-            section.tables.push(chip::table(context, plan));
-            let table = plan.prefix.to_uppercase();
-            text.push_str(&format!(
-                "    let mut {}: Chip<[u8; tables::{table}_CHIP.chip_bytes(&SCHEMA)]> = \
-                 Chip::new(&tables::{table}_CHIP, &SCHEMA);\n",
-                plan.prefix
-            ));
-        }
-        let (state, pass) = filters(context, &parts, section);
-        text.push_str(&state);
-        text.push_str(&format!(
-            "    let timeout = Duration::from_millis({});\n    loop {{\n        let mut idle_ms = {};\n        \
-             let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell({pass}, index, outcome, value);\n",
-            TIMEOUT_BASE_MS + bits_ms,
-            cycle.delay_ms
-        ));
-        for plan in &plans {
-            text.push_str(&format!(
-                "        idle_ms = idle_ms.min(serve_i2c(bus, &mut {}, timeout, &mut tell).await);\n",
-                plan.prefix
-            ));
-        }
-        text.push_str(&format!(
-            "        WATCH.beat(tables::{constant}, now_ms());\n        \
-             Timer::after_millis(u64::from(idle_ms.max(1))).await;\n    }}\n}}"
-        ));
-        section.items.push(text);
-        section.starts.push(Start::Task(cycle.prio, format!("{ident}({})", snake(unit))));
-        section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
-    }
-}
-
-/// The filters of parts, and which of them is an item's.
-fn filters(context: &Context<'_>, parts: &[PartIndex], section: &mut Section) -> (String, String) {
-    let (mut state, mut arms) = (String::new(), String::new());
-    for (index, device) in context.job.devices.iter().enumerate() {
-        if !parts.contains(&device.device.part) {
-            continue;
-        }
-        let mut own = String::new();
-        let pass = filter::pass(context, index, section, &mut own);
-        if !own.is_empty() {
-            state.push_str(&format!("    {own}"));
-            arms.push_str(&format!("{index} => {pass}, "));
-        }
-    }
-    let pass = if arms.is_empty() {
-        "None".to_owned()
-    } else {
-        format!("match index {{ {arms}_ => None }}")
-    };
-    (state, pass)
 }

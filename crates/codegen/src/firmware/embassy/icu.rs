@@ -7,6 +7,8 @@ use sensedsl_model::kind::{KindName, Role};
 use super::context::{Context, Wired, channel, scalar};
 use super::filter;
 use super::section::{Field, Section, Start};
+use crate::job::JobConnection;
+use crate::part::TrainPlan;
 
 /// After so long without an edge there is no frequency.
 const SILENT_MS: u32 = 1_000;
@@ -14,35 +16,50 @@ const SILENT_MS: u32 = 1_000;
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for wired in context.wired(KindName::Icu) {
-        device(context, &wired, &mut section);
+        let Some(icu) = wired.wires.first().and_then(|one| one.connection.kind.icu()) else {
+            continue;
+        };
+        let train = train(context, &wired);
+        for wire in &wired.wires {
+            let prio = wired.device.cycle.prio;
+            let _ = input(context, wire, icu, (prio, train), &mut section);
+        }
+        match train {
+            Some(train) => poll_train(context, &wired, train, &mut section),
+            None => poll(context, &wired, icu, &mut section),
+        }
+        section.runtime.insert("capture.rs");
     }
     section
 }
 
-fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Option<()> {
-    let wire = wired.wires.first()?;
-    let (icu, unit, pad) = (wire.connection.kind.icu()?, wire.unit?, wire.pad(Role::In)?);
+/// How a pulse train is read; none where there is no train.
+fn train<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Option<&'a TrainPlan> {
+    let name = wired.device.name();
+    let mut all = context.job.parts.iter().flat_map(|part| &part.plan.trains);
+    all.find(|plan| plan.field == name)
+}
+
+/// What the statics of a wire begin with.
+fn upper(wire: &JobConnection<'_>) -> String {
+    wire.ident.to_uppercase()
+}
+
+/// A wire, with the task that waits for its edges.
+fn input(
+    context: &Context<'_>,
+    wire: &JobConnection<'_>,
+    icu: &Icu,
+    (prio, train): (i8, Option<&TrainPlan>),
+    section: &mut Section,
+) -> Option<()> {
+    let (unit, pad) = (wire.unit?, wire.pad(Role::In)?);
     let (channel, hal) = (channel(pad)?, context.peripheral(unit));
     let interrupt = context.names.interrupt(unit, "CC")?;
     section.bind(interrupt, format!("hal::timer::CaptureCompareInterruptHandler<{hal}>"));
     let (ident, pin) = (&wire.ident, &pad.pin.name);
     let (type_, make) = if icu.mode == Mode::Count {
-        let slots = (1..=4).map(|slot| {
-            if slot == channel {
-                format!("Some(hal::timer::input_capture::CapturePin::new(p.{pin}, Pull::None))")
-            } else {
-                "None".to_owned()
-            }
-        });
-        let slots: Vec<String> = slots.collect();
-        (
-            format!("hal::timer::input_capture::InputCapture<'static, {hal}>"),
-            format!(
-                "hal::timer::input_capture::InputCapture::new(p.{hal}, {}, Irqs, hz({}), CountingMode::EdgeAlignedUp)",
-                slots.join(", "),
-                icu.tick_hz
-            ),
-        )
+        counter(&hal, pin.as_str(), channel, icu)
     } else {
         (
             format!("hal::timer::pwm_input::PwmInput<'static, {hal}>"),
@@ -52,24 +69,62 @@ fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Op
             ),
         )
     };
+    if icu.mode != Mode::Count && icu.edge == Edge::Falling {
+        // The HAL measures from rising edges: the two channels of the wire change places.
+        let (own, other) = if channel == 1 { (0, 1) } else { (1, 0) };
+        section.begins.push(format!(
+            "hal::pac::{hal}.ccer().modify(|edges| {{\n        edges.set_ccp({own}, true);\n        \
+             edges.set_ccp({other}, false);\n    }});"
+        ));
+    }
     section.fields.push(Field {
         name: ident.clone(),
         comment: wire.place(),
         type_: type_.clone(),
         make,
     });
-    let upper = ident.to_uppercase();
+    let upper = upper(wire);
+    let (static_, runs) = match train {
+        Some(plan) => (
+            format!(
+                "static {upper}_SEEN: rt::capture::SeenTrain = rt::capture::no_train();\n\
+                 const {upper}_TRAIN: sense_rt::TrainConfig =\n    \
+                 sense_rt::TrainConfig {{ tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
+                plan.tick_hz, plan.gap_ticks, plan.min_ticks
+            ),
+            format!("rt::capture::train(timer, &{upper}_TRAIN, &{upper}_SEEN)"),
+        ),
+        None => (
+            format!("static {upper}_SEEN: Seen = rt::capture::nothing();"),
+            run(icu, channel, &upper),
+        ),
+    };
     section.items.push(format!(
-        "static {upper}_SEEN: Seen = rt::capture::nothing();\n\n/// {}.\n#[embassy_executor::task]\n\
-         async fn {ident}_edges(timer: {type_}) {{\n    {}.await;\n}}",
+        "{static_}\n\n/// {}.\n#[embassy_executor::task]\nasync fn {ident}_edges(timer: {type_}) {{\n    {runs}.await;\n}}",
         wire.place(),
-        run(icu, channel, &upper)
     ));
-    let call = format!("{ident}_edges(wiring.{ident})");
-    section.starts.push(Start::Task(wired.device.cycle.prio, call));
-    section.runtime.insert("capture.rs");
-    poll(context, wired, icu, &upper, section);
+    section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
     Some(())
+}
+
+/// A timer that tells edges.
+fn counter(hal: &str, pin: &str, channel: u8, icu: &Icu) -> (String, String) {
+    let slots = (1..=4).map(|slot| {
+        if slot == channel {
+            format!("Some(hal::timer::input_capture::CapturePin::new(p.{pin}, Pull::None))")
+        } else {
+            "None".to_owned()
+        }
+    });
+    let slots: Vec<String> = slots.collect();
+    (
+        format!("hal::timer::input_capture::InputCapture<'static, {hal}>"),
+        format!(
+            "hal::timer::input_capture::InputCapture::new(p.{hal}, {}, Irqs, hz({}), CountingMode::EdgeAlignedUp)",
+            slots.join(", "),
+            icu.tick_hz
+        ),
+    )
 }
 
 /// What the task does for ever.
@@ -87,10 +142,16 @@ fn run(icu: &Icu, channel: u8, upper: &str) -> String {
     }
 }
 
-fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, upper: &str, section: &mut Section) {
+/// The filter of a device whose state the reporter keeps.
+fn filter(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> String {
     let mut state = String::new();
     let filter = filter::pass(context, wired.index, section, &mut state);
     section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    filter
+}
+
+fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) {
+    let filter = filter(context, wired, section);
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let mode = match icu.mode {
         Mode::Width => "Width",
@@ -99,16 +160,57 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, upper: &str, sectio
         Mode::Duty => "Duty",
         Mode::Count | Mode::Ppm => "Count",
     };
-    section.states.push(format!("let mut {ident} = Capture::NEW;"));
+    let count = wired.wires.len();
+    let config = format!(
+        "let config = CaptureConfig {{ mode: CaptureMode::{mode}, tick_hz: {}, silent_ms: {SILENT_MS} }};",
+        icu.tick_hz
+    );
+    let (bytes, scalar) = (value.size_bytes(), scalar(value.scalar));
+    let constant = ident.to_uppercase();
+    let is_array = wired.wires.iter().any(|one| one.connection.element.is_some());
+    if !is_array {
+        let seen = wired.wires.first().map_or(String::new(), |wire| upper(wire));
+        section.states.push(format!("let mut {ident} = Capture::NEW;"));
+        section.polls.push(format!(
+            "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\n{config}\nlet mut value = [0; {bytes}];\n\
+             if {ident}.read(&config, &seen, false, now_ms(), {scalar}, &mut value) {{\n    \
+             BOARD.tell({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}"
+        ));
+        return;
+    }
+    let size = value.scalar.size_bytes();
+    // A pulse that comes no more must not look like one of now.
+    let is_complete = matches!(icu.mode, Mode::Width | Mode::Period);
+    let reads = wired.wires.iter().enumerate().map(|(at, wire)| {
+        format!(
+            "let seen = {}_SEEN.lock(core::cell::Cell::get);\n\
+             if {ident}[{at}].read(&config, &seen, false, now_ms(), {scalar}, &mut {ident}_latest[{}..]) {{\n    \
+             {ident}_elements.note({at});\n}}\n",
+            upper(wire),
+            at * size
+        )
+    });
+    section.states.push(format!("let mut {ident} = [Capture::NEW; {count}];"));
+    section.states.push(format!("let mut {ident}_elements = sense_rt::Elements::NEW;"));
+    section.states.push(format!("let mut {ident}_latest = [0; {bytes}];"));
     section.polls.push(format!(
-        "let seen = {upper}_SEEN.lock(core::cell::Cell::get);\n\
-         let config = CaptureConfig {{ mode: CaptureMode::{mode}, tick_hz: {}, silent_ms: {SILENT_MS} }};\n\
-         let mut value = [0; {}];\n\
-         if {ident}.read(&config, &seen, false, now_ms(), {}, &mut value) {{\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        icu.tick_hz,
-        value.size_bytes(),
-        scalar(value.scalar),
-        ident.to_uppercase()
+        "{config}\n{}if {ident}_elements.are_due({count}, {is_complete}) {{\n    let mut value = {ident}_latest;\n    \
+         BOARD.tell({filter}, tables::{constant}, Outcome::Fresh, &mut value);\n}}",
+        reads.collect::<String>()
+    ));
+}
+
+fn poll_train(context: &Context<'_>, wired: &Wired<'_>, plan: &TrainPlan, section: &mut Section) {
+    let filter = filter(context, wired, section);
+    let Some(seen) = wired.wires.first().map(|wire| upper(wire)) else { return };
+    section.states.push(format!("let mut {}_trains = 0;", plan.ident));
+    section.polls.push(format!(
+        "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\nlet mut value = [0; {}];\n\
+         let outcome = seen.read(&{seen}_TRAIN, &mut {}_trains, &SCHEMA.items[{}], &mut value);\n\
+         BOARD.tell({filter}, tables::{}, outcome, &mut value);",
+        wired.device.device.value.value.size_bytes(),
+        plan.ident,
+        wired.index,
+        wired.device.ident.to_uppercase()
     ));
 }

@@ -1,20 +1,24 @@
 //! Digital inputs and encoders: a task for each cycle looks at them.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::kind::digital::Pull;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, channel, late, scalar};
-use super::filter;
-use super::section::{Field, Section, Start, Watched};
-use crate::job::Cycle;
+use super::section::{Field, Keep, Section, Start, Watched};
+use super::{contacts, filter};
+use crate::job::{Cycle, JobConnection};
 
 pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for ((_, cycle), devices) in context.classes(KindName::Digital) {
-        let is_sensor = |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor;
-        let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_sensor).collect();
+        let has_edges = |one: &Wired<'_>| {
+            one.wires.first().and_then(|wire| contacts::digital(wire)?.edge).is_some()
+        };
+        // Those with edges are the reporter's.
+        let is_read =
+            |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor && !has_edges(one);
+        let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_read).collect();
         if !sensors.is_empty() {
             digital(context, cycle, &sensors, &mut section);
         }
@@ -35,20 +39,19 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
         let value = wired.device.device.value.value;
         let mut levels = Vec::new();
         for wire in &wired.wires {
-            let (Some(pad), Kind::Digital(own)) = (wire.pad(Role::In), &wire.connection.kind)
-            else {
+            let (Some(pad), Some(own)) = (wire.pad(Role::In), contacts::digital(wire)) else {
                 continue;
             };
-            let pull = match own.pull {
-                Pull::Up => "Pull::Up",
-                Pull::Down => "Pull::Down",
-                Pull::None => "Pull::None",
-            };
+            if contacts::is_kept(own) {
+                let not = if own.active_low { "!" } else { "" };
+                levels.push(format!("{not}{}.level()", contacts::name(wire)));
+                continue;
+            }
             section.fields.push(Field {
                 name: wire.ident.clone(),
                 comment: wire.place(),
                 type_: "Input<'static>".to_owned(),
-                make: format!("Input::new(p.{}, {pull})", pad.pin.name),
+                make: format!("Input::new(p.{}, {})", pad.pin.name, contacts::pull(own)),
             });
             parameters.push_str(&format!(", {}: Input<'static>", wire.ident));
             arguments.push(format!("wiring.{}", wire.ident));
@@ -76,42 +79,57 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
     ));
     let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
-    section.watched.push(Watched { constant, cycle_ms: cycle.delay_ms });
+    let device = devices.first().map_or(0, |one| one.device.device.id.value);
+    section.watched.push(Watched::new(constant, cycle, device));
 }
 
-/// The reporter looks at a counter so often that no wrap is lost.
+/// The reporter looks at counters so often that no wrap is lost.
 fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Option<()> {
-    let wire = wired.wires.first()?;
+    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
+    let mut state = String::new();
+    let filter = filter::pass(context, wired.index, section, &mut state);
+    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    let mut counts = String::new();
+    for (at, wire) in wired.wires.iter().enumerate() {
+        counter(context, wire, section)?;
+        counts.push_str(&format!("{ident}_counters[{at}].step({}_qei.count());\n", wire.ident));
+    }
+    section
+        .states
+        .push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
+    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    section.polls.push(format!(
+        "let before = {ident}_counters.map(|counter| counter.total());\n{counts}\
+         let counts = {ident}_counters.map(|counter| counter.total());\n\
+         if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
+         for (at, count) in counts.into_iter().enumerate() {{\n        \
+         store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
+         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+        value.size_bytes(),
+        scalar(value.scalar),
+        value.scalar.size_bytes(),
+        wired.device.ident.to_uppercase()
+    ));
+    Some(())
+}
+
+/// The timer of two tracks, which the reporter keeps.
+fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Option<()> {
     let (unit, a, b) = (wire.unit?, wire.pad(Role::A)?, wire.pad(Role::B)?);
-    let (hal, value) = (context.peripheral(unit), wired.device.device.value.value);
+    let hal = context.peripheral(unit);
     // The HAL takes either order of the channels.
     let (first, second) = (channel(a)?, channel(b)?);
+    let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
     section.fields.push(Field {
         name: wire.ident.clone(),
         comment: wire.place(),
-        type_: format!("hal::timer::qei::Qei<'static, {hal}>"),
+        type_: type_.clone(),
         make: format!(
             "hal::timer::qei::Qei::new::<hal::timer::Ch{first}, hal::timer::Ch{second}>(p.{hal}, p.{}, p.{}, Default::default())",
             a.pin.name, b.pin.name
         ),
     });
-    let ident = &wire.ident;
-    let mut state = String::new();
-    let filter = filter::pass(context, wired.index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
-    section.keeps.push((ident.clone(), format!("hal::timer::qei::Qei<'static, {hal}>")));
-    section.states.push(format!(
-        "let (mut {ident}_counter, mut {ident}_repeat) = (Counter::NEW, Repeat::NEW);"
-    ));
-    section.polls.push(format!(
-        "let before = {ident}_counter.total();\n{ident}_counter.step({ident}.count());\n\
-         let count = {ident}_counter.total();\n\
-         if {ident}_repeat.is_due(count != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
-         store_count({}, i64::from(count), &mut value);\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        value.size_bytes(),
-        scalar(value.scalar),
-        wired.device.ident.to_uppercase()
-    ));
+    let from = format!("wiring.{}", wire.ident);
+    section.keeps.push(Keep { name: format!("{}_qei", wire.ident), type_, from });
     Some(())
 }

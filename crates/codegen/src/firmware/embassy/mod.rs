@@ -5,10 +5,15 @@
 //! types that the Rust compiler judges.
 
 mod analog;
+mod bridge;
+mod can;
 mod cargo;
 mod chip;
+mod chips;
 mod clock;
+mod contacts;
 mod context;
+mod fallback;
 mod filter;
 mod gaps;
 mod i2c;
@@ -16,12 +21,16 @@ mod icu;
 mod inputs;
 mod levels;
 mod link;
+mod message;
 mod names;
 mod outputs;
 mod plan;
+mod pulse;
 mod render;
 mod runtime;
 mod section;
+mod serial;
+mod spi;
 mod typed;
 
 use sensedsl_board::catalog;

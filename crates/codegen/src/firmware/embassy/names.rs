@@ -17,6 +17,11 @@ pub struct Names {
     pub(super) adc: Adc,
     /// The version of the I²C units.
     i2c: String,
+    /// The version of the serial ports.
+    usart: String,
+    /// The register that tells the cause of the last reset from bit 26 on; none where it is told otherwise.
+    #[serde(default)]
+    pub(super) reset: Option<String>,
     /// The driver of the CAN controllers.
     can: Can,
     /// How a DMA channel is called.
@@ -239,6 +244,16 @@ impl Names {
             Some(Remap::Switch) => format!("hal::gpio::AfioRemapBool<{}>", block > 0),
             None => "hal::gpio::AfioRemapNotApplicable".to_owned(),
         })
+    }
+
+    /// Whether the serial ports have one register for the bytes of both directions, and a status that reading clears.
+    pub(super) fn has_old_ports(&self) -> bool {
+        matches!(self.usart.as_str(), "v1" | "v2")
+    }
+
+    /// Whether the CAN controllers are those with filter banks.
+    pub(super) fn has_can_banks(&self) -> bool {
+        self.can == Can::Bxcan
     }
 
     /// Whether pins in use by a unit can be pulled up.

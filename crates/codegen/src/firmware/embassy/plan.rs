@@ -8,12 +8,25 @@ use sensedsl_wire::{Checksum, Direction};
 use super::context::{Context, scalar};
 use super::levels::{self, Level};
 use super::names::Pll;
-use super::section::{Field, Handlers, Peripheral, Section, Start};
-use super::{analog, cargo, i2c, icu, inputs, link, outputs};
+use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
+use super::{
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+};
 
 /// All kinds, in the order in which their tasks are started.
-const PERIPHERALS: &[Peripheral] =
-    &[link::plan, outputs::plan, analog::plan, i2c::plan, icu::plan, inputs::plan];
+const PERIPHERALS: &[Peripheral] = &[
+    link::plan,
+    outputs::plan,
+    analog::plan,
+    i2c::plan,
+    spi::plan,
+    serial::plan,
+    can::plan,
+    icu::plan,
+    pulse::plan,
+    contacts::plan,
+    inputs::plan,
+];
 
 /// The reporter's cycle where nothing asks for another.
 const REPORT_MS: u32 = 10;
@@ -36,24 +49,32 @@ pub(super) struct Plan {
     pub(super) starts: Vec<String>,
     /// Priorities above the lowest.
     pub(super) levels: Vec<Level>,
-    pub(super) keeps: Vec<(String, String)>,
+    pub(super) keeps: Vec<Keep>,
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<String>,
     /// By item: what is done when the host sets it.
     pub(super) sets: Vec<(usize, String)>,
     pub(super) fails: Vec<String>,
-    /// Constants of the tasks and their cycles.
-    pub(super) watched: Vec<(String, u32)>,
+    /// What is done with outputs and interrupts at the start.
+    pub(super) begins: Vec<String>,
+    /// By item: the value that is sent when the host is silent.
+    pub(super) fallbacks: Vec<(usize, Vec<u8>)>,
+    pub(super) watched: Vec<Watched>,
     pub(super) runtime: BTreeSet<&'static str>,
     pub(super) report_ms: u32,
     pub(super) silence_ms: u32,
     /// The light and whether it shines when high.
     pub(super) led: Option<(String, bool)>,
+    /// The register with the cause of the last reset.
+    pub(super) reset: Option<String>,
     /// What the HAL calls the watchdog.
     pub(super) watchdog: &'static str,
     pub(super) is_usb: bool,
     pub(super) is_uart: bool,
     pub(super) has_buses: bool,
+    /// Serial devices, and ports that can invert their wires.
+    pub(super) has_ports: bool,
+    pub(super) has_new_ports: bool,
     pub(super) has_pulls: bool,
 }
 
@@ -96,7 +117,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let led = led.filter(|led| !taken(led.pin.as_str()));
     let mut call = "reporter(wiring.watchdog".to_owned();
     call.push_str(if led.is_some() { ", wiring.led" } else { "" });
-    call.extend(section.keeps.iter().map(|(name, _)| format!(", wiring.{name}")));
+    call.extend(section.keeps.iter().map(|keep| format!(", {}", keep.from)));
     section.starts.push(Start::Task(0, call + ")"));
     let levels = levels::levels(context, &section.starts, diagnostics);
     Plan {
@@ -109,14 +130,19 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         schema: schema(context),
         handlers: handlers(&section.handlers),
         sets: section.sets.into_iter().map(|(index, sets)| (index, sets.join(" "))).collect(),
-        watched: section.watched.into_iter().map(|one| (one.constant, one.cycle_ms)).collect(),
+        watched: section.watched,
+        begins: section.begins,
+        fallbacks: fallback::values(context),
         report_ms: REPORT_MS.max(rate),
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| (led.pin.to_string(), led.active_high)),
+        reset: context.names.reset.clone(),
         watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
         is_usb,
         is_uart: section.runtime.contains("link_uart.rs"),
-        has_buses: section.runtime.contains("bus.rs"),
+        has_buses: section.runtime.contains("i2c.rs"),
+        has_ports: section.runtime.contains("serial.rs"),
+        has_new_ports: section.runtime.contains("port_new.rs"),
         has_pulls: context.names.has_pulls(),
         fields: section.fields,
         outputs: section.outputs,

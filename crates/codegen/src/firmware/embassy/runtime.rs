@@ -15,16 +15,24 @@ pub(super) const ADAPTERS: &[(&str, &str)] = files![
     "runtime/embassy/",
     "analog.rs",
     "bus.rs",
+    "can.rs",
     "capture.rs",
+    "contact.rs",
+    "i2c.rs",
+    "life.rs",
     "link.rs",
     "link_uart.rs",
     "link_usb.rs",
+    "port_new.rs",
+    "port_old.rs",
     "pwm.rs",
+    "serial.rs",
     "shared.rs",
+    "spi.rs",
 ];
 
 /// Those that every project has.
-pub(super) const ALWAYS: &[&str] = &["link.rs", "shared.rs"];
+pub(super) const ALWAYS: &[&str] = &["life.rs", "link.rs", "shared.rs"];
 
 /// How the module of the adapters begins.
 const MODULE: &str = include_str!("../../../../../runtime/embassy/mod.rs");
@@ -36,7 +44,12 @@ pub(super) fn module(own: &BTreeSet<&'static str>) -> String {
         own.iter().chain(ALWAYS).filter_map(|name| name.strip_suffix(".rs")).collect();
     let mut modules = String::new();
     for name in names {
-        let _ = writeln!(modules, "pub mod {name};");
+        // The serial ports of a chip are of one sort, and the code around them does not know which.
+        if name.starts_with("port_") {
+            let _ = writeln!(modules, "#[path = \"{name}.rs\"]\npub mod port;");
+        } else {
+            let _ = writeln!(modules, "pub mod {name};");
+        }
     }
     text = text.replacen("// modules\n", &modules, 1);
     text

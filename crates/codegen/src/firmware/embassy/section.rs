@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::Diagnostic;
 
 use super::context::Context;
+use crate::job::{Cycle, JobConnection, JobStream};
 
 /// What one kind adds. Every text is Rust; `plan.rs` puts the sections together and looks into none.
 #[derive(Debug, Default)]
@@ -19,14 +20,16 @@ pub(super) struct Section {
     pub(super) tables: Vec<String>,
     /// Statements that start tasks.
     pub(super) starts: Vec<Start>,
-    /// What of the wiring the reporter keeps: name and type.
-    pub(super) keeps: Vec<(String, String)>,
+    /// What the reporter keeps.
+    pub(super) keeps: Vec<Keep>,
     /// What else it keeps, and what it looks at in each cycle.
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<String>,
     /// What the host sets: the fields of `Outputs`, and what is done for an item.
     pub(super) outputs: Vec<Field>,
     pub(super) sets: BTreeMap<usize, Vec<String>>,
+    /// What is done with outputs at the start.
+    pub(super) begins: Vec<String>,
     /// What is done when the host is silent.
     pub(super) fails: Vec<String>,
     /// The cycles of the tasks, which the watchdog watches.
@@ -66,12 +69,31 @@ pub(super) struct Field {
     pub(super) make: String,
 }
 
+/// Something that the reporter keeps.
+#[derive(Clone, Debug)]
+pub(super) struct Keep {
+    /// Its parameter, which may be `mut`.
+    pub(super) name: String,
+    pub(super) type_: String,
+    /// What is handed over for it.
+    pub(super) from: String,
+}
+
 /// A task that must make its cycles.
 #[derive(Clone, Debug)]
 pub(super) struct Watched {
     /// The constant with its number.
     pub(super) constant: String,
+    /// So long it may take to a beat, beside what every task may be late.
     pub(super) cycle_ms: u32,
+    /// The identifier of its first device.
+    pub(super) device: u8,
+}
+
+impl Watched {
+    pub(super) fn new(constant: String, cycle: Cycle, device: u8) -> Self {
+        Self { constant, cycle_ms: cycle.delay_ms.saturating_add(cycle.start_ms), device }
+    }
 }
 
 /// A kind of device.
@@ -81,6 +103,20 @@ impl Section {
     /// Binds a handler to an interrupt.
     pub(super) fn bind(&mut self, interrupt: &str, handler: String) {
         self.handlers.entry(interrupt.to_owned()).or_default().insert(handler);
+    }
+
+    /// The DMA channel of a request of a unit, with its handler bound; none where there is none.
+    pub(super) fn stream(
+        &mut self,
+        context: &Context<'_>,
+        wire: &JobConnection<'_>,
+        request: &str,
+    ) -> Option<String> {
+        let of = |one: &&JobStream<'_>| one.request.ends_with(request);
+        let channel = context.names.channel(wire.streams.iter().find(of)?.stream)?;
+        let interrupt = context.names.interrupt(&channel, "GLOBAL")?;
+        self.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
+        Some(channel)
     }
 
     /// Takes over what another has.
@@ -99,6 +135,7 @@ impl Section {
         for (index, sets) in other.sets {
             self.sets.entry(index).or_default().extend(sets);
         }
+        self.begins.append(&mut other.begins);
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
         self.runtime.append(&mut other.runtime);

@@ -1,0 +1,103 @@
+//! Motors behind H-bridges: one value becomes the strength of a pulse and the levels of two pins, or two pulses.
+
+use sensedsl_model::design::Connection;
+use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::protocol::Drive;
+
+use super::contacts;
+use super::context::{Context, Wired, scalar};
+use super::outputs::{Pulse, level_of};
+use super::section::{Field, Section};
+use crate::job::JobConnection;
+
+/// The level of an output that is always on.
+const FULL: u32 = 10_000;
+
+/// Whether the outputs of a device are those of a bridge.
+pub(super) fn is_bridge(wired: &Wired<'_>) -> bool {
+    wired.device.device.coding.drive.is_some()
+}
+
+pub(super) fn plan(context: &Context<'_>, section: &mut Section) {
+    for wired in context.wired(KindName::Pwm) {
+        if let Some(drive) = wired.device.device.coding.drive {
+            bridge(context, &wired, drive, section);
+        }
+    }
+}
+
+fn bridge(
+    context: &Context<'_>,
+    wired: &Wired<'_>,
+    drive: Drive,
+    section: &mut Section,
+) -> Option<()> {
+    let (ident, upper) = (&wired.device.ident, wired.device.ident.to_uppercase());
+    let mode = match drive {
+        Drive::DirectionPins => "DirectionPins",
+        Drive::TwoPwm => "TwoPwm",
+    };
+    section.tables.push(format!(
+        "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {FULL} }};"
+    ));
+    section.outputs.push(Field {
+        name: format!("{ident}_bridge"),
+        comment: format!("what the outputs of {} do", wired.device.name()),
+        type_: "sense_rt::BridgeState".to_owned(),
+        make: "sense_rt::BridgeState::NEW".to_owned(),
+    });
+    let outputs = outputs(context, wired);
+    let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
+    let arms: String = arms.collect::<Option<String>>()?;
+    let drive = |scalar: &str, value: &str| {
+        format!(
+            "for write in tables::{upper}_BRIDGE.drive(&mut outputs.{ident}_bridge, {scalar}, {value}).as_slice() {{ \
+             match write.output {{ {arms}_ => {{}} }} }}"
+        )
+    };
+    let own = scalar(wired.device.device.value.value.scalar);
+    section.sets.entry(wired.index).or_default().push(drive(&own, "value"));
+    if let Kind::Pwm(pwm) = &wired.device.device.kind
+        && let Some(failsafe) = pwm.failsafe
+    {
+        let safe = drive("Scalar::Int32", &format!("&{}_i32.to_be_bytes()", level(failsafe)));
+        // Until the host speaks it is as silent as later: that is the start as well.
+        section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
+        section.fails.push(safe);
+    }
+    Some(())
+}
+
+/// The connections of a device in the order of the runtime's outputs.
+fn outputs<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Vec<&'a JobConnection<'a>> {
+    let job = context.job;
+    let indices = wired.device.device.connections.iter();
+    let connections = indices.filter_map(|index| job.design.connection(*index));
+    let wire =
+        |one: &Connection| job.connections.iter().find(|wire| std::ptr::eq(wire.connection, one));
+    connections.filter_map(wire).collect()
+}
+
+/// What writes one output.
+fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Option<String> {
+    if let Some(own) = contacts::digital(wire) {
+        return Some(format!(
+            "{at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}), ",
+            wire.ident,
+            level_of(own, true),
+            level_of(own, false)
+        ));
+    }
+    let pulse = Pulse::of(context, wire)?;
+    Some(format!(
+        "{at} if write.value == 0 => {{ {} }} {at} => {{ {} }} ",
+        pulse.stop(),
+        pulse.set("write.value")
+    ))
+}
+
+/// A level with its direction.
+#[expect(clippy::cast_possible_truncation, reason = "it is clamped")]
+fn level(value: f64) -> i32 {
+    value.clamp(-10_000.0, 10_000.0).round() as i32
+}

@@ -1,0 +1,302 @@
+//! Serial devices: a task for each port that listens, and one that sends where something is sent.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0506_hardware_limit;
+use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::{KindName, Role};
+
+use super::context::{Context, late};
+use super::section::{Field, Section, Start, Watched};
+use super::{filter, message};
+use crate::job::JobConnection;
+use crate::part::MessagePlan;
+
+/// The queue of a port holds what comes in so long: its task may have to wait for others.
+const PATIENCE_MS: u32 = 20;
+
+/// The smallest and the largest queue.
+const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
+
+/// A port with its device.
+struct Port<'a> {
+    wire: &'a JobConnection<'a>,
+    unit: &'a str,
+    uart: &'a Uart,
+    plan: &'a MessagePlan,
+    /// The static with what is to be sent; none where nothing is.
+    said: Option<String>,
+}
+
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    for wire in context.job.connections(KindName::Uart) {
+        let uart = wire.connection.kind.uart();
+        let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
+        let (Some(unit), Some(uart), Some(plan)) = (wire.unit, uart, plan) else { continue };
+        if refuse(context, wire, uart, diagnostics) {
+            continue;
+        }
+        let says =
+            wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
+        let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
+        let port = Port { wire, unit, uart, plan, said };
+        section.tables.extend(message::tables(context, plan));
+        section.runtime.extend([
+            "serial.rs",
+            if context.names.has_old_ports() { "port_old.rs" } else { "port_new.rs" },
+        ]);
+        port.wiring(context, &mut section);
+        port.say(context, &mut section);
+        if !plan.fields.is_empty() || !plan.init.is_empty() {
+            port.listen(context, &mut section);
+        }
+    }
+    section
+}
+
+/// A port that cannot do what its device needs.
+fn refuse(
+    context: &Context<'_>,
+    wire: &JobConnection<'_>,
+    uart: &Uart,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> bool {
+    let is_refused = uart.is_inverted && context.names.has_old_ports();
+    if is_refused {
+        let name = &wire.part.name;
+        let message =
+            format!("the serial ports of {} cannot invert their wires", context.profile.family);
+        let help = format!(
+            "put an inverter in front of {} and leave `invert` out, or take another MCU",
+            name.value
+        );
+        diagnostics.push(e0506_hardware_limit::hardware_limit(name.span, &message, &help));
+    }
+    is_refused
+}
+
+impl Port<'_> {
+    /// What the port's statics begin with.
+    fn upper(&self) -> String {
+        self.wire.ident.to_uppercase()
+    }
+
+    /// The HAL's configuration.
+    fn config(&self) -> String {
+        let Uart { baud, data_bits, parity, stop_bits, is_inverted, .. } = self.uart;
+        let parity = match parity {
+            Parity::None => "ParityNone",
+            Parity::Even => "ParityEven",
+            Parity::Odd => "ParityOdd",
+        };
+        let config = format!(
+            "crate::rt::serial::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
+        );
+        if *is_inverted { format!("inverted({config})") } else { config }
+    }
+
+    /// The pins, which the HAL keeps in one object, or in one for each direction.
+    fn wiring(&self, context: &Context<'_>, section: &mut Section) {
+        let hal = context.peripheral(self.unit);
+        let pin = |role| self.wire.pad(role).map(|pad| pad.pin.name.as_str());
+        let config = self.config();
+        let (type_, make) = match (pin(Role::Rx), pin(Role::Tx)) {
+            (Some(rx), Some(tx)) => (
+                "hal::usart::Uart<'static, hal::mode::Blocking>",
+                format!("hal::usart::Uart::new_blocking(p.{hal}, p.{rx}, p.{tx}, {config})"),
+            ),
+            (Some(rx), None) => (
+                "hal::usart::UartRx<'static, hal::mode::Blocking>",
+                format!("hal::usart::UartRx::new_blocking(p.{hal}, p.{rx}, {config})"),
+            ),
+            (None, Some(tx)) => (
+                "hal::usart::UartTx<'static, hal::mode::Blocking>",
+                format!("hal::usart::UartTx::new_blocking(p.{hal}, p.{tx}, {config})"),
+            ),
+            (None, None) => return,
+        };
+        section.fields.push(Field {
+            name: self.wire.ident.clone(),
+            comment: self.wire.place(),
+            type_: type_.to_owned(),
+            make: format!("port({make})"),
+        });
+        // Whoever holds a half keeps its pin: where nothing is sent, the task that listens has both.
+        let ident = &self.wire.ident;
+        if self.is_split() {
+            section.starts.push(Start::Make(format!(
+                "let ({ident}_tx, {ident}_rx) = wiring.{ident}.split();"
+            )));
+        }
+    }
+
+    /// Whether different tasks have the directions.
+    fn is_split(&self) -> bool {
+        self.said.is_some() && self.hears() && self.wire.pad(Role::Tx).is_some()
+    }
+
+    /// Whether anything that the device says is taken.
+    fn hears(&self) -> bool {
+        !self.plan.fields.is_empty() && self.wire.pad(Role::Rx).is_some()
+    }
+
+    /// The half of the port for a task: its type and where it is.
+    fn half(&self, is_rx: bool) -> (String, String) {
+        let ident = &self.wire.ident;
+        let both = self.wire.pad(Role::Rx).is_some() && self.wire.pad(Role::Tx).is_some();
+        let name = match (both && !self.is_split(), is_rx) {
+            (true, _) => "Uart",
+            (false, true) => "UartRx",
+            (false, false) => "UartTx",
+        };
+        let place = match (self.is_split(), is_rx) {
+            (true, true) => format!("{ident}_rx"),
+            (true, false) => format!("{ident}_tx"),
+            (false, _) => format!("wiring.{ident}"),
+        };
+        (format!("hal::usart::{name}<'static, hal::mode::Blocking>"), place)
+    }
+
+    /// What is sent, and the task that does it.
+    fn say(&self, context: &Context<'_>, section: &mut Section) {
+        let Some(said) = &self.said else { return };
+        let ident = &self.wire.ident;
+        let (type_, place) = self.half(false);
+        let port = if type_.contains("UartTx") { "port" } else { "port.split().0" };
+        let longest = self.plan.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
+        let told = self.plan.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
+        let queue = (2 * longest).max(u32::try_from(told).unwrap_or(0)).max(16);
+        section.items.push(format!(
+            "static {said}: rt::serial::Said<{queue}> = rt::serial::Said::new();\n\n/// {}: what it is sent.\n\
+             #[embassy_executor::task]\n\
+             async fn {ident}_say(port: {type_}) {{\n    rt::serial::say({port}, &{said}, {}).await;\n}}",
+            self.wire.place(),
+            self.uart.baud
+        ));
+        let prio = self.wire.cycle.prio;
+        section.starts.push(Start::Task(prio, format!("{ident}_say({place})")));
+        for command in &self.plan.commands {
+            let index = context.item(&command.field);
+            section.sets.entry(index).or_default().push(format!(
+                "rt::serial::send(&{said}, &tables::{}, &SCHEMA, {index}, value, &mut [0; {}], &BOARD);",
+                message::compose_name(context, command),
+                command.bytes
+            ));
+        }
+    }
+
+    /// The interrupt of the port, and the task that takes what it has heard.
+    fn listen(&self, context: &Context<'_>, section: &mut Section) {
+        let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
+        let has_fields = self.hears();
+        let (type_, place) = self.half(true);
+        let mut text = String::new();
+        if has_fields {
+            text.push_str(&self.interrupt(context, section));
+        }
+        let hears = if has_fields { format!("_port: {type_}") } else { String::new() };
+        text.push_str(&format!(
+            "/// {}: what it says, each {} ms.\n#[embassy_executor::task]\nasync fn {ident}_listen({hears}) {{\n{}",
+            self.wire.place(),
+            cycle.delay_ms,
+            late(cycle)
+        ));
+        let own = self.wire.connection.part;
+        let (filters, pass) = filter::of_parts(context, |part| part == own, section);
+        text.push_str(&filters);
+        if !self.plan.init.is_empty() {
+            text.push_str("    let mut start = sense_rt::MessageStart::NEW;\n");
+        }
+        if has_fields {
+            text.push_str(&self.device(context));
+        }
+        let constant = format!("{upper}_LISTEN");
+        text.push_str(&format!(
+            "    loop {{\n        let until = Instant::now() + Duration::from_millis({});\n",
+            cycle.delay_ms
+        ));
+        text.push_str(&self.cycle(has_fields, &pass));
+        text.push_str(&format!(
+            "        WATCH.beat(tables::{constant}, now_ms());\n        Timer::at(until).await;\n    }}\n}}"
+        ));
+        section.items.push(text);
+        let call = if has_fields { place } else { String::new() };
+        section.starts.push(Start::Task(cycle.prio, format!("{ident}_listen({call})")));
+        section.watched.push(Watched::new(constant, cycle, context.id_of(self.wire)));
+    }
+
+    /// The handler of the port's interrupt, and what it fills.
+    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> String {
+        let (upper, hal) = (self.upper(), context.peripheral(self.unit));
+        let queue = (self.uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000;
+        let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
+        let Some(interrupt) = context.names.interrupt(self.unit, "GLOBAL") else {
+            return String::new();
+        };
+        section.bind(interrupt, format!("crate::{upper}Heard"));
+        let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
+        section.begins.push(format!(
+            "rt::serial::listen(hal::pac::{hal});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"
+        ));
+        format!(
+            "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
+             /// What comes in at {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
+             pub struct {upper}Heard;\n\n\
+             impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
+             unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt(hal::pac::{hal}, {mask});\n    }}\n}}\n\n",
+            self.wire.place()
+        )
+    }
+
+    /// What the task keeps of a device that says something.
+    fn device(&self, context: &Context<'_>) -> String {
+        let (upper, prefix) = (self.upper(), self.plan.prefix.to_uppercase());
+        format!(
+            "    let mut stream: sense_rt::MessageStream<[u8; tables::{prefix}_MESSAGE.stream_bytes(&SCHEMA)]> =\n        \
+             sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);\n    \
+             let mut device = rt::serial::Device {{\n        heard: &{upper}_HEARD,\n        stream: &mut stream,\n        \
+             gap_ms: {},\n        is_silent: false,\n        heard_ms: now_ms(),\n    }};\n    \
+             const OWN: [usize; {}] = {:?};\n",
+            gap_ms(self.uart, self.plan),
+            self.plan.fields.len(),
+            self.plan.fields.iter().map(|one| context.item(&one.field)).collect::<Vec<_>>()
+        )
+    }
+
+    /// What the task does in a cycle. The first value of a cycle is told, for that is when it is due; faults are all
+    /// told.
+    fn cycle(&self, has_fields: bool, pass: &str) -> String {
+        let mut text = String::new();
+        if let (Some(said), false) = (&self.said, self.plan.init.is_empty()) {
+            if has_fields {
+                text.push_str(&format!(
+                    "        if device.is_forgotten({}) {{\n            start = sense_rt::MessageStart::NEW;\n        }}\n",
+                    self.wire.cycle.delay_ms
+                ));
+            }
+            text.push_str(&format!(
+                "        rt::serial::set_up(&{said}, &mut start, tables::{}_INIT).await;\n",
+                self.plan.prefix.to_uppercase()
+            ));
+        }
+        if has_fields {
+            text.push_str(&format!(
+                "        if device.has_fault() {{\n            for index in OWN {{\n                \
+                 BOARD.tell(None, index, Outcome::BusError, &mut []);\n            }}\n        }}\n        \
+                 let mut told = sense_rt::Bits::NONE;\n        \
+                 device.hear(until, &mut |index: usize, outcome, value: &mut [u8]| {{\n            \
+                 if outcome == Outcome::Fresh {{\n                if told.has(index) {{\n                    \
+                 return;\n                }}\n                told.set(index);\n            }}\n            \
+                 BOARD.tell({pass}, index, outcome, value);\n        }}).await;\n"
+            ));
+        }
+        text
+    }
+}
+
+/// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
+fn gap_ms(uart: &Uart, plan: &MessagePlan) -> u32 {
+    let is_told = plan.checksum != "UP_CHECKSUM_NONE" || !uart.end.is_empty();
+    let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
+    if is_told { 0 } else { two_characters_ms.max(2) }
+}

@@ -1,0 +1,148 @@
+//! Serial devices: bytes of a port's interrupt become messages, and messages go out.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use embassy_stm32::mode::Blocking;
+use embassy_stm32::pac::usart::Usart;
+use embassy_stm32::usart::{Config, DataBits, Parity, StopBits, UartTx};
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use embassy_sync::pipe::Pipe;
+use embassy_time::{Duration, Instant, Timer, with_deadline};
+use sense_rt::{Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
+
+use super::now_ms;
+use super::port::take;
+use super::shared::Tell;
+
+/// A device that says nothing for so long may have lost its supply, and what it was told with it.
+const FORGOTTEN_MS: u32 = 5_000;
+
+/// What comes from a device and waits; it stands in a `static`.
+pub struct Heard<const BYTES: usize> {
+    bytes: Pipe<CriticalSectionRawMutex, BYTES>,
+    has_fault: AtomicBool,
+}
+
+impl<const BYTES: usize> Heard<BYTES> {
+    pub const fn new() -> Self {
+        Self { bytes: Pipe::new(), has_fault: AtomicBool::new(false) }
+    }
+
+    /// In the port's interrupt: takes the character that has come. `mask` has the bits that are data.
+    pub fn on_interrupt(&self, port: Usart, mask: u8) {
+        let Some((byte, is_whole)) = take(port) else { return };
+        let is_taken = byte.is_none_or(|byte| self.bytes.try_write(&[byte & mask]).is_ok());
+        if !is_whole || !is_taken {
+            self.has_fault.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Damaged characters and those that nobody took in time, since the last time.
+    fn take_fault(&self) -> bool {
+        // Not a swap, which small cores lack: a fault between the two is one with the one before.
+        let has_fault = self.has_fault.load(Ordering::Relaxed);
+        self.has_fault.store(false, Ordering::Relaxed);
+        has_fault
+    }
+}
+
+/// Lets a port interrupt for each character.
+pub fn listen(port: Usart) {
+    port.cr1().modify(|register| register.set_rxneie(true));
+}
+
+/// How a port is set. `invert`: its wires rest low, where the port can do that.
+pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
+    let mut config = Config::default();
+    config.baudrate = baud;
+    config.data_bits = if bits == 7 { DataBits::DataBits7 } else { DataBits::DataBits8 };
+    config.parity = parity;
+    config.stop_bits = if stop_bits == 2 { StopBits::STOP2 } else { StopBits::STOP1 };
+    config
+}
+
+/// What the cycles of a device keep.
+pub struct Device<'a, const BYTES: usize> {
+    pub heard: &'static Heard<BYTES>,
+    pub stream: &'a mut MessageStream,
+    /// The line is silent for so long between two messages that nothing else tells apart; 0 for others.
+    pub gap_ms: u32,
+    pub is_silent: bool,
+    pub heard_ms: u32,
+}
+
+impl<const BYTES: usize> Device<'_, BYTES> {
+    /// Takes what comes until then.
+    pub async fn hear(&mut self, until: Instant, sink: &mut Sink<'_>) {
+        while Instant::now() < until {
+            let gap = Instant::now() + Duration::from_millis(self.gap_ms.into());
+            let is_gap = self.gap_ms > 0 && gap <= until;
+            let mut bytes = [0; 16];
+            match with_deadline(if is_gap { gap } else { until }, self.heard.bytes.read(&mut bytes)).await {
+                Ok(size) => {
+                    self.heard_ms = now_ms();
+                    self.is_silent = false;
+                    self.stream.feed(bytes.get(..size).unwrap_or_default(), sink);
+                }
+                Err(_) if is_gap && !self.is_silent => {
+                    self.stream.gap();
+                    self.is_silent = true;
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// Whether characters were damaged or lost since the last time.
+    pub fn has_fault(&mut self) -> bool {
+        self.heard.take_fault()
+    }
+
+    /// Whether the device has been silent for so long that it may have to be told everything again.
+    pub fn is_forgotten(&mut self, cycle_ms: u32) -> bool {
+        let is_forgotten = now_ms().wrapping_sub(self.heard_ms) >= FORGOTTEN_MS + cycle_ms;
+        if is_forgotten {
+            self.heard_ms = now_ms();
+        }
+        is_forgotten
+    }
+}
+
+/// What is to be sent to a device; it stands in a `static`.
+pub type Said<const BYTES: usize> = Pipe<CriticalSectionRawMutex, BYTES>;
+
+/// Queues what is due of the steps that start a device.
+pub async fn set_up<const BYTES: usize>(said: &Said<BYTES>, start: &mut MessageStart, init: &'static [InitStep]) {
+    while let Some(step) = start.next(init, now_ms()) {
+        said.write_all(step.bytes).await;
+    }
+}
+
+/// Queues a message with a value of the host's, whole or not at all. `message` is room for it.
+pub fn send<const BYTES: usize>(
+    said: &Said<BYTES>,
+    how: &Compose,
+    schema: &Schema,
+    index: usize,
+    value: &[u8],
+    message: &mut [u8],
+    board: &dyn Tell,
+) {
+    let size = schema.items.get(index).map_or(0, |item| how.write(item, value, message));
+    let message = message.get(..size).unwrap_or_default();
+    if size == 0 || said.free_capacity() < size || said.try_write(message) != Ok(size) {
+        board.tell(None, index, Outcome::BusError, &mut []);
+    }
+}
+
+/// Sends what is queued, for ever: a character in the time that it takes.
+pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: &'static Said<BYTES>, baud: u32) -> ! {
+    // Twelve bits are the longest character.
+    let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
+    loop {
+        let mut bytes = [0];
+        said.read(&mut bytes).await;
+        let _ = port.blocking_write(&bytes);
+        Timer::after(character).await;
+    }
+}
