@@ -46,18 +46,14 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
     section.fields.push(Field {
         name: "link".to_owned(),
         comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
-        type_: "hal::usart::BufferedUart<'static>".to_owned(),
+        type_: "crate::rt::link_uart::Port".to_owned(),
         make: format!(
-            "port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, baud({baud})))",
+            "crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, \
+             baud({baud}))), crate::SAID)",
             rx.pin.name, tx.pin.name
         ),
     });
-    section.items.push(
-        "/// The link's port.\n#[embassy_executor::task]\nasync fn link(port: hal::usart::BufferedUart<'static>) {\n    \
-         rt::link_uart::run(port, &LINK).await;\n}"
-            .to_owned(),
-    );
-    section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
+    section.keeps.push(("mut link".to_owned(), "rt::link_uart::Port".to_owned()));
     section.runtime.insert("link_uart.rs");
     Some(())
 }
@@ -85,6 +81,13 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
          rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
     ));
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
-    section.runtime.insert("link_usb.rs");
+    section.runtime.extend(["link.rs", "link_usb.rs"]);
     Some(())
+}
+
+/// What a port must hold of what the host sends: twice what comes between two looks of the reporter.
+pub(super) fn heard_bytes(baud: u32, report_ms: u32) -> u32 {
+    const BITS_OF_BYTE: u32 = 10;
+    let bytes_each_ms = baud.div_ceil(BITS_OF_BYTE * 1_000);
+    bytes_each_ms.saturating_mul(2 * report_ms).clamp(64, 1_024).next_power_of_two()
 }

@@ -26,6 +26,7 @@ pub(super) struct Plan {
     pub(super) target: String,
     pub(super) manifest: String,
     pub(super) lock: String,
+    pub(super) runtime_manifest: String,
     pub(super) clock: Option<ClockPlan>,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
@@ -53,6 +54,8 @@ pub(super) struct Plan {
     pub(super) watchdog: &'static str,
     pub(super) is_usb: bool,
     pub(super) is_uart: bool,
+    /// Of the queue of a serial port for what the host sends.
+    pub(super) heard_bytes: u32,
     pub(super) has_buses: bool,
     pub(super) has_pulls: bool,
 }
@@ -96,7 +99,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let led = led.filter(|led| !taken(led.pin.as_str()));
     let mut call = "reporter(wiring.watchdog".to_owned();
     call.push_str(if led.is_some() { ", wiring.led" } else { "" });
-    call.extend(section.keeps.iter().map(|(name, _)| format!(", wiring.{name}")));
+    let field = |name: &str| format!(", wiring.{}", name.trim_start_matches("mut "));
+    call.extend(section.keeps.iter().map(|(name, _)| field(name)));
     section.starts.push(Start::Task(0, call + ")"));
     let levels = levels::levels(context, &section.starts, diagnostics);
     Plan {
@@ -105,6 +109,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         target: context.names.target.clone(),
         manifest: cargo::manifest(context),
         lock: cargo::lock(context),
+        runtime_manifest: cargo::runtime_manifest(context),
         clock: clock(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
@@ -116,6 +121,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
         is_usb,
         is_uart: section.runtime.contains("link_uart.rs"),
+        heard_bytes: link::heard_bytes(board.link.baud, REPORT_MS.max(rate)),
         has_buses: section.runtime.contains("bus.rs"),
         has_pulls: context.names.has_pulls(),
         fields: section.fields,
