@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::Function;
 use sensedsl_model::kind::KindName;
@@ -58,6 +59,11 @@ impl<'a> Context<'a> {
             classes.entry((unit.to_owned(), wired.device.cycle)).or_default().push(wired);
         }
         classes
+    }
+
+    /// The board's crystals.
+    pub(super) fn crystal(&self) -> Crystal {
+        self.job.board.facts.as_ref().map(|facts| facts.crystal.clone()).unwrap_or_default()
     }
 
     /// What the HAL calls a unit.

@@ -27,7 +27,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         let why = match context.job.board.link.transport {
             Transport::None => "it has no link to send reports over (`transport = none`)",
             Transport::Usb => {
-                "USB needs clocks that its firmware does not make yet; take `link { transport = uart; }`"
+                "USB needs a clock of 48 MHz, which its firmware cannot make without a crystal, or not on this MCU yet; \
+                 take `link { transport = uart; }`"
             }
             Transport::Uart => "its target has no driver for the link",
         };
@@ -61,19 +62,26 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
 fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
     let usb = usb(context.job)?;
     // A USB device needs 48 MHz, which only clocks of our own making have.
-    context.names.line.pll?;
+    let clock = context.names.line.clock.as_ref()?;
+    let _ = clock.lines(&context.crystal(), true)?;
     let hal = context.peripheral(&usb.name);
-    let interrupt = context.names.interrupt(&usb.name, "GLOBAL")?;
-    section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
+    // The peripheral that can be a host as well has one interrupt, the plain device one of low priority.
+    let (signal, is_otg) = match context.names.interrupt(&usb.name, "GLOBAL") {
+        Some(interrupt) => (interrupt, true),
+        None => (context.names.interrupt(&usb.name, "LP")?, false),
+    };
+    section.bind(signal, format!("hal::usb::InterruptHandler<{hal}>"));
     let [dm, dp] = usb.pins.as_slice() else { return None };
     let vbus = usb.vbus.is_some() && context.job.board.link.vbus;
     section.fields.push(Field {
         name: "link".to_owned(),
         comment: format!("the link at {dm} (D-) and {dp} (D+)"),
         type_: format!("hal::usb::Driver<'static, {hal}>"),
-        make: format!(
-            "hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))"
-        ),
+        make: if is_otg {
+            format!("hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))")
+        } else {
+            format!("hal::usb::Driver::new(p.{hal}, Irqs, p.{dp}, p.{dm})")
+        },
     });
     let product = &context.job.board.name.value;
     section.items.push(format!(
@@ -82,6 +90,7 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
     ));
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
     section.runtime.extend(["link.rs", "link_usb.rs"]);
+    section.is_otg = is_otg;
     Some(())
 }
 

@@ -7,7 +7,6 @@ use sensedsl_wire::{Checksum, Direction};
 
 use super::context::{Context, scalar};
 use super::levels::{self, Level};
-use super::names::Pll;
 use super::section::{Field, Handlers, Peripheral, Section, Start};
 use super::{analog, cargo, i2c, icu, inputs, link, outputs};
 
@@ -27,7 +26,8 @@ pub(super) struct Plan {
     pub(super) manifest: String,
     pub(super) lock: String,
     pub(super) runtime_manifest: String,
-    pub(super) clock: Option<ClockPlan>,
+    /// Members of the HAL's clocks and their values.
+    pub(super) clock: Vec<String>,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
     pub(super) handlers: Vec<(String, String)>,
@@ -53,21 +53,12 @@ pub(super) struct Plan {
     /// What the HAL calls the watchdog.
     pub(super) watchdog: &'static str,
     pub(super) is_usb: bool,
+    pub(super) is_otg: bool,
     pub(super) is_uart: bool,
     /// Of the queue of a serial port for what the host sends.
     pub(super) heard_bytes: u32,
     pub(super) has_buses: bool,
     pub(super) has_pulls: bool,
-}
-
-/// The clock tree.
-pub(super) struct ClockPlan {
-    /// The crystal's frequency; none where the internal oscillator is taken.
-    pub(super) hse_hz: Option<u32>,
-    /// What brings the PLL's input to 1 MHz.
-    pub(super) divide: u32,
-    pub(super) pll: Pll,
-    pub(super) needs_48_mhz: bool,
 }
 
 /// The schema in the runtime's words.
@@ -120,6 +111,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         led: led.map(|led| (led.pin.to_string(), led.active_high)),
         watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
         is_usb,
+        is_otg: section.is_otg,
         is_uart: section.runtime.contains("link_uart.rs"),
         heard_bytes: link::heard_bytes(board.link.baud, REPORT_MS.max(rate)),
         has_buses: section.runtime.contains("bus.rs"),
@@ -138,14 +130,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     }
 }
 
-/// The PLL's input is the crystal, where it is whole megahertz that the divider can bring to 1.
-fn clock(context: &Context<'_>, needs_48_mhz: bool) -> Option<ClockPlan> {
-    const INTERNAL_HZ: u32 = 16_000_000;
-    let pll = context.names.line.pll?;
-    let facts = context.job.board.facts.as_ref();
-    let hse_hz = facts.and_then(|facts| facts.crystal.hse_hz);
-    let hse_hz = hse_hz.filter(|hz| hz % 1_000_000 == 0 && (2..=50).contains(&(hz / 1_000_000)));
-    Some(ClockPlan { hse_hz, divide: hse_hz.unwrap_or(INTERNAL_HZ) / 1_000_000, pll, needs_48_mhz })
+/// What is set of the HAL's clocks.
+fn clock(context: &Context<'_>, is_usb: bool) -> Vec<String> {
+    let clock = context.names.line.clock.as_ref();
+    clock.and_then(|clock| clock.lines(&context.crystal(), is_usb)).unwrap_or_default()
 }
 
 fn handlers(all: &Handlers) -> Vec<(String, String)> {
