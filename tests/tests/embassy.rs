@@ -262,3 +262,27 @@ fn fig2_builds() {
         size.lines().nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
     assert!((8_000..39_000).contains(&bytes), "{size}");
 }
+
+/// Two mistakes that the types of the HAL take: an encoder on a timer that decodes none, and periods on a timer of one
+/// channel. The profiles of both targets refuse them.
+#[test]
+fn what_types_take_the_profile_refuses() {
+    let is_wired = |target: &str, device: &str| {
+        let mut workspace = Workspace::default();
+        let link = "link { transport = none; }";
+        workspace.open("x.sense", format!("board B on STM32F407VGT6 {{ {link}\n{device}\n}}\n"));
+        let on = On { board: None, target: Some(target) };
+        workspace.snapshot("x.sense", on, &Alone).solve(&Ask::default()).wired().is_some()
+    };
+    let encoder =
+        |pins: &str| format!("sensor A returns int32 {{ id = 1; type = encoder; {pins} }}");
+    let period = |pin: &str| {
+        format!("sensor A returns uint32 {{ id = 1; type = icu; mode = period; pin = {pin}; }}")
+    };
+    for target in ["chibios", "embassy"] {
+        assert!(is_wired(target, &encoder("a = PB4; b = PB5;")), "{target}: TIM3");
+        assert!(!is_wired(target, &encoder("a = PE5; b = PE6;")), "{target}: TIM9");
+        assert!(is_wired(target, &period("PB4")), "{target}: TIM3");
+        assert!(!is_wired(target, &period("PB8")), "{target}: TIM10");
+    }
+}
