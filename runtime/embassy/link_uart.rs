@@ -1,35 +1,46 @@
-//! The link over a serial port.
+//! The link over a serial port, whose own queues lie between the reporter and the interrupt.
 
-use core::sync::atomic::Ordering;
+use core::task::Poll;
 
-use embassy_futures::join::join;
+use embassy_futures::poll_once;
 use embassy_stm32::usart::BufferedUart;
 use embedded_io_async::{Read, Write};
+use sense_rt::Channel;
 
-use super::link::Link;
+/// A port whose queue to the host takes a whole frame.
+pub struct Port {
+    port: BufferedUart<'static>,
+    frame_bytes: usize,
+}
 
-/// Moves bytes both ways, for ever.
-pub async fn run<const SAID: usize>(uart: BufferedUart<'static>, link: &'static Link<SAID>) -> ! {
-    let (mut tx, mut rx) = uart.split();
-    link.is_open.store(true, Ordering::Relaxed);
-    let say = async {
-        let mut bytes = [0; 64];
-        loop {
-            let size = link.said.read(&mut bytes).await;
-            link.is_sending.store(true, Ordering::Relaxed);
-            let _ = tx.write_all(bytes.get(..size).unwrap_or_default()).await;
-            let _ = tx.flush().await;
-            link.is_sending.store(false, Ordering::Relaxed);
+impl Port {
+    pub fn new(port: BufferedUart<'static>, frame_bytes: usize) -> Self {
+        Self { port, frame_bytes }
+    }
+}
+
+impl Channel for Port {
+    fn is_open(&mut self) -> bool {
+        true
+    }
+
+    fn read(&mut self, bytes: &mut [u8]) -> usize {
+        // Noise and overruns cost bytes, which the decoder notices.
+        match poll_once(self.port.read(bytes)) {
+            Poll::Ready(Ok(size)) => size,
+            Poll::Ready(Err(_)) | Poll::Pending => 0,
         }
-    };
-    let hear = async {
-        let mut bytes = [0; 64];
-        loop {
-            // Noise and overruns cost bytes, which the decoder notices.
-            if let Ok(size) = rx.read(&mut bytes).await {
-                link.heard.write_all(bytes.get(..size).unwrap_or_default()).await;
-            }
-        }
-    };
-    join(say, hear).await.0
+    }
+
+    fn room(&mut self) -> usize {
+        if self.is_empty() { self.frame_bytes } else { 0 }
+    }
+
+    fn is_empty(&mut self) -> bool {
+        poll_once(self.port.flush()).is_ready()
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> bool {
+        poll_once(self.port.write(bytes)) == Poll::Ready(Ok(bytes.len()))
+    }
 }

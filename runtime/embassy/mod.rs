@@ -4,8 +4,9 @@
 // modules
 
 use embassy_time::Instant;
+use sense_rt::milliseconds;
 
 /// Milliseconds since the start; wraps.
 pub fn now_ms() -> u32 {
-    Instant::now().as_millis() as u32
+    milliseconds(Instant::now().as_micros())
 }

@@ -12,6 +12,7 @@ mod firmware;
 mod fuzz;
 mod parts;
 mod profiles;
+mod typecheck;
 mod web;
 
 use std::io::Write as _;
@@ -41,9 +42,10 @@ fn run() -> Result<()> {
             Some((target, rest)) if target == "embassy" => embassy::run(rest),
             _ => profiles::run(rest),
         },
+        Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check]"
+            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
         ),
     }
 }

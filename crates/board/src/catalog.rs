@@ -159,6 +159,9 @@ pub struct Source {
 pub struct Crystal {
     /// The main one.
     pub hse_hz: Option<u32>,
+    /// A clock drives the input in its place.
+    #[serde(default)]
+    pub hse_driven: bool,
     /// The one of the clock.
     pub lse_hz: Option<u32>,
 }

@@ -9,6 +9,7 @@ use crate::convert::{load_magnitude, store_signed, store_unsigned};
 use crate::outcome::Outcome;
 use crate::scalar::Scalar;
 use crate::schema::Item;
+use crate::uses;
 
 const SENSIRION_POLYNOMIAL: u8 = 0x31;
 const SENSIRION_START: u8 = 0xFF;
@@ -73,6 +74,15 @@ impl Coding {
         is_little_endian: false,
     };
 
+    /// What a word is, of what is not left out.
+    const fn code(&self) -> Code {
+        if uses::CODES { self.code } else { Code::Integer }
+    }
+
+    const fn crc(&self) -> Crc {
+        if uses::WORD_CRC { self.crc } else { Crc::None }
+    }
+
     const fn words_of(&self, count: u16) -> usize {
         if self.words != 0 { self.words as usize } else { count as usize }
     }
@@ -81,11 +91,11 @@ impl Coding {
     #[must_use]
     pub const fn wire_bytes(&self, count: u16) -> usize {
         let words = self.words_of(count);
-        let data = match self.code {
+        let data = match self.code() {
             Code::Packed => (words * self.bits as usize).div_ceil(8),
             Code::Integer | Code::Float | Code::Bcd => words * self.word_bytes as usize,
         };
-        match self.crc {
+        match self.crc() {
             Crc::None => data,
             Crc::Sensirion => data + data / 2,
         }
@@ -93,7 +103,7 @@ impl Coding {
 
     /// Where a byte of the words stands on the wire.
     fn place(&self, byte: usize) -> usize {
-        match self.crc {
+        match self.crc() {
             Crc::None => byte,
             Crc::Sensirion => byte.wrapping_add(byte / 2),
         }
@@ -103,13 +113,13 @@ impl Coding {
     #[must_use]
     pub fn crc_is_right(&self, count: u16, bytes: &[u8]) -> bool {
         let bytes = bytes.get(..self.wire_bytes(count)).unwrap_or_default();
-        self.crc == Crc::None || bytes.as_chunks().0.iter().all(|[a, b, crc]| sum(*a, *b) == *crc)
+        self.crc() == Crc::None || bytes.as_chunks().0.iter().all(|[a, b, crc]| sum(*a, *b) == *crc)
     }
 
     /// How many bits of a word count; 0 where the table makes no sense.
     fn bits_of(&self) -> u32 {
         let (low, bits) = (u32::from(self.low), u32::from(self.bits));
-        if self.code == Code::Packed {
+        if self.code() == Code::Packed {
             return if bits <= PACKED_BITS_MAX { bits } else { 0 };
         }
         let word_bits = 8 * u32::from(self.word_bytes);
@@ -165,12 +175,13 @@ impl Coding {
         if bits == 0 {
             return false;
         }
-        let number = match self.code {
+        let code = self.code();
+        let number = match code {
             Code::Packed => packed_word(bytes, word, bits as usize),
             Code::Integer | Code::Float | Code::Bcd => self.whole_word(bytes, word),
         };
         let number = number & mask_of(bits);
-        match self.code {
+        match code {
             Code::Bcd => store_bcd(scalar, number, element),
             Code::Float => store_float(scalar, number, self.word_bytes, element),
             Code::Integer | Code::Packed => {
@@ -206,7 +217,7 @@ impl Coding {
         let size = self.wire_bytes(item.count);
         let bits = self.bits_of();
         let is_other_float =
-            self.code == Code::Float && usize::from(self.word_bytes) != item.scalar.bytes();
+            self.code() == Code::Float && usize::from(self.word_bytes) != item.scalar.bytes();
         let Some(out) = bytes.get_mut(..size).filter(|_| bits > 0 && !is_other_float) else {
             return 0;
         };
@@ -216,13 +227,13 @@ impl Coding {
             let element = value.get(place..).unwrap_or_default();
             let number = self.encode_element(item.scalar, element, bits);
             let Some(word) = self.word_of(index, item.count) else { return 0 };
-            if self.code == Code::Packed {
+            if self.code() == Code::Packed {
                 put_packed(out, word, bits as usize, number);
             } else {
                 self.put_word(out, word, number.wrapping_shl(self.low.into()));
             }
         }
-        if self.crc == Crc::Sensirion {
+        if self.crc() == Crc::Sensirion {
             for [a, b, crc] in out.as_chunks_mut().0 {
                 *crc = sum(*a, *b);
             }
@@ -234,7 +245,7 @@ impl Coding {
         let mask = mask_of(bits);
         let greatest = if self.is_signed { mask >> 1 } else { mask };
         let (magnitude, is_negative) = load_magnitude(scalar, element);
-        match (self.code, is_negative) {
+        match (self.code(), is_negative) {
             (Code::Float, _) => scalar.load(element),
             (Code::Bcd, true) => 0,
             (Code::Bcd, false) => to_bcd(magnitude, mask),

@@ -4,6 +4,7 @@
 //! that nothing links an emulation of the machine's own.
 
 use crate::scalar::Scalar;
+use crate::uses;
 
 /// The greatest number of an integer type, and how far it goes below 0.
 const fn range(scalar: Scalar) -> (u64, u64) {
@@ -73,8 +74,9 @@ pub fn store_signed(scalar: Scalar, raw: i64, element: &mut [u8]) {
     scalar.store(number_bits(scalar, raw < 0, raw.unsigned_abs()), element);
 }
 
-/// Quotient and remainder. A division of 64 bits calls a long function on the cores, so small
-/// numbers go without it.
+/// Quotient and remainder; of a denominator of 0 the quotient is 0. Small numbers are divided by the
+/// core. Others are rare, and a loop of few bytes does them: the function that the compiler would link
+/// is long.
 pub(crate) fn divide(numerator: u64, denominator: u64) -> (u64, u64) {
     let small = (u32::try_from(numerator).ok(), u32::try_from(denominator).ok());
     if let (Some(numerator), Some(denominator)) = small {
@@ -82,8 +84,21 @@ pub(crate) fn divide(numerator: u64, denominator: u64) -> (u64, u64) {
         let rest = numerator.wrapping_sub(quotient.wrapping_mul(denominator));
         return (quotient.into(), rest.into());
     }
-    let quotient = numerator.checked_div(denominator).unwrap_or_default();
-    (quotient, numerator.wrapping_sub(quotient.wrapping_mul(denominator)))
+    if denominator == 0 {
+        return (0, numerator);
+    }
+    // The quotient takes the place of the numerator's bits as they leave it.
+    let (mut quotient, mut rest) = (numerator, 0_u64);
+    for _ in 0..u64::BITS {
+        let is_carried = rest >> 63 != 0;
+        rest = rest << 1 | quotient >> 63;
+        quotient <<= 1;
+        if is_carried || rest >= denominator {
+            rest = rest.wrapping_sub(denominator);
+            quotient |= 1;
+        }
+    }
+    (quotient, rest)
 }
 
 fn real_ratio_bits(scalar: Scalar, is_negative: bool, numerator: u64, denominator: u64) -> u64 {
@@ -158,9 +173,9 @@ pub fn load_magnitude(scalar: Scalar, element: &[u8]) -> (u64, bool) {
     let bits = scalar.load(element);
     let sign = scalar.sign();
     let is_negative = (scalar.is_real() || scalar.is_signed()) && bits & sign != 0;
-    let magnitude = if scalar == Scalar::Float32 {
+    let magnitude = if uses::REALS && scalar == Scalar::Float32 {
         round_real(bits & !sign, 23, 127)
-    } else if scalar == Scalar::Float64 {
+    } else if uses::REALS && scalar == Scalar::Float64 {
         round_real(bits & !sign, 52, 1023)
     } else if is_negative {
         scalar.extend(bits).unsigned_abs()
@@ -170,12 +185,30 @@ pub fn load_magnitude(scalar: Scalar, element: &[u8]) -> (u64, bool) {
     (magnitude, is_negative)
 }
 
-/// Stores the mean of every `stride`th sample: one column of what a converter has sampled in turns.
+/// Stores the mean of every `stride`th sample: one column of what a converter has sampled in turns, of 65536 at most.
 pub fn store_mean(scalar: Scalar, samples: &[u16], stride: usize, element: &mut [u8]) {
-    let (mut sum, mut count) = (0_u64, 0_u64);
-    for sample in samples.iter().step_by(stride.max(1)) {
-        sum += u64::from(*sample);
+    // The sum of so many and half their number are less than 2 to the 32.
+    const SAMPLES_MAX: usize = 0x1_0000;
+    let (mut sum, mut count) = (0_u32, 0_u32);
+    for sample in samples.iter().step_by(stride.max(1)).take(SAMPLES_MAX) {
+        sum += u32::from(*sample);
         count += 1;
     }
-    store_ratio(scalar, sum, count, element);
+    if scalar.is_real() {
+        store_ratio(scalar, sum.into(), count.into(), element);
+    } else {
+        let mean = (sum + count / 2).checked_div(count).unwrap_or_default();
+        store_unsigned(scalar, mean.into(), element);
+    }
+}
+
+/// Microseconds in milliseconds, which wrap.
+#[must_use]
+pub const fn milliseconds(now_us: u64) -> u32 {
+    // In two halves, so that no division of 64 bits is linked for it.
+    let high = (now_us >> 32) as u32;
+    let low = now_us as u32;
+    let upper = (high % 1000) << 16 | low >> 16;
+    let lower = (upper % 1000) << 16 | low & 0xFFFF;
+    ((upper / 1000) << 16).wrapping_add(lower / 1000)
 }

@@ -13,6 +13,7 @@ use crate::bytes::{copy, part, split};
 use crate::outcome::Outcome;
 use crate::scalar::Scalar;
 use crate::schema::Item;
+use crate::uses;
 
 pub use real::{WIDE, Wide};
 pub use smooth::decay;
@@ -111,9 +112,9 @@ impl FilterTable {
     }
 
     fn is_far(&self, distance: Number, scalar: Scalar, from: u64, to: u64) -> bool {
-        if scalar == Scalar::Float32 {
+        if uses::REALS && scalar == Scalar::Float32 {
             real::is_far(from, to, distance.0)
-        } else if scalar == Scalar::Float64 {
+        } else if uses::REALS && scalar == Scalar::Float64 {
             self.wide.is_none_or(|wide| (wide.is_far)(from, to, distance.0))
         } else {
             key_of(scalar, from).abs_diff(key_of(scalar, to)) >= distance.0
@@ -172,14 +173,14 @@ impl Filter {
         if self.table.is_invalid(item, value) {
             return Outcome::Invalid;
         }
-        if self.table.median > 1 {
+        if uses::MEDIAN && self.table.median > 1 {
             self.take_median(item, value);
         }
-        if self.table.smooth_ms > 0 {
+        if uses::SMOOTH && self.table.smooth_ms > 0 {
             self.smooth(item, now_ms, value);
         }
-        let is_told =
-            self.table.change.is_none_or(|change| self.is_told(item, change, now_ms, value));
+        let change = self.table.change.filter(|_| uses::CHANGE);
+        let is_told = change.is_none_or(|change| self.is_told(item, change, now_ms, value));
         self.seen_ms = Some(now_ms);
         if is_told {
             self.told_ms = Some(now_ms);
@@ -214,9 +215,9 @@ impl Filter {
         let scalar = item.scalar;
         let elements = value.chunks_exact_mut(scalar.bytes()).take(item.count.into());
         for (element, state) in elements.zip(self.memory.as_chunks_mut::<SMOOTH_BYTES>().0) {
-            if scalar == Scalar::Float32 {
+            if uses::REALS && scalar == Scalar::Float32 {
                 real::smooth(state, decay, element);
-            } else if scalar == Scalar::Float64 {
+            } else if uses::REALS && scalar == Scalar::Float64 {
                 if let Some(wide) = self.table.wide {
                     (wide.smooth)(state, decay, element);
                 }

@@ -46,6 +46,7 @@ mod schema;
 mod silence;
 mod store;
 mod train;
+mod uses;
 mod watch;
 
 pub use bits::Bits;
@@ -58,7 +59,8 @@ pub use coding::{Code, Coding, Crc};
 pub use compose::Compose;
 pub use contact::{Contact, ContactConfig, ContactTold, Edge};
 pub use convert::{
-    load_magnitude, store_mean, store_ratio, store_signed, store_signed_ratio, store_unsigned,
+    load_magnitude, milliseconds, store_mean, store_ratio, store_signed, store_signed_ratio,
+    store_unsigned,
 };
 pub use count::{Counter, Repeat, store_count};
 pub use decode::{Decoder, Frame, Items};

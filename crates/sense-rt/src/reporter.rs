@@ -9,6 +9,7 @@ use core::ops::{Deref, DerefMut};
 
 use crate::bits::Bits;
 use crate::bytes::{part, part_mut, split};
+use crate::convert::milliseconds;
 use crate::decode::{Frame, Machine};
 use crate::encode::{Stamp, encode_health, encode_hello};
 use crate::health::{AGE_NEVER, BoardHealth, Health};
@@ -185,12 +186,7 @@ impl Reporter {
     }
 
     fn now_ms(&self) -> u32 {
-        // A tick of 1000: in two halves, so that no division of 64 bits is linked for it.
-        let high = (self.now_us >> 32) as u32;
-        let low = self.now_us as u32;
-        let upper = (high % 1000) << 16 | low >> 16;
-        let lower = (upper % 1000) << 16 | low & 0xFFFF;
-        ((upper / 1000) << 16).wrapping_add(lower / 1000)
+        milliseconds(self.now_us)
     }
 
     // ---- from the host ----

@@ -1,5 +1,7 @@
 //! The scalar types of the language, and their elements in network byte order.
 
+use crate::uses;
+
 /// A scalar type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
@@ -48,7 +50,7 @@ impl Scalar {
     /// Whether it is a number in floating point.
     #[must_use]
     pub const fn is_real(self) -> bool {
-        matches!(self, Self::Float32 | Self::Float64)
+        uses::REALS && matches!(self, Self::Float32 | Self::Float64)
     }
 
     /// The highest bit of an element.

@@ -61,19 +61,12 @@ pub(crate) struct Converter {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Clock {
     pub(crate) parts: Vec<String>,
-    pub(crate) pll: Pll,
-    /// Dividers of the two buses.
-    pub(crate) apb: [u32; 2],
+    /// Members of the HAL's clocks and their values.
+    #[serde(default)]
+    pub(crate) set: Vec<String>,
+    /// What can drive them, best first.
+    pub(crate) ways: Vec<toml::Table>,
     pub(crate) hz: BTreeMap<String, u32>,
-}
-
-/// A PLL with 1 MHz at its input.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Pll {
-    pub(crate) multiply: u32,
-    pub(crate) p: u32,
-    pub(crate) q: u32,
 }
 
 impl Facts {
@@ -83,6 +76,11 @@ impl Facts {
 
     /// The clocks that the firmware makes of a part.
     pub(crate) fn clock(&self, name: &str) -> Option<&Clock> {
-        self.clock.iter().find(|clock| clock.parts.iter().any(|part| name.starts_with(part)))
+        let longest = |clock: &&Clock| {
+            let own = clock.parts.iter().filter(|part| name.starts_with(part.as_str()));
+            own.map(String::len).max()
+        };
+        let fits = self.clock.iter().filter(|clock| longest(clock).is_some());
+        fits.max_by_key(|clock| longest(clock))
     }
 }

@@ -91,12 +91,16 @@ fn line(text: &mut String, facts: &Facts, own: &Family, line: &Line) -> Result<(
     writeln!(text, "chips = \"\"\"\n{}\"\"\"", wrapped(&chips))?;
     writeln!(text, "spare = [{}]", quoted(line.facts.spare.iter()))?;
     if let Some(clock) = clock {
-        let (pll, [first, second]) = (&clock.pll, clock.apb);
-        writeln!(
-            text,
-            "pll = {{ multiply = {}, p = {}, q = {}, apb = [{first}, {second}] }}",
-            pll.multiply, pll.p, pll.q
-        )?;
+        text.push_str("\n[line.system.clock]\n");
+        if !clock.set.is_empty() {
+            writeln!(text, "set = [{}]", quoted(clock.set.iter()))?;
+        }
+        for way in &clock.ways {
+            write!(text, "\n[[line.system.clock.ways]]\n")?;
+            for (name, value) in way {
+                writeln!(text, "{name} = {value}")?;
+            }
+        }
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ mod literal;
 mod message;
 mod simple;
 mod transfers;
+mod uses;
 mod value;
 
 use askama::Template;
@@ -25,6 +26,7 @@ pub use filter::FilterPlan;
 pub use message::{ComposePlan, MessageFieldPlan, MessagePlan};
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
 pub use transfers::TransferPlan;
+pub(crate) use uses::uses;
 pub use value::ValuePlan;
 
 /// The tables of one part.

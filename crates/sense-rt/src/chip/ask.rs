@@ -11,7 +11,7 @@ impl Chip {
         loop {
             match self.stage {
                 Stage::Idle | Stage::Over => return None,
-                Stage::Look | Stage::Identify => match &self.table.identity {
+                Stage::Look | Stage::Identify => match self.table.identity() {
                     Some(identity) => {
                         let asked = Asked::Read(identity.select, identity.expected.len());
                         return Some((Pending::Identity, asked));
@@ -23,7 +23,7 @@ impl Chip {
                         return Some((Pending::Init, asked));
                     }
                 }
-                Stage::Calibrate(block, _) => match self.table.calibration.get(block) {
+                Stage::Calibrate(block, _) => match self.table.calibration().get(block) {
                     Some(block) => {
                         let asked = Asked::Read(block.select, block.count.into());
                         return Some((Pending::Calibration, asked));
@@ -49,7 +49,7 @@ impl Chip {
             return None;
         }
         self.pause_until_ms = None;
-        match self.table.init.get(self.init_at) {
+        match self.table.init().get(self.init_at) {
             None => self.stage = Stage::Identify,
             Some(step) if step.bytes.is_empty() => self.initialised(),
             Some(step) => return Some(Some(Asked::Write(step.bytes))),

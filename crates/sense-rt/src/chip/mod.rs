@@ -21,6 +21,7 @@ use core::ops::{Deref, DerefMut};
 use crate::bytes::{copy, part, part_mut};
 use crate::outcome::{Outcome, Sink};
 use crate::schema::Schema;
+use crate::uses;
 
 use self::memory::{Memory, Sizes, due_ms, ready_ms, set_due_ms, set_ready_ms};
 pub use self::table::{Calibration, ChipTable, Command, Identity, InitStep, Reading, Transfer};
@@ -255,7 +256,8 @@ impl Chip {
     /// See above.
     pub fn write(&mut self, command: &'static Command, value: &[u8]) -> Result<Step<'_>, Outcome> {
         let item = self.schema.items.get(usize::from(command.item));
-        let Some(item) = item.filter(|_| self.is_running && self.pending.is_none()) else {
+        let can_write = uses::CHIP_COMMANDS && self.is_running && self.pending.is_none();
+        let Some(item) = item.filter(|_| can_write) else {
             return Err(Outcome::Nothing);
         };
         let Memory { work, .. } = Memory::split(&mut self.memory, &self.sizes);
@@ -327,7 +329,7 @@ impl Chip {
 
     /// A step of the initialisation is done; then it may pause.
     fn initialised(&mut self) {
-        let pause_ms = self.table.init.get(self.init_at).map_or(0, |step| step.pause_ms);
+        let pause_ms = self.table.init().get(self.init_at).map_or(0, |step| step.pause_ms);
         self.init_at += 1;
         if pause_ms > 0 {
             // One more, for the first millisecond is cut short.
@@ -337,7 +339,7 @@ impl Chip {
     }
 
     fn compare_identity(&mut self, sink: &mut Sink<'_>) {
-        let Some(identity) = &self.table.identity else { return };
+        let Some(identity) = self.table.identity() else { return };
         let work = Memory::split(&mut self.memory, &self.sizes).work;
         let found = work.get(identity.select.len()..).unwrap_or_default();
         let mut pairs = found.iter().zip(identity.expected).enumerate();
@@ -365,7 +367,7 @@ impl Chip {
 
     fn take_calibration(&mut self) {
         let Stage::Calibrate(block, place) = self.stage else { return };
-        let Some(table) = self.table.calibration.get(block) else { return };
+        let Some(table) = self.table.calibration().get(block) else { return };
         let Memory { calibration, work, .. } = Memory::split(&mut self.memory, &self.sizes);
         let count = usize::from(table.count);
         copy(part_mut(calibration, place, count), part(work, table.select.len(), count));

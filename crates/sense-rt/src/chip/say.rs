@@ -6,6 +6,7 @@ use crate::bytes::{part, part_mut};
 use crate::convert::store_signed;
 use crate::formula::Outputs;
 use crate::outcome::{Outcome, Sink};
+use crate::uses;
 
 /// The formula's outputs of one raw block, computed once for all readings that stand in it.
 pub(super) type Computed = Option<(u16, Option<Outputs>)>;
@@ -34,7 +35,7 @@ impl Chip {
             let bytes = part(work, table.select.len(), table.length.into());
             let bytes = bytes.get(reading.offset.into()..).unwrap_or_default();
             let value = part_mut(value, 0, item.bytes());
-            let outcome = match reading.output {
+            let outcome = match reading.output.filter(|_| uses::CHIP_FORMULAS) {
                 None if bytes.is_empty() => Outcome::Invalid,
                 None => reading.value.decode(item, bytes, value),
                 Some(output) => {

@@ -5,6 +5,7 @@ use super::say::Computed;
 use crate::coding::Coding;
 use crate::formula::Formula;
 use crate::schema::Schema;
+use crate::uses;
 
 /// One step of setting a device up: bytes, then a pause. Of serial devices as well.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +61,7 @@ impl Transfer {
         Self { trigger: &[], select: &[], cycle_ms: 0, wait_ms: 0, length: 1, exchange: false };
 
     pub(super) fn asked(&self) -> Asked {
-        if self.exchange {
+        if uses::CHIP_EXCHANGES && self.exchange {
             Asked::Exchange(self.select, self.length.into())
         } else {
             Asked::Read(self.select, self.length.into())
@@ -151,6 +152,19 @@ impl ChipTable {
     pub const fn chip_bytes(&self, schema: &Schema) -> usize {
         let states = self.transfers.len() * super::memory::STATE_BYTES;
         states + self.calibration_bytes() + self.value_bytes(schema) + self.work_bytes(schema)
+    }
+
+    /// How it is set up, as far as that is not left out.
+    pub(super) const fn init(&self) -> &'static [InitStep] {
+        if uses::CHIP_INIT { self.init } else { &[] }
+    }
+
+    pub(super) fn identity(&self) -> Option<&Identity> {
+        self.identity.as_ref().filter(|_| uses::CHIP_IDENTITY)
+    }
+
+    pub(super) const fn calibration(&self) -> &'static [Calibration] {
+        if uses::CHIP_FORMULAS { self.calibration } else { &[] }
     }
 
     pub(super) const fn calibration_bytes(&self) -> usize {

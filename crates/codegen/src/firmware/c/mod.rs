@@ -4,7 +4,6 @@
 //! code from values to payloads and back. They need `runtime/core` and nothing else.
 
 mod schema;
-mod uses;
 
 use askama::Template;
 use sensedsl_wire::Schema;
@@ -12,7 +11,6 @@ use sensedsl_wire::Schema;
 use crate::fileset::FileSet;
 use crate::print::print;
 pub use schema::{Role, SchemaPlan};
-pub(crate) use uses::left_out;
 
 /// Declares a template that prints a model.
 macro_rules! templates {

@@ -12,8 +12,9 @@ use super::link::{self, ButtonPlan, LinkPlan};
 use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
-use crate::firmware::c::{self, Role, SchemaPlan};
-use crate::job::JobDevice;
+use crate::firmware::c::{Role, SchemaPlan};
+use crate::job::{BoardJob, JobDevice};
+use crate::part::uses;
 
 /// The firmware of one board.
 #[derive(Clone, Debug)]
@@ -23,7 +24,7 @@ pub(super) struct BoardPlan {
     pub(super) settings: SettingsPlan,
     pub(super) schema: SchemaPlan,
     /// What no value needs of the core, as the compiler is told.
-    pub(super) left_out: Vec<&'static str>,
+    pub(super) left_out: Vec<String>,
     pub(super) pads: Vec<PadPlan>,
     pub(super) parts: PartsPlan,
     pub(super) doctor: DoctorPlan,
@@ -71,7 +72,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         name: context.job.board.name.value.clone(),
         tree: board::plan(context),
         schema: SchemaPlan::new(&context.job.schema, Role::Board),
-        left_out: c::left_out(context.job),
+        left_out: left_out(context.job),
         report_ms: link::report_ms(context, &tasks),
         cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
         silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
@@ -157,4 +158,10 @@ impl TaskPlan {
             stack_bytes: work.depth.stack_bytes(context),
         }
     }
+}
+
+/// What is left out of the core, as its compiler is told (`-D`).
+fn left_out(job: &BoardJob<'_>) -> Vec<String> {
+    let unused = uses(job).into_iter().filter(|(_, is_used)| !is_used);
+    unused.map(|(name, _)| format!("UP_USES_{}=0", name.to_uppercase().replace('-', "_"))).collect()
 }

@@ -4,6 +4,7 @@
 
 use super::context::Context;
 use super::names::Chip;
+use crate::part::uses;
 
 /// The crates of a check.
 const CHECK: &str = include_str!("templates/check.lock.txt");
@@ -71,6 +72,24 @@ pub(super) fn manifest(context: &Context<'_>) -> String {
     MANIFEST
         .replace("{board}", &context.job.board.name.value)
         .replace("{features}", &format!("\"{}\", {banks}\"time-driver-{timer}\"", chip.feature))
+        .replace("{uses}", &used(context).join(", "))
+}
+
+/// What the values need of the runtime.
+fn used(context: &Context<'_>) -> Vec<String> {
+    let used = uses(context.job).into_iter().filter(|(_, is_used)| *is_used);
+    used.map(|(name, _)| format!("\"{name}\"")).collect()
+}
+
+/// The manifest of the runtime in a project.
+pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
+    let mut text = "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\
+                    license = \"MIT OR Apache-2.0\"\npublish = false\n\n[features]\n"
+        .to_owned();
+    for (name, _) in uses(context.job) {
+        text.push_str(&format!("{name} = []\n"));
+    }
+    text
 }
 
 /// The lock file of a firmware.

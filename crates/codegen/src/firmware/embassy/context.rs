@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::Function;
 use sensedsl_model::kind::KindName;
@@ -75,6 +76,11 @@ impl<'a> Context<'a> {
     /// The index of a device's item.
     pub(super) fn item(&self, field: &str) -> usize {
         self.job.devices.iter().position(|one| one.name() == field).unwrap_or_default()
+    }
+
+    /// The board's crystals.
+    pub(super) fn crystal(&self) -> Crystal {
+        self.job.board.facts.as_ref().map(|facts| facts.crystal.clone()).unwrap_or_default()
     }
 
     /// What the HAL calls a unit.

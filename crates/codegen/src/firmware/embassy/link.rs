@@ -7,7 +7,7 @@ use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Role;
 
 use super::context::Context;
-use super::section::{Field, Section, Start};
+use super::section::{Field, Keep, Section, Start};
 use crate::job::BoardJob;
 
 /// The USB device of a board, whatever its system.
@@ -27,7 +27,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         let why = match context.job.board.link.transport {
             Transport::None => "it has no link to send reports over (`transport = none`)",
             Transport::Usb => {
-                "USB needs clocks that its firmware does not make yet; take `link { transport = uart; }`"
+                "USB needs a clock of 48 MHz, which its firmware cannot make without a crystal, or not on this MCU yet; \
+                 take `link { transport = uart; }`"
             }
             Transport::Uart => "its target has no driver for the link",
         };
@@ -46,18 +47,18 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
     section.fields.push(Field {
         name: "link".to_owned(),
         comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
-        type_: "hal::usart::BufferedUart<'static>".to_owned(),
+        type_: "crate::rt::link_uart::Port".to_owned(),
         make: format!(
-            "port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, baud({baud})))",
+            "crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, \
+             baud({baud}))), crate::SAID)",
             rx.pin.name, tx.pin.name
         ),
     });
-    section.items.push(
-        "/// The link's port.\n#[embassy_executor::task]\nasync fn link(port: hal::usart::BufferedUart<'static>) {\n    \
-         rt::link_uart::run(port, &LINK).await;\n}"
-            .to_owned(),
-    );
-    section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
+    section.keeps.push(Keep {
+        name: "mut link".to_owned(),
+        type_: "rt::link_uart::Port".to_owned(),
+        from: "wiring.link".to_owned(),
+    });
     section.runtime.insert("link_uart.rs");
     Some(())
 }
@@ -65,19 +66,26 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
 fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
     let usb = usb(context.job)?;
     // A USB device needs 48 MHz, which only clocks of our own making have.
-    context.names.line.pll?;
+    let clock = context.names.line.clock.as_ref()?;
+    let _ = clock.lines(&context.crystal(), true)?;
     let hal = context.peripheral(&usb.name);
-    let interrupt = context.names.interrupt(&usb.name, "GLOBAL")?;
-    section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
+    // The peripheral that can be a host as well has one interrupt, the plain device one of low priority.
+    let (signal, is_otg) = match context.names.interrupt(&usb.name, "GLOBAL") {
+        Some(interrupt) => (interrupt, true),
+        None => (context.names.interrupt(&usb.name, "LP")?, false),
+    };
+    section.bind(signal, format!("hal::usb::InterruptHandler<{hal}>"));
     let [dm, dp] = usb.pins.as_slice() else { return None };
     let vbus = usb.vbus.is_some() && context.job.board.link.vbus;
     section.fields.push(Field {
         name: "link".to_owned(),
         comment: format!("the link at {dm} (D-) and {dp} (D+)"),
         type_: format!("hal::usb::Driver<'static, {hal}>"),
-        make: format!(
-            "hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))"
-        ),
+        make: if is_otg {
+            format!("hal::usb::Driver::new_fs(p.{hal}, Irqs, p.{dp}, p.{dm}, heard, usb({vbus}))")
+        } else {
+            format!("hal::usb::Driver::new(p.{hal}, Irqs, p.{dp}, p.{dm})")
+        },
     });
     let product = &context.job.board.name.value;
     section.items.push(format!(
@@ -85,6 +93,14 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
          rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
     ));
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
-    section.runtime.insert("link_usb.rs");
+    section.runtime.extend(["link.rs", "link_usb.rs"]);
+    section.is_otg = is_otg;
     Some(())
+}
+
+/// What a port must hold of what the host sends: twice what comes between two looks of the reporter.
+pub(super) fn heard_bytes(baud: u32, report_ms: u32) -> u32 {
+    const BITS_OF_BYTE: u32 = 10;
+    let bytes_each_ms = baud.div_ceil(BITS_OF_BYTE * 1_000);
+    bytes_each_ms.saturating_mul(2 * report_ms).clamp(64, 1_024).next_power_of_two()
 }

@@ -1,6 +1,6 @@
 //! Embassy firmware: a Cargo project in Rust, with the HAL's typed pins.
 //!
-//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user.rs` and a copy of the
+//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy of the
 //! runtime. `names.rs` reads how the HAL spells what a profile knows; `typed.rs` puts a wiring, of whatever target, into
 //! types that the Rust compiler judges.
 

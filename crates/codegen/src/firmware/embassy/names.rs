@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use sensedsl_board::profile::TargetProfile;
 use serde::Deserialize;
 
+use super::clock::Clock;
+
 /// The names of one line of MCUs.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -128,17 +130,7 @@ pub(super) struct Line {
     /// Interrupts that no unit in use has.
     pub(super) spare: Vec<String>,
     /// What the firmware makes of the clocks; none where it keeps those after a reset.
-    pub(super) pll: Option<Pll>,
-}
-
-/// A PLL with 1 MHz at its input, and the dividers of the two buses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Pll {
-    pub(super) multiply: u32,
-    pub(super) p: u32,
-    pub(super) q: u32,
-    pub(super) apb: [u32; 2],
+    pub(super) clock: Option<Clock>,
 }
 
 /// A chip of the HAL.

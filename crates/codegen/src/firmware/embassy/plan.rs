@@ -7,7 +7,6 @@ use sensedsl_wire::{Checksum, Direction};
 
 use super::context::{Context, scalar};
 use super::levels::{self, Level};
-use super::names::Pll;
 use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
 use super::{
     analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
@@ -39,7 +38,9 @@ pub(super) struct Plan {
     pub(super) target: String,
     pub(super) manifest: String,
     pub(super) lock: String,
-    pub(super) clock: Option<ClockPlan>,
+    pub(super) runtime_manifest: String,
+    /// Members of the HAL's clocks and their values.
+    pub(super) clock: Vec<String>,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
     pub(super) handlers: Vec<(String, String)>,
@@ -70,22 +71,15 @@ pub(super) struct Plan {
     /// What the HAL calls the watchdog.
     pub(super) watchdog: &'static str,
     pub(super) is_usb: bool,
+    pub(super) is_otg: bool,
     pub(super) is_uart: bool,
+    /// Of the queue of a serial port for what the host sends.
+    pub(super) heard_bytes: u32,
     pub(super) has_buses: bool,
     /// Serial devices, and ports that can invert their wires.
     pub(super) has_ports: bool,
     pub(super) has_new_ports: bool,
     pub(super) has_pulls: bool,
-}
-
-/// The clock tree.
-pub(super) struct ClockPlan {
-    /// The crystal's frequency; none where the internal oscillator is taken.
-    pub(super) hse_hz: Option<u32>,
-    /// What brings the PLL's input to 1 MHz.
-    pub(super) divide: u32,
-    pub(super) pll: Pll,
-    pub(super) needs_48_mhz: bool,
 }
 
 /// The schema in the runtime's words.
@@ -126,6 +120,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         target: context.names.target.clone(),
         manifest: cargo::manifest(context),
         lock: cargo::lock(context),
+        runtime_manifest: cargo::runtime_manifest(context),
         clock: clock(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
@@ -139,7 +134,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         reset: context.names.reset.clone(),
         watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
         is_usb,
+        is_otg: section.is_otg,
         is_uart: section.runtime.contains("link_uart.rs"),
+        heard_bytes: link::heard_bytes(board.link.baud, REPORT_MS.max(rate)),
         has_buses: section.runtime.contains("i2c.rs"),
         has_ports: section.runtime.contains("serial.rs"),
         has_new_ports: section.runtime.contains("port_new.rs"),
@@ -158,14 +155,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     }
 }
 
-/// The PLL's input is the crystal, where it is whole megahertz that the divider can bring to 1.
-fn clock(context: &Context<'_>, needs_48_mhz: bool) -> Option<ClockPlan> {
-    const INTERNAL_HZ: u32 = 16_000_000;
-    let pll = context.names.line.pll?;
-    let facts = context.job.board.facts.as_ref();
-    let hse_hz = facts.and_then(|facts| facts.crystal.hse_hz);
-    let hse_hz = hse_hz.filter(|hz| hz % 1_000_000 == 0 && (2..=50).contains(&(hz / 1_000_000)));
-    Some(ClockPlan { hse_hz, divide: hse_hz.unwrap_or(INTERNAL_HZ) / 1_000_000, pll, needs_48_mhz })
+/// What is set of the HAL's clocks.
+fn clock(context: &Context<'_>, is_usb: bool) -> Vec<String> {
+    let clock = context.names.line.clock.as_ref();
+    clock.and_then(|clock| clock.lines(&context.crystal(), is_usb)).unwrap_or_default()
 }
 
 fn handlers(all: &Handlers) -> Vec<(String, String)> {

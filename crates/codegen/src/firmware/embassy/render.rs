@@ -41,7 +41,7 @@ pub(super) fn render(b: &Plan) -> FileSet {
     files.add("src/main.rs", print(&Main { b }));
     files.add("src/wiring.rs", print(&Wiring { b }));
     files.add("src/tables.rs", print(&Tables { b }));
-    files.add_once("src/user.rs", USER);
+    files.add_once("src/user/mod.rs", USER);
     let own = runtime::ADAPTERS.iter();
     for (name, text) in
         own.filter(|(name, _)| runtime::ALWAYS.contains(name) || b.runtime.contains(name))
@@ -49,13 +49,9 @@ pub(super) fn render(b: &Plan) -> FileSet {
         files.add(format!("src/rt/{name}"), *text);
     }
     files.add("src/rt/mod.rs", runtime::module(&b.runtime));
-    files.add("sense-rt/Cargo.toml", cargo_of_runtime());
+    files.add("sense-rt/Cargo.toml", b.runtime_manifest.clone());
     for (name, text) in runtime::RUNTIME {
         files.add(format!("sense-rt/src/{name}"), *text);
     }
     files
-}
-
-fn cargo_of_runtime() -> &'static str {
-    "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\nlicense = \"MIT OR Apache-2.0\"\npublish = false\n"
 }

@@ -32,7 +32,7 @@ pub(super) const ADAPTERS: &[(&str, &str)] = files![
 ];
 
 /// Those that every project has.
-pub(super) const ALWAYS: &[&str] = &["life.rs", "link.rs", "shared.rs"];
+pub(super) const ALWAYS: &[&str] = &["life.rs", "shared.rs"];
 
 /// How the module of the adapters begins.
 const MODULE: &str = include_str!("../../../../../runtime/embassy/mod.rs");
@@ -98,5 +98,6 @@ pub(super) const RUNTIME: &[(&str, &str)] = files![
     "silence.rs",
     "store.rs",
     "train.rs",
+    "uses.rs",
     "watch.rs",
 ];

@@ -34,6 +34,8 @@ pub(super) struct Section {
     pub(super) fails: Vec<String>,
     /// The cycles of the tasks, which the watchdog watches.
     pub(super) watched: Vec<Watched>,
+    /// The link is the USB peripheral that can be a host as well.
+    pub(super) is_otg: bool,
     /// Files of the runtime.
     pub(super) runtime: BTreeSet<&'static str>,
 }
@@ -138,6 +140,7 @@ impl Section {
         self.begins.append(&mut other.begins);
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
+        self.is_otg |= other.is_otg;
         self.runtime.append(&mut other.runtime);
     }
 }

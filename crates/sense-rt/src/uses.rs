@@ -1,0 +1,26 @@
+//! What the values of a program need of the runtime: features of the crate, all of them by default.
+//!
+//! What a program turns off is left out of it, and its tables must not ask for it.
+
+/// Values of float32 and float64.
+pub(crate) const REALS: bool = cfg!(feature = "reals");
+/// Words that are floats, BCD or packed.
+pub(crate) const CODES: bool = cfg!(feature = "codes");
+/// Checksums between words.
+pub(crate) const WORD_CRC: bool = cfg!(feature = "word-crc");
+/// Filters that take the median.
+pub(crate) const MEDIAN: bool = cfg!(feature = "median");
+/// Filters that smooth.
+pub(crate) const SMOOTH: bool = cfg!(feature = "smooth");
+/// Filters that report changes alone.
+pub(crate) const CHANGE: bool = cfg!(feature = "change");
+/// Chips that are written to before they measure.
+pub(crate) const CHIP_INIT: bool = cfg!(feature = "chip-init");
+/// Chips that say who they are.
+pub(crate) const CHIP_IDENTITY: bool = cfg!(feature = "chip-identity");
+/// Chips with formulas, and with calibration.
+pub(crate) const CHIP_FORMULAS: bool = cfg!(feature = "chip-formulas");
+/// Chips that are told values.
+pub(crate) const CHIP_COMMANDS: bool = cfg!(feature = "chip-commands");
+/// Chips that send and receive at the same time.
+pub(crate) const CHIP_EXCHANGES: bool = cfg!(feature = "chip-exchanges");
