@@ -23,7 +23,8 @@ fn sampling_times(most: Option<u8>, mut asked: Vec<Cycles>) -> Vec<Cycles> {
     let (Some(most), Some(longest)) = (most, asked.last().copied()) else { return asked };
     let mut different = asked.clone();
     different.dedup();
-    let own = different.into_iter().take(usize::from(most).saturating_sub(1)).last();
+    different.truncate(usize::from(most).saturating_sub(1));
+    let own = different.last().copied();
     for time in &mut asked {
         if own.is_none_or(|own| *time > own) {
             *time = longest;

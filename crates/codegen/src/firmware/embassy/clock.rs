@@ -53,7 +53,7 @@ struct Crystals {
 
 impl Crystals {
     fn takes(self, hz: u32) -> bool {
-        (self.least_hz..=self.greatest_hz).contains(&hz) && hz % self.step_hz.max(1) == 0
+        (self.least_hz..=self.greatest_hz).contains(&hz) && hz.is_multiple_of(self.step_hz.max(1))
     }
 }
 
