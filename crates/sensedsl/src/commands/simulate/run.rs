@@ -53,7 +53,7 @@ pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -
     match status {
         Status::Done if args.judge => session.verdict(),
         Status::Done if session.is_wrong => Ok(Status::Wrong),
-        other => Ok(other),
+        other @ (Status::Done | Status::Wrong | Status::Misused) => Ok(other),
     }
 }
 
