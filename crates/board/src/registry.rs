@@ -36,7 +36,7 @@ pub(crate) const BOARDS: &[Entry] = &[
     board!("BLACKPILL-F401CC", &["WEACT-F401CC"], "STM32F401CCU6", "Black Pill F401CC, all pins of its MCU"),
     board!("BLACKPILL-F411CE", &["WEACT-F411CE"], "STM32F411CEU6", "Black Pill F411CE, all pins of its MCU"),
     board!("BLUEPILL-F103C8", &["BLUEPILL", "STM32F103C8-MINIMAL"], "STM32F103C8T6", "Blue Pill, the minimal board with an STM32F103C8, all pins of its MCU"),
-    board!("CLICKER2-STM32", &["MIKROE_CLICKER2_STM32", "CLICKER-2-STM32"], "STM32F407VGT6", "Clicker 2 for STM32, all pins of its MCU"),
+    board!("CLICKER2-STM32", &["MIKROE_CLICKER2_STM32", "MIKROE-CLICKER-2"], "STM32F407VGT6", "Clicker 2 for STM32, all pins of its MCU"),
     board!("MAPLEMINI", &["MAPLE-MINI", "MAPLEMINI_STM32_F103"], "STM32F103CBT6", "Maple Mini, all pins of its MCU"),
     board!("NUCLEO-C031C6", &["ST_NUCLEO64_C031C6", "NUCLEO64-C031C6"], "STM32C031C6T6", "Nucleo-64 C031C6, all pins of its MCU"),
     board!("NUCLEO-C071RB", &["ST_NUCLEO64_C071RB", "NUCLEO64-C071RB"], "STM32C071RBT6", "Nucleo-64 C071RB, all pins of its MCU"),

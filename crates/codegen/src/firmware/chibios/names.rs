@@ -178,9 +178,9 @@ struct Dacs {
     switch: String,
     /// The driver objects of a converter's outputs, from the first on.
     drivers: BTreeMap<String, Vec<String>>,
-    /// The option for the priority of an output's interrupt, and a value that the core has, where not every demo
-    /// says one and the driver's own is for larger cores.
-    priority: Option<[String; 2]>,
+    /// Options of the outputs, by number from 1 on, and their values: what the driver asks for and not every demo says.
+    #[serde(default)]
+    options: BTreeMap<String, Vec<[String; 2]>>,
 }
 
 /// A USB device.
@@ -323,10 +323,11 @@ impl Names {
         let dacs = self.dacs.as_ref()?;
         let place = usize::from(channel).checked_sub(1)?;
         let driver = dacs.drivers.get(unit)?.get(place)?.clone();
-        let option = |rule: &str| apply(&rule.replace("{channel}", &channel.to_string()), unit);
-        let switch = Setting::new(&option(&dacs.switch), "TRUE");
-        let priority = dacs.priority.iter().map(|[name, value]| Setting::new(&option(name), value));
-        Some((driver, std::iter::once(switch).chain(priority).collect()))
+        let channel = channel.to_string();
+        let switch = Setting::new(&apply(&dacs.switch.replace("{channel}", &channel), unit), "TRUE");
+        let options = dacs.options.get(&channel).into_iter().flatten();
+        let options = options.map(|[name, value]| Setting::new(&apply(name, unit), value));
+        Some((driver, std::iter::once(switch).chain(options).collect()))
     }
 
     /// The options that choose source and divider of the converters' clock.
