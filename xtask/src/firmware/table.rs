@@ -10,7 +10,7 @@ const HEAD: &str = "# Firmware, board by board
 
 Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), generated, and built with ChibiOS 21.11
 by `cargo xtask firmware --matrix`. A cell says text, data and bss of the development build in bytes, with shell and
-link. The heap, which is whatever is left, is not counted, and link-time optimisation, which saves another tenth, is off.
+link. The heap, which is whatever is left, is not counted; link-time optimisation, which saves another tenth, is off.
 `all` is a design with all kinds that the board's MCU has, as far as they fit on its pins together; `fig2` and `car` are
 the paper's examples. `P`: the development build is larger than the MCU's memory, the production build is not. `·`: the
 MCU has no such unit, or ChibiOS no driver for it. `-`: the units are there, but not on free pins of this board. `2 W`
@@ -80,7 +80,7 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
         let lines: Vec<String> = done
             .iter()
             .filter_map(|one| {
-                Some(format!("- {} {}: {}\n", one.cell.board, one.cell.kind, line(one)?))
+                Some(wrapped(&format!("- {} {}: {}", one.cell.board, one.cell.kind, line(one)?)))
             })
             .collect();
         if !lines.is_empty() {
@@ -108,5 +108,26 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
         let Outcome::Built(_, left_out) = &one.outcome else { return None };
         (!left_out.is_empty()).then(|| left_out.join(", "))
     });
+    text
+}
+
+/// An item of a list, in lines as long as prose may be.
+fn wrapped(item: &str) -> String {
+    const LETTERS: usize = 120;
+    let mut text = String::new();
+    let mut letters = 0;
+    for word in item.split(' ') {
+        let own = word.chars().count();
+        if letters > 0 && letters + 1 + own > LETTERS {
+            text.push_str("\n  ");
+            letters = 2;
+        } else if letters > 0 {
+            text.push(' ');
+            letters += 1;
+        }
+        text.push_str(word);
+        letters += own;
+    }
+    text.push('\n');
     text
 }

@@ -324,7 +324,8 @@ impl Names {
         let place = usize::from(channel).checked_sub(1)?;
         let driver = dacs.drivers.get(unit)?.get(place)?.clone();
         let channel = channel.to_string();
-        let switch = Setting::new(&apply(&dacs.switch.replace("{channel}", &channel), unit), "TRUE");
+        let switch =
+            Setting::new(&apply(&dacs.switch.replace("{channel}", &channel), unit), "TRUE");
         let options = dacs.options.get(&channel).into_iter().flatten();
         let options = options.map(|[name, value]| Setting::new(&apply(name, unit), value));
         Some((driver, std::iter::once(switch).chain(options).collect()))
