@@ -29,6 +29,7 @@
 typedef struct {
   uint32_t magic;
   uint32_t device;
+  const void *thread; /* the one that runs */
   char reason[REASON_BYTES];
 } record_t;
 
@@ -70,6 +71,18 @@ void up_on_halt(const char *why) {
   NVIC_SystemReset();
 }
 
+/* The first device of a task by its thread, which stands in its working area; 0 for the threads of the kernel. */
+static uint8_t device_of(const void *thread) {
+  size_t i;
+
+  for (i = 0U; i < up_config.tasks_count; i++) {
+    if ((uintptr_t)thread - (uintptr_t)up_config.tasks[i].stack < up_config.tasks[i].stack_bytes) {
+      return up_config.tasks[i].device;
+    }
+  }
+  return 0U;
+}
+
 static uint8_t cause_of(uint32_t flags) {
   if ((flags & UP_RESET_WATCHDOG) != 0U) {
     return UP_CAUSE_WATCHDOG;
@@ -97,6 +110,9 @@ void up_life_init(void) {
     record.reason[sizeof record.reason - 1U] = '\0';
     memcpy(reason, record.reason, sizeof reason);
     device = (uint8_t)record.device;
+  } else {
+    /* The reporter did not come to say it: a thread that never waits kept the processor. */
+    device = device_of(record.thread);
   }
   cause = cause_of(flags);
   if (cause != (uint8_t)UP_CAUSE_WATCHDOG) {
@@ -189,6 +205,12 @@ void up_life_cycle(void) {
     record.device = up_config.tasks[task].device;
     keep();
   }
+}
+
+/* The kernel says who runs next. */
+void up_on_switch(const void *next) {
+  record.thread = next;
+  cacheBufferFlush(&record.thread, sizeof record.thread);
 }
 
 /* ---- load: the kernel says when nobody runs ---- */

@@ -47,5 +47,6 @@ size_t up_stack_left_of(const void *base, size_t bytes);
 void up_on_halt(const char *why);
 void up_on_idle_enter(void);
 void up_on_idle_leave(void);
+void up_on_switch(const void *next);
 
 #endif

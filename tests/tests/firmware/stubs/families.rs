@@ -21,7 +21,6 @@ const NOT_MADE: [&str; 12] = [
     "NUCLEO_F030R8 mixed/motors E0401",
     "NUCLEO_F030R8 mixed/usb E0504",
     "NUCLEO_G0B1RE kinds/can E0401",
-    "NUCLEO_H7A3ZI_Q kinds/spi E0620",
     "NUCLEO_H7A3ZI_Q mixed/chips E0620",
     "NUCLEO_H7A3ZI_Q mixed/usb E0504",
 ];

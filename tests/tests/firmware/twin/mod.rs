@@ -169,7 +169,7 @@ fn a_program_that_fails_says_where() {
     let Some(tree) = tree() else { return };
     let board = folder("twin_fault", &fig2(UART));
     let user = "#include \"up_rt.h\"\n\
-                void sense_transform_USRear(uint8_t *value) {\n\
+                __attribute__((noinline, used)) void sense_transform_USRear(uint8_t *value) {\n\
                 *value = *(volatile uint8_t *)0x60000000U;\n}\n";
     std::fs::write(board.join("user/user.c"), user).unwrap();
     build(&tree, &board, "production");
