@@ -11,7 +11,7 @@ use super::designs::{Made, make};
 
 /// What is not made for the first board of each family, with its codes: without a wiring (E0401) where the MCU lacks the
 /// unit or the board the pins, where its clocks do not fit (E0620), or where its link cannot be had (E0504).
-const NOT_MADE: [&str; 12] = [
+const NOT_MADE: [&str; 11] = [
     "BLACKPILL_F401CC kinds/can E0401",
     "BLACKPILL_F401CC kinds/dac E0401",
     "BLUEPILL_F103C8 kinds/can E0401",

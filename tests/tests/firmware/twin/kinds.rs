@@ -229,24 +229,29 @@ fn a_frequency_is_captured(mut bench: Bench) {
     let wheel = values(&bench.reports(&schema), 1);
     let late: Vec<u64> =
         wheel.iter().filter(|(at, _)| *at > 50 * MS).map(|(_, value)| unsigned(value)).collect();
-    // 800 us are 1250 Hz.
+    // 800 us are 1250 Hz, give or take two thousandths.
     assert!(
-        late.len() > 20 && late.iter().all(|value| (1_249..=1_250).contains(value)),
+        late.len() > 20 && late.iter().all(|value| (1_248..=1_252).contains(value)),
         "{late:?}"
     );
 }
 
 fn pulses_have_the_widths_that_the_host_sets(mut bench: Bench) {
     bench.run_until_ms(50);
-    let steering = |bench: &Bench| bench.world().waves[&(9, 1)];
+    // As near as the divider of a timer that is not told its tick comes: 50 millionths.
+    let near = |is: u64, wanted: u64| is.abs_diff(wanted) * 20_000 <= wanted;
+    let steers = |bench: &Bench, width_ns: u64| {
+        let (period, width) = bench.world().waves[&(9, 1)];
+        assert!(near(period, 20 * MS) && near(width, width_ns), "{period} {width}");
+    };
     // Half of 1 to 2 ms, until the host says something.
-    assert_eq!(steering(&bench), (20 * MS, 1_500_000));
+    steers(&bench, 1_500_000);
     bench.machine.link_write(&frame(&[1, 0x27, 0x10]));
     bench.run_until_ms(100);
-    assert_eq!(steering(&bench), (20 * MS, 2_000_000));
+    steers(&bench, 2_000_000);
     bench.machine.link_write(&frame(&[1, 0x00, 0x00]));
     bench.run_until_ms(150);
-    assert_eq!(steering(&bench), (20 * MS, 1_000_000));
+    steers(&bench, 1_000_000);
 }
 
 fn chips_on_an_spi_bus_are_read_and_written(mut bench: Bench) {

@@ -34,6 +34,7 @@
 void up_on_idle_enter(void);
 void up_on_idle_leave(void);
 void up_on_halt(const char *why);
+void up_on_switch(const void *next);
 #endif
 #undef CH_CFG_IDLE_ENTER_HOOK
 #define CH_CFG_IDLE_ENTER_HOOK() up_on_idle_enter()
@@ -41,5 +42,7 @@ void up_on_halt(const char *why);
 #define CH_CFG_IDLE_LEAVE_HOOK() up_on_idle_leave()
 #undef CH_CFG_SYSTEM_HALT_HOOK
 #define CH_CFG_SYSTEM_HALT_HOOK(reason) up_on_halt(reason)
+#undef CH_CFG_CONTEXT_SWITCH_HOOK
+#define CH_CFG_CONTEXT_SWITCH_HOOK(ntp, otp) up_on_switch(ntp)
 
 #endif
