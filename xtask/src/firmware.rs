@@ -18,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context as _, Result, bail, ensure};
 
 use build::{Built, Came};
-use cells::{Cell, Made};
+use cells::{Cell, Made, Notes};
 
 use crate::say;
 
@@ -77,8 +77,7 @@ enum Outcome {
     NotOffered,
     /// The units are there, but not on pins that are free together.
     NoWiring(String),
-    /// Built; without the kinds that did not fit beside the others.
-    Built(Built, Vec<&'static str>),
+    Built(Built, Notes),
     /// Larger than the MCU's memory.
     TooLarge(String),
     /// Neither generated nor built, and why.
@@ -170,14 +169,14 @@ fn run_all(
 fn outcome(cell: &Cell, tree: &Path, folder: &Path, earlier: &Earlier) -> Outcome {
     match cells::make(cell) {
         Made::NotOffered => Outcome::NotOffered,
-        Made::NoWiring(why) => Outcome::NoWiring(why),
+        Made::NoWiring(why, _) => Outcome::NoWiring(why),
         Made::Refused(why) => Outcome::Failed(why),
-        Made::Files(files, left_out) => {
+        Made::Files(files, notes) => {
             if let Some(built) = earlier.get(&(cell.board.clone(), cell.kind.clone())) {
-                return Outcome::Built(built.clone(), left_out);
+                return Outcome::Built(built.clone(), notes);
             }
             match build::build(&files, tree, folder) {
-                Ok(Came::Built(built)) => Outcome::Built(built, left_out),
+                Ok(Came::Built(built)) => Outcome::Built(built, notes),
                 Ok(Came::TooLarge(why)) => Outcome::TooLarge(why),
                 Err(error) => Outcome::Failed(format!("{error:#}")),
             }

@@ -179,6 +179,13 @@ pub struct Onboard {
     pub how: Occupation,
 }
 
+/// What a `release` rule calls an on-board part: its name with `_` for whatever is neither letter nor digit.
+/// `CAN transceiver` is released as `CAN_transceiver`, in any case of letters.
+#[must_use]
+pub fn release_name(part: &str) -> String {
+    part.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '_' }).collect()
+}
+
 /// What an on-board part leaves of its pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Occupation {

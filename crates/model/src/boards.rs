@@ -3,11 +3,9 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::catalog;
-use sensedsl_board::profile::{self, NoProfile, Target};
 use sensedsl_board::table::{self, Table};
 use sensedsl_diagnostics::codes::{
-    e0201_unknown_property, e0225_too_many_items, e0301_unknown_board, e0302_table_unreadable,
-    e0313_unknown_target, e0504_no_firmware_target, h0702_target_none, w0607_part_not_certain,
+    e0225_too_many_items, e0301_unknown_board, e0302_table_unreadable, w0607_part_not_certain,
     w0608_usages_unknown,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, SourceMap, Span};
@@ -24,6 +22,7 @@ use crate::resolve::Request;
 use crate::rules;
 use crate::sources::beside;
 use crate::table_findings;
+use crate::targets;
 
 /// What reading boards needs beside the node.
 pub(crate) struct Context<'a> {
@@ -80,21 +79,16 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
     let name = node.name()?;
     let name = Spanned { value: name.text().to_owned(), span: span(file, name.range()) };
     let rules = rules::of_board(file, node, (context.constants, context.diagnostics));
-    for property in node.properties() {
-        let Some(property) = property.name() else { continue };
-        context.diagnostics.push(e0201_unknown_property::unknown_property(
-            span(file, property.range()),
-            property.text(),
-            "a board",
-            None,
-        ));
-    }
+    let asked = targets::asked(context, file, node, name.span);
     let pins = pins(context, file, node, &name).and_then(|pins| afforded(context, pins, name.span));
     let entry = pins.as_ref().and_then(|pins| pins.entry);
     let like = entry.or_else(|| catalog::find(&name.value));
     let pins = pins.map(|pins| completed(context, pins, like));
     let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
-    let target = pins.as_ref().and_then(|p| target(context, name.span, p.file, mcu.as_deref()));
+    let target = pins.as_ref().and_then(|pins| {
+        let shown = context.sources.name(pins.file).to_owned();
+        targets::find(asked, &shown, mcu.as_deref(), context.diagnostics)
+    });
     let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
     let mut link = links::read(
         file,
@@ -284,50 +278,4 @@ fn from_file(context: &mut Context<'_>, path: &str, at: Span, by_user: bool) -> 
     }
     context.tables.insert(file, loaded.board.clone());
     Some(Pins { table: loaded.board, file, entry: None })
-}
-
-fn target(context: &mut Context<'_>, at: Span, table: FileId, mcu: Option<&str>) -> Option<Target> {
-    let asked = context.request.target;
-    let shown = context.sources.name(table).to_owned();
-    let Some(mcu) = mcu else {
-        let named = asked.unwrap_or(profile::NONE);
-        if profile::full_name(named) == Some(profile::NONE) {
-            if asked.is_none() {
-                let why = "it does not say which MCU it describes";
-                context.diagnostics.push(h0702_target_none::target_none(at, &shown, why));
-            }
-            return Some(Target::None);
-        }
-        let why = "its table does not say which MCU it describes";
-        context.diagnostics.push(e0504_no_firmware_target::no_firmware_target(at, &shown, why));
-        return None;
-    };
-    match profile::find(asked.unwrap_or(profile::DEFAULT), mcu) {
-        Ok(target) => Some(target),
-        Err(NoProfile::UnknownTarget { known, .. }) => {
-            let known = known.join(", ");
-            let name = asked.unwrap_or_default();
-            let report = e0313_unknown_target::unknown_target(at, name, &known);
-            context.diagnostics.push(report);
-            None
-        }
-        Err(NoProfile::UnknownMcu { covered, .. }) => {
-            let covered = covered.join(", ");
-            if asked.is_none() {
-                let hint = h0702_target_none::no_profile(at, &shown, mcu, &covered);
-                context.diagnostics.push(hint);
-                return Some(Target::None);
-            }
-            let why = format!("there is no target profile for {mcu}, only for {covered}");
-            let report = e0504_no_firmware_target::no_firmware_target(at, &shown, &why);
-            context.diagnostics.push(report);
-            None
-        }
-        Err(NoProfile::Broken { message }) => {
-            let why = format!("its target profile is damaged ({message})");
-            let report = e0504_no_firmware_target::no_firmware_target(at, &shown, &why);
-            context.diagnostics.push(report);
-            None
-        }
-    }
 }

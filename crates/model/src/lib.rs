@@ -32,6 +32,7 @@ mod sound;
 mod sources;
 mod syntax_errors;
 mod table_findings;
+mod targets;
 mod types;
 mod value;
 

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::pin::natural;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::silicon::PinRole;
-use sensedsl_board::table::{Occupation, Onboard};
+use sensedsl_board::table::{Occupation, Onboard, release_name};
 use sensedsl_diagnostics::codes::{
     e0311_unknown_unit, e0314_pin_cannot_serve, e0316_pin_not_available, e0320_silicon_cannot,
     e0321_too_much_voltage, w0604_unused_rule, w0605_onboard_part, w0609_one_address_on_two_buses,
@@ -477,11 +477,11 @@ fn releases(index: BoardIndex, board: &Board) -> Vec<Diagnostic> {
             *names.entry(pin.name.as_str()).or_default() |= linked;
         }
         if let Some(part) = &pin.onboard {
-            *parts.entry(part.part.to_ascii_lowercase()).or_default() |= linked;
+            *parts.entry(release_name(&part.part).to_uppercase()).or_default() |= linked;
         }
     }
     let why_useless = |rule: &str| {
-        let (name, part) = (names.get(rule), parts.get(&rule.to_ascii_lowercase()));
+        let (name, part) = (names.get(rule), parts.get(&rule.to_uppercase()));
         match name.into_iter().chain(part).copied().reduce(|one, other| one || other) {
             None => Some("no on-board part is there"),
             Some(true) => Some("the USB link keeps it"),

@@ -6,7 +6,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, TargetProfile};
 use sensedsl_board::remap::{Blocks, agree_by_pairs};
 use sensedsl_board::silicon::{self, PinRole, Silicon};
-use sensedsl_board::table::{Occupation, Pin, Role, Usage};
+use sensedsl_board::table::{Occupation, Pin, Role, Usage, release_name};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::{Board, BoardIndex, Transport};
 
@@ -33,7 +33,7 @@ struct Rules<'a> {
     /// What is reserved, as it is spelled: a peripheral has one spelling.
     reserved_units: BTreeSet<&'a str>,
     released: BTreeSet<String>,
-    /// What is released, in lower case: on-board parts are.
+    /// What is released, in capitals: on-board parts are.
     released_parts: BTreeSet<String>,
 }
 
@@ -52,13 +52,13 @@ impl<'a> Rules<'a> {
             released: released()
                 .filter_map(|name| Some(PinName::parse(name)?.as_str().to_owned()))
                 .collect(),
-            released_parts: released().map(|name| name.to_ascii_lowercase()).collect(),
+            released_parts: released().map(|name| name.to_uppercase()).collect(),
         }
     }
 
     /// Whether a rule gives the pin free from its on-board part.
     fn release(&self, pin: &Pin) -> bool {
-        let by_part = |part: &str| self.released_parts.contains(&part.to_ascii_lowercase());
+        let by_part = |part: &str| self.released_parts.contains(&release_name(part).to_uppercase());
         self.released.contains(pin.name.as_str())
             || pin.onboard.as_ref().is_some_and(|onboard| by_part(&onboard.part))
     }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
-use sensedsl_board::table::Occupation;
+use sensedsl_board::table::{Occupation, release_name};
 use sensedsl_model::design::{
     Board, BoardIndex, Design, Link, PartIndex, Placement, Spanned, Transport,
 };
@@ -95,7 +95,7 @@ impl Repair {
             Self::Unreserve(_, name) => format!("do not reserve {name}"),
             Self::Release(on, part) => match needed(design, *on, part) {
                 Some(role) => format!("release {part}, a pin of {}", role.describe()),
-                None => format!("release {part}"),
+                None => format!("release {}", release_name(part)),
             },
             Self::Relink(on, to) => {
                 let to = to.name();
@@ -145,7 +145,7 @@ impl Repair {
             Self::Release(on, part) => {
                 if let Some(board) = design.boards.get_mut(on.0) {
                     let span = board.name.span;
-                    board.released.push(Spanned { value: part.to_uppercase(), span });
+                    board.released.push(Spanned { value: release_name(part).to_uppercase(), span });
                 }
             }
             Self::Relink(on, to) => {

@@ -100,6 +100,52 @@ fn wanted_by_fig2() -> Vec<String> {
     wanted
 }
 
+/// The same for Embassy.
+const RUST: &str = "board STM32F407G_DISC1 {\n    target = embassy;\n    \
+                    sensor Light returns uint16 { id = 1; type = analog; }\n}\n";
+
+#[test]
+fn a_board_for_embassy_is_built_by_cargo() {
+    let machine = Machine::new();
+    machine.file("rust.sense", RUST);
+    let build = ["build", "rust.sense"];
+    machine.refuses(&build, &[("CARGO", "")], "E0531", &["firmware for Embassy", "rustup.rs"]);
+    machine.tool("cargo", "echo \"$@\" >> \"$LOG\"; exit ${CARGO_ENDS:-0}");
+    machine.tool("rustc", "echo \"$LIBRARY\"");
+    let add = "rustup target add thumbv7em-none-eabihf";
+    let gone = ("LIBRARY", "/nowhere");
+    machine.refuses(&build, &[("CARGO", ""), ("RUSTC", ""), gone], "E0523", &[add]);
+    let here = ("LIBRARY", "/usr/bin");
+    let settings = [("CARGO", ""), ("RUSTC", ""), ("CARGO_TARGET_DIR", ""), here];
+    let built = machine.run(&build, &settings).exits(0);
+    let elf = "build/firmware/STM32F407G_DISC1/target/thumbv7em-none-eabihf/release/firmware";
+    assert!(built.stderr.contains(&format!("built {elf}")), "{}", built.stderr);
+    assert_eq!(machine.calls(), "build --release --locked\n");
+    let failed = machine.run(&build, &[&settings[..], &[("CARGO_ENDS", "101")]].concat()).exits(1);
+    assert!(failed.stderr.contains("error[E0521]"), "{}", failed.stderr);
+    assert!(failed.stderr.contains("cargo ended with status 101"), "{}", failed.stderr);
+    // A tool that takes no ELF file gets the bytes of one.
+    machine.tool("st-info", "echo Found 1 stlink programmers");
+    machine.tool("st-flash", "echo \"$@\" >> \"$LOG\"");
+    let mut program = vec![0x7F, b'E', b'L', b'F', 1, 1, 1];
+    program.resize(0x74, 0);
+    let mut word =
+        |at: usize, value: u32| program[at..at + 4].copy_from_slice(&value.to_le_bytes());
+    word(0x10, 0x0028_0002);
+    word(0x1C, 0x34);
+    word(0x28, 0x0020_0034);
+    word(0x2C, 1);
+    for (at, value) in [1, 0x54, 0x0800_0000, 0x0800_0000, 0x20, 0x20].into_iter().enumerate() {
+        word(0x34 + 4 * at, value);
+    }
+    program[0x54..].fill(0xA5);
+    fs::create_dir_all(machine.scratch.join(elf).parent().unwrap()).unwrap();
+    fs::write(machine.scratch.join(elf), &program).unwrap();
+    let _ = machine.run(&["flash", "build/firmware/STM32F407G_DISC1"], &settings).exits(0);
+    assert_eq!(fs::read(machine.scratch.join(&format!("{elf}.bin"))).unwrap(), [0xA5; 0x20]);
+    assert!(machine.calls().contains(&format!("--reset write {elf}.bin 0x08000000")));
+}
+
 const BUILD: &[&str] = &["build", "fig2.sense"];
 const FLASH: &[&str] = &["flash", "fig2.sense"];
 

@@ -6,11 +6,14 @@ use std::path::Path;
 use anyhow::{Context as _, Result, ensure};
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target, TargetProfile};
+use sensedsl_board::table::release_name;
 use sensedsl_codegen::fileset::FileSet;
 use sensedsl_codegen::target;
 use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_model::design::Transport;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
+use sensedsl_wiring::{Repair, Solved};
 
 /// Where the designs are, one a kind.
 const DESIGNS: &str = "tests/firmware/kinds";
@@ -37,11 +40,26 @@ pub(super) struct Cell {
 /// What became of a cell before anything is built.
 pub(super) enum Made {
     NotOffered,
-    NoWiring(String),
+    /// Why, and the rules of a board that would help.
+    NoWiring(String, Vec<String>),
     Refused(String),
-    /// The firmware of one board, and the kinds that did not fit.
-    Files(FileSet, Vec<&'static str>),
+    /// The firmware of one board.
+    Files(FileSet, Notes),
 }
+
+/// What a cell says beside its sizes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Notes {
+    /// The kinds that did not fit.
+    pub(super) left_out: Vec<&'static str>,
+    /// What was said of the board, because no pins were free as it comes.
+    pub(super) rules: Vec<String>,
+}
+
+/// More rules than these are not tried.
+const RULES_MAX: usize = 2;
+/// What helps on MCUs whose USB excludes another unit.
+const SERIAL_LINK: &str = "link { transport = uart; }";
 
 /// The boards that a profile covers and the tree knows, with all kinds.
 pub(super) fn all(
@@ -81,7 +99,7 @@ pub(super) fn make(cell: &Cell) -> Made {
     let board = cell.board.replace('-', "_");
     if let Some((_, path)) = EXAMPLES.iter().find(|(name, _)| *name == cell.kind) {
         return match read(path) {
-            Ok(text) => firmware(&text, Some(&cell.board), Vec::new()),
+            Ok(text) => firmware(&text, Some(&cell.board)),
             Err(error) => Made::Refused(format!("{error:#}")),
         };
     }
@@ -92,9 +110,27 @@ pub(super) fn make(cell: &Cell) -> Made {
     if !has(&profile, &cell.kind) {
         return Made::NotOffered;
     }
-    match design(&board, &[&cell.kind]) {
-        Ok(text) => firmware(&text, None, Vec::new()),
-        Err(error) => Made::Refused(format!("{error:#}")),
+    alone(&board, &cell.kind)
+}
+
+/// One kind; where the pins that it needs are taken, with what the tool says would help.
+fn alone(board: &str, kind: &str) -> Made {
+    let mut rules = Vec::new();
+    loop {
+        let text = match design(board, &[kind], &rules) {
+            Ok(text) => text,
+            Err(error) => return Made::Refused(format!("{error:#}")),
+        };
+        match firmware(&text, None) {
+            Made::Files(files, notes) => return Made::Files(files, Notes { rules, ..notes }),
+            Made::NoWiring(_, helps) if rules.len() < RULES_MAX => {
+                let is_new = |rule: &String| !rules.contains(rule);
+                let mut helps = helps.into_iter().chain([SERIAL_LINK.to_owned()]).filter(is_new);
+                let Some(rule) = helps.next() else { return Made::NotOffered };
+                rules.push(rule);
+            }
+            other @ (Made::NoWiring(..) | Made::Refused(_) | Made::NotOffered) => return other,
+        }
     }
 }
 
@@ -104,13 +140,13 @@ fn together<'a>(board: &str, kinds: impl Iterator<Item = &'a &'static str>) -> M
     let mut made = Made::NotOffered;
     for kind in kinds {
         taken.push(kind);
-        let text = match design(board, &taken) {
+        let text = match design(board, &taken, &[]) {
             Ok(text) => text,
             Err(error) => return Made::Refused(format!("{error:#}")),
         };
-        match firmware(&text, None, Vec::new()) {
+        match firmware(&text, None) {
             // Last, because what was there before still fits.
-            Made::NoWiring(_) => {
+            Made::NoWiring(..) => {
                 let _ = taken.pop();
                 left_out.push(kind);
             }
@@ -118,8 +154,8 @@ fn together<'a>(board: &str, kinds: impl Iterator<Item = &'a &'static str>) -> M
         }
     }
     match made {
-        Made::Files(files, _) => Made::Files(files, left_out),
-        other @ (Made::NotOffered | Made::NoWiring(_) | Made::Refused(_)) => other,
+        Made::Files(files, notes) => Made::Files(files, Notes { left_out, ..notes }),
+        other @ (Made::NotOffered | Made::NoWiring(..) | Made::Refused(_)) => other,
     }
 }
 
@@ -140,8 +176,8 @@ fn has(profile: &TargetProfile, kind: &str) -> bool {
 }
 
 /// One design of several kinds.
-fn design(board: &str, kinds: &[&str]) -> Result<String> {
-    let mut devices = String::new();
+fn design(board: &str, kinds: &[&str], rules: &[String]) -> Result<String> {
+    let mut devices: String = rules.iter().map(|rule| format!("    {rule}\n")).collect();
     for kind in kinds {
         let text = read(&format!("{DESIGNS}/{kind}.sense"))?;
         let inside = text.split_once("{\n").and_then(|(_, rest)| rest.rsplit_once('}'));
@@ -165,19 +201,36 @@ impl Files for Alone {
 }
 
 /// Solves and generates.
-fn firmware(text: &str, on: Option<&str>, left_out: Vec<&'static str>) -> Made {
+fn firmware(text: &str, on: Option<&str>) -> Made {
     const NAME: &str = "cell.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);
     let snapshot = workspace.snapshot(NAME, On { board: on, target: None }, &Alone);
     let answer = snapshot.solve(&Ask::default());
     let Some((design, wiring)) = answer.wired() else {
-        return Made::NoWiring(first(&answer.diagnostics));
+        return Made::NoWiring(first(&answer.diagnostics), helps(answer.solved.as_ref()));
     };
     match target::firmware(design, wiring) {
-        Ok(files) => Made::Files(files, left_out),
+        Ok(files) => Made::Files(files, Notes::default()),
         Err(diagnostics) => Made::Refused(first(&diagnostics)),
     }
+}
+
+/// The repairs of the board that leave it a link, the gentlest first.
+fn helps(solved: Option<&Solved>) -> Vec<String> {
+    let Some(Solved::Infeasible(why)) = solved else { return Vec::new() };
+    let rule = |repair: &Repair| match repair {
+        Repair::Release(_, name) => Some(format!("release {};", release_name(name))),
+        Repair::Relink(_, Transport::Uart) => Some(SERIAL_LINK.to_owned()),
+        Repair::Relink(_, Transport::Usb | Transport::None)
+        | Repair::Free(_)
+        | Repair::Share(_)
+        | Repair::Retune(..)
+        | Repair::Move(..)
+        | Repair::Unreserve(..)
+        | Repair::Drop(_) => None,
+    };
+    why.repairs.iter().filter_map(|one| rule(&one.repair)).collect()
 }
 
 /// The first error: what the others come from.

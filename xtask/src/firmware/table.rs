@@ -12,8 +12,9 @@ Each cell is a small design of that kind ([designs](../tests/firmware/kinds)), g
 by `cargo xtask firmware --matrix`. A cell says text, data and bss of the development build in bytes, with shell and
 link. The heap, which is whatever is left, is not counted; link-time optimisation, which saves another tenth, is off.
 `all` is a design with all kinds that the board's MCU has, as far as they fit on its pins together; `fig2` and `car` are
-the paper's examples. `P`: the development build is larger than the MCU's memory, the production build is not. `·`: the
-MCU has no such unit, or ChibiOS no driver for it. `-`: the units are there, but not on free pins of this board. `2 W`
+the paper's examples. `P`: the development build is larger than the MCU's memory, the production build is not. `*`: the
+units are there, but something on the board has their pins, so the design says that they may be used; which rules it
+takes is listed below. `·`: the MCU has no such unit, or ChibiOS no driver for it. `-`: the pins do not suffice. `2 W`
 are two warnings of our own files.
 ";
 
@@ -40,7 +41,10 @@ pub(super) fn page(done: &[Done]) -> String {
         let sizes = |kind: &&str| {
             let is = |one: &&Done| one.cell.board == first.cell.board && one.cell.kind == **kind;
             match done.iter().find(is).map(|one| &one.outcome) {
-                Some(Outcome::Built(built, _)) => built.sizes(),
+                Some(Outcome::Built(built, notes)) => {
+                    let mark = if notes.rules.is_empty() { "" } else { " *" };
+                    format!("{}{mark}", built.sizes())
+                }
                 _ => of(kind),
             }
         };
@@ -100,13 +104,17 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
         let first = built.warnings.first()?;
         Some(format!("{}, the first `{}`", built.warnings.len(), first.replace('`', "'")))
     });
+    list("With rules for the board", &|one| {
+        let Outcome::Built(_, notes) = &one.outcome else { return None };
+        (!notes.rules.is_empty()).then(|| format!("`{}`", notes.rules.join(" ")))
+    });
     list("Without a wiring", &|one| {
         let Outcome::NoWiring(why) = &one.outcome else { return None };
         Some(why.clone())
     });
     list("Left out of `all`", &|one| {
-        let Outcome::Built(_, left_out) = &one.outcome else { return None };
-        (!left_out.is_empty()).then(|| left_out.join(", "))
+        let Outcome::Built(_, notes) = &one.outcome else { return None };
+        (!notes.left_out.is_empty()).then(|| notes.left_out.join(", "))
     });
     text
 }

@@ -9,8 +9,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0313",
     severity: Severity::Error,
     title: "no such target",
-    explanation: r#"A target is an operating system: `chibios` (the newest that is known), `chibios-21.11`, or `none`, the
-paper's pure pin model.
+    explanation: r#"A target is what the firmware runs on: `chibios` or `embassy` (the newest that is known), one of them with its
+version such as `chibios-21.11`, or `none`, the paper's pure pin model.
 
 Way out: use one of these.
 "#,

@@ -1,4 +1,4 @@
-//! E0521: make failed.
+//! E0521: the build failed.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,12 +8,14 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0521",
     severity: Severity::Error,
-    title: "make failed",
-    explanation: r#"Everything that the build needs was there, and make ended with an error, which stands above the message. Where
-it names a file in `user/`, the mistake is in your own code. A `_Static_assert` of `generated/sense_hw.c` says that
+    title: "the build failed",
+    explanation: r#"Everything that the build needs was there, and make or cargo ended with an error, which stands above the message. Where
+it names a file in `user/` or `src/user/`, the mistake is in your own code. A `_Static_assert` of `generated/sense_hw.c` says that
 your ChibiOS tree is not what the wiring was computed for (other clocks, another DMA stream). Where the linker says
 `overflowed by` or `cannot move location counter backwards`, the program is larger than the MCU's memory: `--production`
 leaves the shell out, which saves a third or more.
+
+Cargo downloads the crates of a first build; without a network it names the one that it could not get.
 
 Way out: mend what the first error names. `make -C FOLDER CHIBIOS=… USE_VERBOSE_COMPILE=yes` shows the whole
 commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a bug of SenseDSL.
@@ -23,9 +25,9 @@ commands. An error in a file that SenseDSL wrote, with an unchanged tree, is a b
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The board, and how make ended.
+/// The board, and how `tool` ended.
 #[must_use]
-pub fn build_failed(span: Span, board: &str, how: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("the firmware of {board} was not built: make ended with {how}"))
+pub fn build_failed(span: Span, board: &str, tool: &str, how: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the firmware of {board} was not built: {tool} ended with {how}"))
         .help("mend what the first error above names; nothing was flashed")
 }

@@ -108,6 +108,7 @@ codes! {
     e0520_no_firmware_here,
     e0521_build_failed,
     e0522_not_flashed,
+    e0523_no_core_library,
     e0530_wiring_not_of_the_chip,
     e0531_no_cargo,
     e0532_typecheck_stopped,

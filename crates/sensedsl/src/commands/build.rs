@@ -1,7 +1,8 @@
-//! `sensedsl build`: the firmware of a file, or of a generated folder, built with the user's tree.
+//! `sensedsl build`: the firmware of a file, or of a generated folder, built by make with the user's tree of ChibiOS,
+//! or by cargo.
 //!
 //! Everything that the build needs is looked at first; what is missing is said before a file is
-//! written or compiled. What make says goes to the terminal as it is.
+//! written or compiled. What make and cargo say goes to the terminal as it is.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,14 +14,15 @@ use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
 use super::{generate, input, output};
 use crate::cli::{BuildArgs, GenerateArgs, On, Place};
 use crate::files::{files_below, shown};
-use crate::firmware::{self, Make, Program};
+use crate::firmware::cargo::{self, Cargo};
+use crate::firmware::{self, Build, Make, Program};
 use crate::terminal::Terminal;
 use crate::{Said, Status};
 
 pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
     built(&args.place, terminal, &mut |_| Ok(()), &mut |job| {
         for program in &job.programs {
-            let elf = program.folder.join(job.build()).join("sense.elf");
+            let elf = job.elf(program);
             terminal.note(&format!("built {}\n", visible(&shown(&elf))))?;
         }
         if let [program] = job.programs.as_slice() {
@@ -39,15 +41,29 @@ pub(super) struct Job<'a> {
     pub(super) production: bool,
     /// The command that follows; empty where none does.
     pub(super) after: Vec<String>,
+    /// That command takes raw bytes, and the build makes none.
+    pub(super) makes_raw: bool,
     /// The place of what concerns the whole.
     pub(super) at: Span,
     pub(super) sources: &'a SourceMap,
 }
 
 impl Job<'_> {
-    /// Where make puts what it builds, in a board's folder.
-    pub(super) fn build(&self) -> PathBuf {
-        Path::new("build").join(self.mode())
+    /// The ELF file that is built.
+    pub(super) fn elf(&self, program: &Program) -> PathBuf {
+        match &program.build {
+            Build::Make(_) => program.folder.join("build").join(self.mode()).join("sense.elf"),
+            Build::Cargo(triple) => {
+                let shared = std::env::var_os("CARGO_TARGET_DIR").filter(|one| !one.is_empty());
+                let target = shared.map_or_else(|| program.folder.join("target"), PathBuf::from);
+                target.join(triple).join("release/firmware")
+            }
+        }
+    }
+
+    /// The same as raw bytes.
+    pub(super) fn raw(&self, program: &Program) -> PathBuf {
+        self.elf(program).with_extension("bin")
     }
 
     fn mode(&self) -> &'static str {
@@ -86,13 +102,19 @@ pub(super) fn built(
     let mut sources = SourceMap::default();
     let at = Span::new(sources.add(shown(&path), ""), 0..0);
     let programs = firmware::in_folder(&path)?;
-    let mut job =
-        Job { programs, production: place.production, after: Vec::new(), at, sources: &sources };
-    let (make, tree) = match look(place, &mut job, ground) {
+    let mut job = Job {
+        programs,
+        production: place.production,
+        after: Vec::new(),
+        makes_raw: false,
+        at,
+        sources: &sources,
+    };
+    let builders = match look(place, &mut job, ground) {
         Ok(ready) => ready,
         Err(why) => return job.refuse(*why, Status::Misused, terminal),
     };
-    make_all(&job, make, &tree, terminal)?;
+    build_all(&job, &builders, terminal)?;
     then(&job)
 }
 
@@ -117,10 +139,13 @@ fn of_file(
     generate::made(&args, terminal, &mut |made| {
         let boards = made.assignment.used(made.design);
         let program = |name: &str, mcu: Option<&str>| {
-            let makefile = made.files.get(&format!("firmware/{name}/Makefile"))?;
-            let wants = firmware::Wants::of(&String::from_utf8_lossy(&makefile.bytes));
+            let mut file = |path: &str| {
+                let file = made.files.get(&format!("firmware/{name}/{path}"));
+                Ok(file.map(|file| String::from_utf8_lossy(&file.bytes).into_owned()))
+            };
+            let build = Build::of(&mut file).ok()??;
             let folder = args.output.join("firmware").join(name);
-            Some(Program { board: name.to_owned(), folder, mcu: mcu.map(str::to_owned), wants })
+            Some(Program { board: name.to_owned(), folder, mcu: mcu.map(str::to_owned), build })
         };
         let programs = boards.filter_map(|(_, on)| program(&on.name.value, on.mcu.as_deref()));
         let at = input::place(made.design);
@@ -128,10 +153,11 @@ fn of_file(
             programs: programs.collect(),
             production: place.production,
             after: Vec::new(),
+            makes_raw: false,
             at,
             sources: made.sources,
         };
-        let (make, tree) = match look(place, &mut job, ground) {
+        let builders = match look(place, &mut job, ground) {
             Ok(ready) => ready,
             Err(why) => return job.refuse(*why, Status::Misused, terminal),
         };
@@ -142,7 +168,7 @@ fn of_file(
         let written = changes.missing.len() + changes.different.len();
         let folder = shown(&args.output);
         terminal.note(&format!("wrote {written} files to {}\n", visible(&folder)))?;
-        make_all(&job, make, &tree, terminal)?;
+        build_all(&job, &builders, terminal)?;
         then(&job)
     })
 }
@@ -165,12 +191,18 @@ fn named(place: &Place) -> Result<PathBuf> {
     }
 }
 
+/// What builds, as far as it is needed.
+struct Builders {
+    make: Option<(Make, PathBuf)>,
+    cargo: Option<Cargo>,
+}
+
 /// Looks at everything that building needs, and leaves only the boards that are asked for.
 fn look(
     place: &Place,
     job: &mut Job<'_>,
     ground: &mut Ground<'_>,
-) -> Result<(Make, PathBuf), Box<Diagnostic>> {
+) -> Result<Builders, Box<Diagnostic>> {
     let at = job.at;
     if job.programs.is_empty() {
         let path = place.path.as_deref().unwrap_or(Path::new("."));
@@ -189,33 +221,77 @@ fn look(
             return Err(e0519_which_board::unknown(at, wanted, &all).into());
         }
     }
-    let by_variable = std::env::var_os("CHIBIOS").map(PathBuf::from);
-    let named = place.chibios.clone().or(by_variable);
-    let programs: Vec<&Program> = job.programs.iter().collect();
-    let tree = firmware::tree(named.as_deref(), &programs, at)?;
-    let make = firmware::tools(at)?;
+    let (mut made, mut triples) = (Vec::new(), Vec::new());
+    for program in &job.programs {
+        match &program.build {
+            Build::Make(wants) => made.push((program, wants)),
+            Build::Cargo(triple) => triples.push(triple.as_str()),
+        }
+    }
+    let mut builders = Builders { make: None, cargo: None };
+    if !made.is_empty() {
+        let by_variable = std::env::var_os("CHIBIOS").map(PathBuf::from);
+        let named = place.chibios.clone().or(by_variable);
+        let tree = firmware::tree(named.as_deref(), &made, at)?;
+        builders.make = Some((firmware::tools(at)?, tree));
+    }
+    if !triples.is_empty() {
+        builders.cargo = Some(cargo::cargo(&triples, at)?);
+    }
     ground(job)?;
-    Ok((make, tree))
+    Ok(builders)
 }
 
-/// Calls make for one board after the other.
-fn make_all(job: &Job<'_>, make: Make, tree: &Path, terminal: &Terminal) -> Result<()> {
+/// Builds one board after the other.
+fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<()> {
     for program in &job.programs {
-        let mut command = Command::new(make.0);
-        command.args(["--no-print-directory", "-C"]).arg(&program.folder);
-        let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-        command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", tree.display()));
-        command.arg(format!("UP_MODE={}", job.mode())).stdin(Stdio::null());
-        if terminal.is_quiet() {
-            command.arg("--silent").stdout(Stdio::null());
-        }
-        let status = command.status().with_context(|| format!("cannot run {}", make.0))?;
+        let Some(mut command) = command(job, program, builders, terminal) else { continue };
+        let name = command.get_program().display().to_string();
+        let status = command.status().with_context(|| format!("cannot run {name}"))?;
         if !status.success() {
             let how = firmware::ending(status);
-            let why = e0521_build_failed::build_failed(job.at, &program.board, &how);
+            let why = e0521_build_failed::build_failed(
+                job.at,
+                &program.board,
+                program.build.tool(),
+                &how,
+            );
             let status = job.refuse(why, Status::Wrong, terminal)?;
             anyhow::bail!(Said(status));
         }
     }
     Ok(())
+}
+
+/// The command that builds a board; none where nothing was found that could.
+fn command(
+    job: &Job<'_>,
+    program: &Program,
+    builders: &Builders,
+    terminal: &Terminal,
+) -> Option<Command> {
+    let mut command = match &program.build {
+        Build::Make(_) => {
+            let (make, tree) = builders.make.as_ref()?;
+            let mut command = Command::new(make.0);
+            command.args(["--no-print-directory", "-C"]).arg(&program.folder);
+            let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+            command.arg(format!("-j{jobs}")).arg(format!("CHIBIOS={}", tree.display()));
+            command.arg(format!("UP_MODE={}", job.mode()));
+            if terminal.is_quiet() {
+                command.arg("--silent").stdout(Stdio::null());
+            }
+            command
+        }
+        Build::Cargo(_) => {
+            let mut command = Command::new(&builders.cargo.as_ref()?.0);
+            command.args(["build", "--release", "--locked"]).current_dir(&program.folder);
+            if terminal.is_quiet() {
+                command.arg("--quiet");
+            }
+            command
+        }
+    };
+    command.stdin(Stdio::null());
+    Some(command)
 }

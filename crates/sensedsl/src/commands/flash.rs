@@ -10,7 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, visible};
 use super::build::{Job, built};
 use crate::Status;
 use crate::cli::FlashArgs;
-use crate::firmware::{ending, probe};
+use crate::firmware::{Build, ending, probe, raw};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
@@ -20,8 +20,10 @@ pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
             return Err(e0519_which_board::several(job.at, &names).into());
         };
         let tool = probe::choose(args.with, job.at)?;
-        let build = program.folder.join(job.build());
-        job.after = probe::command(tool, program, &build, job.at)?;
+        let (elf, raw) = (job.elf(program), job.raw(program));
+        job.after = probe::command(tool, program, (&elf, &raw), job.at)?;
+        // Make writes both.
+        job.makes_raw = tool.takes_raw() && matches!(program.build, Build::Cargo(_));
         Ok(())
     };
     built(&args.place, terminal, &mut ground, &mut |job| flash(job, terminal))
@@ -29,6 +31,12 @@ pub(crate) fn run(args: &FlashArgs, terminal: &Terminal) -> Result<Status> {
 
 /// Runs the command that writes.
 fn flash(job: &Job<'_>, terminal: &Terminal) -> Result<Status> {
+    if let Some(program) = job.programs.first().filter(|_| job.makes_raw) {
+        let (elf, raw) = (job.elf(program), job.raw(program));
+        let bytes = std::fs::read(&elf).with_context(|| elf.display().to_string())?;
+        let bytes = raw::of_elf(&bytes).with_context(|| elf.display().to_string())?;
+        std::fs::write(&raw, bytes).with_context(|| raw.display().to_string())?;
+    }
     let shown = job.after.join(" ");
     let Some((tool, arguments)) = job.after.split_first() else { return Ok(Status::Done) };
     terminal.note(&format!("{}\n", visible(&shown)))?;

@@ -47,7 +47,7 @@ fn board(job: &BoardJob<'_>, check: &TypeCheck, terminal: &Terminal) -> Result<V
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let asked = Command::new(&cargo).arg("--version").stdin(Stdio::null()).output();
     if !asked.is_ok_and(|output| output.status.success()) {
-        return Ok(vec![e0531_no_cargo::no_cargo(name.span, &cargo)]);
+        return Ok(vec![e0531_no_cargo::no_cargo(name.span, &cargo, "the type check")]);
     }
     let cache = cache().join("embassy-0.6");
     let folder = cache.join(format!("wiring-{}", std::process::id()));

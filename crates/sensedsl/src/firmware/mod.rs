@@ -1,17 +1,20 @@
 //! Building generated firmware: what it needs of the machine, looked at before anything is built.
 //!
-//! `program` finds the firmware in a generated folder and reads what its Makefile wants, `tree` holds
-//! that against the user's tree of ChibiOS, `tools` looks for make and the compiler, `probe` for what
-//! writes to a board. What is missing comes back as a diagnostic; nothing here says anything.
+//! `program` finds the firmware in a generated folder and reads what builds it: make or cargo. `tree` holds what a
+//! Makefile wants against the user's tree of ChibiOS, `tools` looks for make and the compiler, `cargo` for cargo and
+//! the processor's core library, `probe` for what writes to a board, and `raw` makes the bytes that some of those take.
+//! What is missing comes back as a diagnostic; nothing here says anything.
 
+pub(crate) mod cargo;
 pub(crate) mod probe;
 mod program;
+pub(crate) mod raw;
 mod tools;
 mod tree;
 
 use std::process::{Command, ExitStatus, Stdio};
 
-pub(crate) use program::{Program, Wants, in_folder};
+pub(crate) use program::{Build, Program, Wants, in_folder};
 pub(crate) use tools::{Make, tools};
 pub(crate) use tree::tree;
 

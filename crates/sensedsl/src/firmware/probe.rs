@@ -38,6 +38,14 @@ impl Tool {
         }
     }
 
+    /// Whether it takes raw bytes and no ELF file.
+    pub(crate) fn takes_raw(self) -> bool {
+        match self {
+            Self::StFlash | Self::DfuUtil => true,
+            Self::ProbeRs | Self::Openocd => false,
+        }
+    }
+
     /// How it is asked for boards, and the words of an answer that means none.
     fn look(self) -> Found {
         let (command, arguments, has): (_, &[&str], fn(&str) -> bool) = match self {
@@ -106,33 +114,33 @@ pub(crate) fn choose(wanted: Option<Tool>, at: Span) -> Result<Tool, Box<Diagnos
     Err(tell(at, &list.join(", ")).into())
 }
 
-/// The command that writes what was built in `build` to the board, and starts it.
+/// The command that writes an ELF file to the board, or the same as raw bytes, and starts it.
 pub(crate) fn command(
     tool: Tool,
     program: &Program,
-    build: &Path,
+    (elf, raw): (&Path, &Path),
     at: Span,
 ) -> Result<Vec<String>, Box<Diagnostic>> {
-    let file = |name: &str| build.join(name).display().to_string();
+    let (elf, raw) = (elf.display().to_string(), raw.display().to_string());
     let mcu = || {
         let unknown = || Box::new(e0522_not_flashed::unknown_mcu(at, &program.board, tool.name()));
         program.mcu.as_deref().ok_or_else(unknown)
     };
     let words: Vec<String> = match tool {
         Tool::StFlash => {
-            vec!["--reset".into(), "write".into(), file("sense.bin"), FLASH.into()]
+            vec!["--reset".into(), "write".into(), raw, FLASH.into()]
         }
         Tool::ProbeRs => {
             let chip = chip(mcu()?);
-            vec!["download".into(), "--chip".into(), chip, "--verify".into(), file("sense.elf")]
+            vec!["download".into(), "--chip".into(), chip, "--verify".into(), elf]
         }
         Tool::DfuUtil => {
             let address = format!("{FLASH}:leave");
-            ["-a", "0", "-s", &address, "-D", &file("sense.bin")].map(str::to_owned).into()
+            ["-a", "0", "-s", &address, "-D", &raw].map(str::to_owned).into()
         }
         Tool::Openocd => {
             let target = format!("target/{}.cfg", target(mcu()?));
-            let program = format!("program {{{}}} verify reset exit", file("sense.elf"));
+            let program = format!("program {{{elf}}} verify reset exit");
             ["-f", "interface/stlink.cfg", "-f", &target, "-c", &program].map(str::to_owned).into()
         }
     };

@@ -11,12 +11,42 @@ use crate::files::read_if_there;
 pub(crate) struct Program {
     /// The board's name.
     pub(crate) board: String,
-    /// Where its Makefile is.
+    /// Where its Makefile or its `Cargo.toml` is.
     pub(crate) folder: PathBuf,
     /// The board's MCU, where that is known.
     pub(crate) mcu: Option<String>,
-    /// What the Makefile wants of the tree.
-    pub(crate) wants: Wants,
+    /// What builds it.
+    pub(crate) build: Build,
+}
+
+/// What builds the firmware of a board.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Build {
+    /// GNU make, with a tree of ChibiOS.
+    Make(Wants),
+    /// Cargo, for a target triple such as `thumbv7em-none-eabihf`.
+    Cargo(String),
+}
+
+impl Build {
+    /// Reads it from the text of a board's files, which `file` looks up; none where there is no firmware.
+    pub(crate) fn of(file: &mut dyn FnMut(&str) -> Result<Option<String>>) -> Result<Option<Self>> {
+        if let Some(makefile) = file("Makefile")? {
+            return Ok(Some(Self::Make(Wants::of(&makefile))));
+        }
+        let config = file(".cargo/config.toml")?.unwrap_or_default();
+        let triple = config.lines().find_map(|line| line.trim().strip_prefix("target = \""));
+        let triple = triple.and_then(|rest| rest.split('"').next());
+        Ok(triple.map(|triple| Self::Cargo(triple.to_owned())))
+    }
+
+    /// What people call it.
+    pub(crate) fn tool(&self) -> &'static str {
+        match self {
+            Self::Make(_) => "make",
+            Self::Cargo(_) => "cargo",
+        }
+    }
 }
 
 /// What a Makefile wants of the tree.
@@ -70,16 +100,19 @@ pub(crate) fn in_folder(folder: &Path) -> Result<Vec<Program>> {
 
 /// The firmware of one board, where the folder is one.
 fn program(folder: &Path, mcus: &[(String, String)]) -> Result<Option<Program>> {
-    if !folder.join("generated").is_dir() {
+    if !folder.join("generated").is_dir() && !folder.join("src/wiring.rs").is_file() {
         return Ok(None);
     }
-    let Some(makefile) = read_if_there(&folder.join("Makefile"))? else { return Ok(None) };
+    let mut file = |path: &str| -> Result<Option<String>> {
+        let bytes = read_if_there(&folder.join(path))?;
+        Ok(bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()))
+    };
+    let Some(build) = Build::of(&mut file)? else { return Ok(None) };
     // The folder may be called `.`.
     let named = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let board = named.file_name().map_or_else(String::new, |name| name.display().to_string());
     let mcu = mcus.iter().find(|(name, _)| *name == board).map(|(_, mcu)| mcu.clone());
-    let wants = Wants::of(&String::from_utf8_lossy(&makefile));
-    Ok(Some(Program { board, folder: folder.to_path_buf(), mcu, wants }))
+    Ok(Some(Program { board, folder: folder.to_path_buf(), mcu, build }))
 }
 
 /// The MCUs of the boards of an answer; none where there is no answer.
@@ -95,6 +128,19 @@ fn mcus(answer: &Path) -> Result<Vec<(String, String)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_project_says_what_builds_it() {
+        let of = |name: &'static str, text: &'static str| {
+            let mut file = |path: &str| Ok((path == name).then(|| text.to_owned()));
+            Build::of(&mut file).unwrap()
+        };
+        let config = "# A comment.\n[build]\ntarget = \"thumbv6m-none-eabi\"\n";
+        let triple = Build::Cargo("thumbv6m-none-eabi".to_owned());
+        assert_eq!(of(".cargo/config.toml", config), Some(triple));
+        assert_eq!(of("Makefile", ""), Some(Build::Make(Wants::default())));
+        assert_eq!(of("README.md", ""), None);
+    }
 
     #[test]
     fn a_makefile_says_what_it_wants() {

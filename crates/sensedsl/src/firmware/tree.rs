@@ -7,7 +7,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span};
 
-use super::Program;
+use super::{Program, Wants};
 
 /// The file without which a folder is not a tree.
 const KERNEL: &str = "os/rt/rt.mk";
@@ -22,10 +22,10 @@ const OF_CFG: [&str; 3] = ["chconf.h", "halconf.h", "mcuconf.h"];
 /// The full path of the tree that is named, once it is known to be one that the programs build with.
 pub(crate) fn tree(
     named: Option<&Path>,
-    programs: &[&Program],
+    programs: &[(&Program, &Wants)],
     at: Span,
 ) -> Result<PathBuf, Box<Diagnostic>> {
-    let version = programs.first().map_or("", |program| program.wants.version.as_str());
+    let version = programs.first().map_or("", |(_, wants)| wants.version.as_str());
     let Some(named) = named.filter(|named| !named.as_os_str().is_empty()) else {
         return Err(e0512_no_tree::no_tree(at, version).into());
     };
@@ -52,8 +52,8 @@ pub(crate) fn tree(
     if !version.is_empty() && !is_of(&found, version) {
         return Err(e0514_other_tree::other_tree(at, &shown, &found, version).into());
     }
-    for program in programs {
-        let missing = missing(&tree, program);
+    for (program, wants) in programs {
+        let missing = missing(&tree, wants);
         if !missing.is_empty() {
             let board = &program.board;
             return Err(e0515_tree_incomplete::tree_incomplete(at, &shown, board, &missing).into());
@@ -88,9 +88,9 @@ fn is_of(found: &str, version: &str) -> bool {
 
 /// What the tree lacks for a board. A folder that the Makefile names as a demo's configuration must have
 /// the files that ours include.
-fn missing(tree: &Path, program: &Program) -> Vec<String> {
+fn missing(tree: &Path, wants: &Wants) -> Vec<String> {
     let mut missing = Vec::new();
-    for path in &program.wants.paths {
+    for path in &wants.paths {
         let there = tree.join(path);
         if !there.exists() {
             missing.push(path.clone());

@@ -1,0 +1,46 @@
+//! The bytes of a program as they stand in the flash, for tools that take no ELF file.
+
+use anyhow::{Result, bail};
+use object::Endianness;
+use object::elf::{FileHeader32, PT_LOAD};
+use object::read::elf::{FileHeader as _, ProgramHeader as _};
+
+/// What erased flash reads.
+const ERASED: u8 = 0xFF;
+/// No microcontroller has more flash.
+const FLASH_BYTES_MAX: u64 = 16 << 20;
+
+/// The bytes from the lowest load address of a 32-bit ELF file to its highest.
+///
+/// # Errors
+///
+/// When it is no such file, or is larger than any flash.
+pub(crate) fn of_elf(elf: &[u8]) -> Result<Vec<u8>> {
+    let header = FileHeader32::<Endianness>::parse(elf)?;
+    let endian = header.endian()?;
+    let mut parts: Vec<(u64, &[u8])> = Vec::new();
+    for segment in header.program_headers(endian, elf)? {
+        let Ok(data) = segment.data(endian, elf) else { bail!("a segment is cut off") };
+        if segment.p_type(endian) == PT_LOAD && !data.is_empty() {
+            parts.push((segment.p_paddr(endian).into(), data));
+        }
+    }
+    let Some(begin) = parts.iter().map(|(address, _)| *address).min() else {
+        bail!("nothing of it is loaded");
+    };
+    let mut bytes = Vec::new();
+    for (address, data) in parts {
+        let offset = address - begin;
+        if offset + data.len() as u64 > FLASH_BYTES_MAX {
+            bail!("its parts are farther apart than any flash is large");
+        }
+        let offset = usize::try_from(offset)?;
+        if bytes.len() < offset + data.len() {
+            bytes.resize(offset + data.len(), ERASED);
+        }
+        if let Some(place) = bytes.get_mut(offset..offset + data.len()) {
+            place.copy_from_slice(data);
+        }
+    }
+    Ok(bytes)
+}
