@@ -34,16 +34,14 @@ pub(crate) fn program(name: &str, text: &str) -> Option<PathBuf> {
 
 /// Builds a project without optimisation at link time, which takes long and changes nothing here.
 fn build(board: &Path) -> PathBuf {
+    let config = std::fs::read_to_string(board.join(".cargo/config.toml")).unwrap();
+    let triple = config.split("target = \"").nth(1).unwrap().split('"').next().unwrap();
     let target = root().join("target/embassy-build");
     let _alone = FOLDER.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
-    let settings = [
-        "target.thumbv7em-none-eabihf.linker=\"arm-none-eabi-ld\"",
-        "profile.release.lto=false",
-        "profile.release.codegen-units=16",
-    ];
-    for setting in settings {
+    let linker = format!("target.{triple}.linker=\"arm-none-eabi-ld\"");
+    for setting in [&linker, "profile.release.lto=false", "profile.release.codegen-units=16"] {
         cargo.args(["--config", setting]);
     }
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", "/usr/bin/rustc").env_remove("RUSTFLAGS");
@@ -51,7 +49,29 @@ fn build(board: &Path) -> PathBuf {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && !said.contains("warning"), "{said}");
     let program = board.join("firmware.elf");
-    let built = target.join("thumbv7em-none-eabihf/release/firmware");
+    let built = target.join(triple).join("release/firmware");
     let _ = std::fs::copy(built, &program).unwrap();
     program
+}
+
+/// The cores that families have beside the Cortex-M4, whose images run on the emulated MCU: M0, M3 and M33.
+#[test]
+fn an_image_for_each_core_links() {
+    for (board, core) in [
+        ("NUCLEO_F072RB", "Tag_CPU_arch: v6S-M"),
+        ("NUCLEO_L152RE", "Tag_CPU_arch: v7"),
+        ("NUCLEO_H563ZI", "Tag_CPU_arch: v8-M.mainline"),
+    ] {
+        let text = format!(
+            "board {board} {{\n\
+             sensor Light returns uint16 {{ type = analog; }}\n\
+             sensor Range returns uint16 {{ type = i2c; driver = srf08; address = 0x70; }}\n\
+             sensor Wheel returns uint32 {{ type = icu; }}\n\
+             actuator Servo accepts uint16 {{ type = pwm; frequency = 50 Hz; failsafe = 1500; }}\n}}\n"
+        );
+        let Some(elf) = program(&format!("core_{board}"), &text) else { return };
+        let read = Command::new("arm-none-eabi-readelf").args(["-hA"]).arg(&elf).output().unwrap();
+        let read = String::from_utf8_lossy(&read.stdout).into_owned();
+        assert!(read.contains("EXEC (Executable file)") && read.contains(core), "{board}: {read}");
+    }
 }

@@ -116,20 +116,23 @@ pub(super) fn make(cell: &Cell) -> Made {
 /// One kind; where the pins that it needs are taken, with what the tool says would help.
 fn alone(board: &str, kind: &str) -> Made {
     let mut rules = Vec::new();
+    let mut first = None;
     loop {
         let text = match design(board, &[kind], &rules) {
             Ok(text) => text,
             Err(error) => return Made::Refused(format!("{error:#}")),
         };
-        match firmware(&text, None) {
+        let (why, helps) = match firmware(&text, None) {
             Made::Files(files, notes) => return Made::Files(files, Notes { rules, ..notes }),
-            Made::NoWiring(_, helps) if rules.len() < RULES_MAX => {
-                let is_new = |rule: &String| !rules.contains(rule);
-                let mut helps = helps.into_iter().chain([SERIAL_LINK.to_owned()]).filter(is_new);
-                let Some(rule) = helps.next() else { return Made::NotOffered };
-                rules.push(rule);
-            }
-            other @ (Made::NoWiring(..) | Made::Refused(_) | Made::NotOffered) => return other,
+            Made::NoWiring(why, helps) => (why, helps),
+            other @ (Made::Refused(_) | Made::NotOffered) => return other,
+        };
+        let why = first.get_or_insert(why);
+        let is_new = |rule: &String| !rules.contains(rule);
+        let mut helps = helps.into_iter().chain([SERIAL_LINK.to_owned()]).filter(is_new);
+        match helps.next().filter(|_| rules.len() < RULES_MAX) {
+            Some(rule) => rules.push(rule),
+            None => return Made::NoWiring(why.clone(), Vec::new()),
         }
     }
 }
