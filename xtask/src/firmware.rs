@@ -1,13 +1,15 @@
 //! `cargo xtask firmware --matrix`: the firmware of small designs, one a kind, for every board that a
 //! profile covers, built with the tree of ChibiOS that `CHIBIOS` names.
 //!
-//! `cells` makes designs and firmware, `build` calls make and reads what comes of it, `table` prints.
+//! `cells` makes designs and firmware, `build` calls make and reads what comes of it, `table` prints; `rust` is the same
+//! for Embassy, as far as a PC can judge it.
 //! Everything is built in a scratch folder, one a board. A cell is a whole program with its own
 //! configuration, so its sizes are those of a user's; what is the same in many cells is compiled once, with
 //! `ccache` on the machine also what is the same on many boards.
 
 mod build;
 mod cells;
+mod rust;
 mod table;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,6 +88,11 @@ enum Outcome {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
+    if let Some((word, rest)) = arguments.split_first()
+        && word == "--embassy"
+    {
+        return rust::run(rest);
+    }
     let options = Options::read(arguments)?;
     let tree = std::env::var("CHIBIOS").context("CHIBIOS does not name a ChibiOS tree")?;
     let tree = Path::new(&tree).canonicalize().with_context(|| tree.clone())?;

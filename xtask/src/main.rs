@@ -45,7 +45,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
+            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
         ),
     }
 }

@@ -50,8 +50,12 @@ pub(super) enum Made {
 /// What a cell says beside its sizes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Notes {
+    /// The kinds of a design with several.
+    pub(super) taken: Vec<&'static str>,
     /// The kinds that did not fit.
     pub(super) left_out: Vec<&'static str>,
+    /// The kinds that the target has no code for, and why.
+    pub(super) refused: Vec<(&'static str, String)>,
     /// What was said of the board, because no pins were free as it comes.
     pub(super) rules: Vec<String>,
 }
@@ -73,7 +77,7 @@ pub(super) fn all(
     for entry in catalog::all() {
         let wanted = boards.is_none_or(|wanted| wanted.contains(entry.name));
         let in_tree = entry.board().is_ok_and(|board| board.chibios.is_some());
-        if let (true, true, Some(profile)) = (wanted, in_tree, profile_of(entry.mcu)) {
+        if let (true, true, Some(profile)) = (wanted, in_tree, profile_of(None, entry.mcu)) {
             cells.extend(columns.iter().map(|kind| Cell {
                 board: entry.name.to_owned(),
                 family: profile.family.clone(),
@@ -86,8 +90,8 @@ pub(super) fn all(
     Ok(cells)
 }
 
-fn profile_of(mcu: &str) -> Option<std::sync::Arc<TargetProfile>> {
-    match profile::find(profile::DEFAULT, mcu) {
+fn profile_of(target: Option<&str>, mcu: &str) -> Option<std::sync::Arc<TargetProfile>> {
+    match profile::find(target.unwrap_or(profile::DEFAULT), mcu) {
         Ok(Target::Profile(profile)) => Some(profile.into()),
         Ok(Target::None) | Err(_) => None,
     }
@@ -95,22 +99,30 @@ fn profile_of(mcu: &str) -> Option<std::sync::Arc<TargetProfile>> {
 
 /// The firmware of a cell.
 pub(super) fn make(cell: &Cell) -> Made {
-    let Some(profile) = profile_of(cell.mcu) else { return Made::NotOffered };
+    let Some(profile) = profile_of(None, cell.mcu) else { return Made::NotOffered };
     let board = cell.board.replace('-', "_");
     if let Some((_, path)) = EXAMPLES.iter().find(|(name, _)| *name == cell.kind) {
         return match read(path) {
-            Ok(text) => firmware(&text, Some(&cell.board)),
+            Ok(text) => firmware(&text, On { board: Some(&cell.board), target: None }),
             Err(error) => Made::Refused(format!("{error:#}")),
         };
     }
     let offered = |kind: &&&str| has(&profile, kind);
     if cell.kind == ALL {
-        return together(&board, KINDS.iter().filter(offered));
+        return together(&board, None, KINDS.iter().filter(offered));
     }
     if !has(&profile, &cell.kind) {
         return Made::NotOffered;
     }
     alone(&board, &cell.kind)
+}
+
+/// All kinds that a board's MCU has under another target, as far as they fit together; none where the target does not
+/// cover the MCU.
+pub(super) fn all_on(board: &str, mcu: &str, target: &str) -> Option<Made> {
+    let profile = profile_of(Some(target), mcu)?;
+    let offered = KINDS.iter().filter(|kind| has(&profile, kind));
+    Some(together(&board.replace('-', "_"), Some(target), offered))
 }
 
 /// One kind; where the pins that it needs are taken, with what the tool says would help.
@@ -122,7 +134,7 @@ fn alone(board: &str, kind: &str) -> Made {
             Ok(text) => text,
             Err(error) => return Made::Refused(format!("{error:#}")),
         };
-        let (why, helps) = match firmware(&text, None) {
+        let (why, helps) = match firmware(&text, On::default()) {
             Made::Files(files, notes) => return Made::Files(files, Notes { rules, ..notes }),
             Made::NoWiring(why, helps) => (why, helps),
             other @ (Made::Refused(_) | Made::NotOffered) => return other,
@@ -137,27 +149,36 @@ fn alone(board: &str, kind: &str) -> Made {
     }
 }
 
-/// As many kinds as have a wiring together, the first ones first.
-fn together<'a>(board: &str, kinds: impl Iterator<Item = &'a &'static str>) -> Made {
-    let (mut taken, mut left_out): (Vec<&str>, Vec<&'static str>) = (Vec::new(), Vec::new());
+/// As many kinds as have a wiring together, the first ones first; those that the target has no code for are left out
+/// with the reason.
+fn together<'a>(
+    board: &str,
+    target: Option<&str>,
+    kinds: impl Iterator<Item = &'a &'static str>,
+) -> Made {
+    let mut notes = Notes::default();
     let mut made = Made::NotOffered;
     for kind in kinds {
-        taken.push(kind);
-        let text = match design(board, &taken, &[]) {
+        notes.taken.push(kind);
+        let text = match design(board, &notes.taken, &[]) {
             Ok(text) => text,
             Err(error) => return Made::Refused(format!("{error:#}")),
         };
-        match firmware(&text, None) {
+        match firmware(&text, On { board: None, target }) {
             // Last, because what was there before still fits.
             Made::NoWiring(..) => {
-                let _ = taken.pop();
-                left_out.push(kind);
+                let _ = notes.taken.pop();
+                notes.left_out.push(kind);
+            }
+            Made::Refused(why) if target.is_some() => {
+                let _ = notes.taken.pop();
+                notes.refused.push((kind, why));
             }
             other @ (Made::Files(..) | Made::Refused(_) | Made::NotOffered) => made = other,
         }
     }
     match made {
-        Made::Files(files, notes) => Made::Files(files, Notes { left_out, ..notes }),
+        Made::Files(files, _) => Made::Files(files, notes),
         other @ (Made::NotOffered | Made::NoWiring(..) | Made::Refused(_)) => other,
     }
 }
@@ -204,11 +225,11 @@ impl Files for Alone {
 }
 
 /// Solves and generates.
-fn firmware(text: &str, on: Option<&str>) -> Made {
+fn firmware(text: &str, on: On<'_>) -> Made {
     const NAME: &str = "cell.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);
-    let snapshot = workspace.snapshot(NAME, On { board: on, target: None }, &Alone);
+    let snapshot = workspace.snapshot(NAME, on, &Alone);
     let answer = snapshot.solve(&Ask::default());
     let Some((design, wiring)) = answer.wired() else {
         return Made::NoWiring(first(&answer.diagnostics), helps(answer.solved.as_ref()));

@@ -120,7 +120,7 @@ fn summary(done: &[Done], boards: &[&Done]) -> String {
 }
 
 /// An item of a list, in lines as long as prose may be.
-fn wrapped(item: &str) -> String {
+pub(super) fn wrapped(item: &str) -> String {
     const LETTERS: usize = 120;
     let mut text = String::new();
     let mut letters = 0;
