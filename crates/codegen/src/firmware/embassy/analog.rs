@@ -8,9 +8,9 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, late, scalar};
-use super::filter;
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
+use super::{chip, filter};
 use crate::job::Cycle;
 use crate::print::snake;
 
@@ -145,8 +145,8 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         Some(plan) => {
             let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
             format!(
-                "rt::analog::Value::Computed(&sense_rt::{}, {}, &[{}])",
-                plan.formula.trim_start_matches("up_formula_").to_uppercase(),
+                "rt::analog::Value::Computed(&{}, {}, &[{}])",
+                chip::formula(plan.formula),
                 plan.output,
                 parameters.join(", ")
             )

@@ -9,9 +9,7 @@ use super::context::{Context, Wired, scalar};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
 use crate::job::JobConnection;
-
-/// The level of an output that is always on.
-const FULL: u32 = 10_000;
+use crate::part::BridgePlan;
 
 /// Whether the outputs of a device are those of a bridge.
 pub(super) fn is_bridge(wired: &Wired<'_>) -> bool {
@@ -20,8 +18,9 @@ pub(super) fn is_bridge(wired: &Wired<'_>) -> bool {
 
 pub(super) fn plan(context: &Context<'_>, section: &mut Section) {
     for wired in context.wired(KindName::Pwm) {
-        if let Some(drive) = wired.device.device.coding.drive {
-            bridge(context, &wired, drive, section);
+        let mut all = context.job.parts.iter().flat_map(|part| &part.plan.bridges);
+        if let Some(plan) = all.find(|plan| plan.field == wired.device.name()) {
+            bridge(context, &wired, plan, section);
         }
     }
 }
@@ -29,16 +28,17 @@ pub(super) fn plan(context: &Context<'_>, section: &mut Section) {
 fn bridge(
     context: &Context<'_>,
     wired: &Wired<'_>,
-    drive: Drive,
+    plan: &BridgePlan,
     section: &mut Section,
 ) -> Option<()> {
     let (ident, upper) = (&wired.device.ident, wired.device.ident.to_uppercase());
-    let mode = match drive {
+    let mode = match plan.drive {
         Drive::DirectionPins => "DirectionPins",
         Drive::TwoPwm => "TwoPwm",
     };
     section.tables.push(format!(
-        "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {FULL} }};"
+        "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {} }};",
+        plan.full
     ));
     section.outputs.push(Field {
         name: format!("{ident}_bridge"),

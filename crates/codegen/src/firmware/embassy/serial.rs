@@ -2,7 +2,7 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
@@ -296,7 +296,7 @@ impl Port<'_> {
 
 /// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
 fn gap_ms(uart: &Uart, plan: &MessagePlan) -> u32 {
-    let is_told = plan.checksum != "UP_CHECKSUM_NONE" || !uart.end.is_empty();
+    let is_told = plan.checksum != MessageChecksum::None || !uart.end.is_empty();
     let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
     if is_told { 0 } else { two_characters_ms.max(2) }
 }

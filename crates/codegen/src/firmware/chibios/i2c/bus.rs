@@ -103,7 +103,7 @@ pub(super) fn plan(
 /// The addresses that devices have, for the self test.
 fn probe(context: &Context<'_>, port: &Port, on_bus: &[&JobConnection<'_>]) -> Probe {
     let plans = on_bus.iter().filter_map(|one| chips::plan_of(context.job, one));
-    let mut expected: Vec<String> = plans.map(|plan| plan.address.clone()).collect();
+    let mut expected: Vec<u8> = plans.map(|plan| plan.address).collect();
     expected.sort();
     expected.dedup();
     Probe {
