@@ -8,42 +8,36 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, late, scalar};
+use super::lack::{self, Made};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
 use crate::job::Cycle;
 use crate::print::snake;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let mut units = BTreeSet::new();
     for ((unit, cycle), devices) in context.classes(KindName::Analog) {
+        let Some(part) = devices.first().map(|one| one.first.part) else { continue };
         if units.insert(unit.clone()) {
-            self::unit(context, &unit, &mut section);
+            let made = self::unit(context, &unit, &mut section);
+            context.tell(part, made, diagnostics);
         }
-        for wire in devices.iter().flat_map(|one| &one.wires) {
-            let Some(pad) = wire.pad(Role::In) else { continue };
-            section.fields.push(Field {
-                name: wire.ident.clone(),
-                comment: wire.place(),
-                type_: format!("Peri<'static, {}>", pad.pin.name),
-                make: format!("p.{}", pad.pin.name),
-            });
-        }
-        task(context, &unit, cycle, &devices, &mut section);
+        let made = task(context, &unit, cycle, &devices, &mut section);
+        context.tell(part, made, diagnostics);
     }
     section
 }
 
 /// The converter, which tasks of several cycles share.
-fn unit(context: &Context<'_>, unit: &str, section: &mut Section) {
+fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Made<()> {
     let (name, hal) = (snake(unit), context.peripheral(unit));
     let make = match context.names.adc.new {
         AdcNew::Unit => format!("Adc::new(p.{hal})"),
         AdcNew::Interrupt => {
-            if let Some(interrupt) = context.names.interrupt(unit, "GLOBAL") {
-                section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
-            }
+            let interrupt = context.interrupt(unit, "GLOBAL")?;
+            section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
             format!("Adc::new(p.{hal}, Irqs)")
         }
         AdcNew::Resolution => format!("Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
@@ -63,6 +57,7 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) {
         "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
     )));
     section.runtime.insert("analog.rs");
+    Ok(())
 }
 
 fn task(
@@ -71,13 +66,21 @@ fn task(
     cycle: Cycle,
     devices: &[Wired<'_>],
     section: &mut Section,
-) {
+) -> Made<()> {
     let ident = cycle.ident(unit);
     let constant = ident.to_uppercase();
     let wires: Vec<_> = devices.iter().flat_map(|one| &one.wires).collect();
-    let pins = wires.iter().filter_map(|wire| {
-        Some(format!("    mut {}: Peri<'static, {}>,\n", wire.ident, wire.pad(Role::In)?.pin.name))
-    });
+    let mut pins = String::new();
+    for wire in &wires {
+        let pin = &lack::pad(wire, Role::In)?.pin.name;
+        pins.push_str(&format!("    mut {}: Peri<'static, {pin}>,\n", wire.ident));
+        section.fields.push(Field {
+            name: wire.ident.clone(),
+            comment: wire.place(),
+            type_: format!("Peri<'static, {pin}>"),
+            make: format!("p.{pin}"),
+        });
+    }
     let (mut state, mut reads) = (String::new(), String::new());
     for device in devices {
         let mut own = String::new();
@@ -85,14 +88,13 @@ fn task(
         if !own.is_empty() {
             state.push_str(&format!("    {own}"));
         }
-        reads.push_str(&read(context, device, &pass));
+        reads.push_str(&read(context, device, &pass)?);
     }
     let mut text = format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n    unit: &'static {unit}Unit,\n{}) {{\n{}{state}    \
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n    unit: &'static {unit}Unit,\n{pins}) {{\n{}{state}    \
          let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n        \
          let mut adc = unit.lock().await;\n",
         cycle.title(unit),
-        pins.collect::<String>(),
         late(cycle),
         cycle.delay_ms,
     );
@@ -107,13 +109,12 @@ fn task(
     section.starts.push(Start::Task(cycle.prio, call));
     let device = wires.first().map_or(0, |wire| context.id_of(wire));
     section.watched.push(Watched::new(constant, cycle, device));
+    Ok(())
 }
 
 /// Samples one device, whose inputs are converted one right after the other.
-fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
-    let Some(analog) = wired.wires.first().and_then(|one| one.connection.kind.analog()) else {
-        return String::new();
-    };
+fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> Made<String> {
+    let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
     let time = sampling(&context.profile.adc, analog.sampling_cycles);
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
@@ -137,10 +138,8 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
     }
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
-    let formula = wired.wires.first().and_then(|one| {
-        let mut formulas = context.job.tables_of(one)?.formulas.iter();
-        formulas.find(|plan| plan.field == wired.device.name())
-    });
+    let mut formulas = context.job.tables_of(wired.first).into_iter().flat_map(|one| &one.formulas);
+    let formula = formulas.find(|plan| plan.field == wired.device.name());
     let how = match formula {
         Some(plan) => {
             let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
@@ -158,7 +157,7 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         scalar(value.scalar),
         value.size_bytes(),
     ));
-    text
+    Ok(text)
 }
 
 /// `CYCLES84`, `CYCLES1_5`

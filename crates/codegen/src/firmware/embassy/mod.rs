@@ -19,6 +19,7 @@ mod gaps;
 mod i2c;
 mod icu;
 mod inputs;
+mod lack;
 mod levels;
 mod link;
 mod message;

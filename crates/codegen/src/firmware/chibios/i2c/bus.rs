@@ -14,7 +14,7 @@ use crate::firmware::chibios::chips;
 use crate::firmware::chibios::context::{Context, Drive, PadPlan};
 use crate::firmware::chibios::names::Setting;
 use crate::firmware::chibios::section::{Counter, GuardPlan, Probe, Section, Size};
-use crate::job::JobConnection;
+use crate::job::{JobConnection, by_unit};
 use crate::print::{block, snake};
 
 /// Time for a device to think, beside the bits.
@@ -125,12 +125,7 @@ fn busy(context: &Context<'_>, ports: &[Port]) -> Option<Setting> {
 }
 
 fn buses<'a>(context: &Context<'a>) -> Buses<'a> {
-    let mut buses = Buses::new();
-    for one in context.connections(KindName::I2c) {
-        let Some(unit) = one.unit.map(UnitName::new) else { continue };
-        buses.entry(unit).or_default().push(one);
-    }
-    buses
+    by_unit(context.connections(KindName::I2c))
 }
 
 impl Port {
