@@ -2,11 +2,11 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::Connection;
-use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
 use super::context::{Context, Wired, scalar};
-use super::lack::Made;
+use super::lack::{self, Made};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
 use crate::job::JobConnection;
@@ -87,6 +87,7 @@ fn outputs<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Vec<&'a JobConnectio
 /// What writes one output.
 fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Made<String> {
     if let Some(own) = wire.connection.kind.digital() {
+        lack::pad(wire, Role::Out)?;
         return Ok(format!(
             "{at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}), ",
             wire.ident,

@@ -51,7 +51,10 @@ fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
 
 /// The output of a pin; inputs have none.
 fn pin(wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
-    let Some(pad) = wire.pad(Role::Out) else { return Ok(()) };
+    if wire.pad(Role::In).is_some() {
+        return Ok(());
+    }
+    let pad = lack::pad(wire, Role::Out)?;
     let own = lack::kind(wire.connection.kind.digital())?;
     let initial = level_of(own, own.initial);
     section.outputs.push(Field {
