@@ -297,15 +297,45 @@ fn what_types_take_the_profile_refuses() {
 #[test]
 fn nothing_is_left_out_in_silence() {
     let kinds = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
-    let more = "sensor Near returns uint32 { id = 18; driver = hcsr04; }
-                actuator Pair accepts uint16[2] { id = 19; driver = servo; } }";
-    let text = format!("{}\n{more}", kinds.trim_end().trim_end_matches('}'));
-    with_job(&text, Some("embassy"), is_told);
+    with_job(&kinds, Some("embassy"), |job| {
+        is_told(job);
+        no_interrupt(job, &["Heading", "Angle", "Speed", "Drops", "Ahead", "Torque"]);
+    });
+    with_job(MORE, Some("embassy"), |job| {
+        is_told(job);
+        no_interrupt(job, &["Near"]);
+    });
 }
 
+/// What else there is of several wires.
+const MORE: &str = "
+board NUCLEO_F429ZI {
+    sensor Near returns uint32 { id = 1; driver = hcsr04; }
+    sensor Light returns uint16[2] { id = 2; type = analog; pin = [PF3, PA6]; }
+    actuator Pair accepts uint16[2] { id = 3; driver = servo; }
+}
+";
+
+/// Generates the firmware without the interrupts of its profile.
+fn no_interrupt(job: &BoardJob<'_>, names: &[&str]) {
+    let mut profile = job.profile.unwrap().clone();
+    profile.own.file.get_mut("interrupts").unwrap().as_array_mut().unwrap().clear();
+    let less = BoardJob { profile: Some(&profile), ..job.clone() };
+    let told = target::of(&profile).unwrap().generate(&less).unwrap_err();
+    for name in names {
+        let is_told = told.iter().any(|one| one.message.contains(&format!("`{name}` needs")));
+        assert!(is_told, "{name}: {told:?}");
+    }
+}
+
+/// Generates the firmware without the pins, the unit or the DMA of each wire.
 fn is_told(job: &BoardJob<'_>) {
     let target = target::of(job.profile.unwrap()).unwrap();
-    assert!(target.generate(job).is_ok() && target::gaps(job).is_empty());
+    assert!(
+        target.generate(job).is_ok() && target::gaps(job).is_empty(),
+        "{:?}",
+        target.generate(job)
+    );
     for (index, one) in job.connections.iter().enumerate() {
         let is_shared = |other: &JobConnection<'_>| one.unit.is_some() && other.unit == one.unit;
         let own: Vec<usize> = (0..job.connections.len())
@@ -327,13 +357,17 @@ fn is_told(job: &BoardJob<'_>) {
             without(|wire| wire.streams.clear());
         }
     }
-    // Without names of interrupts.
-    let mut profile = job.profile.unwrap().clone();
-    profile.own.file.get_mut("interrupts").unwrap().as_array_mut().unwrap().clear();
-    let less = BoardJob { profile: Some(&profile), ..job.clone() };
-    let told = target.generate(&less).unwrap_err();
-    for name in ["Heading", "Angle", "Speed", "Drops", "Ahead", "Torque", "Near"] {
-        let is_told = told.iter().any(|one| one.message.contains(&format!("`{name}` needs")));
-        assert!(is_told, "{name}: {told:?}");
-    }
+}
+
+/// The clock needs a timer, too.
+#[test]
+fn devices_that_take_all_timers_are_told() {
+    let kinds = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
+    let more = "sensor Near returns uint32 { id = 18; driver = hcsr04; }
+                actuator Pair accepts uint16[2] { id = 19; driver = servo; } }";
+    let text = format!("{}\n{more}", kinds.trim_end().trim_end_matches('}'));
+    with_job(&text, Some("embassy"), |job| {
+        let told = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap_err();
+        assert!(told[0].message.contains("no timer for Embassy's clock"), "{told:?}");
+    });
 }

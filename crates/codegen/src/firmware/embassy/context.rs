@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
@@ -33,13 +35,21 @@ pub(super) struct Wired<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// `None` when Embassy has no chip of the board's name, or the profile no timer for the clock.
-    pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
-        let profile = job.profile?;
-        let names = Names::of(profile).ok()?;
-        let chip = names.chip(job.board.mcu.as_deref()?)?;
-        let timer = super::clock::timer(job, profile)?;
-        Some(Self { job, profile, names, chip, timer })
+    /// Fails if Embassy does not support the board's MCU, or if the devices leave no timer for its clock.
+    pub(super) fn new(job: &'a BoardJob<'a>) -> Result<Self, Diagnostic> {
+        let board = &job.board.name;
+        let lack = |why: &str| no_firmware_target(board.span, &board.value, why);
+        let profile = job.profile.ok_or_else(|| lack("it has no target profile"))?;
+        let names = Names::of(profile).map_err(|error| lack(&error))?;
+        let chip = job.board.mcu.as_deref().and_then(|mcu| names.chip(mcu));
+        let chip = chip.ok_or_else(|| lack("Embassy does not support its MCU"))?;
+        let timer = super::clock::timer(job, profile).ok_or_else(|| {
+            let timers = profile.kernel.timers.join(", ");
+            lack(&format!(
+                "its devices leave no timer for Embassy's clock, which runs on one of {timers}"
+            ))
+        })?;
+        Ok(Self { job, profile, names, chip, timer })
     }
 
     /// The connections of a kind, in the design's order. Those that no code is made for are left out: they are told as
