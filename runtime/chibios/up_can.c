@@ -251,9 +251,14 @@ void up_can_cycle(const void *work) {
 /* ---- what goes out ---- */
 
 void up_can_set(const up_can_frame_t *frame, const up_can_value_t *how, const void *value) {
-  (void)up_value_encode(&how->value, &up_config.schema->fields[how->field], value, &frame->data[how->byte],
-                        (size_t)frame->bytes - how->byte);
-  *frame->is_due = true;
+  const size_t count = up_value_encode(&how->value, &up_config.schema->fields[how->field], value,
+                                       &frame->data[how->byte], (size_t)frame->bytes - how->byte);
+
+  if (count > 0U) {
+    *frame->is_due = true;
+  } else {
+    up_result(how->field, UP_BUS_ERROR, NULL);
+  }
 }
 
 void up_can_send(const up_can_t *bus) {

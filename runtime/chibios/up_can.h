@@ -62,7 +62,7 @@ void up_can_start(const up_can_t *bus);
 /* Takes the frames that come in the time of a cycle, and looks at what went wrong. */
 void up_can_cycle(const void *work);
 
-/* An actuator's value goes into its frame, which becomes due. */
+/* An actuator's value goes into its frame, which becomes due; where it does not fit the device's health tells. */
 void up_can_set(const up_can_frame_t *frame, const up_can_value_t *how, const void *value);
 
 /* Sends the frames that are due; what finds no room stays due. From the reporter. */

@@ -12,6 +12,7 @@ use embassy_time::{Instant, with_deadline};
 use sense_rt::{Coding, MessageField, Outcome, Schema, Sink};
 
 use super::now_ms;
+use super::shared::Tell;
 
 /// Frames that wait for the task of their bus.
 pub const WAITING: usize = 16;
@@ -162,7 +163,8 @@ pub const fn frames<const COUNT: usize>(all: [Sent; COUNT]) -> Frames<COUNT> {
     Mutex::new(RefCell::new(all))
 }
 
-/// Puts a value of the host's into its frame, from that byte on.
+/// Puts a value of the host's into its frame, from that byte on. Where it does not fit the frame is not sent, and the
+/// device's health tells.
 pub fn set<const COUNT: usize>(
     frames: &Frames<COUNT>,
     frame: usize,
@@ -171,14 +173,19 @@ pub fn set<const COUNT: usize>(
     index: usize,
     value: &[u8],
     byte: usize,
+    board: &dyn Tell,
 ) {
-    frames.lock(|frames| {
+    let size = frames.lock(|frames| {
         let mut frames = frames.borrow_mut();
-        let (Some(frame), Some(item)) = (frames.get_mut(frame), schema.items.get(index)) else { return };
+        let (Some(frame), Some(item)) = (frames.get_mut(frame), schema.items.get(index)) else { return 0 };
         let end = frame.bytes.min(BYTES);
-        let _ = how.encode(item, value, frame.data.get_mut(byte..end).unwrap_or_default());
-        frame.is_due = true;
+        let size = how.encode(item, value, frame.data.get_mut(byte..end).unwrap_or_default());
+        frame.is_due |= size > 0;
+        size
     });
+    if size == 0 {
+        board.tell(None, index, Outcome::BusError, &mut []);
+    }
 }
 
 /// Sends what is due, as far as there is room.

@@ -142,6 +142,7 @@ pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: 
     loop {
         let mut bytes = [0];
         said.read(&mut bytes).await;
+        // It waits for room in the port, and what it returns is always `Ok`: nothing is there that a device could be told of.
         let _ = port.blocking_write(&bytes);
         Timer::after(character).await;
     }

@@ -6,7 +6,9 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use sensedsl_codegen::firmware::embassy::{TypeCheck, type_check};
-use sensedsl_codegen::job::jobs;
+use sensedsl_codegen::job::{BoardJob, JobConnection, jobs};
+use sensedsl_codegen::target;
+use sensedsl_model::kind::KindName;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
@@ -40,14 +42,18 @@ impl Files for Alone {
     }
 }
 
-fn checked(text: &str) -> TypeCheck {
+/// Hands on the job of a text's first board.
+fn with_job<T>(text: &str, target: Option<&str>, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("x.sense", text.to_owned());
-    let snapshot = workspace.snapshot("x.sense", On { board: None, target: None }, &Alone);
+    let snapshot = workspace.snapshot("x.sense", On { board: None, target }, &Alone);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = answer.wired().unwrap_or_else(|| panic!("{:?}", answer.diagnostics));
-    let job = jobs(design, wiring).next().unwrap();
-    type_check(&job).unwrap()
+    then(&jobs(design, wiring).next().unwrap())
+}
+
+fn checked(text: &str) -> TypeCheck {
+    with_job(text, None, |job| type_check(job).unwrap())
 }
 
 /// Compiles a check whose source was changed.
@@ -285,4 +291,83 @@ fn what_types_take_the_profile_refuses() {
         assert!(is_wired(target, &period("PB4")), "{target}: TIM3");
         assert!(!is_wired(target, &period("PB8")), "{target}: TIM10");
     }
+}
+
+/// Whatever a device's code is made of: where it is missing the device is named, and there is no firmware without it.
+#[test]
+fn nothing_is_left_out_in_silence() {
+    let kinds = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
+    with_job(&kinds, Some("embassy"), |job| {
+        is_told(job);
+        no_interrupt(job, &["Heading", "Angle", "Speed", "Drops", "Ahead", "Torque"]);
+    });
+    with_job(MORE, Some("embassy"), |job| {
+        is_told(job);
+        no_interrupt(job, &["Near"]);
+    });
+}
+
+/// What else there is of several wires.
+const MORE: &str = "
+board NUCLEO_F429ZI {
+    sensor Near returns uint32 { id = 1; driver = hcsr04; }
+    sensor Light returns uint16[2] { id = 2; type = analog; pin = [PF3, PA6]; }
+    actuator Pair accepts uint16[2] { id = 3; driver = servo; }
+}
+";
+
+/// Generates the firmware without the interrupts of its profile.
+fn no_interrupt(job: &BoardJob<'_>, names: &[&str]) {
+    let mut profile = job.profile.unwrap().clone();
+    profile.own.file.get_mut("interrupts").unwrap().as_array_mut().unwrap().clear();
+    let less = BoardJob { profile: Some(&profile), ..job.clone() };
+    let told = target::of(&profile).unwrap().generate(&less).unwrap_err();
+    for name in names {
+        let is_told = told.iter().any(|one| one.message.contains(&format!("`{name}` needs")));
+        assert!(is_told, "{name}: {told:?}");
+    }
+}
+
+/// Generates the firmware without the pins, the unit or the DMA of each wire.
+fn is_told(job: &BoardJob<'_>) {
+    let target = target::of(job.profile.unwrap()).unwrap();
+    assert!(
+        target.generate(job).is_ok() && target::gaps(job).is_empty(),
+        "{:?}",
+        target.generate(job)
+    );
+    for (index, one) in job.connections.iter().enumerate() {
+        let is_shared = |other: &JobConnection<'_>| one.unit.is_some() && other.unit == one.unit;
+        let own: Vec<usize> = (0..job.connections.len())
+            .filter(|at| *at == index || is_shared(&job.connections[*at]))
+            .collect();
+        let without = |change: fn(&mut JobConnection<'_>)| {
+            let mut less = job.clone();
+            own.iter().for_each(|at| change(&mut less.connections[*at]));
+            let told = target.generate(&less).unwrap_err();
+            let told: Vec<String> = told.into_iter().map(|one| one.message).collect();
+            let name = &job.connections[own[0]].part.name.value;
+            assert!(told.iter().any(|one| one.contains(&format!("`{name}` needs"))), "{told:?}");
+        };
+        without(|wire| wire.pads.clear());
+        if one.unit.is_some() {
+            without(|wire| wire.unit = None);
+        }
+        if matches!(one.connection.kind.name(), KindName::I2c | KindName::Spi) {
+            without(|wire| wire.streams.clear());
+        }
+    }
+}
+
+/// The clock needs a timer, too.
+#[test]
+fn devices_that_take_all_timers_are_told() {
+    let kinds = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
+    let more = "sensor Near returns uint32 { id = 18; driver = hcsr04; }
+                actuator Pair accepts uint16[2] { id = 19; driver = servo; } }";
+    let text = format!("{}\n{more}", kinds.trim_end().trim_end_matches('}'));
+    with_job(&text, Some("embassy"), |job| {
+        let told = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap_err();
+        assert!(told[0].message.contains("no timer for Embassy's clock"), "{told:?}");
+    });
 }

@@ -5,9 +5,10 @@
 //! tables, the link, and the schema whose items are the devices in the same order. How a system spells any of it is
 //! the target's.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::signal::UnitName;
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
 use sensedsl_model::kind::{KindName, Role};
@@ -147,6 +148,18 @@ pub fn jobs<'a>(
     wiring: &'a Assignment,
 ) -> impl Iterator<Item = BoardJob<'a>> + use<'a> {
     wiring.used(design).map(|(on, board)| BoardJob::new(design, board, on))
+}
+
+/// Connections by the unit that they share; those without a unit are left out.
+pub fn by_unit<'w, 'a>(
+    connections: impl Iterator<Item = &'w JobConnection<'a>>,
+) -> BTreeMap<UnitName, Vec<&'w JobConnection<'a>>> {
+    let mut units: BTreeMap<UnitName, Vec<&JobConnection<'a>>> = BTreeMap::new();
+    for one in connections {
+        let Some(unit) = one.unit.map(UnitName::new) else { continue };
+        units.entry(unit).or_default().push(one);
+    }
+    units
 }
 
 /// What code calls the second element of an array `Wheels` is what it calls a device `Wheels_1`: the element is renamed.

@@ -1,7 +1,7 @@
 //! Which bytes of a chip are read together, and what its tables are told: small designs in, plans out.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::panic, reason = "a test may panic")]
 
-use sensedsl_codegen::part::{BusPlan, PartPlan};
+use sensedsl_codegen::part::{BusPlan, FieldCoding, Number, PartPlan};
 use sensedsl_model::design::PartIndex;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 
@@ -32,12 +32,7 @@ fn bus(driver: &str, devices: &str) -> BusPlan {
 
 /// `trigger|select:length` for each transfer, and `transfer+offset` for each reading.
 fn shape(bus: &BusPlan) -> (Vec<String>, Vec<String>) {
-    let digits = |bytes: &[String]| {
-        bytes
-            .iter()
-            .map(|byte| byte.trim_start_matches("0x").trim_end_matches('U'))
-            .collect::<String>()
-    };
+    let digits = |bytes: &[u8]| bytes.iter().map(|byte| format!("{byte:02x}")).collect::<String>();
     let transfers = bus
         .transfers
         .iter()
@@ -114,9 +109,9 @@ fn registers_have_their_size_and_their_read_bit() {
         "",
     );
     let bus = spi.bus.unwrap();
-    assert_eq!(bus.transfers[0].select, ["0x81U", "0x02U"]);
-    assert_eq!(bus.identity.unwrap().select, ["0x80U", "0x01U"]);
-    assert_eq!(bus.commands[0].prefix, ["0x03U", "0x04U"]);
+    assert_eq!(bus.transfers[0].select, [0x81, 0x02]);
+    assert_eq!(bus.identity.unwrap().select, [0x80, 0x01]);
+    assert_eq!(bus.commands[0].prefix, [0x03, 0x04]);
     let init: Vec<(usize, u16)> =
         bus.init.iter().map(|one| (one.bytes.len(), one.pause_ms)).collect();
     assert_eq!(init, [(0, 5), (3, 2), (1, 0)]);
@@ -132,8 +127,8 @@ fn messages_are_as_long_as_their_driver_says() {
     );
     let fixed = fixed.message.unwrap();
     assert_eq!((fixed.length, fixed.bytes_max), (4, 8));
-    let value = fixed.fields[0].value.as_ref().unwrap();
-    assert_eq!((value.word_bytes, value.is_little_endian, fixed.fields[0].byte), (2, true, 2));
+    let FieldCoding::Binary { byte, value } = &fixed.fields[0].how else { panic!("a text") };
+    assert_eq!((value.word_bytes, value.is_little_endian, *byte), (2, true, 2));
     let open = plan(
         "uart",
         "start = \"$\"; end = \"\\r\\n\"; checksum = nmea; reading a returns int32 { sentence = \"RMC\"; field = 3; format = decimal; }",
@@ -141,8 +136,8 @@ fn messages_are_as_long_as_their_driver_says() {
     );
     let open = open.message.unwrap();
     assert_eq!((open.length, open.bytes_max), (0, 128));
-    assert_eq!(open.fields[0].sentence.as_deref(), Some("\"RMC\""));
-    assert_eq!(open.fields[0].separator, "0x2cU");
+    let FieldCoding::Text(text) = &open.fields[0].how else { panic!("not a text") };
+    assert_eq!((text.sentence.as_deref(), text.separator), (Some("RMC"), Some(b',')));
 }
 
 #[test]
@@ -150,11 +145,7 @@ fn ranges_that_are_invalid_are_numbers_of_the_type() {
     let devices = "sensor A returns int8 { invalid = [-500..-3.5, 7, 200]; change = 0.2; }";
     let part = plan("i2c", "address = 0x20; reading a returns int8 { register = 0; }", devices);
     let filter = &part.filters[0];
-    let ends = |low: &str, high: &str| (low.to_owned(), high.to_owned());
-    assert_eq!(
-        filter.invalid,
-        [ends("INT64_C(-128)", "INT64_C(-4)"), ends("INT64_C(7)", "INT64_C(7)")]
-    );
-    assert_eq!(filter.change.as_deref(), Some("UINT64_C(1)"));
-    assert_eq!((filter.member, filter.memory_words), ("i", 1));
+    let ends = |low: i64, high: i64| (Number::Signed(low), Number::Signed(high));
+    assert_eq!(filter.invalid, [ends(-128, -4), ends(7, 7)]);
+    assert_eq!((filter.change, filter.memory_words), (Some(Number::Unsigned(1)), 1));
 }

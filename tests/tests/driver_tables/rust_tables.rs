@@ -1,6 +1,4 @@
 //! The tables of a part for the runtime in Rust, from the same plan that the C is printed of.
-//!
-//! The plan's words are C: names of constants and literals. They are read back here.
 
 use sense_rt::{
     Bridge, BridgeMode, Calibration, ChipTable, Code, Coding, Command, Crc, FieldFormat,
@@ -8,8 +6,12 @@ use sense_rt::{
     Number, Range, Reading, Scalar, Schema, TrainConfig, Transfer, WIDE,
 };
 use sensedsl_codegen::part::{
-    BridgePlan, BusPlan, FilterPlan, InitPlan, MessagePlan, PartPlan, TrainPlan, ValuePlan,
+    self, BridgePlan, BusPlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
+    PartPlan, TrainPlan, ValuePlan,
 };
+use sensedsl_model::kind::uart;
+use sensedsl_model::protocol::{self, Drive, Format};
+use sensedsl_model::words;
 use sensedsl_wire::{Direction, ScalarType};
 
 use super::library::Unit;
@@ -39,31 +41,8 @@ fn all<T>(of: impl Iterator<Item = T>) -> &'static [T] {
     of.collect::<Vec<_>>().leak()
 }
 
-/// `0x3bU`
-fn byte(text: &str) -> u8 {
-    let digits = text.trim_end_matches('U');
-    let hex = digits.strip_prefix("0x").map(|digits| u8::from_str_radix(digits, 16).unwrap());
-    hex.unwrap_or_else(|| digits.parse().unwrap())
-}
-
-fn bytes(texts: &[String]) -> &'static [u8] {
-    all(texts.iter().map(|text| byte(text)))
-}
-
-/// `"R\015"`
-fn text(literal: &str) -> &'static [u8] {
-    let mut rest = &literal[1..literal.len() - 1];
-    let mut found = Vec::new();
-    while let Some(first) = rest.chars().next() {
-        if first == '\\' {
-            found.push(u8::from_str_radix(&rest[1..4], 8).unwrap());
-            rest = &rest[4..];
-        } else {
-            found.push(first as u8);
-            rest = &rest[1..];
-        }
-    }
-    found.leak()
+fn bytes(of: &[u8]) -> &'static [u8] {
+    all(of.iter().copied())
 }
 
 pub fn scalar(scalar: ScalarType) -> Scalar {
@@ -87,16 +66,14 @@ fn coding(plan: &ValuePlan) -> Coding {
         elements: all(plan.elements.iter().copied()),
         words: plan.words,
         code: match plan.code {
-            "UP_CODE_INTEGER" => Code::Integer,
-            "UP_CODE_FLOAT" => Code::Float,
-            "UP_CODE_BCD" => Code::Bcd,
-            "UP_CODE_PACKED" => Code::Packed,
-            other => panic!("{other}"),
+            words::Code::Integer => Code::Integer,
+            words::Code::Float => Code::Float,
+            words::Code::Bcd => Code::Bcd,
+            words::Code::Packed => Code::Packed,
         },
         crc: match plan.crc {
-            "UP_CRC_NONE" => Crc::None,
-            "UP_CRC_SENSIRION" => Crc::Sensirion,
-            other => panic!("{other}"),
+            None => Crc::None,
+            Some(protocol::Crc::Sensirion) => Crc::Sensirion,
         },
         word_bytes: plan.word_bytes,
         low: plan.low,
@@ -106,13 +83,12 @@ fn coding(plan: &ValuePlan) -> Coding {
     }
 }
 
-fn formula(name: &str) -> Formula {
-    match name {
-        "up_formula_bmp280" => sense_rt::BMP280,
-        "up_formula_bme280" => sense_rt::BME280,
-        "up_formula_ntc" => sense_rt::NTC,
-        "up_formula_tsl2561" => sense_rt::TSL2561,
-        other => panic!("{other}"),
+fn formula(of: protocol::Formula) -> Formula {
+    match of {
+        protocol::Formula::Bmp280 => sense_rt::BMP280,
+        protocol::Formula::Bme280 => sense_rt::BME280,
+        protocol::Formula::Ntc => sense_rt::NTC,
+        protocol::Formula::Tsl2561 => sense_rt::TSL2561,
     }
 }
 
@@ -160,27 +136,37 @@ fn chip(plan: &BusPlan, index: impl Fn(&str) -> u16) -> ChipTable {
         formula: plan.formula.map(formula),
         parameters: all(plan.parameters.iter().copied()),
         cycle_ms: plan.cycle_ms,
-        address: byte(&plan.address),
+        address: plan.address,
+    }
+}
+
+fn field(plan: &MessageFieldPlan, item: u16) -> MessageField {
+    match &plan.how {
+        FieldCoding::Binary { byte, value } => MessageField {
+            item,
+            format: FieldFormat::Binary,
+            byte: *byte,
+            value: coding(value),
+            ..MessageField::NEW
+        },
+        FieldCoding::Text(text) => MessageField {
+            item,
+            format: match text.format {
+                Format::Decimal => FieldFormat::Decimal,
+                Format::Degrees => FieldFormat::Degrees,
+                Format::Hex => FieldFormat::Hex,
+            },
+            sentence: text.sentence.as_ref().map(|sentence| bytes(sentence.as_bytes())),
+            separator: text.separator.unwrap_or(0),
+            index: text.field,
+            decimals: text.decimals,
+            ..MessageField::NEW
+        },
     }
 }
 
 fn message(plan: &MessagePlan, index: impl Fn(&str) -> u16) -> MessageTable {
-    let fields = plan.fields.iter().map(|one| MessageField {
-        item: index(&one.field),
-        format: match one.format {
-            "UP_FORMAT_BINARY" => FieldFormat::Binary,
-            "UP_FORMAT_DECIMAL" => FieldFormat::Decimal,
-            "UP_FORMAT_DEGREES" => FieldFormat::Degrees,
-            "UP_FORMAT_HEX" => FieldFormat::Hex,
-            other => panic!("{other}"),
-        },
-        byte: one.byte,
-        value: one.value.as_ref().map_or(Coding::NEW, coding),
-        sentence: one.sentence.as_deref().map(text),
-        separator: byte(&one.separator),
-        index: one.index,
-        decimals: one.decimals,
-    });
+    let fields = plan.fields.iter().map(|one| field(one, index(&one.field)));
     MessageTable {
         start: bytes(&plan.start),
         end: bytes(&plan.end),
@@ -188,44 +174,35 @@ fn message(plan: &MessagePlan, index: impl Fn(&str) -> u16) -> MessageTable {
         length: plan.length,
         bytes_max: plan.bytes_max,
         checksum: match plan.checksum {
-            "UP_CHECKSUM_NONE" => MessageChecksum::None,
-            "UP_CHECKSUM_SUM8" => MessageChecksum::Sum8,
-            "UP_CHECKSUM_XOR8" => MessageChecksum::Xor8,
-            "UP_CHECKSUM_IBUS" => MessageChecksum::Ibus,
-            "UP_CHECKSUM_CRC8_DVB_S2" => MessageChecksum::Crc8DvbS2,
-            "UP_CHECKSUM_NMEA" => MessageChecksum::Nmea,
-            other => panic!("{other}"),
+            uart::MessageChecksum::None => MessageChecksum::None,
+            uart::MessageChecksum::Sum8 => MessageChecksum::Sum8,
+            uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
+            uart::MessageChecksum::Ibus => MessageChecksum::Ibus,
+            uart::MessageChecksum::Crc8DvbS2 => MessageChecksum::Crc8DvbS2,
+            uart::MessageChecksum::Nmea => MessageChecksum::Nmea,
         },
         checksum_from: plan.checksum_from,
     }
 }
 
-/// A literal of C as a number of the type that `member` of the runtime's union has.
-fn number(member: &str, literal: &str) -> Number {
-    let digits = literal.trim_start_matches("UINT64_C(").trim_start_matches("INT64_C(");
-    let digits = digits.trim_end_matches(')');
-    match member {
-        "u" => Number::unsigned(digits.parse().unwrap()),
-        "i" if digits == "INT64_MIN" => Number::signed(i64::MIN),
-        "i" => Number::signed(digits.parse().unwrap()),
-        "f" => Number::float32(digits.trim_end_matches('F').parse().unwrap()),
-        "d" => Number::float64(digits.parse().unwrap()),
-        other => panic!("{other}"),
+fn number(number: part::Number) -> Number {
+    match number {
+        part::Number::Unsigned(number) => Number::unsigned(number),
+        part::Number::Signed(number) => Number::signed(number),
+        part::Number::Float32(number) => Number::float32(number),
+        part::Number::Float64(number) => Number::float64(number),
     }
 }
 
 fn filter(plan: &FilterPlan) -> FilterTable {
-    let ranges = plan.invalid.iter().map(|(low, high)| Range {
-        low: number(plan.member, low),
-        high: number(plan.member, high),
-    });
-    let distance = if plan.member == "i" { "u" } else { plan.member };
+    let ranges = plan.invalid.iter();
+    let ranges = ranges.map(|&(low, high)| Range { low: number(low), high: number(high) });
     FilterTable {
         invalid: all(ranges),
         wide: plan.is_wide.then_some(WIDE),
         median: plan.median,
         smooth_ms: plan.smooth_ms,
-        change: plan.change.as_deref().map(|change| number(distance, change)),
+        change: plan.change.map(number),
         heartbeat_ms: plan.heartbeat_ms,
     }
 }
@@ -239,10 +216,9 @@ fn train(plan: &TrainPlan) -> TrainConfig {
 }
 
 fn bridge(plan: &BridgePlan) -> Bridge {
-    let mode = match plan.mode {
-        "UP_DRIVE_DIRECTION_PINS" => BridgeMode::DirectionPins,
-        "UP_DRIVE_TWO_PWM" => BridgeMode::TwoPwm,
-        other => panic!("{other}"),
+    let mode = match plan.drive {
+        Drive::DirectionPins => BridgeMode::DirectionPins,
+        Drive::TwoPwm => BridgeMode::TwoPwm,
     };
     Bridge { mode, full: plan.full }
 }

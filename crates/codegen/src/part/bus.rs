@@ -7,7 +7,7 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::transfers::{self, Place, TransferPlan, register, register_to_read};
-use super::{Source, ValuePlan, literal};
+use super::{Source, ValuePlan};
 use crate::print::snake;
 
 /// An `up_chip_t`.
@@ -15,8 +15,8 @@ use crate::print::snake;
 pub struct BusPlan {
     /// What the names of its tables begin with.
     pub prefix: String,
-    /// The 7-bit address as a C literal; on SPI the number of the chip select, which is 0 until the target counts.
-    pub address: String,
+    /// The 7-bit address; 0 on SPI, where a chip select takes its place.
+    pub address: u8,
     /// How it is started.
     pub init: Vec<InitPlan>,
     /// What must be read where.
@@ -30,7 +30,7 @@ pub struct BusPlan {
     /// The values that are written.
     pub commands: Vec<CommandPlan>,
     /// The runtime's formula.
-    pub formula: Option<&'static str>,
+    pub formula: Option<Formula>,
     /// Its constants.
     pub parameters: Vec<i32>,
     /// How often the part is looked after.
@@ -41,15 +41,13 @@ pub struct BusPlan {
     pub work_bytes: usize,
     /// 64-bit words that hold the largest value.
     pub scratch_words: usize,
-    /// Where the work buffer lies: the runtime's word for memory that the DMA of the bus reaches.
-    pub memory: &'static str,
 }
 
 /// An `up_chip_init_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InitPlan {
-    /// Bytes as C literals; empty where there is only a pause.
-    pub bytes: Vec<String>,
+    /// What is written; empty where there is only a pause.
+    pub bytes: Vec<u8>,
     /// Waited after them.
     pub pause_ms: u16,
 }
@@ -58,18 +56,18 @@ pub struct InitPlan {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IdentityPlan {
     /// The register.
-    pub select: Vec<String>,
+    pub select: Vec<u8>,
     /// What must be there.
-    pub expected: Vec<String>,
+    pub expected: Vec<u8>,
     /// The bits that count; empty for all.
-    pub mask: Vec<String>,
+    pub mask: Vec<u8>,
 }
 
 /// An `up_chip_calibration_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CalibrationPlan {
     /// The register.
-    pub select: Vec<String>,
+    pub select: Vec<u8>,
     /// Bytes from there on.
     pub count: u16,
 }
@@ -99,7 +97,7 @@ pub struct CommandPlan {
     /// What code calls it.
     pub ident: String,
     /// Written in front of the value.
-    pub prefix: Vec<String>,
+    pub prefix: Vec<u8>,
     /// How it is coded.
     pub value: ValuePlan,
     /// Bytes of the value.
@@ -118,37 +116,26 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
     let readings = sensors.iter().zip(places);
     let sizes = all.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
     let calibration = protocol.calibration.iter().map(|&(number, count)| CalibrationPlan {
-        select: literal::bytes(&register_to_read(u32::from(number), protocol)),
+        select: register_to_read(u32::from(number), protocol),
         count,
     });
     let plan = BusPlan {
         prefix: prefix.to_owned(),
-        address: literal::byte(&address),
+        address,
         init: init(&protocol.init),
         identity: protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol)),
         calibration: calibration.collect(),
         transfers,
         readings: readings.filter_map(|(device, place)| reading(device, place?)).collect(),
         commands: of(Direction::Actuator).filter_map(|one| command(one, protocol)).collect(),
-        formula: protocol.formula.map(symbol),
+        formula: protocol.formula,
         parameters: protocol.parameters.clone(),
         cycle_ms: all.iter().map(|device| device.delay_ms).min().unwrap_or(0),
         calibration_bytes: protocol.calibration.iter().map(|(_, count)| count).sum(),
         work_bytes: 0,
         scratch_words: sizes.max().unwrap_or(1),
-        memory: "UP_DMA_BUFFER",
     };
     Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
-}
-
-/// What the runtime calls a formula.
-pub(super) const fn symbol(formula: Formula) -> &'static str {
-    match formula {
-        Formula::Bmp280 => "up_formula_bmp280",
-        Formula::Bme280 => "up_formula_bme280",
-        Formula::Ntc => "up_formula_ntc",
-        Formula::Tsl2561 => "up_formula_tsl2561",
-    }
 }
 
 /// Bytes and the pause behind them are one step.
@@ -157,7 +144,7 @@ pub(super) fn init(steps: &[InitStep]) -> Vec<InitPlan> {
     for step in steps {
         match step {
             InitStep::Write(bytes) => {
-                all.push(InitPlan { bytes: literal::bytes(bytes), pause_ms: 0 });
+                all.push(InitPlan { bytes: bytes.clone(), pause_ms: 0 });
             }
             InitStep::Wait { ms } => match all.last_mut().filter(|last| last.pause_ms == 0) {
                 Some(last) => last.pause_ms = *ms,
@@ -171,9 +158,9 @@ pub(super) fn init(steps: &[InitStep]) -> Vec<InitPlan> {
 impl IdentityPlan {
     fn new(identity: &Identity, protocol: &Protocol) -> Self {
         Self {
-            select: literal::bytes(&register_to_read(u32::from(identity.register), protocol)),
-            expected: literal::bytes(&identity.expected),
-            mask: literal::bytes(&identity.mask),
+            select: register_to_read(u32::from(identity.register), protocol),
+            expected: identity.expected.clone(),
+            mask: identity.mask.clone(),
         }
     }
 }
@@ -203,7 +190,7 @@ fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
     Some(CommandPlan {
         field: device.name.value.clone(),
         ident: snake(&device.name.value),
-        prefix: literal::bytes(&prefix),
+        prefix,
         value: ValuePlan::new(&words),
         bytes: words.wire_bytes(),
     })
@@ -213,11 +200,6 @@ impl BusPlan {
     /// Whether a formula makes any of its values.
     pub(crate) fn is_computed(&self) -> bool {
         self.formula.is_some() || !self.calibration.is_empty()
-    }
-
-    /// The same behind a chip select.
-    pub(crate) fn selected_by(&mut self, number: u8) {
-        self.address = format!("{number}U");
     }
 
     /// As `up_chip_work_bytes()` counts.

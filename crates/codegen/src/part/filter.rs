@@ -3,8 +3,20 @@
 use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
 
-use super::literal;
 use crate::print::snake;
+
+/// A number of a value's own type, as the runtime's `up_number_t` holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// Of a type without a sign, a `bool` among them.
+    Unsigned(u64),
+    /// Of an integer type with a sign.
+    Signed(i64),
+    /// Of `float`.
+    Float32(f32),
+    /// Of `double`.
+    Float64(f64),
+}
 
 /// An `up_filter_t`.
 #[derive(Clone, Debug)]
@@ -13,18 +25,16 @@ pub struct FilterPlan {
     pub field: String,
     /// What code calls it.
     pub ident: String,
-    /// The member of `up_number_t` that its numbers are in.
-    pub member: &'static str,
-    /// Values that are no measurement, as C literals: from, to.
-    pub invalid: Vec<(String, String)>,
+    /// Values that are not a measurement: from, to.
+    pub invalid: Vec<(Number, Number)>,
     /// Whether it needs arithmetic in double precision.
     pub is_wide: bool,
     /// The median of so many values.
     pub median: u8,
     /// Time constant of a low-pass.
     pub smooth_ms: u32,
-    /// What is a change: a C literal; none where everything is reported.
-    pub change: Option<String>,
+    /// What is a change; none where everything is reported. The distance of integers has no sign, whatever they have.
+    pub change: Option<Number>,
     /// The longest time from report to report.
     pub heartbeat_ms: u32,
     /// Elements of the value.
@@ -51,7 +61,6 @@ impl FilterPlan {
         Some(Self {
             field: device.name.value.clone(),
             ident: snake(&device.name.value),
-            member: member(scalar),
             invalid: filter.invalid.iter().filter_map(|&ends| range(scalar, ends)).collect(),
             is_wide: scalar == ScalarType::Float64 && (has_smooth || has_change),
             median: filter.median,
@@ -65,18 +74,8 @@ impl FilterPlan {
     }
 }
 
-fn member(scalar: ScalarType) -> &'static str {
-    match scalar.integer_range() {
-        Some((least, _)) if least < 0 => "i",
-        Some(_) => "u",
-        None if scalar == ScalarType::Float32 => "f",
-        None if scalar == ScalarType::Float64 => "d",
-        None => "u",
-    }
-}
-
 /// The numbers of the type that are in a range; none where there are none.
-fn range(scalar: ScalarType, (low, high): (f64, f64)) -> Option<(String, String)> {
+fn range(scalar: ScalarType, (low, high): (f64, f64)) -> Option<(Number, Number)> {
     let whole = if scalar == ScalarType::Bool { Some((0, 1)) } else { scalar.integer_range() };
     let Some((least, greatest)) = whole else {
         return Some((real(scalar, low), real(scalar, high)));
@@ -90,31 +89,32 @@ fn integer(whole: f64) -> i128 {
     whole as i128
 }
 
-fn number(least: i128, number: i128) -> String {
+/// A number of an integer type whose least one is that.
+fn number(least: i128, number: i128) -> Number {
     if least < 0 {
-        literal::signed(i64::try_from(number).unwrap_or(i64::MAX))
+        Number::Signed(i64::try_from(number).unwrap_or(i64::MAX))
     } else {
-        format!("UINT64_C({number})")
+        Number::Unsigned(u64::try_from(number).unwrap_or(u64::MAX))
     }
 }
 
 /// How far two numbers of the type are apart at least, so that it is a change.
-fn distance(scalar: ScalarType, change: f64) -> String {
+fn distance(scalar: ScalarType, change: f64) -> Number {
     if matches!(scalar, ScalarType::Float32 | ScalarType::Float64) {
         return real(scalar, change);
     }
-    format!("UINT64_C({})", integer(change.ceil()).clamp(1, i128::from(u64::MAX)))
+    number(0, integer(change.ceil()).max(1))
 }
 
-/// A number with a fraction; the shortest text that is this very number.
-fn real(scalar: ScalarType, number: f64) -> String {
+/// A number with a fraction.
+fn real(scalar: ScalarType, number: f64) -> Number {
     if scalar == ScalarType::Float64 {
-        return format!("{:?}", number.clamp(f64::MIN, f64::MAX));
+        return Number::Float64(number.clamp(f64::MIN, f64::MAX));
     }
     #[expect(
         clippy::cast_possible_truncation,
         reason = "clamped, and rounded to what the type has"
     )]
     let number = number.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
-    format!("{number:?}F")
+    Number::Float32(number)
 }

@@ -3,12 +3,12 @@
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::{MessageChecksum, Uart};
-use sensedsl_model::protocol::{Format, TextField};
+use sensedsl_model::protocol::TextField;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::bus::{self, InitPlan};
-use super::{Source, ValuePlan, literal};
+use super::{Source, ValuePlan};
 use crate::print::snake;
 
 /// The longest message whose length nothing tells, with start and end: a line of NMEA 0183 has 82 characters, and
@@ -23,15 +23,15 @@ pub struct MessagePlan {
     /// Written once to start the part.
     pub init: Vec<InitPlan>,
     /// First bytes of every message.
-    pub start: Vec<String>,
+    pub start: Vec<u8>,
     /// Last bytes of every message.
-    pub end: Vec<String>,
+    pub end: Vec<u8>,
     /// Bytes of the body; 0: as far as `end`.
     pub length: u16,
     /// Of the longest message.
     pub bytes_max: u16,
-    /// The runtime's name for the checksum.
-    pub checksum: &'static str,
+    /// What the message ends with.
+    pub checksum: MessageChecksum,
     /// The first byte that is summed.
     pub checksum_from: u8,
     /// The values.
@@ -50,11 +50,11 @@ pub struct ComposePlan {
     /// How the value is coded.
     pub value: ValuePlan,
     /// First bytes of the message.
-    pub start: Vec<String>,
+    pub start: Vec<u8>,
     /// Last bytes of the message.
-    pub end: Vec<String>,
-    /// The runtime's name for the checksum.
-    pub checksum: &'static str,
+    pub end: Vec<u8>,
+    /// What the message ends with.
+    pub checksum: MessageChecksum,
     /// The first byte that is summed.
     pub checksum_from: u8,
     /// Of the whole message.
@@ -68,20 +68,33 @@ pub struct MessageFieldPlan {
     pub field: String,
     /// What code calls it.
     pub ident: String,
-    /// The runtime's name for how the number is written.
-    pub format: &'static str,
-    /// Where a binary value begins behind the start.
-    pub byte: u16,
-    /// How a binary value is coded; none for a text.
-    pub value: Option<ValuePlan>,
-    /// Only in a sentence of that type: a C string.
-    pub sentence: Option<String>,
-    /// Between fields; `0U` where the whole message is one.
-    pub separator: String,
-    /// Which field.
-    pub index: u8,
-    /// The value is the number times ten to that power.
-    pub decimals: u8,
+    /// Where it stands in the message, and how.
+    pub how: FieldCoding,
+}
+
+/// How a number stands in a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FieldCoding {
+    /// As bytes.
+    Binary {
+        /// Where they begin behind the start.
+        byte: u16,
+        /// How they are coded.
+        value: ValuePlan,
+    },
+    /// As a text.
+    Text(TextField),
+}
+
+impl FieldCoding {
+    /// How it is coded as bytes; none where it is a text.
+    #[must_use]
+    pub const fn value(&self) -> Option<&ValuePlan> {
+        match self {
+            Self::Binary { value, .. } => Some(value),
+            Self::Text(_) => None,
+        }
+    }
 }
 
 /// The part's table; none where nothing comes from it over a serial port.
@@ -98,11 +111,11 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     Some(MessagePlan {
         prefix: prefix.to_owned(),
         init: bus::init(&source.protocol.init),
-        start: literal::bytes(&uart.start),
-        end: literal::bytes(&uart.end),
+        start: uart.start.clone(),
+        end: uart.end.clone(),
         length: if is_open { 0 } else { uart.length_bytes },
         bytes_max: if is_open { OPEN_BYTES_MAX } else { bytes(uart) },
-        checksum: checksum(uart.checksum).0,
+        checksum: uart.checksum,
         checksum_from: uart.checksum_from,
         fields: devices.iter().filter_map(|device| field(device)).collect(),
         commands: all.iter().filter_map(|device| command(device)).collect(),
@@ -110,22 +123,20 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     })
 }
 
-/// What the runtime calls a checksum, and how many bytes it has.
-const fn checksum(checksum: MessageChecksum) -> (&'static str, u16) {
+/// Bytes of a checksum.
+const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
     match checksum {
-        MessageChecksum::None => ("UP_CHECKSUM_NONE", 0),
-        MessageChecksum::Sum8 => ("UP_CHECKSUM_SUM8", 1),
-        MessageChecksum::Xor8 => ("UP_CHECKSUM_XOR8", 1),
-        MessageChecksum::Ibus => ("UP_CHECKSUM_IBUS", 2),
-        MessageChecksum::Crc8DvbS2 => ("UP_CHECKSUM_CRC8_DVB_S2", 1),
-        MessageChecksum::Nmea => ("UP_CHECKSUM_NMEA", 3),
+        MessageChecksum::None => 0,
+        MessageChecksum::Sum8 | MessageChecksum::Xor8 | MessageChecksum::Crc8DvbS2 => 1,
+        MessageChecksum::Ibus => 2,
+        MessageChecksum::Nmea => 3,
     }
 }
 
 /// Bytes of a message whose length is known.
 fn bytes(uart: &Uart) -> u16 {
     let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
-    uart.length_bytes.saturating_add(ends).saturating_add(checksum(uart.checksum).1)
+    uart.length_bytes.saturating_add(ends).saturating_add(checksum_bytes(uart.checksum))
 }
 
 /// A value that is sent; none where it comes in.
@@ -134,48 +145,28 @@ fn command(device: &Device) -> Option<ComposePlan> {
     let is_sent = device.direction == Direction::Actuator;
     let words = Words::of(device).filter(|_| is_sent)?;
     let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
-    let (checksum, checksum_bytes) = checksum(uart.checksum);
     Some(ComposePlan {
         field: device.name.value.clone(),
         value: ValuePlan::new(&words),
-        start: literal::bytes(&uart.start),
-        end: literal::bytes(&uart.end),
-        checksum,
+        start: uart.start.clone(),
+        end: uart.end.clone(),
+        checksum: uart.checksum,
         checksum_from: uart.checksum_from,
-        bytes: words.wire_bytes().saturating_add(ends).saturating_add(checksum_bytes),
+        bytes: words
+            .wire_bytes()
+            .saturating_add(ends)
+            .saturating_add(checksum_bytes(uart.checksum)),
     })
 }
 
 fn field(device: &Device) -> Option<MessageFieldPlan> {
-    let name = device.name.value.clone();
-    let Some(text) = &device.coding.text else {
-        let value = ValuePlan::new(&Words::of(device)?);
-        return Some(MessageFieldPlan {
-            ident: snake(&name),
-            field: name,
-            format: "UP_FORMAT_BINARY",
-            byte: device.coding.byte,
-            value: Some(value),
-            sentence: None,
-            separator: "0U".to_owned(),
-            index: 0,
-            decimals: 0,
-        });
+    let how = match &device.coding.text {
+        Some(text) => FieldCoding::Text(text.clone()),
+        None => {
+            let value = ValuePlan::new(&Words::of(device)?);
+            FieldCoding::Binary { byte: device.coding.byte, value }
+        }
     };
-    let TextField { sentence, field, separator, format, decimals } = text;
-    Some(MessageFieldPlan {
-        ident: snake(&name),
-        field: name,
-        format: match format {
-            Format::Decimal => "UP_FORMAT_DECIMAL",
-            Format::Degrees => "UP_FORMAT_DEGREES",
-            Format::Hex => "UP_FORMAT_HEX",
-        },
-        byte: 0,
-        value: None,
-        sentence: sentence.as_deref().map(literal::text),
-        separator: literal::byte(&separator.unwrap_or(0)),
-        index: *field,
-        decimals: *decimals,
-    })
+    let field = device.name.value.clone();
+    Some(MessageFieldPlan { ident: snake(&field), field, how })
 }

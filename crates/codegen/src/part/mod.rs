@@ -5,8 +5,8 @@
 //! prints into its own files. Where the part is wired is the target's: a plan names no unit and no pin.
 
 mod bus;
+pub(crate) mod c;
 mod filter;
-mod literal;
 mod message;
 mod simple;
 mod transfers;
@@ -22,8 +22,9 @@ use sensedsl_wire::Direction;
 
 use crate::print::{block, snake};
 pub use bus::{BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, ReadingPlan};
-pub use filter::FilterPlan;
-pub use message::{ComposePlan, MessageFieldPlan, MessagePlan};
+pub use c::{DmaBuffer, Wiring, formula as formula_in_c};
+pub use filter::{FilterPlan, Number};
+pub use message::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 pub use simple::{BridgePlan, FormulaPlan, TrainPlan};
 pub use transfers::TransferPlan;
 pub(crate) use uses::uses;
@@ -54,6 +55,7 @@ pub struct PartPlan {
 #[template(path = "part/tables.c.txt", escape = "none")]
 struct Tables<'a> {
     p: &'a PartPlan,
+    wiring: Wiring,
 }
 
 /// A part with what its tables are made of.
@@ -105,10 +107,11 @@ impl PartPlan {
     }
 
     /// The tables in C. They name the fields of the schema `SENSE_FIELD_` and the device's name, as the header of a
-    /// board does, and the types of `runtime/core`.
+    /// board does, and the types of `runtime/core`. The plan is the same for all targets; what only C is told of the
+    /// wiring comes with it.
     #[must_use]
-    pub fn c(&self) -> String {
-        block(&Tables { p: self })
+    pub fn c(&self, wiring: Wiring) -> String {
+        block(&Tables { p: self, wiring })
     }
 }
 

@@ -3,9 +3,9 @@
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
-use sensedsl_model::protocol::Drive;
+use sensedsl_model::protocol::{Drive, Formula};
 
-use super::{Source, bus};
+use super::Source;
 use crate::print::snake;
 
 /// A longer interval than this starts a pulse train.
@@ -23,7 +23,7 @@ pub struct FormulaPlan {
     /// What code calls it.
     pub ident: String,
     /// The runtime's formula.
-    pub formula: &'static str,
+    pub formula: Formula,
     /// Which output it is.
     pub output: u8,
     /// Its constants.
@@ -52,8 +52,8 @@ pub struct BridgePlan {
     pub field: String,
     /// What code calls it.
     pub ident: String,
-    /// The runtime's name for how the outputs are driven.
-    pub mode: &'static str,
+    /// How the outputs are driven.
+    pub drive: Drive,
     /// The greatest magnitude.
     pub full: u32,
     /// The part's connections, in the order of the runtime's outputs.
@@ -66,7 +66,7 @@ pub(super) fn formulas(source: Source<'_>) -> Vec<FormulaPlan> {
         Some(FormulaPlan {
             field: device.name.value.clone(),
             ident: snake(&device.name.value),
-            formula: bus::symbol(source.protocol.formula?),
+            formula: source.protocol.formula?,
             output: device.coding.output?,
             parameters: source.protocol.parameters.clone(),
         })
@@ -99,10 +99,7 @@ pub(super) fn bridges(source: Source<'_>) -> Vec<BridgePlan> {
         Some(BridgePlan {
             field: device.name.value.clone(),
             ident: snake(&device.name.value),
-            mode: match device.coding.drive? {
-                Drive::DirectionPins => "UP_DRIVE_DIRECTION_PINS",
-                Drive::TwoPwm => "UP_DRIVE_TWO_PWM",
-            },
+            drive: device.coding.drive?,
             full: FULL,
             outputs: names.collect(),
         })

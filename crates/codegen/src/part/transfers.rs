@@ -9,8 +9,6 @@ use sensedsl_model::kind::spi::Spi;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_model::words::Words;
 
-use super::literal;
-
 /// Registers between two readings that are read and dropped: about what a transfer of its own would cost.
 const GAP_BYTES: u32 = 4;
 /// The same where the readings are of one started measurement: to start another one costs more than any gap.
@@ -21,10 +19,10 @@ const TOGETHER_BYTES_MAX: u32 = 128;
 /// An `up_chip_transfer_t`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TransferPlan {
-    /// Written to start a measurement, as C literals; empty for none.
-    pub trigger: Vec<String>,
+    /// Written to start a measurement; empty for none.
+    pub trigger: Vec<u8>,
     /// Written before reading, or sent in an exchange.
-    pub select: Vec<String>,
+    pub select: Vec<u8>,
     /// From one measurement to the next.
     pub cycle_ms: u32,
     /// From the trigger to the reading.
@@ -191,8 +189,8 @@ impl Together {
             Select::Bytes(bytes) | Select::Exchange(bytes) => bytes.clone(),
         };
         TransferPlan {
-            trigger: literal::bytes(&self.key.trigger),
-            select: literal::bytes(&select),
+            trigger: self.key.trigger.clone(),
+            select,
             cycle_ms: self.key.cycle_ms,
             wait_ms: self.key.wait_ms,
             length: self.on_wire(self.end - self.register),

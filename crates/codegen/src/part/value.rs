@@ -12,10 +12,10 @@ pub struct ValuePlan {
     pub elements: Vec<u8>,
     /// Words there are, where `elements` says which of them; otherwise 0.
     pub words: u16,
-    /// The runtime's name for what a word is.
-    pub code: &'static str,
-    /// The runtime's name for the checksums between the words.
-    pub crc: &'static str,
+    /// What a word is.
+    pub code: Code,
+    /// Checksums between the words.
+    pub crc: Option<Crc>,
     /// Bytes of a word; 0 where words are packed.
     pub word_bytes: u8,
     /// The lowest bit that counts.
@@ -37,16 +37,8 @@ impl ValuePlan {
         Self {
             elements: words.elements.clone(),
             words: last,
-            code: match words.code {
-                Code::Integer => "UP_CODE_INTEGER",
-                Code::Float => "UP_CODE_FLOAT",
-                Code::Bcd => "UP_CODE_BCD",
-                Code::Packed => "UP_CODE_PACKED",
-            },
-            crc: match words.crc {
-                None => "UP_CRC_NONE",
-                Some(Crc::Sensirion) => "UP_CRC_SENSIRION",
-            },
+            code: words.code,
+            crc: words.crc,
             word_bytes: words.word_bytes,
             low: words.low,
             bits: if is_whole { 0 } else { words.bits },

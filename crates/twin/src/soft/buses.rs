@@ -201,8 +201,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
         let Some(plan) = job.tables_of(one).and_then(|tables| tables.bus.as_ref()) else {
             continue;
         };
-        let formula = one.part.chip.as_ref().and_then(|chip| chip.formula);
-        let table: &'static ChipTable = kept(tables::chip(job, plan, formula));
+        let table: &'static ChipTable = kept(tables::chip(job, plan));
         let commands = table.commands.len();
         all.push(Bus {
             table,
@@ -273,12 +272,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             continue;
         };
         let Some(plan) = tables.message.as_ref() else { continue };
-        let of_part = job.devices.iter().enumerate().filter(|(_, of)| {
-            of.device.part == one.connection.part && of.device.direction == Direction::Sensor
-        });
-        let fields: Vec<MessageField> =
-            of_part.filter_map(|(index, of)| tables::field(index, of.device)).collect();
-        let table: &'static MessageTable = kept(tables::message(plan, uart, fields));
+        let table: &'static MessageTable = kept(tables::message(job, plan));
         all.push(Port {
             table,
             schema,
@@ -338,9 +332,8 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
         let (Some(can), Direction::Sensor) = (one.device.kind.can(), one.device.direction) else {
             continue;
         };
-        let Some(field) = tables::field(item, one.device) else { continue };
+        let Some(field) = tables::in_frame(item, one.device) else { continue };
         let unit = one.unit.and_then(number_of).unwrap_or(0);
-        let field = MessageField { byte: can.byte.into(), ..field };
         let heard = Heard {
             frame_id: can.frame_id,
             item,

@@ -278,9 +278,10 @@ impl Shape {
                 if is_event { 0 } else { one.cycle.delay_ms }
             })
             .collect();
-        let filters = job.devices.iter().enumerate();
-        let filters =
-            filters.filter_map(|(index, one)| Some((index, kept(tables::filter(one.device)?))));
+        let filters = job.parts.iter().flat_map(|part| &part.plan.filters).filter_map(|plan| {
+            let index = job.devices.iter().position(|one| one.name() == plan.field)?;
+            Some((index, kept(tables::filter(plan))))
+        });
         let link = &job.board.link;
         let fastest = cycles_ms.iter().copied().filter(|cycle| *cycle > 0).min();
         let usual = REPORT_MS.min(fastest.unwrap_or(REPORT_MS));

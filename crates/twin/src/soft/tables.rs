@@ -9,14 +9,14 @@ use sense_rt::{
     Scalar, Schema, Transfer, WIDE,
 };
 use sensedsl_codegen::job::BoardJob;
-use sensedsl_codegen::part::{BusPlan, InitPlan, MessagePlan, ValuePlan};
+use sensedsl_codegen::part::{
+    self, BusPlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan, ValuePlan,
+};
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::uart::{self, Uart};
+use sensedsl_model::kind::uart;
 use sensedsl_model::protocol::{self, Format};
-use sensedsl_model::words::Words;
+use sensedsl_model::words::{self, Words};
 use sensedsl_wire::{Checksum, Direction, ScalarType};
-
-use crate::arith::rounded;
 
 /// Something that lives as long as the program.
 pub(super) fn kept<T>(one: T) -> &'static T {
@@ -60,14 +60,8 @@ const fn scalar(of: ScalarType) -> Scalar {
     }
 }
 
-/// Bytes that a plan has as literals of C.
-fn bytes(literals: &[String]) -> &'static [u8] {
-    all(literals.iter().filter_map(|literal| byte(literal)))
-}
-
-/// `0x3bU`
-fn byte(literal: &str) -> Option<u8> {
-    u8::from_str_radix(literal.strip_prefix("0x")?.trim_end_matches('U'), 16).ok()
+fn bytes(of: &[u8]) -> &'static [u8] {
+    all(of.iter().copied())
 }
 
 fn item(job: &BoardJob<'_>, name: &str) -> u16 {
@@ -86,7 +80,7 @@ pub(super) const fn formula(of: protocol::Formula) -> Formula {
 }
 
 /// A chip on a bus.
-pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan, of: Option<protocol::Formula>) -> ChipTable {
+pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
     let transfers = plan.transfers.iter().map(|one| Transfer {
         trigger: bytes(&one.trigger),
         select: bytes(&one.select),
@@ -121,10 +115,10 @@ pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan, of: Option<protocol::Form
         transfers: all(transfers),
         readings: all(readings),
         commands: all(commands),
-        formula: of.map(formula),
+        formula: plan.formula.map(formula),
         parameters: all(plan.parameters.iter().copied()),
         cycle_ms: plan.cycle_ms,
-        address: byte(&plan.address).unwrap_or(0),
+        address: plan.address,
     }
 }
 
@@ -137,12 +131,15 @@ fn coding(plan: &ValuePlan) -> Coding {
         elements: all(plan.elements.iter().copied()),
         words: plan.words,
         code: match plan.code {
-            "UP_CODE_FLOAT" => Code::Float,
-            "UP_CODE_BCD" => Code::Bcd,
-            "UP_CODE_PACKED" => Code::Packed,
-            _ => Code::Integer,
+            words::Code::Integer => Code::Integer,
+            words::Code::Float => Code::Float,
+            words::Code::Bcd => Code::Bcd,
+            words::Code::Packed => Code::Packed,
         },
-        crc: if plan.crc == "UP_CRC_SENSIRION" { Crc::Sensirion } else { Crc::None },
+        crc: match plan.crc {
+            None => Crc::None,
+            Some(protocol::Crc::Sensirion) => Crc::Sensirion,
+        },
         word_bytes: plan.word_bytes,
         low: plan.low,
         bits: plan.bits,
@@ -151,42 +148,47 @@ fn coding(plan: &ValuePlan) -> Coding {
     }
 }
 
-/// What comes over a serial port, or in a frame of CAN.
-pub(super) fn field(index: usize, device: &Device) -> Option<MessageField> {
+/// A value in a frame of CAN.
+pub(super) fn in_frame(index: usize, device: &Device) -> Option<MessageField> {
+    let can = device.kind.can()?;
+    let value = coding(&ValuePlan::new(&Words::of(device)?));
     let item = u16::try_from(index).ok()?;
-    let Some(text) = &device.coding.text else {
-        let words = Words::of(device)?;
-        return Some(MessageField {
-            item,
-            byte: device.coding.byte,
-            value: coding(&ValuePlan::new(&words)),
-            ..MessageField::NEW
-        });
+    Some(MessageField { item, byte: can.byte.into(), value, ..MessageField::NEW })
+}
+
+/// A value in a message.
+fn field(job: &BoardJob<'_>, plan: &MessageFieldPlan) -> MessageField {
+    let item = item(job, &plan.field);
+    let text = match &plan.how {
+        FieldCoding::Binary { byte, value } => {
+            return MessageField { item, byte: *byte, value: coding(value), ..MessageField::NEW };
+        }
+        FieldCoding::Text(text) => text,
     };
-    Some(MessageField {
+    MessageField {
         item,
         format: match text.format {
             Format::Decimal => FieldFormat::Decimal,
             Format::Degrees => FieldFormat::Degrees,
             Format::Hex => FieldFormat::Hex,
         },
-        sentence: text.sentence.as_ref().map(|sentence| all(sentence.bytes())),
+        sentence: text.sentence.as_ref().map(|sentence| bytes(sentence.as_bytes())),
         separator: text.separator.unwrap_or(0),
         index: text.field,
         decimals: text.decimals,
         ..MessageField::NEW
-    })
+    }
 }
 
 /// The messages of a serial part.
-pub(super) fn message(plan: &MessagePlan, uart: &Uart, fields: Vec<MessageField>) -> MessageTable {
+pub(super) fn message(job: &BoardJob<'_>, plan: &MessagePlan) -> MessageTable {
     MessageTable {
-        start: all(uart.start.iter().copied()),
-        end: all(uart.end.iter().copied()),
-        fields: fields.leak(),
+        start: bytes(&plan.start),
+        end: bytes(&plan.end),
+        fields: all(plan.fields.iter().map(|one| field(job, one))),
         length: plan.length,
         bytes_max: plan.bytes_max,
-        checksum: match uart.checksum {
+        checksum: match plan.checksum {
             uart::MessageChecksum::None => MessageChecksum::None,
             uart::MessageChecksum::Sum8 => MessageChecksum::Sum8,
             uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
@@ -198,46 +200,25 @@ pub(super) fn message(plan: &MessagePlan, uart: &Uart, fields: Vec<MessageField>
     }
 }
 
-/// What becomes of a value before it is reported; none where it is reported as it is.
-pub(super) fn filter(device: &Device) -> Option<FilterTable> {
-    let filter = &device.filter;
-    if filter.is_empty() {
-        return None;
-    }
-    let of = device.value.value.scalar;
-    let has_memory = filter.smooth_ms > 0 || filter.change.is_some();
-    let ranges = filter.invalid.iter().filter_map(|ends| range(of, *ends));
-    Some(FilterTable {
+/// What becomes of a value before it is reported.
+pub(super) fn filter(plan: &FilterPlan) -> FilterTable {
+    let ranges = plan.invalid.iter();
+    let ranges = ranges.map(|&(low, high)| Range { low: number(low), high: number(high) });
+    FilterTable {
         invalid: all(ranges),
-        wide: (of == ScalarType::Float64 && has_memory).then_some(WIDE),
-        median: filter.median,
-        smooth_ms: filter.smooth_ms,
-        change: filter.change.map(|change| match of.integer_range() {
-            Some(_) => Number::unsigned(rounded(change.ceil()).max(1).unsigned_abs()),
-            None => real(of, change),
-        }),
-        heartbeat_ms: filter.heartbeat_ms,
-    })
+        wide: plan.is_wide.then_some(WIDE),
+        median: plan.median,
+        smooth_ms: plan.smooth_ms,
+        change: plan.change.map(number),
+        heartbeat_ms: plan.heartbeat_ms,
+    }
 }
 
-/// The numbers of the type that are in a range; none where there are none.
-fn range(of: ScalarType, (low, high): (f64, f64)) -> Option<Range> {
-    let Some((least, greatest)) = of.integer_range() else {
-        return Some(Range { low: real(of, low), high: real(of, high) });
-    };
-    let low = i128::from(rounded(low.ceil())).max(least);
-    let high = i128::from(rounded(high.floor())).min(greatest);
-    let number = |whole: i128| {
-        if least < 0 {
-            Number::signed(i64::try_from(whole).unwrap_or(i64::MAX))
-        } else {
-            Number::unsigned(u64::try_from(whole).unwrap_or(u64::MAX))
-        }
-    };
-    (low <= high).then(|| Range { low: number(low), high: number(high) })
-}
-
-fn real(of: ScalarType, number: f64) -> Number {
-    #[expect(clippy::cast_possible_truncation, reason = "the type has no more digits")]
-    if of == ScalarType::Float32 { Number::float32(number as f32) } else { Number::float64(number) }
+fn number(number: part::Number) -> Number {
+    match number {
+        part::Number::Unsigned(number) => Number::unsigned(number),
+        part::Number::Signed(number) => Number::signed(number),
+        part::Number::Float32(number) => Number::float32(number),
+        part::Number::Float64(number) => Number::float64(number),
+    }
 }

@@ -11,6 +11,7 @@ use sensedsl_board::signal::UnitName;
 use serde::Deserialize;
 
 use crate::job::JobStream;
+use crate::part::DmaBuffer;
 
 /// The names of one line of MCUs.
 #[derive(Clone, Debug, Deserialize)]
@@ -339,10 +340,10 @@ impl Names {
         all.map(|[name, value]| Setting::new(name, value)).collect()
     }
 
-    /// What a buffer is marked with that these streams fill or empty.
-    pub(super) fn buffer(&self, streams: &[JobStream<'_>]) -> &'static str {
+    /// A buffer that these streams fill or empty.
+    pub(super) fn buffer(&self, streams: &[JobStream<'_>]) -> DmaBuffer {
         let is_basic = streams.iter().any(|one| self.is_basic(one.stream));
-        if is_basic { "UP_BDMA_BUFFER" } else { "UP_DMA_BUFFER" }
+        if is_basic { DmaBuffer::Basic } else { DmaBuffer::Main }
     }
 
     /// Whether a stream is one of the basic controller.

@@ -6,6 +6,7 @@ use sensedsl_model::kind::KindName;
 use super::context::Context;
 use super::spi;
 use crate::job::{JobConnection, JobDevice, JobPart};
+use crate::part::{DmaBuffer, Wiring};
 
 /// All tables, and which fields have a filter.
 #[derive(Clone, Debug, Default)]
@@ -29,21 +30,15 @@ pub(super) fn plan(context: &Context<'_>) -> PartsPlan {
 
 /// The tables of a part, with what only the wiring says: where the buffers of its bus lie, and its chip select.
 fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
-    let mut plan = one.plan.clone();
     let of_part = |other: &&JobConnection<'_>| {
         let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
         is_bus && other.connection.part == one.index
     };
     let wired = context.job.connections.iter().find(of_part);
-    if let Some(bus) = &mut plan.bus {
-        if let Some(wired) = wired {
-            bus.memory = context.names.buffer(&wired.streams);
-        }
-        if let Some(number) = spi::number_of(context.job, one.index) {
-            bus.selected_by(number);
-        }
-    }
-    plan.c()
+    one.plan.c(Wiring {
+        buffer: wired.map_or(DmaBuffer::Main, |wired| context.names.buffer(&wired.streams)),
+        select: spi::number_of(context.job, one.index),
+    })
 }
 
 /// The name of a device's filter, where it has one.

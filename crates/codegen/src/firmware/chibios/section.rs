@@ -91,8 +91,8 @@ pub(super) struct Probe {
     /// The runtime's function that asks one address, and what it is told.
     pub(super) function: &'static str,
     pub(super) table: String,
-    /// Those that the design has there, as C literals.
-    pub(super) expected: Vec<String>,
+    /// Those that the design has there.
+    pub(super) expected: Vec<u8>,
 }
 
 /// A number for people.

@@ -1,4 +1,4 @@
-//! Analog inputs: a task for each converter and cycle.
+//! Analog inputs: a task for each converter and cycle; one that has an array over several converters takes all of them.
 
 use std::collections::BTreeSet;
 
@@ -8,42 +8,81 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, late, scalar};
-use super::filter;
+use super::lack::{self, Made};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
+use super::{chip, filter};
 use crate::job::Cycle;
 use crate::print::snake;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    let mut units = BTreeSet::new();
-    for ((unit, cycle), devices) in context.classes(KindName::Analog) {
-        if units.insert(unit.clone()) {
-            self::unit(context, &unit, &mut section);
-        }
-        for wire in devices.iter().flat_map(|one| &one.wires) {
-            let Some(pad) = wire.pad(Role::In) else { continue };
-            section.fields.push(Field {
-                name: wire.ident.clone(),
-                comment: wire.place(),
-                type_: format!("Peri<'static, {}>", pad.pin.name),
-                make: format!("p.{}", pad.pin.name),
-            });
-        }
-        task(context, &unit, cycle, &devices, &mut section);
+    let mut known = BTreeSet::new();
+    for ((_, cycle), devices) in context.classes(KindName::Analog) {
+        let Some(part) = devices.first().map(|one| one.first.part) else { continue };
+        let made = class(context, cycle, &devices, &mut known, &mut section);
+        context.tell(part, made, diagnostics);
     }
     section
 }
 
+/// The devices whose first elements are of one converter, and have one cycle.
+fn class<'a>(
+    context: &Context<'_>,
+    cycle: Cycle,
+    devices: &[Wired<'a>],
+    known: &mut BTreeSet<&'a str>,
+    section: &mut Section,
+) -> Made<()> {
+    let converters = Converters::new(devices)?;
+    for one in &converters.all {
+        if known.insert(one) {
+            unit(context, one, section)?;
+        }
+    }
+    task(context, &converters, cycle, devices, section)
+}
+
+/// The converters of a task: one, or those that have elements of an array.
+struct Converters<'a> {
+    /// That of the first elements.
+    first: &'a str,
+    /// Every task takes them in this order, so that none waits for another that waits for it.
+    all: BTreeSet<&'a str>,
+}
+
+impl<'a> Converters<'a> {
+    fn new(devices: &[Wired<'a>]) -> Made<Self> {
+        let wires = devices.iter().flat_map(|one| &one.wires);
+        let all: BTreeSet<&str> = wires.map(|wire| lack::unit(wire)).collect::<Made<_>>()?;
+        let first = devices.first().map(|one| lack::unit(one.first)).transpose()?;
+        Ok(Self { first: first.unwrap_or_default(), all })
+    }
+
+    /// A converter that others use, too.
+    fn shared(&self, unit: &str) -> String {
+        if self.all.len() == 1 { "unit".to_owned() } else { format!("{}_unit", snake(unit)) }
+    }
+
+    /// The same when it is the task's own.
+    fn own(&self, unit: &str) -> String {
+        if self.all.len() == 1 { "adc".to_owned() } else { snake(unit) }
+    }
+
+    /// A line for each of them.
+    fn lines(&self, line: impl Fn(&str) -> String) -> String {
+        self.all.iter().map(|one| line(one)).collect()
+    }
+}
+
 /// The converter, which tasks of several cycles share.
-fn unit(context: &Context<'_>, unit: &str, section: &mut Section) {
+fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Made<()> {
     let (name, hal) = (snake(unit), context.peripheral(unit));
     let make = match context.names.adc.new {
         AdcNew::Unit => format!("Adc::new(p.{hal})"),
         AdcNew::Interrupt => {
-            if let Some(interrupt) = context.names.interrupt(unit, "GLOBAL") {
-                section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
-            }
+            let interrupt = context.interrupt(unit, "GLOBAL")?;
+            section.bind(interrupt, format!("hal::adc::InterruptHandler<{hal}>"));
             format!("Adc::new(p.{hal}, Irqs)")
         }
         AdcNew::Resolution => format!("Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
@@ -63,21 +102,30 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) {
         "let {name}: &'static {unit}Unit = {unit}_UNIT.init(Mutex::new(wiring.{name}));"
     )));
     section.runtime.insert("analog.rs");
+    Ok(())
 }
 
 fn task(
     context: &Context<'_>,
-    unit: &str,
+    converters: &Converters<'_>,
     cycle: Cycle,
     devices: &[Wired<'_>],
     section: &mut Section,
-) {
-    let ident = cycle.ident(unit);
+) -> Made<()> {
+    let ident = cycle.ident(converters.first);
     let constant = ident.to_uppercase();
     let wires: Vec<_> = devices.iter().flat_map(|one| &one.wires).collect();
-    let pins = wires.iter().filter_map(|wire| {
-        Some(format!("    mut {}: Peri<'static, {}>,\n", wire.ident, wire.pad(Role::In)?.pin.name))
-    });
+    let mut pins = String::new();
+    for wire in &wires {
+        let pin = &lack::pad(wire, Role::In)?.pin.name;
+        pins.push_str(&format!("    mut {}: Peri<'static, {pin}>,\n", wire.ident));
+        section.fields.push(Field {
+            name: wire.ident.clone(),
+            comment: wire.place(),
+            type_: format!("Peri<'static, {pin}>"),
+            make: format!("p.{pin}"),
+        });
+    }
     let (mut state, mut reads) = (String::new(), String::new());
     for device in devices {
         let mut own = String::new();
@@ -85,35 +133,44 @@ fn task(
         if !own.is_empty() {
             state.push_str(&format!("    {own}"));
         }
-        reads.push_str(&read(context, device, &pass));
+        reads.push_str(&read(context, converters, device, &pass)?);
     }
-    let mut text = format!(
-        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n    unit: &'static {unit}Unit,\n{}) {{\n{}{state}    \
-         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n        \
-         let mut adc = unit.lock().await;\n",
-        cycle.title(unit),
-        pins.collect::<String>(),
+    let units: Vec<&str> = converters.all.iter().copied().collect();
+    let shared =
+        converters.lines(|one| format!("    {}: &'static {one}Unit,\n", converters.shared(one)));
+    let locks = converters.lines(|one| {
+        let (own, shared) = (converters.own(one), converters.shared(one));
+        format!("        let mut {own} = {shared}.lock().await;\n")
+    });
+    let drops = converters.lines(|one| format!("        drop({});\n", converters.own(one)));
+    let text = format!(
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n{shared}{pins}) {{\n{}{state}    \
+         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n\
+         {locks}{reads}{drops}        \
+         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
+        cycle.title(&units.join(" and ")),
         late(cycle),
         cycle.delay_ms,
     );
-    text.push_str(&reads);
-    text.push_str(&format!(
-        "        drop(adc);\n        WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}"
-    ));
     section.items.push(text);
+    let units = units.into_iter().map(snake);
     let arguments: Vec<String> =
-        wires.iter().map(|wire| format!(", wiring.{}", wire.ident)).collect();
-    let call = format!("{ident}({}{})", snake(unit), arguments.concat());
+        units.chain(wires.iter().map(|wire| format!("wiring.{}", wire.ident))).collect();
+    let call = format!("{ident}({})", arguments.join(", "));
     section.starts.push(Start::Task(cycle.prio, call));
     let device = wires.first().map_or(0, |wire| context.id_of(wire));
     section.watched.push(Watched::new(constant, cycle, device));
+    Ok(())
 }
 
 /// Samples one device, whose inputs are converted one right after the other.
-fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
-    let Some(analog) = wired.wires.first().and_then(|one| one.connection.kind.analog()) else {
-        return String::new();
-    };
+fn read(
+    context: &Context<'_>,
+    converters: &Converters<'_>,
+    wired: &Wired<'_>,
+    filter: &str,
+) -> Made<String> {
+    let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
     let time = sampling(&context.profile.adc, analog.sampling_cycles);
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
@@ -131,22 +188,21 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         };
         let wait = if context.names.adc.read == AdcRead::Async { ".await" } else { "" };
         text.push_str(&format!(
-            "            *{name} = adc.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            "            *{name} = {}.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            converters.own(lack::unit(wire)?),
             wire.ident
         ));
     }
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
-    let formula = wired.wires.first().and_then(|one| {
-        let mut formulas = context.job.tables_of(one)?.formulas.iter();
-        formulas.find(|plan| plan.field == wired.device.name())
-    });
+    let mut formulas = context.job.tables_of(wired.first).into_iter().flat_map(|one| &one.formulas);
+    let formula = formulas.find(|plan| plan.field == wired.device.name());
     let how = match formula {
         Some(plan) => {
             let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
             format!(
-                "rt::analog::Value::Computed(&sense_rt::{}, {}, &[{}])",
-                plan.formula.trim_start_matches("up_formula_").to_uppercase(),
+                "rt::analog::Value::Computed(&{}, {}, &[{}])",
+                chip::formula(plan.formula),
                 plan.output,
                 parameters.join(", ")
             )
@@ -158,7 +214,7 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         scalar(value.scalar),
         value.size_bytes(),
     ));
-    text
+    Ok(text)
 }
 
 /// `CYCLES84`, `CYCLES1_5`

@@ -1,27 +1,32 @@
 //! Motors behind H-bridges: one value becomes the strength of a pulse and the levels of two pins, or two pulses.
 
+use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::Connection;
-use sensedsl_model::kind::{Kind, KindName};
+use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
-use super::contacts;
 use super::context::{Context, Wired, scalar};
+use super::lack::{self, Made};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
 use crate::job::JobConnection;
-
-/// The level of an output that is always on.
-const FULL: u32 = 10_000;
+use crate::part::BridgePlan;
 
 /// Whether the outputs of a device are those of a bridge.
 pub(super) fn is_bridge(wired: &Wired<'_>) -> bool {
     wired.device.device.coding.drive.is_some()
 }
 
-pub(super) fn plan(context: &Context<'_>, section: &mut Section) {
+pub(super) fn plan(
+    context: &Context<'_>,
+    section: &mut Section,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     for wired in context.wired(KindName::Pwm) {
-        if let Some(drive) = wired.device.device.coding.drive {
-            bridge(context, &wired, drive, section);
+        let mut all = context.job.parts.iter().flat_map(|part| &part.plan.bridges);
+        if let Some(plan) = all.find(|plan| plan.field == wired.device.name()) {
+            let made = bridge(context, &wired, plan, section);
+            context.tell(wired.first.part, made, diagnostics);
         }
     }
 }
@@ -29,16 +34,17 @@ pub(super) fn plan(context: &Context<'_>, section: &mut Section) {
 fn bridge(
     context: &Context<'_>,
     wired: &Wired<'_>,
-    drive: Drive,
+    plan: &BridgePlan,
     section: &mut Section,
-) -> Option<()> {
+) -> Made<()> {
     let (ident, upper) = (&wired.device.ident, wired.device.ident.to_uppercase());
-    let mode = match drive {
+    let mode = match plan.drive {
         Drive::DirectionPins => "DirectionPins",
         Drive::TwoPwm => "TwoPwm",
     };
     section.tables.push(format!(
-        "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {FULL} }};"
+        "pub const {upper}_BRIDGE: sense_rt::Bridge = sense_rt::Bridge {{ mode: sense_rt::BridgeMode::{mode}, full: {} }};",
+        plan.full
     ));
     section.outputs.push(Field {
         name: format!("{ident}_bridge"),
@@ -48,7 +54,7 @@ fn bridge(
     });
     let outputs = outputs(context, wired);
     let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
-    let arms: String = arms.collect::<Option<String>>()?;
+    let arms: String = arms.collect::<Made<String>>()?;
     let drive = |scalar: &str, value: &str| {
         format!(
             "for write in tables::{upper}_BRIDGE.drive(&mut outputs.{ident}_bridge, {scalar}, {value}).as_slice() {{ \
@@ -65,7 +71,7 @@ fn bridge(
         section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
         section.fails.push(safe);
     }
-    Some(())
+    Ok(())
 }
 
 /// The connections of a device in the order of the runtime's outputs.
@@ -79,9 +85,10 @@ fn outputs<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Vec<&'a JobConnectio
 }
 
 /// What writes one output.
-fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Option<String> {
-    if let Some(own) = contacts::digital(wire) {
-        return Some(format!(
+fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Made<String> {
+    if let Some(own) = wire.connection.kind.digital() {
+        lack::pad(wire, Role::Out)?;
+        return Ok(format!(
             "{at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}), ",
             wire.ident,
             level_of(own, true),
@@ -89,7 +96,7 @@ fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Option<S
         ));
     }
     let pulse = Pulse::of(context, wire)?;
-    Some(format!(
+    Ok(format!(
         "{at} if write.value == 0 => {{ {} }} {at} => {{ {} }} ",
         pulse.stop(),
         pulse.set("write.value")

@@ -5,15 +5,16 @@ use std::collections::BTreeMap;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::chip::{coding, list};
 use super::context::Context;
 use super::filter;
+use super::lack::{self, Lack, Made};
 use super::section::{Field, Keep, Section, Start, Watched};
-use crate::job::{Cycle, JobConnection};
+use crate::job::{Cycle, JobConnection, JobDevice};
 use crate::part::ValuePlan;
 use crate::print::snake;
 
@@ -31,6 +32,8 @@ struct Bus<'a> {
     unit: String,
     bitrate_hz: u32,
     cycle: Cycle,
+    /// One of its wires: all have the pads of the bus.
+    first: &'a JobConnection<'a>,
     wires: Vec<&'a JobConnection<'a>>,
     values: Vec<Value>,
     frames: Vec<Frame>,
@@ -57,27 +60,42 @@ struct Frame {
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let mut buses: BTreeMap<UnitName, Bus<'_>> = BTreeMap::new();
-    for wire in context.job.connections(KindName::Can) {
-        let (Some(unit), Kind::Can(can)) = (wire.unit, &wire.connection.kind) else { continue };
-        let bus = buses.entry(UnitName::new(unit)).or_insert_with(|| Bus {
-            unit: context.profile.unit(unit).map_or(unit, |unit| &unit.name).to_owned(),
-            bitrate_hz: can.bitrate_hz,
-            cycle: wire.cycle,
-            wires: Vec::new(),
-            values: Vec::new(),
-            frames: Vec::new(),
-        });
-        bus.cycle.delay_ms = bus.cycle.delay_ms.min(wire.cycle.delay_ms);
-        bus.cycle.prio = bus.cycle.prio.max(wire.cycle.prio);
-        bus.wires.push(wire);
-        for index in &wire.devices {
-            bus.add(context, *index, diagnostics);
-        }
+    for wire in context.connections(KindName::Can) {
+        let made = gather(context, wire, &mut buses, diagnostics);
+        context.tell(wire.part, made, diagnostics);
     }
     for bus in buses.values() {
-        let _ = bus.plan(context, &mut section);
+        let made = bus.plan(context, &mut section);
+        context.tell(bus.first.part, made, diagnostics);
     }
     section
+}
+
+/// Puts what goes over a wire to the rest of its bus.
+fn gather<'a>(
+    context: &Context<'_>,
+    wire: &'a JobConnection<'a>,
+    buses: &mut BTreeMap<UnitName, Bus<'a>>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Made<()> {
+    let (unit, can) = (lack::unit(wire)?, lack::kind(wire.connection.kind.can())?);
+    let bus = buses.entry(UnitName::new(unit)).or_insert_with(|| Bus {
+        unit: context.profile.unit(unit).map_or(unit, |unit| &unit.name).to_owned(),
+        bitrate_hz: can.bitrate_hz,
+        cycle: wire.cycle,
+        first: wire,
+        wires: Vec::new(),
+        values: Vec::new(),
+        frames: Vec::new(),
+    });
+    bus.cycle.delay_ms = bus.cycle.delay_ms.min(wire.cycle.delay_ms);
+    bus.cycle.prio = bus.cycle.prio.max(wire.cycle.prio);
+    bus.wires.push(wire);
+    let devices = wire.devices.iter().map(|index| (*index, context.job.devices.get(*index)));
+    for (index, device) in devices.filter_map(|(index, device)| Some((index, device?))) {
+        bus.add(index, device, diagnostics)?;
+    }
+    Ok(())
 }
 
 /// An identifier in the HAL's words. None is greater than its bits, which the model has seen to.
@@ -100,11 +118,14 @@ fn keep(parameter: &str, name: &str) -> Keep {
 
 impl Bus<'_> {
     /// A value that comes in or goes out.
-    fn add(&mut self, context: &Context<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
-        let Some(one) = context.job.devices.get(index) else { return };
-        let (Kind::Can(can), Some(words)) = (&one.device.kind, Words::of(one.device)) else {
-            return;
-        };
+    fn add(
+        &mut self,
+        index: usize,
+        one: &JobDevice<'_>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Made<()> {
+        let can = lack::kind(one.device.kind.can())?;
+        let words = Words::of(one.device).ok_or_else(|| Lack::table("a coding of the value"))?;
         let byte = u16::from(can.byte);
         let value = Value {
             index,
@@ -133,15 +154,16 @@ impl Bus<'_> {
             let (identifier, bytes) = (value.identifier, value.end);
             self.frames.push(Frame { identifier, bytes, values: vec![value] });
         }
+        Ok(())
     }
 
-    fn plan(&self, context: &Context<'_>, section: &mut Section) -> Option<()> {
-        let first = self.wires.first()?;
+    fn plan(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let (name, hal) = (snake(&self.unit), context.peripheral(&self.unit));
-        let (rx, tx) = (&first.pad(Role::Rx)?.pin.name, &first.pad(Role::Tx)?.pin.name);
+        let (rx, tx) = (lack::pad(self.first, Role::Rx)?, lack::pad(self.first, Role::Tx)?);
+        let (rx, tx) = (&rx.pin.name, &tx.pin.name);
         let handlers = ["TX", "RX0", "RX1", "SCE"];
         for (signal, handler) in handlers.into_iter().zip(["Tx", "Rx0", "Rx1", "Sce"]) {
-            let interrupt = context.names.interrupt(&self.unit, signal)?;
+            let interrupt = context.interrupt(&self.unit, signal)?;
             section.bind(interrupt, format!("hal::can::{handler}InterruptHandler<{hal}>"));
         }
         let who: Vec<&str> = self.wires.iter().map(|one| one.title.as_str()).collect();
@@ -166,7 +188,7 @@ impl Bus<'_> {
         self.tables(section);
         self.listen(context, &name, section);
         self.say(&name, section);
-        Some(())
+        Ok(())
     }
 
     /// The identifiers that the hardware lets through; where they are too many it lets all through, and the task looks.
@@ -226,7 +248,7 @@ impl Bus<'_> {
         ));
         let call = format!("{name}_listen({name}_rx)");
         section.starts.push(Start::Task(self.cycle.prio, call));
-        let device = self.wires.first().map_or(0, |wire| context.id_of(wire));
+        let device = context.id_of(self.first);
         section.watched.push(Watched::new(constant, self.cycle, device));
     }
 
@@ -252,7 +274,7 @@ impl Bus<'_> {
         for (at, frame) in self.frames.iter().enumerate() {
             for one in &frame.values {
                 section.sets.entry(one.index).or_default().push(format!(
-                    "rt::can::set(&{upper}_FRAMES, {at}, &tables::{upper}_SENT_{}, &SCHEMA, {}, value, {});",
+                    "rt::can::set(&{upper}_FRAMES, {at}, &tables::{upper}_SENT_{}, &SCHEMA, {}, value, {}, &BOARD);",
                     one.index, one.index, one.byte
                 ));
             }

@@ -1,5 +1,8 @@
 //! The tables of a chip in Rust: constants of the runtime's types.
 
+use sensedsl_model::protocol::{Crc, Formula};
+use sensedsl_model::words::Code;
+
 use super::context::Context;
 use crate::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
@@ -31,13 +34,13 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
     if !plan.commands.is_empty() {
         line("commands", list(plan.commands.iter().map(|one| command(context, one))));
     }
-    if let Some(formula) = plan.formula.and_then(|one| one.strip_prefix("up_formula_")) {
-        line("formula", format!("Some(sense_rt::{})", formula.to_uppercase()));
+    if let Some(one) = plan.formula {
+        line("formula", format!("Some({})", formula(one)));
         let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
         line("parameters", format!("&[{}]", parameters.join(", ")));
     }
     line("cycle_ms", plan.cycle_ms.to_string());
-    line("address", byte(&plan.address));
+    line("address", byte(plan.address));
     text.push_str("    ..ChipTable::NEW\n};");
     text
 }
@@ -47,13 +50,13 @@ pub(super) fn list(entries: impl Iterator<Item = String>) -> String {
     format!("&[\n{entries}    ]")
 }
 
-/// A byte of a plan, which is spelled as C has it.
-pub(super) fn byte(c: &str) -> String {
-    c.trim_end_matches('U').to_owned()
+/// `0x3b`
+pub(super) fn byte(byte: u8) -> String {
+    format!("0x{byte:02x}")
 }
 
-pub(super) fn bytes(all: &[String]) -> String {
-    let all: Vec<String> = all.iter().map(|one| byte(one)).collect();
+pub(super) fn bytes(all: &[u8]) -> String {
+    let all: Vec<String> = all.iter().copied().map(byte).collect();
     format!("&[{}]", all.join(", "))
 }
 
@@ -96,14 +99,27 @@ fn command(context: &Context<'_>, plan: &CommandPlan) -> String {
     )
 }
 
+/// The runtime's formula.
+pub(super) const fn formula(formula: Formula) -> &'static str {
+    match formula {
+        Formula::Bmp280 => "sense_rt::BMP280",
+        Formula::Bme280 => "sense_rt::BME280",
+        Formula::Ntc => "sense_rt::NTC",
+        Formula::Tsl2561 => "sense_rt::TSL2561",
+    }
+}
+
 pub(super) fn coding(plan: &ValuePlan) -> String {
     let code = match plan.code {
-        "UP_CODE_FLOAT" => "Code::Float",
-        "UP_CODE_BCD" => "Code::Bcd",
-        "UP_CODE_PACKED" => "Code::Packed",
-        _ => "Code::Integer",
+        Code::Integer => "Code::Integer",
+        Code::Float => "Code::Float",
+        Code::Bcd => "Code::Bcd",
+        Code::Packed => "Code::Packed",
     };
-    let crc = if plan.crc == "UP_CRC_SENSIRION" { "Crc::Sensirion" } else { "Crc::None" };
+    let crc = match plan.crc {
+        None => "Crc::None",
+        Some(Crc::Sensirion) => "Crc::Sensirion",
+    };
     format!(
         "Coding {{ elements: &{:?}, words: {}, code: {code}, crc: {crc}, word_bytes: {}, low: {}, bits: {}, \
          is_signed: {}, is_little_endian: {} }}",

@@ -2,12 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::signal::UnitName;
+use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::PartIndex;
+use sensedsl_model::kind::KindName;
 
 use super::context::{Context, late};
-use super::section::{Section, Start, Watched};
+use super::lack::{self, Lack, Made};
+use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
-use crate::job::{Cycle, JobConnection};
+use crate::job::{Cycle, JobConnection, by_unit};
 use crate::part::BusPlan;
 use crate::print::snake;
 
@@ -16,12 +20,48 @@ const TIMEOUT_BASE_MS: u32 = 10;
 
 /// A bus with what is on it.
 pub(super) struct Bus<'a> {
-    pub(super) unit: &'a str,
+    pub(super) unit: UnitName,
     /// The runtime's type of it.
-    pub(super) type_: &'static str,
-    pub(super) on_bus: &'a [&'a JobConnection<'a>],
-    /// Bits a second of the slowest part.
-    pub(super) hz: u32,
+    type_: &'static str,
+    /// One of those on it: all have the wires of the bus.
+    pub(super) first: &'a JobConnection<'a>,
+    pub(super) all: Vec<&'a JobConnection<'a>>,
+}
+
+/// The buses of a kind; `type_` is the runtime's type of one.
+pub(super) fn buses<'a>(
+    context: &Context<'a>,
+    kind: KindName,
+    type_: &'static str,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Bus<'a>> {
+    for wire in context.connections(kind) {
+        context.tell(wire.part, lack::unit(wire).map(drop), diagnostics);
+    }
+    let buses = by_unit(context.connections(kind)).into_iter();
+    let bus = |(unit, all): (UnitName, Vec<&'a JobConnection<'a>>)| {
+        Some(Bus { unit, type_, first: all.first()?, all })
+    };
+    buses.filter_map(bus).collect()
+}
+
+impl Bus<'_> {
+    /// What is on it, for a comment.
+    pub(super) fn titles(&self) -> String {
+        let titles: Vec<&str> = self.all.iter().map(|one| one.title.as_str()).collect();
+        titles.join(", ")
+    }
+
+    /// Hands the bus over to its tasks, which take turns.
+    pub(super) fn share(&self, field: Field, section: &mut Section) {
+        let Self { unit, type_, .. } = self;
+        section.items.push(format!("static {unit}_BUS: StaticCell<{type_}> = StaticCell::new();"));
+        section.starts.push(Start::Make(format!(
+            "let {0}: &'static {type_} = {unit}_BUS.init(Mutex::new(wiring.{0}));",
+            field.name
+        )));
+        section.fields.push(field);
+    }
 }
 
 /// A part that a task serves.
@@ -40,47 +80,53 @@ pub(super) struct Reach {
     pub(super) lines: String,
 }
 
-/// The tasks of a bus: one for each cycle.
+/// The tasks of a bus: one for each cycle. `hz`: bits a second of the slowest part.
 pub(super) fn tasks(
     context: &Context<'_>,
     bus: &Bus<'_>,
-    reach: impl Fn(&[Served<'_>]) -> Reach,
+    hz: u32,
+    reach: impl Fn(&[Served<'_>]) -> Made<Reach>,
     section: &mut Section,
-) {
-    for (cycle, served) in cycles(context, bus) {
-        task(context, bus, cycle, &served, &reach(&served), section);
+) -> Made<()> {
+    for (cycle, served) in cycles(context, bus)? {
+        task(context, bus, hz, cycle, &served, &reach(&served)?, section);
     }
+    Ok(())
 }
 
 /// The parts of each cycle, in the design's order.
-fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> BTreeMap<Cycle, Vec<Served<'a>>> {
+fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Made<BTreeMap<Cycle, Vec<Served<'a>>>> {
     let mut known: Vec<PartIndex> = Vec::new();
     let mut cycles: BTreeMap<Cycle, Vec<Served<'a>>> = BTreeMap::new();
-    for wire in bus.on_bus {
-        let plan = context.job.tables_of(wire).and_then(|plan| plan.bus.clone());
-        let Some(plan) = plan.filter(|_| !known.contains(&wire.connection.part)) else { continue };
+    for wire in &bus.all {
+        if known.contains(&wire.connection.part) {
+            continue;
+        }
         known.push(wire.connection.part);
+        let plan = context.job.tables_of(wire).and_then(|plan| plan.bus.clone());
+        let plan = plan.ok_or_else(|| Lack::table("registers"))?;
         cycles.entry(wire.cycle).or_default().push(Served { plan, wire });
     }
-    cycles
+    Ok(cycles)
 }
 
 fn task(
     context: &Context<'_>,
     bus: &Bus<'_>,
+    hz: u32,
     cycle: Cycle,
     served: &[Served<'_>],
     reach: &Reach,
     section: &mut Section,
 ) {
-    let ident = cycle.ident(bus.unit);
+    let ident = cycle.ident(bus.unit.as_str());
     let constant = ident.to_uppercase();
     let bytes = served.iter().map(|one| one.plan.work_bytes + 4).max().unwrap_or(4);
     let bits_ms =
-        u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(2 * 9 * 1_000) / bus.hz.max(1);
+        u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(2 * 9 * 1_000) / hz.max(1);
     let mut text = format!(
         "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(bus: &'static {}{}) {{\n{}",
-        cycle.title(bus.unit),
+        cycle.title(bus.unit.as_str()),
         bus.type_,
         reach.parameters,
         late(cycle)
@@ -107,7 +153,7 @@ fn task(
          Timer::after_millis(u64::from(idle_ms.max(1))).await;\n    }}\n}}"
     ));
     section.items.push(text);
-    let call = format!("{ident}({}{})", snake(bus.unit), reach.arguments);
+    let call = format!("{ident}({}{})", snake(bus.unit.as_str()), reach.arguments);
     section.starts.push(Start::Task(cycle.prio, call));
     let device = served.first().map_or(0, |one| context.id_of(one.wire));
     section.watched.push(Watched::new(constant, cycle, device));

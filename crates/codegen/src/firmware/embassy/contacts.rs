@@ -4,25 +4,27 @@ use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::digital::{Digital, Edge, Pull};
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
 use super::filter;
+use super::lack::{self, Made};
 use super::section::{Field, Section};
 use crate::job::JobConnection;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let mut lines: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for wired in context.wired(KindName::Digital) {
-        let own = wired.wires.first().and_then(|one| digital(one));
+        let own = wired.first.connection.kind.digital();
         let Some(own) = own.filter(|own| is_kept(own)) else { continue };
         if wired.device.device.direction == Direction::Actuator {
             continue;
         }
         for wire in &wired.wires {
-            input(context, wire, own, &mut lines, &mut section);
+            let made = input(context, wire, own, &mut lines, &mut section);
+            context.tell(wire.part, made, diagnostics);
         }
         if own.edge.is_some() {
             poll(context, &wired, own, &mut section);
@@ -33,22 +35,6 @@ pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
         handler(&interrupt, &statics, &mut section);
     }
     section
-}
-
-/// How an input is looked at.
-pub(super) fn digital<'a>(wire: &JobConnection<'a>) -> Option<&'a Digital> {
-    match &wire.connection.kind {
-        Kind::Digital(own) => Some(own),
-        Kind::Analog(_)
-        | Kind::I2c(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Uart(_)
-        | Kind::Spi(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    }
 }
 
 /// Whether more is wanted of an input than its level now.
@@ -76,8 +62,8 @@ fn input(
     own: &Digital,
     lines: &mut BTreeMap<String, Vec<String>>,
     section: &mut Section,
-) -> Option<()> {
-    let pin = &wire.pad(Role::In)?.pin.name;
+) -> Made<()> {
+    let pin = &lack::pad(wire, Role::In)?.pin.name;
     let kept = name(wire);
     let edge = match own.edge {
         Some(Edge::Rising) => "Rising",
@@ -87,7 +73,7 @@ fn input(
     let (kind, type_, make) = if own.edge.is_some() {
         let line = pin.as_str().trim_start_matches(|letter: char| !letter.is_ascii_digit());
         let line = format!("EXTI{line}");
-        let interrupt = context.names.interrupt(&line, "GLOBAL")?.to_owned();
+        let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
         lines.entry(interrupt).or_default().push(kept.clone());
         // A level that is to last must be seen to come and to go.
         let trigger = match own.edge {
@@ -122,7 +108,7 @@ fn input(
     if own.edge.is_none() {
         section.polls.push(format!("let _ = {kept}.look();"));
     }
-    Some(())
+    Ok(())
 }
 
 /// The handler of an interrupt, which lines may share.

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
-use sensedsl_board::signal::Function;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
+use super::gaps;
 use super::names::{Chip, Names};
-use crate::job::{BoardJob, Cycle, JobConnection, JobDevice, Pad};
+use crate::job::{BoardJob, Cycle, JobConnection, JobDevice};
 
 /// One board on its way to a plan.
 pub(super) struct Context<'a> {
@@ -22,31 +24,51 @@ pub(super) struct Context<'a> {
 }
 
 /// A device of one value with its wires.
+#[derive(Clone)]
 pub(super) struct Wired<'a> {
     /// Index of its item.
     pub(super) index: usize,
     pub(super) device: &'a JobDevice<'a>,
-    /// One for each element.
+    pub(super) first: &'a JobConnection<'a>,
+    /// One for each element, the first among them.
     pub(super) wires: Vec<&'a JobConnection<'a>>,
 }
 
 impl<'a> Context<'a> {
-    /// `None` when Embassy has no chip of the board's name, or the profile no timer for the clock.
-    pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
-        let profile = job.profile?;
-        let names = Names::of(profile).ok()?;
-        let chip = names.chip(job.board.mcu.as_deref()?)?;
-        let timer = super::clock::timer(job, profile)?;
-        Some(Self { job, profile, names, chip, timer })
+    /// Fails if Embassy does not support the board's MCU, or if the devices leave no timer for its clock.
+    pub(super) fn new(job: &'a BoardJob<'a>) -> Result<Self, Diagnostic> {
+        let board = &job.board.name;
+        let lack = |why: &str| no_firmware_target(board.span, &board.value, why);
+        let profile = job.profile.ok_or_else(|| lack("it has no target profile"))?;
+        let names = Names::of(profile).map_err(|error| lack(&error))?;
+        let chip = job.board.mcu.as_deref().and_then(|mcu| names.chip(mcu));
+        let chip = chip.ok_or_else(|| lack("Embassy does not support its MCU"))?;
+        let timer = super::clock::timer(job, profile).ok_or_else(|| {
+            let timers = profile.kernel.timers.join(", ");
+            lack(&format!(
+                "its devices leave no timer for Embassy's clock, which runs on one of {timers}"
+            ))
+        })?;
+        Ok(Self { job, profile, names, chip, timer })
+    }
+
+    /// The connections of a kind, in the design's order. Those that no code is made for are left out: they are told as
+    /// gaps.
+    pub(super) fn connections(
+        &self,
+        kind: KindName,
+    ) -> impl Iterator<Item = &'a JobConnection<'a>> {
+        let job = self.job;
+        job.connections(kind).filter(|one| gaps::lacks(job, one).is_none())
     }
 
     /// The devices of a kind with their wires, in the design's order.
     pub(super) fn wired(&self, kind: KindName) -> Vec<Wired<'a>> {
         let devices = self.job.devices.iter().enumerate();
         let wired = devices.filter_map(|(index, device)| {
-            let own = self.job.connections(kind).filter(|one| one.devices.contains(&index));
+            let own = self.connections(kind).filter(|one| one.devices.contains(&index));
             let wires: Vec<&JobConnection<'a>> = own.collect();
-            (!wires.is_empty()).then_some(Wired { index, device, wires })
+            Some(Wired { index, device, first: wires.first()?, wires })
         });
         wired.collect()
     }
@@ -55,7 +77,7 @@ impl<'a> Context<'a> {
     pub(super) fn classes(&self, kind: KindName) -> BTreeMap<(String, Cycle), Vec<Wired<'a>>> {
         let mut classes: BTreeMap<(String, Cycle), Vec<Wired<'a>>> = BTreeMap::new();
         for wired in self.wired(kind) {
-            let unit = wired.wires.first().and_then(|one| one.unit).unwrap_or("gpio");
+            let unit = wired.first.unit.unwrap_or("gpio");
             classes.entry((unit.to_owned(), wired.device.cycle)).or_default().push(wired);
         }
         classes
@@ -92,12 +114,6 @@ impl<'a> Context<'a> {
 /// The scalar type in the runtime's words.
 pub(super) fn scalar(scalar: ScalarType) -> String {
     format!("Scalar::{scalar:?}")
-}
-
-/// The channel of a timer that a pad is on.
-pub(super) fn channel(pad: &Pad<'_>) -> Option<u8> {
-    let Function::Timer { channel, .. } = pad.usage?.signal.function() else { return None };
-    Some(*channel)
 }
 
 /// The beginning of a task: its start among those that take turns.

@@ -4,7 +4,7 @@ use sensedsl_model::design::PartIndex;
 
 use super::context::Context;
 use super::section::Section;
-use crate::part::FilterPlan;
+use crate::part::{FilterPlan, Number};
 
 /// What a task hands over with the values of an item: its filter, or `None`. The filter's table is added to the
 /// section, and its state to what the task keeps.
@@ -58,18 +58,12 @@ fn plan_of<'a>(context: &Context<'a>, index: usize) -> Option<&'a FilterPlan> {
 }
 
 fn table(plan: &FilterPlan) -> String {
-    let number = |c: &str| number(plan.member, c);
     let invalid: Vec<String> = plan
         .invalid
         .iter()
-        .map(|(low, high)| format!("Range {{ low: {}, high: {} }}", number(low), number(high)))
+        .map(|(low, high)| format!("Range {{ low: {}, high: {} }}", number(*low), number(*high)))
         .collect();
-    let change = plan.change.as_deref();
-    let change = change.map_or("None".to_owned(), |change| {
-        // The distance of integers has no sign, whatever they have.
-        let member = if plan.member == "i" { "u" } else { plan.member };
-        format!("Some({})", self::number(member, change))
-    });
+    let change = plan.change.map_or("None".to_owned(), |one| format!("Some({})", number(one)));
     format!(
         "pub const {}_FILTER: FilterTable = FilterTable {{\n    invalid: &[{}],\n    wide: {},\n    median: {},\n    \
          smooth_ms: {},\n    change: {change},\n    heartbeat_ms: {},\n}};",
@@ -82,17 +76,14 @@ fn table(plan: &FilterPlan) -> String {
     )
 }
 
-/// A number of a plan, which is spelled as C has it.
-fn number(member: &str, c: &str) -> String {
-    let inner = c.split_once('(').map_or(c, |(_, rest)| rest.trim_end_matches(')'));
-    let inner = match inner {
-        "INT64_MIN" => "i64::MIN",
-        other => other.trim_end_matches(['f', 'F', 'L', 'U']),
-    };
-    match member {
-        "i" => format!("Number::signed({inner})"),
-        "f" => format!("Number::float32({inner})"),
-        "d" => format!("Number::float64({inner})"),
-        _ => format!("Number::unsigned({inner})"),
+/// A number in the runtime's words.
+fn number(number: Number) -> String {
+    match number {
+        Number::Unsigned(number) => format!("Number::unsigned({number})"),
+        // The least one is not spelled as it is written.
+        Number::Signed(i64::MIN) => "Number::signed(i64::MIN)".to_owned(),
+        Number::Signed(number) => format!("Number::signed({number})"),
+        Number::Float32(number) => format!("Number::float32({number:?})"),
+        Number::Float64(number) => format!("Number::float64({number:?})"),
     }
 }

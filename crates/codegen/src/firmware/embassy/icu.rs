@@ -4,8 +4,9 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use sensedsl_model::kind::{KindName, Role};
 
-use super::context::{Context, Wired, channel, scalar};
+use super::context::{Context, Wired, scalar};
 use super::filter;
+use super::lack::{self, Made};
 use super::section::{Field, Section, Start};
 use crate::job::JobConnection;
 use crate::part::TrainPlan;
@@ -13,24 +14,27 @@ use crate::part::TrainPlan;
 /// After so long without an edge there is no frequency.
 const SILENT_MS: u32 = 1_000;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for wired in context.wired(KindName::Icu) {
-        let Some(icu) = wired.wires.first().and_then(|one| one.connection.kind.icu()) else {
-            continue;
-        };
-        let train = train(context, &wired);
-        for wire in &wired.wires {
-            let prio = wired.device.cycle.prio;
-            let _ = input(context, wire, icu, (prio, train), &mut section);
-        }
-        match train {
-            Some(train) => poll_train(context, &wired, train, &mut section),
-            None => poll(context, &wired, icu, &mut section),
-        }
-        section.runtime.insert("capture.rs");
+        let made = device(context, &wired, &mut section);
+        context.tell(wired.first.part, made, diagnostics);
     }
     section
+}
+
+fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+    let icu = lack::kind(wired.first.connection.kind.icu())?;
+    let train = train(context, wired);
+    for wire in &wired.wires {
+        input(context, wire, icu, (wired.device.cycle.prio, train), section)?;
+    }
+    match train {
+        Some(train) => poll_train(context, wired, train, section),
+        None => poll(context, wired, icu, section),
+    }
+    section.runtime.insert("capture.rs");
+    Ok(())
 }
 
 /// How a pulse train is read; none where there is no train.
@@ -52,10 +56,10 @@ fn input(
     icu: &Icu,
     (prio, train): (i8, Option<&TrainPlan>),
     section: &mut Section,
-) -> Option<()> {
-    let (unit, pad) = (wire.unit?, wire.pad(Role::In)?);
-    let (channel, hal) = (channel(pad)?, context.peripheral(unit));
-    let interrupt = context.names.interrupt(unit, "CC")?;
+) -> Made<()> {
+    let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
+    let (channel, hal) = (lack::channel(pad)?, context.peripheral(unit));
+    let interrupt = context.interrupt(unit, "CC")?;
     section.bind(interrupt, format!("hal::timer::CaptureCompareInterruptHandler<{hal}>"));
     let (ident, pin) = (&wire.ident, &pad.pin.name);
     let (type_, make) = if icu.mode == Mode::Count {
@@ -104,7 +108,7 @@ fn input(
         wire.place(),
     ));
     section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
-    Some(())
+    Ok(())
 }
 
 /// A timer that tells edges.
@@ -169,7 +173,7 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Secti
     let constant = ident.to_uppercase();
     let is_array = wired.wires.iter().any(|one| one.connection.element.is_some());
     if !is_array {
-        let seen = wired.wires.first().map_or(String::new(), |wire| upper(wire));
+        let seen = upper(wired.first);
         section.states.push(format!("let mut {ident} = Capture::NEW;"));
         section.polls.push(format!(
             "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\n{config}\nlet mut value = [0; {bytes}];\n\
@@ -202,7 +206,7 @@ fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Secti
 
 fn poll_train(context: &Context<'_>, wired: &Wired<'_>, plan: &TrainPlan, section: &mut Section) {
     let filter = filter(context, wired, section);
-    let Some(seen) = wired.wires.first().map(|wire| upper(wire)) else { return };
+    let seen = upper(wired.first);
     section.states.push(format!("let mut {}_trains = 0;", plan.ident));
     section.polls.push(format!(
         "let seen = {seen}_SEEN.lock(core::cell::Cell::get);\nlet mut value = [0; {}];\n\

@@ -4,32 +4,40 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
-use super::context::{Context, Wired, channel, late, scalar};
+use super::context::{Context, Wired, late, scalar};
+use super::lack::{self, Made};
 use super::section::{Field, Keep, Section, Start, Watched};
 use super::{contacts, filter};
 use crate::job::{Cycle, JobConnection};
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for ((_, cycle), devices) in context.classes(KindName::Digital) {
         let has_edges = |one: &Wired<'_>| {
-            one.wires.first().and_then(|wire| contacts::digital(wire)?.edge).is_some()
+            one.first.connection.kind.digital().is_some_and(|own| own.edge.is_some())
         };
         // Those with edges are the reporter's.
         let is_read =
             |one: &&Wired<'_>| one.device.device.direction == Direction::Sensor && !has_edges(one);
         let sensors: Vec<&Wired<'_>> = devices.iter().filter(is_read).collect();
-        if !sensors.is_empty() {
-            digital(context, cycle, &sensors, &mut section);
+        if let Some(first) = sensors.first() {
+            let made = digital(context, cycle, &sensors, &mut section);
+            context.tell(first.first.part, made, diagnostics);
         }
     }
     for wired in context.wired(KindName::Encoder) {
-        encoder(context, &wired, &mut section);
+        let made = encoder(context, &wired, &mut section);
+        context.tell(wired.first.part, made, diagnostics);
     }
     section
 }
 
-fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section: &mut Section) {
+fn digital(
+    context: &Context<'_>,
+    cycle: Cycle,
+    devices: &[&Wired<'_>],
+    section: &mut Section,
+) -> Made<()> {
     let ident = cycle.ident("gpio");
     let constant = ident.to_uppercase();
     let (mut parameters, mut arguments, mut looks) = (String::new(), Vec::new(), String::new());
@@ -39,9 +47,8 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
         let value = wired.device.device.value.value;
         let mut levels = Vec::new();
         for wire in &wired.wires {
-            let (Some(pad), Some(own)) = (wire.pad(Role::In), contacts::digital(wire)) else {
-                continue;
-            };
+            let (pad, own) =
+                (lack::pad(wire, Role::In)?, lack::kind(wire.connection.kind.digital())?);
             if contacts::is_kept(own) {
                 let not = if own.active_low { "!" } else { "" };
                 levels.push(format!("{not}{}.level()", contacts::name(wire)));
@@ -81,10 +88,11 @@ fn digital(context: &Context<'_>, cycle: Cycle, devices: &[&Wired<'_>], section:
     section.starts.push(Start::Task(cycle.prio, call));
     let device = devices.first().map_or(0, |one| one.device.device.id.value);
     section.watched.push(Watched::new(constant, cycle, device));
+    Ok(())
 }
 
 /// The reporter looks at counters so often that no wrap is lost.
-fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Option<()> {
+fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let mut state = String::new();
     let filter = filter::pass(context, wired.index, section, &mut state);
@@ -110,15 +118,16 @@ fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> O
         value.scalar.size_bytes(),
         wired.device.ident.to_uppercase()
     ));
-    Some(())
+    Ok(())
 }
 
 /// The timer of two tracks, which the reporter keeps.
-fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Option<()> {
-    let (unit, a, b) = (wire.unit?, wire.pad(Role::A)?, wire.pad(Role::B)?);
+fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
+    let unit = lack::unit(wire)?;
+    let (a, b) = (lack::pad(wire, Role::A)?, lack::pad(wire, Role::B)?);
     let hal = context.peripheral(unit);
     // The HAL takes either order of the channels.
-    let (first, second) = (channel(a)?, channel(b)?);
+    let (first, second) = (lack::channel(a)?, lack::channel(b)?);
     let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
     section.fields.push(Field {
         name: wire.ident.clone(),
@@ -131,5 +140,5 @@ fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Sectio
     });
     let from = format!("wiring.{}", wire.ident);
     section.keeps.push(Keep { name: format!("{}_qei", wire.ident), type_, from });
-    Some(())
+    Ok(())
 }

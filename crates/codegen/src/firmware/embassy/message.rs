@@ -1,8 +1,11 @@
 //! The tables of a serial device in Rust: constants of the runtime's types.
 
+use sensedsl_model::kind::uart::MessageChecksum;
+use sensedsl_model::protocol::Format;
+
 use super::chip::{byte, bytes, coding, init, list};
 use super::context::Context;
-use crate::part::{ComposePlan, MessageFieldPlan, MessagePlan};
+use crate::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
 /// The tables of a device: its messages, how it is set up, and what it is sent.
 pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Vec<String> {
@@ -49,39 +52,42 @@ fn compose(context: &Context<'_>, plan: &ComposePlan) -> String {
 }
 
 /// The checksum in the runtime's words.
-fn checksum(name: &str) -> &'static str {
-    match name {
-        "UP_CHECKSUM_SUM8" => "MessageChecksum::Sum8",
-        "UP_CHECKSUM_XOR8" => "MessageChecksum::Xor8",
-        "UP_CHECKSUM_IBUS" => "MessageChecksum::Ibus",
-        "UP_CHECKSUM_CRC8_DVB_S2" => "MessageChecksum::Crc8DvbS2",
-        "UP_CHECKSUM_NMEA" => "MessageChecksum::Nmea",
-        _ => "MessageChecksum::None",
+const fn checksum(checksum: MessageChecksum) -> &'static str {
+    match checksum {
+        MessageChecksum::None => "MessageChecksum::None",
+        MessageChecksum::Sum8 => "MessageChecksum::Sum8",
+        MessageChecksum::Xor8 => "MessageChecksum::Xor8",
+        MessageChecksum::Ibus => "MessageChecksum::Ibus",
+        MessageChecksum::Crc8DvbS2 => "MessageChecksum::Crc8DvbS2",
+        MessageChecksum::Nmea => "MessageChecksum::Nmea",
     }
 }
 
 fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> String {
     let item = context.item(&plan.field);
-    if let Some(value) = &plan.value {
-        return format!(
-            "MessageField {{ item: {item}, byte: {}, value: {}, ..MessageField::NEW }}",
-            plan.byte,
-            coding(value)
-        );
-    }
-    let format = match plan.format {
-        "UP_FORMAT_DEGREES" => "Degrees",
-        "UP_FORMAT_HEX" => "Hex",
-        _ => "Decimal",
+    let text = match &plan.how {
+        FieldCoding::Binary { byte, value } => {
+            return format!(
+                "MessageField {{ item: {item}, byte: {byte}, value: {}, ..MessageField::NEW }}",
+                coding(value)
+            );
+        }
+        FieldCoding::Text(text) => text,
     };
-    // A C string is one of Rust's: the model takes letters and digits.
-    let sentence = plan.sentence.as_ref().map_or("None".to_owned(), |one| format!("Some(b{one})"));
+    let format = match text.format {
+        Format::Decimal => "Decimal",
+        Format::Degrees => "Degrees",
+        Format::Hex => "Hex",
+    };
+    let sentence = text.sentence.as_deref();
+    let sentence = sentence
+        .map_or("None".to_owned(), |one| format!("Some(b\"{}\")", one.as_bytes().escape_ascii()));
     format!(
         "MessageField {{ item: {item}, format: FieldFormat::{format}, sentence: {sentence}, separator: {}, index: {}, \
          decimals: {}, ..MessageField::NEW }}",
-        byte(&plan.separator),
-        plan.index,
-        plan.decimals
+        byte(text.separator.unwrap_or(0)),
+        text.field,
+        text.decimals
     )
 }
 

@@ -19,6 +19,7 @@ mod gaps;
 mod i2c;
 mod icu;
 mod inputs;
+mod lack;
 mod levels;
 mod link;
 mod message;
@@ -80,7 +81,7 @@ impl Target for Embassy {
     }
 
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
-        let Some(context) = Context::new(job) else { return Err(Vec::new()) };
+        let context = Context::new(job).map_err(|report| vec![report])?;
         let mut diagnostics = Vec::new();
         let plan = plan::plan(&context, &mut diagnostics);
         if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }

@@ -2,23 +2,37 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::pin::PinName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::digital::Digital;
-use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::kind::pwm::Pwm;
+use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
-use super::context::{Context, Wired, channel, scalar};
+use super::bridge;
+use super::context::{Context, Wired, scalar};
+use super::lack::{self, Made};
 use super::section::{Field, Section};
-use super::{bridge, contacts};
 use crate::job::JobConnection;
 use crate::print::snake;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    digital(context, &mut section);
-    pwm(context, &mut section);
-    dac(context, &mut section);
-    bridge::plan(context, &mut section);
+    // Some are of no device: a part has them at their level for good.
+    for wire in context.connections(KindName::Digital) {
+        let made = pin(wire, &mut section);
+        context.tell(wire.part, made, diagnostics);
+    }
+    for wired in actuators(context, KindName::Digital) {
+        let made = digital(&wired, &mut section);
+        context.tell(wired.first.part, made, diagnostics);
+    }
+    pwm(context, &mut section, diagnostics);
+    for wired in actuators(context, KindName::Dac) {
+        let made = dac(context, &wired, &mut section);
+        context.tell(wired.first.part, made, diagnostics);
+    }
+    bridge::plan(context, &mut section, diagnostics);
     section
 }
 
@@ -35,36 +49,40 @@ fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
     (scalar(value.scalar), format!("value.get({start}..).unwrap_or_default()"))
 }
 
-fn digital(context: &Context<'_>, section: &mut Section) {
-    // Some are of no device: a part has them at their level for good.
-    for wire in context.job.connections(KindName::Digital) {
-        let (Some(pad), Some(own)) = (wire.pad(Role::Out), contacts::digital(wire)) else {
-            continue;
-        };
-        section.outputs.push(Field {
-            name: wire.ident.clone(),
-            comment: wire.place(),
-            type_: "Output<'static>".to_owned(),
-            make: format!(
-                "Output::new(p.{}, {}, Speed::Low)",
-                pad.pin.name,
-                level_of(own, own.initial)
-            ),
-        });
+/// The output of a pin; inputs have none.
+fn pin(wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
+    if wire.pad(Role::In).is_some() {
+        return Ok(());
     }
-    let actuators = actuators(context, KindName::Digital).into_iter();
-    for wired in actuators.filter(|wired| !bridge::is_bridge(wired)) {
-        for (at, wire) in wired.wires.iter().enumerate() {
-            let Some(own) = contacts::digital(wire) else { continue };
-            let (scalar, bytes) = element(&wired, at);
-            section.sets.entry(wired.index).or_default().push(format!(
-                "outputs.{}.set_level(if {scalar}.load({bytes}) != 0 {{ {} }} else {{ {} }});",
-                wire.ident,
-                level_of(own, true),
-                level_of(own, false)
-            ));
-        }
+    let pad = lack::pad(wire, Role::Out)?;
+    let own = lack::kind(wire.connection.kind.digital())?;
+    let initial = level_of(own, own.initial);
+    section.outputs.push(Field {
+        name: wire.ident.clone(),
+        comment: wire.place(),
+        type_: "Output<'static>".to_owned(),
+        make: format!("Output::new(p.{}, {initial}, Speed::Low)", pad.pin.name),
+    });
+    Ok(())
+}
+
+/// What the host sets of pins.
+fn digital(wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+    if bridge::is_bridge(wired) {
+        return Ok(());
     }
+    for (at, wire) in wired.wires.iter().enumerate() {
+        let own = lack::kind(wire.connection.kind.digital())?;
+        lack::pad(wire, Role::Out)?;
+        let (scalar, bytes) = element(wired, at);
+        section.sets.entry(wired.index).or_default().push(format!(
+            "outputs.{}.set_level(if {scalar}.load({bytes}) != 0 {{ {} }} else {{ {} }});",
+            wire.ident,
+            level_of(own, true),
+            level_of(own, false)
+        ));
+    }
+    Ok(())
 }
 
 /// The level of a pin that is on or off.
@@ -73,15 +91,14 @@ pub(super) const fn level_of(own: &Digital, is_on: bool) -> &'static str {
 }
 
 /// Outputs of one timer are one object of the HAL.
-fn pwm(context: &Context<'_>, section: &mut Section) {
-    let mut timers: BTreeMap<&str, Vec<(Wired<'_>, usize)>> = BTreeMap::new();
-    let devices = actuators(context, KindName::Pwm);
-    for wired in &devices {
-        for (at, wire) in wired.wires.iter().enumerate() {
-            let Some(unit) = wire.unit else { continue };
-            let one =
-                Wired { index: wired.index, device: wired.device, wires: wired.wires.clone() };
-            timers.entry(unit).or_default().push((one, at));
+fn pwm(context: &Context<'_>, section: &mut Section, diagnostics: &mut Vec<Diagnostic>) {
+    let mut timers: BTreeMap<&str, Vec<Output<'_>>> = BTreeMap::new();
+    for wired in actuators(context, KindName::Pwm) {
+        for (at, wire) in wired.wires.iter().copied().enumerate() {
+            match Output::new(context, &wired, at, wire) {
+                Ok((unit, output)) => timers.entry(unit).or_default().push(output),
+                Err(lack) => context.tell(wire.part, Err(lack), diagnostics),
+            }
         }
     }
     for (unit, outputs) in timers {
@@ -89,70 +106,83 @@ fn pwm(context: &Context<'_>, section: &mut Section) {
     }
 }
 
-fn timer(
-    context: &Context<'_>,
-    unit: &str,
-    outputs: &[(Wired<'_>, usize)],
-    section: &mut Section,
-) -> Option<()> {
+/// One element of a value on its channel.
+struct Output<'a> {
+    wired: Wired<'a>,
+    at: usize,
+    wire: &'a JobConnection<'a>,
+    pin: &'a PinName,
+    pwm: &'a Pwm,
+    pulse: Pulse,
+}
+
+impl<'a> Output<'a> {
+    /// With the unit that it is of.
+    fn new(
+        context: &Context<'_>,
+        wired: &Wired<'a>,
+        at: usize,
+        wire: &'a JobConnection<'a>,
+    ) -> Made<(&'a str, Self)> {
+        let pwm = lack::kind(wire.connection.kind.pwm())?;
+        let (pulse, pin) = (Pulse::of(context, wire)?, &lack::pad(wire, Role::Out)?.pin.name);
+        Ok((lack::unit(wire)?, Self { wired: wired.clone(), at, wire, pin, pwm, pulse }))
+    }
+}
+
+fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mut Section) {
+    let Some(first) = outputs.first() else { return };
     let (name, hal) = (snake(unit), context.peripheral(unit));
-    let wires = || outputs.iter().filter_map(|(wired, at)| wired.wires.get(*at).copied());
-    let on = |slot: u8| wires().find(|one| one.pad(Role::Out).and_then(channel) == Some(slot));
-    let slot = |slot: u8| match on(slot).and_then(|one| one.pad(Role::Out)) {
-        Some(pad) => format!(
+    let slot = |slot: u8| match outputs.iter().find(|one| one.pulse.slot == slot) {
+        Some(one) => format!(
             "Some(hal::timer::simple_pwm::PwmPin::new(p.{}, OutputType::PushPull))",
-            pad.pin.name
+            one.pin
         ),
         None => "None".to_owned(),
     };
     let slots: Vec<String> = (1..=4).map(slot).collect();
-    let places: Vec<String> = wires().map(JobConnection::place).collect();
-    let Kind::Pwm(first) = &wires().next()?.connection.kind else { return None };
+    let places: Vec<String> = outputs.iter().map(|one| one.wire.place()).collect();
     section.outputs.push(Field {
-        name: name.clone(),
+        name,
         comment: format!("{unit}: {}", places.join("; ")),
         type_: format!("hal::timer::simple_pwm::SimplePwm<'static, {hal}>"),
         make: format!(
             "hal::timer::simple_pwm::SimplePwm::new(p.{hal}, {}, hz({}), CountingMode::EdgeAlignedUp)",
             slots.join(", "),
-            first.frequency_hz
+            first.pwm.frequency_hz
         ),
     });
-    let plain = outputs.iter().filter(|(wired, _)| !bridge::is_bridge(wired));
-    for (wired, at) in plain {
-        let Some(wire) = wired.wires.get(*at) else { continue };
-        let (Some(pulse), Kind::Pwm(own)) = (Pulse::of(context, wire), &wire.connection.kind)
-        else {
-            continue;
-        };
+    let plain = outputs.iter().filter(|one| !bridge::is_bridge(&one.wired));
+    for Output { wired, at, pwm, pulse, .. } in plain {
         let (scalar, bytes) = element(wired, *at);
         let sets = section.sets.entry(wired.index).or_default();
         // All elements change in the same period: until they are written their timers take nothing over.
-        let hold = |is_held| {
-            format!("hal::pac::{hal}.cr1().modify(|control| control.set_udis({is_held}));")
-        };
+        let hold = hold(&hal, true);
         let is_array = wired.wires.len() > 1;
-        if is_array && !sets.contains(&hold(true)) {
-            sets.insert(0, hold(true));
+        if is_array && !sets.contains(&hold) {
+            sets.insert(0, hold);
         }
         sets.push(pulse.set(&format!("pulse_level({scalar}, {bytes})")));
-        if let Some(failsafe) = own.failsafe {
+        if let Some(failsafe) = pwm.failsafe {
             let safe = pulse.set(&level(failsafe).to_string());
             // Until the host speaks it is as silent as later: that is the start as well.
             section.begins.push(format!("outputs(|outputs| {{ {safe} }});"));
             section.fails.push(safe);
         }
     }
-    for (wired, _) in outputs.iter().filter(|(wired, _)| wired.wires.len() > 1) {
-        let release = format!("hal::pac::{hal}.cr1().modify(|control| control.set_udis(false));");
-        let held = release.replace("false", "true");
+    for Output { wired, .. } in outputs.iter().filter(|one| one.wired.wires.len() > 1) {
+        let (held, release) = (hold(&hal, true), hold(&hal, false));
         let sets = section.sets.entry(wired.index).or_default();
         if sets.contains(&held) && !sets.contains(&release) {
             sets.push(release);
         }
     }
     section.runtime.insert("pwm.rs");
-    Some(())
+}
+
+/// Keeps a timer from taking new levels over, or lets it.
+fn hold(hal: &str, is_held: bool) -> String {
+    format!("hal::pac::{hal}.cr1().modify(|control| control.set_udis({is_held}));")
 }
 
 /// An output of a timer.
@@ -169,14 +199,15 @@ pub(super) struct Pulse {
 }
 
 impl Pulse {
-    pub(super) fn of(context: &Context<'_>, wire: &JobConnection<'_>) -> Option<Self> {
-        let Kind::Pwm(own) = &wire.connection.kind else { return None };
+    pub(super) fn of(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Self> {
+        let own = lack::kind(wire.connection.kind.pwm())?;
+        let unit = lack::unit(wire)?;
         let period_us = 1_000_000 / own.frequency_hz.max(1);
         let whole = own.min_us.is_none() && own.max_us.is_none();
-        Some(Self {
-            name: snake(wire.unit?),
-            hal: context.peripheral(wire.unit?),
-            slot: channel(wire.pad(Role::Out)?)?,
+        Ok(Self {
+            name: snake(unit),
+            hal: context.peripheral(unit),
+            slot: lack::channel(lack::pad(wire, Role::Out)?)?,
             // Shares of the whole period need no microseconds, which may be few.
             min_us: own.min_us.unwrap_or(0),
             max_us: if whole { 1 } else { own.max_us.unwrap_or(period_us) },
@@ -215,35 +246,35 @@ fn level(value: f64) -> u32 {
     value.clamp(0.0, 10_000.0).round() as u32
 }
 
-fn dac(context: &Context<'_>, section: &mut Section) {
-    for wired in actuators(context, KindName::Dac) {
-        for (at, wire) in wired.wires.iter().enumerate() {
-            let (Some(unit), Some(pad)) = (wire.unit, wire.pad(Role::Out)) else { continue };
-            let ident = &wire.ident;
-            section.outputs.push(Field {
-                name: ident.clone(),
-                comment: wire.place(),
-                type_: "hal::dac::DacChannel<'static, hal::mode::Blocking>".to_owned(),
-                make: format!(
-                    "hal::dac::DacChannel::new_blocking(p.{}, p.{})",
-                    context.peripheral(unit),
-                    pad.pin.name
-                ),
-            });
-            let (scalar, bytes) = element(&wired, at);
-            let set = |value: String| {
-                format!("outputs.{ident}.set(hal::dac::Value::Bit12Right({value}));")
-            };
-            section.sets.entry(wired.index).or_default().push(set(format!(
-                "sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16"
-            )));
-            let Kind::Dac(own) = &wire.connection.kind else { continue };
-            let safe = own.failsafe.map(|safe| set(level(safe).min(4_095).to_string()));
-            // Until the host speaks it is as silent as later.
-            section.begins.extend(
-                safe.iter().map(|safe| format!("outputs(|outputs| {safe});").replace(";);", ");")),
-            );
-            section.fails.extend(safe);
-        }
+fn dac(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+    for (at, wire) in wired.wires.iter().enumerate() {
+        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
+        let own = lack::kind(wire.connection.kind.dac())?;
+        let ident = &wire.ident;
+        section.outputs.push(Field {
+            name: ident.clone(),
+            comment: wire.place(),
+            type_: "hal::dac::DacChannel<'static, hal::mode::Blocking>".to_owned(),
+            make: format!(
+                "hal::dac::DacChannel::new_blocking(p.{}, p.{})",
+                context.peripheral(unit),
+                pad.pin.name
+            ),
+        });
+        let (scalar, bytes) = element(wired, at);
+        let set =
+            |value: String| format!("outputs.{ident}.set(hal::dac::Value::Bit12Right({value}));");
+        section
+            .sets
+            .entry(wired.index)
+            .or_default()
+            .push(set(format!("sense_rt::load_magnitude({scalar}, {bytes}).0.min(4_095) as u16")));
+        let safe = own.failsafe.map(|safe| set(level(safe).min(4_095).to_string()));
+        // Until the host speaks it is as silent as later.
+        section.begins.extend(
+            safe.iter().map(|safe| format!("outputs(|outputs| {safe});").replace(";);", ");")),
+        );
+        section.fails.extend(safe);
     }
+    Ok(())
 }

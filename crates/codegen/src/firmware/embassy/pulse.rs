@@ -7,6 +7,7 @@ use sensedsl_model::design::Design;
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
+use super::lack;
 use super::section::{Field, Section, Start, Watched};
 use crate::job::Cycle;
 
@@ -23,14 +24,20 @@ struct Line {
     apart_ms: u32,
 }
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let mut classes: BTreeMap<(Cycle, u32), (u8, Vec<Line>)> = BTreeMap::new();
     for wired in context.wired(KindName::Icu) {
         let device = wired.device.device;
         let Some(pulse_us) = device.kind.icu().and_then(|icu| icu.pulse_us) else { continue };
         for wire in &wired.wires {
-            let Some(pad) = wire.pad(Role::Trigger) else { continue };
+            let pad = match lack::pad(wire, Role::Trigger) {
+                Ok(pad) => pad,
+                Err(lack) => {
+                    context.tell(wire.part, Err(lack), diagnostics);
+                    continue;
+                }
+            };
             let ident = format!("{}_trigger", wire.ident);
             section.fields.push(Field {
                 name: ident.clone(),

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::Diagnostic;
 
 use super::context::Context;
+use super::lack::{Lack, Made};
 use crate::job::{Cycle, JobConnection, JobStream};
 
 /// What one kind adds. Every text is Rust; `plan.rs` puts the sections together and looks into none.
@@ -107,18 +108,22 @@ impl Section {
         self.handlers.entry(interrupt.to_owned()).or_default().insert(handler);
     }
 
-    /// The DMA channel of a request of a unit, with its handler bound; none where there is none.
+    /// The DMA channel of a request of a unit, with its handler bound.
     pub(super) fn stream(
         &mut self,
         context: &Context<'_>,
         wire: &JobConnection<'_>,
         request: &str,
-    ) -> Option<String> {
+    ) -> Made<String> {
         let of = |one: &&JobStream<'_>| one.request.ends_with(request);
-        let channel = context.names.channel(wire.streams.iter().find(of)?.stream)?;
-        let interrupt = context.names.interrupt(&channel, "GLOBAL")?;
+        let stream = wire.streams.iter().find(of);
+        let stream =
+            stream.ok_or_else(|| Lack::wire(format!("a DMA stream for {request}")))?.stream;
+        let channel = context.names.channel(stream);
+        let channel = channel.ok_or_else(|| Lack::name(format!("the DMA stream {stream}")))?;
+        let interrupt = context.interrupt(&channel, "GLOBAL")?;
         self.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
-        Some(channel)
+        Ok(channel)
     }
 
     /// Takes over what another has.

@@ -2,10 +2,11 @@
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
+use super::lack::{self, Lack, Made};
 use super::section::{Field, Section, Start, Watched};
 use super::{filter, message};
 use crate::job::JobConnection;
@@ -29,29 +30,46 @@ struct Port<'a> {
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    for wire in context.job.connections(KindName::Uart) {
-        let uart = wire.connection.kind.uart();
-        let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
-        let (Some(unit), Some(uart), Some(plan)) = (wire.unit, uart, plan) else { continue };
-        if refuse(context, wire, uart, diagnostics) {
-            continue;
-        }
-        let says =
-            wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
-        let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
-        let port = Port { wire, unit, uart, plan, said };
-        section.tables.extend(message::tables(context, plan));
-        section.runtime.extend([
-            "serial.rs",
-            if context.names.has_old_ports() { "port_old.rs" } else { "port_new.rs" },
-        ]);
-        port.wiring(context, &mut section);
-        port.say(context, &mut section);
-        if !plan.fields.is_empty() || !plan.init.is_empty() {
-            port.listen(context, &mut section);
-        }
+    for wire in context.connections(KindName::Uart) {
+        let made = port(context, wire, &mut section, diagnostics);
+        context.tell(wire.part, made, diagnostics);
     }
     section
+}
+
+/// A port with its tasks.
+fn port(
+    context: &Context<'_>,
+    wire: &JobConnection<'_>,
+    section: &mut Section,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Made<()> {
+    let (unit, uart) = (lack::unit(wire)?, lack::kind(wire.connection.kind.uart())?);
+    let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
+    let plan = plan.ok_or_else(|| Lack::table("messages"))?;
+    if refuse(context, wire, uart, diagnostics) {
+        return Ok(());
+    }
+    if !plan.fields.is_empty() {
+        lack::pad(wire, Role::Rx)?;
+    }
+    if !plan.commands.is_empty() {
+        lack::pad(wire, Role::Tx)?;
+    }
+    let says = wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
+    let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
+    let port = Port { wire, unit, uart, plan, said };
+    section.tables.extend(message::tables(context, plan));
+    section.runtime.extend([
+        "serial.rs",
+        if context.names.has_old_ports() { "port_old.rs" } else { "port_new.rs" },
+    ]);
+    port.wiring(context, section)?;
+    port.say(context, section);
+    if !plan.fields.is_empty() || !plan.init.is_empty() {
+        port.listen(context, section)?;
+    }
+    Ok(())
 }
 
 /// A port that cannot do what its device needs.
@@ -96,7 +114,7 @@ impl Port<'_> {
     }
 
     /// The pins, which the HAL keeps in one object, or in one for each direction.
-    fn wiring(&self, context: &Context<'_>, section: &mut Section) {
+    fn wiring(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let hal = context.peripheral(self.unit);
         let pin = |role| self.wire.pad(role).map(|pad| pad.pin.name.as_str());
         let config = self.config();
@@ -113,7 +131,7 @@ impl Port<'_> {
                 "hal::usart::UartTx<'static, hal::mode::Blocking>",
                 format!("hal::usart::UartTx::new_blocking(p.{hal}, p.{tx}, {config})"),
             ),
-            (None, None) => return,
+            (None, None) => return Err(Lack::wire("a pin for `rx` or `tx`".to_owned())),
         };
         section.fields.push(Field {
             name: self.wire.ident.clone(),
@@ -128,6 +146,7 @@ impl Port<'_> {
                 "let ({ident}_tx, {ident}_rx) = wiring.{ident}.split();"
             )));
         }
+        Ok(())
     }
 
     /// Whether different tasks have the directions.
@@ -186,13 +205,13 @@ impl Port<'_> {
     }
 
     /// The interrupt of the port, and the task that takes what it has heard.
-    fn listen(&self, context: &Context<'_>, section: &mut Section) {
+    fn listen(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
         let has_fields = self.hears();
         let (type_, place) = self.half(true);
         let mut text = String::new();
         if has_fields {
-            text.push_str(&self.interrupt(context, section));
+            text.push_str(&self.interrupt(context, section)?);
         }
         let hears = if has_fields { format!("_port: {type_}") } else { String::new() };
         text.push_str(&format!(
@@ -223,29 +242,28 @@ impl Port<'_> {
         let call = if has_fields { place } else { String::new() };
         section.starts.push(Start::Task(cycle.prio, format!("{ident}_listen({call})")));
         section.watched.push(Watched::new(constant, cycle, context.id_of(self.wire)));
+        Ok(())
     }
 
     /// The handler of the port's interrupt, and what it fills.
-    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> String {
+    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Made<String> {
         let (upper, hal) = (self.upper(), context.peripheral(self.unit));
         let queue = (self.uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000;
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
-        let Some(interrupt) = context.names.interrupt(self.unit, "GLOBAL") else {
-            return String::new();
-        };
+        let interrupt = context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Heard"));
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
         section.begins.push(format!(
             "rt::serial::listen(hal::pac::{hal});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"
         ));
-        format!(
+        Ok(format!(
             "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
              /// What comes in at {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
              pub struct {upper}Heard;\n\n\
              impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
              unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt(hal::pac::{hal}, {mask});\n    }}\n}}\n\n",
             self.wire.place()
-        )
+        ))
     }
 
     /// What the task keeps of a device that says something.
@@ -296,7 +314,7 @@ impl Port<'_> {
 
 /// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
 fn gap_ms(uart: &Uart, plan: &MessagePlan) -> u32 {
-    let is_told = plan.checksum != "UP_CHECKSUM_NONE" || !uart.end.is_empty();
+    let is_told = plan.checksum != MessageChecksum::None || !uart.end.is_empty();
     let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
     if is_told { 0 } else { two_characters_ms.max(2) }
 }

@@ -1,7 +1,5 @@
 //! SPI: a bus for each unit, a chip select for each part, and a task for each bus and cycle.
 
-use std::collections::BTreeMap;
-
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::spi::Spi;
 use sensedsl_model::kind::{KindName, Role};
@@ -9,41 +7,24 @@ use sensedsl_timing::spi_divider;
 
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
-use super::section::{Field, Section, Start};
+use super::lack::{self, Made};
+use super::section::{Field, Section};
 use crate::job::JobConnection;
 use crate::print::snake;
 
-pub(super) fn plan(context: &Context<'_>, _: &mut Vec<Diagnostic>) -> Section {
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    let mut buses: BTreeMap<&str, Vec<&JobConnection<'_>>> = BTreeMap::new();
-    for one in context.job.connections(KindName::Spi) {
-        let Some(unit) = one.unit else { continue };
-        buses.entry(unit).or_default().push(one);
-    }
-    for (unit, on_bus) in buses {
-        let Some(field) = bus(context, unit, &on_bus, &mut section) else { continue };
-        let name = field.name.clone();
-        section.fields.push(field);
-        for one in &on_bus {
-            section.fields.extend(select(one));
-        }
-        section.items.push(format!("static {unit}_BUS: StaticCell<SpiBus> = StaticCell::new();"));
-        section.starts.push(Start::Make(format!(
-            "let {name}: &'static SpiBus = {unit}_BUS.init(Mutex::new(wiring.{name}));"
-        )));
-        section.runtime.insert("spi.rs");
-        let all = on_bus.iter().filter_map(|one| one.connection.kind.spi());
-        let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
-        let bus = Bus { unit, type_: "SpiBus", on_bus: &on_bus, hz };
-        chips::tasks(context, &bus, |served| reach(context, unit, served), &mut section);
+    for one in chips::buses(context, KindName::Spi, "SpiBus", diagnostics) {
+        let made = bus(context, &one, &mut section);
+        context.tell(one.first.part, made, diagnostics);
     }
     section
 }
 
 /// A chip select, which is high before it is an output.
-fn select(wire: &JobConnection<'_>) -> Option<Field> {
-    let pin = &wire.pad(Role::Cs)?.pin.name;
-    Some(Field {
+fn select(wire: &JobConnection<'_>) -> Made<Field> {
+    let pin = &lack::pad(wire, Role::Cs)?.pin.name;
+    Ok(Field {
         name: format!("{}_select", wire.ident),
         comment: format!("{}, selected by {pin}", wire.title),
         type_: "Output<'static>".to_owned(),
@@ -52,11 +33,11 @@ fn select(wire: &JobConnection<'_>) -> Option<Field> {
 }
 
 /// Every part is reached by its chip select, in its mode and at its clock.
-fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
+fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Made<Reach> {
     let mut reach =
         Reach { parameters: String::new(), arguments: String::new(), lines: String::new() };
     for Served { plan, wire } in served {
-        let Some(spi) = wire.connection.kind.spi() else { continue };
+        let spi = lack::kind(wire.connection.kind.spi())?;
         let select = format!("{}_select", wire.ident);
         reach.parameters.push_str(&format!(", {select}: Output<'static>"));
         reach.arguments.push_str(&format!(", wiring.{select}"));
@@ -67,33 +48,37 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
             clock_hz(context, unit, spi).unwrap_or(spi.clock_hz)
         ));
     }
-    reach
+    Ok(reach)
 }
 
-/// The bus, in the words of the HAL.
-fn bus(
-    context: &Context<'_>,
-    unit: &str,
-    on_bus: &[&JobConnection<'_>],
-    section: &mut Section,
-) -> Option<Field> {
-    let first = on_bus.first()?;
+/// The bus, in the words of the HAL, with the chip selects and the tasks that serve its parts.
+fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
+    let (unit, first) = (bus.unit.as_str(), bus.first);
     let hal = context.peripheral(unit);
     let (tx, rx) = (section.stream(context, first, "_TX")?, section.stream(context, first, "_RX")?);
-    let pin = |role| Some(&first.pad(role)?.pin.name);
+    let pin = |role| Ok(&lack::pad(first, role)?.pin.name);
     let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
-    let who: Vec<&str> = on_bus.iter().map(|one| one.title.as_str()).collect();
-    Some(Field {
-        name: snake(unit),
-        comment: format!(
-            "{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}",
-            who.join(", ")
-        ),
-        type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
-        make: format!(
-            "hal::spi::Spi::new(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())"
-        ),
-    })
+    bus.share(
+        Field {
+            name: snake(unit),
+            comment: format!(
+                "{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}",
+                bus.titles()
+            ),
+            type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
+            make: format!(
+                "hal::spi::Spi::new(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())"
+            ),
+        },
+        section,
+    );
+    for one in &bus.all {
+        section.fields.push(select(one)?);
+    }
+    section.runtime.insert("spi.rs");
+    let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());
+    let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
+    chips::tasks(context, bus, hz, |served| reach(context, unit, served), section)
 }
 
 /// The fastest clock of a unit that a part can follow. The HAL is asked for exactly that, because it takes the nearest.

@@ -7,6 +7,7 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_timing::depth;
 
 use crate::job::Cycle;
+use crate::part::DmaBuffer;
 
 /// One conversion group.
 #[derive(Clone, Debug)]
@@ -15,8 +16,8 @@ pub(super) struct Group {
     /// The driver object.
     pub(super) driver: String,
     pub(super) cycle: Cycle,
-    /// What its buffer is marked with: `UP_DMA_BUFFER`.
-    pub(super) buffer: &'static str,
+    /// Which DMA fills its buffer.
+    pub(super) buffer: DmaBuffer,
     /// In the order of conversion, that is by channel.
     pub(super) inputs: Vec<Input>,
     pub(super) timeout_ms: u64,

@@ -6,6 +6,7 @@ use sensedsl_board::signal::UnitName;
 use super::group::{Group, Input};
 use super::{f1, v1, v2, v3, v4, v5};
 use crate::job::Cycle;
+use crate::part::DmaBuffer;
 
 /// Channels with sampling times, as a group converts them.
 fn group(inputs: &[(u8, u32)]) -> Group {
@@ -21,7 +22,7 @@ fn group(inputs: &[(u8, u32)]) -> Group {
         unit: UnitName::new("ADC1"),
         driver: "ADCD1".to_owned(),
         cycle: Cycle { delay_ms: 60, prio: 0, start_ms: 0 },
-        buffer: "UP_DMA_BUFFER",
+        buffer: DmaBuffer::Main,
         inputs: inputs.iter().map(input).collect(),
         timeout_ms: 3,
     }

@@ -14,7 +14,7 @@ use crate::firmware::chibios::chips;
 use crate::firmware::chibios::context::{Context, Drive, PadPlan};
 use crate::firmware::chibios::names::Setting;
 use crate::firmware::chibios::section::{Counter, GuardPlan, Probe, Section, Size};
-use crate::job::JobConnection;
+use crate::job::{JobConnection, by_unit};
 use crate::print::{block, snake};
 
 /// Time for a device to think, beside the bits.
@@ -103,7 +103,7 @@ pub(super) fn plan(
 /// The addresses that devices have, for the self test.
 fn probe(context: &Context<'_>, port: &Port, on_bus: &[&JobConnection<'_>]) -> Probe {
     let plans = on_bus.iter().filter_map(|one| chips::plan_of(context.job, one));
-    let mut expected: Vec<String> = plans.map(|plan| plan.address.clone()).collect();
+    let mut expected: Vec<u8> = plans.map(|plan| plan.address).collect();
     expected.sort();
     expected.dedup();
     Probe {
@@ -125,12 +125,7 @@ fn busy(context: &Context<'_>, ports: &[Port]) -> Option<Setting> {
 }
 
 fn buses<'a>(context: &Context<'a>) -> Buses<'a> {
-    let mut buses = Buses::new();
-    for one in context.connections(KindName::I2c) {
-        let Some(unit) = one.unit.map(UnitName::new) else { continue };
-        buses.entry(unit).or_default().push(one);
-    }
-    buses
+    by_unit(context.connections(KindName::I2c))
 }
 
 impl Port {

@@ -16,7 +16,7 @@ use crate::firmware::chibios::chips;
 use crate::firmware::chibios::context::{Context, Drive, PadPlan};
 use crate::firmware::chibios::names::Setting;
 use crate::firmware::chibios::section::Section;
-use crate::job::{BoardJob, JobConnection};
+use crate::job::{BoardJob, JobConnection, by_unit};
 use crate::print::{block, snake};
 
 /// Time for interrupts and other threads, beside the bits.
@@ -100,12 +100,7 @@ pub(super) fn plan(
 }
 
 fn buses<'a>(job: &'a BoardJob<'a>) -> Buses<'a> {
-    let mut buses = Buses::new();
-    for one in job.connections(KindName::Spi) {
-        let Some(unit) = one.unit.map(UnitName::new) else { continue };
-        buses.entry(unit).or_default().push(one);
-    }
-    buses
+    by_unit(job.connections(KindName::Spi))
 }
 
 /// The number of a part's chip select on its bus.

@@ -3,7 +3,7 @@
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::uart::{Parity, Uart};
+use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use crate::firmware::chibios::context::{Context, Drive};
@@ -202,7 +202,7 @@ fn cr2(uart: &Uart) -> String {
 
 /// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
 fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
-    let is_told = message.checksum != "UP_CHECKSUM_NONE" || !uart.end.is_empty();
+    let is_told = message.checksum != MessageChecksum::None || !uart.end.is_empty();
     let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
     if is_told { 0 } else { two_characters_ms.max(2) }
 }
