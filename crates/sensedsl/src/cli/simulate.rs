@@ -20,6 +20,9 @@ pub(crate) struct SimulateArgs {
     /// The board of that name in the file; the first one unless you say
     #[arg(long, value_name = "NAME")]
     pub(crate) board: Option<String>,
+    /// What the wiring is for, as with `generate`: chibios, embassy, or one with its version
+    #[arg(long, value_name = "NAME")]
+    pub(crate) target: Option<String>,
     /// Compare every report with the world, as fast as possible; exit 1 where they disagree
     #[arg(long)]
     pub(crate) judge: bool,

@@ -39,6 +39,8 @@ const ALIGNED: u32 = 1 << 9;
 const EXC_RETURN: u32 = 0xFFFF_FFE0;
 /// The core is looked at for waiting every so many steps.
 const STEPS_BETWEEN_LOOKS: u32 = 8;
+/// A core that stands does so for some steps.
+const STEPS_OF_A_STAND: usize = 3;
 
 /// Why the core does nothing more.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -298,9 +300,7 @@ impl Core {
             if steps % STEPS_BETWEEN_LOOKS == 0 {
                 let pc = self.cpu.pc();
                 self.shared.pc.store(pc, Ordering::Relaxed);
-                cycles += self.step();
-                self.shared.cycles.store(cycles, Ordering::Relaxed);
-                if self.cpu.pc() == pc && !self.shared.touched.load(Ordering::Relaxed) {
+                if self.stands_at(pc, &mut cycles) {
                     cycles = self.wait(cycles, limit);
                 } else {
                     self.stands = None;
@@ -313,6 +313,19 @@ impl Core {
                 self.shared.cycles.store(cycles, Ordering::Relaxed);
             }
         }
+    }
+
+    /// Whether steps lead back to the same instruction, each of them. The last instruction of a handler does so once where
+    /// it has interrupted another one at that very instruction.
+    fn stands_at(&self, pc: u32, cycles: &mut u64) -> bool {
+        for _ in 0..STEPS_OF_A_STAND {
+            *cycles += self.step();
+            self.shared.cycles.store(*cycles, Ordering::Relaxed);
+            if self.cpu.pc() != pc || self.shared.touched.load(Ordering::Relaxed) {
+                return false;
+            }
+        }
+        true
     }
 
     /// One instruction, or the way into a handler.

@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::UnitName;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0504_no_firmware_target;
 use serde::Deserialize;
 
 use crate::job::BoardJob;
@@ -15,6 +17,16 @@ pub(super) fn timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<Strin
         job.connections.iter().filter_map(|one| one.unit).map(UnitName::new).collect();
     let is_free = |timer: &&String| !units.contains(&UnitName::new(timer));
     profile.kernel.timers.iter().find(is_free).cloned()
+}
+
+/// What is said where all of them are taken.
+pub(super) fn no_timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Diagnostic {
+    let name = &job.board.name;
+    let why = format!(
+        "its devices take every timer that its clock can run on ({}); another pin or kind for one of them frees one",
+        profile.kernel.timers.join(", ")
+    );
+    e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why)
 }
 
 /// What the firmware makes of the clocks of a line: members of the HAL's configuration and their values.

@@ -80,6 +80,9 @@ impl Target for Embassy {
     }
 
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+        if let Some(profile) = job.profile.filter(|one| clock::timer(job, one).is_none()) {
+            return Err(vec![clock::no_timer(job, profile)]);
+        }
         let Some(context) = Context::new(job) else { return Err(Vec::new()) };
         let mut diagnostics = Vec::new();
         let plan = plan::plan(&context, &mut diagnostics);

@@ -49,7 +49,7 @@ const EMULATED: [&str; 3] = [
 ];
 
 pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
-    let on = On { board: None, target: None, reach: args.reach.clone() };
+    let on = On { board: None, target: args.target.clone(), reach: args.reach.clone() };
     let snapshot = input::load(&args.file, &on);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
