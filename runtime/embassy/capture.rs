@@ -73,6 +73,12 @@ pub async fn count<T: GeneralInstance4Channel>(
     }
 }
 
+/// Ticks between two edges. The timer starts anew with the first of them, and the count that it takes at the second
+/// begins with 0.
+fn between(captured: u32) -> u32 {
+    captured.saturating_add(1)
+}
+
 /// Measures widths, or periods with their widths, for ever. What is longer than the timer counts is left out, and so
 /// is the time before the first edge.
 pub async fn measure<T: GeneralInstance4Channel>(
@@ -89,7 +95,7 @@ pub async fn measure<T: GeneralInstance4Channel>(
         let now = Instant::now();
         let gap_us = last.replace(now).map(|last| (now - last).as_micros());
         if is_width {
-            note(seen, |captured| captured.on_width(ticks, false));
+            note(seen, |captured| captured.on_width(between(ticks), false));
             continue;
         }
         // 16 bits, whatever the timer has.
@@ -98,8 +104,8 @@ pub async fn measure<T: GeneralInstance4Channel>(
         let width = timer.get_width_ticks();
         note(seen, |captured| {
             if is_whole {
-                captured.on_width(width, false);
-                captured.on_period(ticks);
+                captured.on_width(between(width), false);
+                captured.on_period(between(ticks));
             } else {
                 captured.on_edge();
             }
@@ -122,7 +128,7 @@ pub async fn train<T: GeneralInstance4Channel>(
         let is_whole = last.replace(now).is_some_and(|last| (now - last).as_micros() <= longest_us);
         seen.lock(|cell| {
             let mut train = cell.get();
-            train.on_interval(config, if is_whole { ticks } else { u32::MAX });
+            train.on_interval(config, if is_whole { between(ticks) } else { u32::MAX });
             cell.set(train);
         });
     }

@@ -108,7 +108,8 @@ impl Life {
         place.saturating_sub(&raw const __sheap as u32)
     }
 
-    fn cause(&self) -> Cause {
+    /// Why the board started.
+    pub fn cause(&self) -> Cause {
         let flags = self.flags.load(Ordering::Relaxed);
         let has = |bit: u32| flags >> bit & 1 != 0;
         if has(29) {

@@ -2,6 +2,7 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use embassy_stm32::gpio::Pull;
 use embassy_stm32::mode::Blocking;
 use embassy_stm32::pac::usart::Usart;
 use embassy_stm32::usart::{Config, DataBits, Parity, StopBits, UartTx};
@@ -58,6 +59,8 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
     config.data_bits = if bits == 7 { DataBits::DataBits7 } else { DataBits::DataBits8 };
     config.parity = parity;
     config.stop_bits = if stop_bits == 2 { StopBits::STOP2 } else { StopBits::STOP1 };
+    // A wire that nobody drives rests.
+    config.rx_pull = Pull::Up;
     config
 }
 

@@ -100,6 +100,12 @@ impl EmulatedBoard {
         self.machine.cycles_worked()
     }
 
+    /// How many instructions the core has executed, without those of a loop of one in which it waited.
+    #[must_use]
+    pub fn instructions(&self) -> u64 {
+        self.machine.instructions()
+    }
+
     /// Goes on to a time, a millisecond after the other: the supply may go in each of them.
     pub fn run_until(&mut self, until_ns: u64) {
         while self.garbage_ms < until_ns / MS_NS {

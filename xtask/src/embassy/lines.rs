@@ -99,7 +99,8 @@ fn prefixes(names: &BTreeSet<&str>, all: &[Chip]) -> Vec<String> {
     found.into_iter().collect()
 }
 
-/// Timers whose interrupts are theirs alone on every chip that has them.
+/// Timers whose interrupts no other unit has on any chip. Of other timers only captures interrupt: nothing is made for
+/// their brakes and triggers.
 fn kernel(facts: &Facts, chips: &[Chip]) -> Vec<String> {
     let is_alone = |name: &&String| {
         chips.iter().all(|chip| {
@@ -108,11 +109,21 @@ fn kernel(facts: &Facts, chips: &[Chip]) -> Vec<String> {
                 ["CC", "UP", "GLOBAL"].iter().filter_map(|signal| unit.interrupts.get(*signal));
             let others = chip.body.units.iter().filter(|(other, _)| other != name);
             let taken: BTreeSet<&String> =
-                others.flat_map(|(_, other)| other.interrupts.values()).collect();
+                others.flat_map(|(other, unit)| taken(other, &unit.interrupts)).collect();
             own.into_iter().all(|interrupt| !taken.contains(interrupt))
         })
     };
     facts.kernel.iter().filter(is_alone).cloned().collect()
+}
+
+/// The interrupts of a unit that the firmware may have a handler for.
+fn taken<'a>(
+    unit: &str,
+    interrupts: &'a BTreeMap<String, String>,
+) -> impl Iterator<Item = &'a String> {
+    let is_timer = unit.starts_with("TIM");
+    let has_handler = move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
+    interrupts.iter().filter(move |(signal, _)| has_handler(signal)).map(|(_, name)| name)
 }
 
 fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {

@@ -1,6 +1,5 @@
 //! The core with its memory, and the loop that lets it and the chip take turns.
 
-use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -14,6 +13,7 @@ use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 use super::Settings;
 use super::chip::Chip;
 use super::image::FLASH_BYTES;
+use super::lockup::Lockup;
 use super::map::DEBUG_BASE;
 use super::transfer::{FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
@@ -39,21 +39,8 @@ const ALIGNED: u32 = 1 << 9;
 const EXC_RETURN: u32 = 0xFFFF_FFE0;
 /// The core is looked at for waiting every so many steps.
 const STEPS_BETWEEN_LOOKS: u32 = 8;
-
-/// Why the core does nothing more.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Lockup {
-    /// The instruction that failed, or where the core stands.
-    pub pc: u32,
-    /// In words.
-    pub why: String,
-}
-
-impl fmt::Display for Lockup {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the program stopped at 0x{:08x}: {}", self.pc, self.why)
-    }
-}
+/// A core that stands does so for some steps.
+const STEPS_OF_A_STAND: usize = 3;
 
 /// What the loop and the bus tell each other.
 #[derive(Debug, Default)]
@@ -153,6 +140,9 @@ pub(super) struct Core {
     settings: Settings,
     surroundings: Arc<Mutex<dyn Surroundings>>,
     waited: u64,
+    executed: u64,
+    /// Where it waited last: what is executed there is no work.
+    rests_at: u32,
     lockup: Option<Lockup>,
     /// Where the core stands, and since when.
     stands: Option<(u32, u64)>,
@@ -191,6 +181,8 @@ impl Core {
             settings,
             surroundings,
             waited: 0,
+            executed: 0,
+            rests_at: 0,
             lockup: None,
             stands: None,
             is_off: false,
@@ -216,6 +208,10 @@ impl Core {
 
     pub(super) fn cycles_worked(&self) -> u64 {
         self.shared.cycles.load(Ordering::Relaxed) - self.waited
+    }
+
+    pub(super) const fn executed(&self) -> u64 {
+        self.executed
     }
 
     pub(super) fn lockup(&self) -> Option<Lockup> {
@@ -298,9 +294,7 @@ impl Core {
             if steps % STEPS_BETWEEN_LOOKS == 0 {
                 let pc = self.cpu.pc();
                 self.shared.pc.store(pc, Ordering::Relaxed);
-                cycles += self.step();
-                self.shared.cycles.store(cycles, Ordering::Relaxed);
-                if self.cpu.pc() == pc && !self.shared.touched.load(Ordering::Relaxed) {
+                if self.stands_at(pc, &mut cycles) {
                     cycles = self.wait(cycles, limit);
                 } else {
                     self.stands = None;
@@ -315,9 +309,23 @@ impl Core {
         }
     }
 
+    /// Whether steps lead back to the same instruction, each of them. The last instruction of a handler does so once where
+    /// it has interrupted another one at that very instruction.
+    fn stands_at(&mut self, pc: u32, cycles: &mut u64) -> bool {
+        for _ in 0..STEPS_OF_A_STAND {
+            *cycles += self.step();
+            self.shared.cycles.store(*cycles, Ordering::Relaxed);
+            if self.cpu.pc() != pc || self.shared.touched.load(Ordering::Relaxed) {
+                return false;
+            }
+        }
+        true
+    }
+
     /// One instruction, or the way into a handler.
-    fn step(&self) -> u64 {
+    fn step(&mut self) -> u64 {
         let before = self.cpu.xpsr();
+        self.executed += u64::from(self.cpu.pc() != self.rests_at);
         let cycles = self.cpu.step();
         if before & BLOCK != 0 {
             self.keep_block(before);
@@ -361,6 +369,7 @@ impl Core {
     fn wait(&mut self, cycles: u64, limit: u64) -> u64 {
         self.note_lockup();
         self.note_standstill();
+        self.rests_at = self.cpu.pc();
         let mut jump = limit.saturating_sub(cycles);
         self.cpu.with_sys(|system| {
             if system.syst_csr & 1 == 1 && system.syst_rvr != 0 {

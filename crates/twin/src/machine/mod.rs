@@ -30,6 +30,7 @@ mod gpio;
 mod i2c;
 mod image;
 mod iwdg;
+mod lockup;
 mod map;
 mod plain;
 mod rcc;
@@ -45,9 +46,9 @@ mod wires;
 
 use std::sync::{Arc, Mutex};
 
-pub use self::core::Lockup;
 pub use gpio::{Mode, PadState, Pull};
 pub use image::ImageError;
+pub use lockup::Lockup;
 pub use wires::{Event, LinkPort, ResetCause};
 
 use self::core::Core;
@@ -100,6 +101,12 @@ impl Machine {
     #[must_use]
     pub fn cycles_worked(&self) -> u64 {
         self.core.cycles_worked()
+    }
+
+    /// How many instructions the core has executed, without those of a loop of one in which it waited.
+    #[must_use]
+    pub fn instructions(&self) -> u64 {
+        self.core.executed()
     }
 
     /// The host sends: bytes arrive at the line's speed.

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::usb_host::Host;
-use super::wires::{LinkPort, Wires, merge};
+use super::wires::{LinkPort, NEVER, Wires, merge};
 
 /// Endpoints in each direction.
 const ENDPOINTS: usize = 4;
@@ -16,6 +16,9 @@ const IN_ENDPOINT: u32 = 1 << 18;
 const OUT_ENDPOINT: u32 = 1 << 19;
 pub(super) const BUS_RESET: u32 = 1 << 12;
 pub(super) const ENUMERATED: u32 = 1 << 13;
+const SESSION: u32 = 1 << 30;
+/// Until the comparators for the bus's voltage have found it.
+const SENSING_NS: u64 = 100_000;
 /// Bits that software clears by writing 1.
 const CLEARED_BY_ONE: u32 = 0xF070_FC0A;
 /// Bits of an endpoint's control register.
@@ -24,6 +27,7 @@ const DISABLE: u32 = 1 << 30;
 const SET_NAK: u32 = 1 << 27;
 const CLEAR_NAK: u32 = 1 << 26;
 const STALL: u32 = 1 << 21;
+const ACTIVE: u32 = 1 << 15;
 const NAK: u32 = 1 << 17;
 /// Interrupts of an endpoint.
 const TRANSFERRED: u32 = 1;
@@ -61,6 +65,11 @@ impl Endpoint {
         self.size = (self.size & 0xE000_0000) | packets << 19 | left;
     }
 
+    /// The control register; the endpoint of control, number 0, is always active.
+    fn control_of(&self, number: usize) -> u32 {
+        self.control | if number == 0 { ACTIVE } else { 0 }
+    }
+
     /// Writes the control register; some bits are commands.
     fn command(&mut self, value: u32, mask: u32) {
         let was = self.control;
@@ -92,6 +101,8 @@ pub(super) struct Usb {
     host: Host,
     /// Frames of 1 ms since the bus was reset.
     frame: u32,
+    /// When the bus's voltage is found.
+    session_ns: u64,
 }
 
 impl Usb {
@@ -105,6 +116,7 @@ impl Usb {
             reading: VecDeque::new(),
             host: Host::new(),
             frame: 0,
+            session_ns: NEVER,
         }
     }
 
@@ -114,7 +126,7 @@ impl Usb {
     }
 
     pub(super) fn deadline(&self) -> u64 {
-        self.host.next_ns
+        self.host.next_ns.min(self.session_ns)
     }
 
     fn register(&self, offset: u32) -> u32 {
@@ -137,7 +149,20 @@ impl Usb {
             host.act(self, wires);
         }
         self.host = host;
+        if self.session_ns <= wires.now {
+            self.session_ns = NEVER;
+            self.status |= SESSION;
+        }
         self.tell(wires);
+    }
+
+    /// The cable's other end gives the bus its voltage, which a device that looks for it finds.
+    fn sense(&mut self, was: u32, wires: &Wires) {
+        let looks = |configuration: u32| configuration >> 16 & configuration >> 19 & 1 == 1;
+        let is_there = wires.link.port == LinkPort::Usb;
+        if is_there && looks(self.register(0x38)) && !looks(was) {
+            self.session_ns = wires.now + SENSING_NS;
+        }
     }
 
     // --- what the host does ---
@@ -178,7 +203,8 @@ impl Usb {
     /// Sends a packet to an endpoint; `false` where it is not ready for one.
     pub(super) fn send(&mut self, endpoint: usize, data: &[u8]) -> bool {
         let out = &mut self.outs[endpoint];
-        if out.control & ENABLE == 0 || out.control & (NAK | STALL) != 0 {
+        // Only NAK holds packets back from an endpoint that is active.
+        if out.control_of(endpoint) & (ACTIVE | NAK | STALL) != ACTIVE {
             return false;
         }
         let length = u32::try_from(data.len()).unwrap_or(0);
@@ -259,9 +285,10 @@ impl Usb {
             0x818 => self.endpoint_interrupts(),
             0x900..=0x97C => self.read_in(((offset - 0x900) / 0x20) as usize, offset % 0x20),
             0xB00..=0xB7C => {
-                let endpoint = &self.outs[((offset - 0xB00) / 0x20) as usize];
+                let number = ((offset - 0xB00) / 0x20) as usize;
+                let endpoint = &self.outs[number];
                 match offset % 0x20 {
-                    0x00 => endpoint.control,
+                    0x00 => endpoint.control_of(number),
                     0x08 => endpoint.interrupts,
                     0x10 => endpoint.size,
                     _ => 0,
@@ -277,7 +304,7 @@ impl Usb {
     fn read_in(&self, number: usize, register: u32) -> u32 {
         let endpoint = &self.ins[number];
         match register {
-            0x00 => endpoint.control,
+            0x00 => endpoint.control_of(number),
             0x08 => endpoint.interrupts | if endpoint.fifo.is_empty() { FIFO_EMPTY } else { 0 },
             0x10 => endpoint.size,
             0x18 => {
@@ -311,7 +338,7 @@ impl Usb {
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32, mask: u32, wires: &mut Wires) {
-        let bits = value & mask;
+        let (bits, configuration) = (value & mask, self.register(0x38));
         match offset {
             0x10 => self.reset_parts(bits),
             0x14 => self.status &= !(bits & CLEARED_BY_ONE),
@@ -346,6 +373,7 @@ impl Usb {
                 }
             }
         }
+        self.sense(configuration, wires);
         if matches!(offset, 0x38 | 0x804) {
             let is_connected = self.is_connected(wires);
             self.host.plugged(is_connected, wires.now);

@@ -354,7 +354,7 @@ impl Contacts {
         for (edges, contact, told) in &mut self.wires {
             edges.begin(now_ns);
             while let Some((at, level)) = edges.next(bench, now_ns) {
-                if self.has_edge {
+                if self.has_edge && interrupts(&self.config, level) {
                     contact.on_edge(&self.config, level, wrapped(at / 1_000));
                 }
             }
@@ -382,6 +382,16 @@ impl Contacts {
         }
         core.tell(self.index, Outcome::Fresh, &mut value);
     }
+}
+
+/// Without a time to last only edges that count interrupt, with it both.
+fn interrupts(config: &ContactConfig, level: bool) -> bool {
+    config.lasting > 0
+        || match config.edge {
+            Edge::Both => true,
+            Edge::Rising => level,
+            Edge::Falling => !level,
+        }
 }
 
 /// Encoders: one device, two wires an element.

@@ -5,8 +5,9 @@ use sensedsl_twin::machine::{Event, ResetCause};
 use sensedsl_wire::{Causes, DeviceHealth, ResetCause as Cause, Status};
 
 use super::bench::folder;
-use super::trial::{Trial, image, rover, rover_image, rover_world, run};
+use super::trial::{System, Trial, image, rover, rover_image, rover_world, run};
 use crate::firmware::chibios::{build, tree};
+use crate::firmware::embassy;
 
 const NEAR: u8 = 1;
 const REAR: u8 = 3;
@@ -17,16 +18,17 @@ const SPEED: u8 = 9;
 const IMU: u8 = 11;
 
 /// Ten seconds of the rover with a fault from 4 s on, for 3 s; health at 6.5 s and at the end.
-fn with(fault: &str) -> Option<Trial> {
+fn with(system: System, fault: &str) -> Option<Trial> {
     let world = format!("{}\n[[fault]]\n{fault}\n", rover_world());
-    let trial = run(&rover(), &world, rover_image()?, 10, &[6_500, 9_900]);
+    let image = rover_image(system)?;
+    let trial = run(system, (&rover(), &world), image, 10, &[6_500, 9_900]);
     assert!(trial.halt.is_none() && trial.misled.is_empty(), "{:?} {:?}", trial.halt, trial.misled);
     assert!(trial.wrong().is_empty(), "{fault}: {:#?}", trial.wrong());
     Some(trial)
 }
 
-fn with_device(kind: &str, device: &str) -> Option<Trial> {
-    with(&format!("kind = \"{kind}\"\ndevice = \"{device}\"\nat = \"4 s\"\nfor = \"3 s\""))
+fn with_device(system: System, kind: &str, device: &str) -> Option<Trial> {
+    with(system, &format!("kind = \"{kind}\"\ndevice = \"{device}\"\nat = \"4 s\"\nfor = \"3 s\""))
 }
 
 fn health(trial: &Trial, at: usize, id: u8) -> DeviceHealth {
@@ -50,9 +52,44 @@ fn others_go_on(trial: &Trial, broken: u8) {
     assert_eq!(health(trial, 1, broken).status, Status::Good);
 }
 
-#[test]
-fn a_chip_that_does_not_answer() {
-    let Some(trial) = with_device("no_answer", "Rear") else { return };
+/// Each test on both targets. Of Embassy only those that are marked always run, because its programs take long to build
+/// and the others need no other code of the target.
+macro_rules! on_both {
+    ($($name:ident $(, $always:ident)?;)*) => {
+        mod on_chibios {
+            $(
+                #[test]
+                fn $name() {
+                    super::$name(super::System::Chibios);
+                }
+            )*
+        }
+
+        mod on_embassy {
+            $(
+                #[test]
+                fn $name() {
+                    let is_always = false $(|| stringify!($always) == "always")?;
+                    if is_always || sensedsl_tests::is_exhaustive() {
+                        super::$name(super::System::Embassy);
+                    }
+                }
+            )*
+        }
+    };
+}
+
+on_both! {
+    a_chip_that_does_not_answer, always;
+    a_bus_that_is_held;
+    a_torn_cable;
+    inputs_that_fall_silent;
+    a_supply_that_breaks_down;
+    garbage_on_the_link;
+}
+
+fn a_chip_that_does_not_answer(system: System) {
+    let Some(trial) = with_device(system, "no_answer", "Rear") else { return };
     others_go_on(&trial, REAR);
     let rear = health(&trial, 0, REAR);
     assert!(rear.status == Status::Failed && rear.causes.not_acknowledged > 3, "{rear:?}");
@@ -60,10 +97,9 @@ fn a_chip_that_does_not_answer() {
     assert_eq!(faults(health(&trial, 1, IMU).causes), 0);
 }
 
-#[test]
-fn a_bus_that_is_held() {
+fn a_bus_that_is_held(system: System) {
     for kind in ["stuck_sda", "hang"] {
-        let Some(trial) = with_device(kind, "Rear") else { return };
+        let Some(trial) = with_device(system, kind, "Rear") else { return };
         others_go_on(&trial, REAR);
         let rear = health(&trial, 0, REAR);
         assert!(rear.status != Status::Good && faults(rear.causes) > 0, "{kind}: {rear:?}");
@@ -73,21 +109,19 @@ fn a_bus_that_is_held() {
     }
 }
 
-#[test]
-fn a_torn_cable() {
-    let Some(trial) = with_device("torn", "Rear") else { return };
+fn a_torn_cable(system: System) {
+    let Some(trial) = with_device(system, "torn", "Rear") else { return };
     others_go_on(&trial, REAR);
     assert!(health(&trial, 0, REAR).causes.not_acknowledged > 3);
-    let Some(trial) = with_device("torn", "Wheel") else { return };
+    let Some(trial) = with_device(system, "torn", "Wheel") else { return };
     // The count stands still and is reported: an input without edges is not told from a wheel at rest.
     assert!(trial.reports_of(WHEEL, 8_500, 10_000) > 20);
     assert!(trial.reports_of(NEAR, 4_000, 7_000) > 20);
 }
 
-#[test]
-fn inputs_that_fall_silent() {
+fn inputs_that_fall_silent(system: System) {
     for (name, id) in [("Lidar", LIDAR), ("Speed", SPEED), ("Steering", STEERING)] {
-        let Some(trial) = with_device("silent", name) else { return };
+        let Some(trial) = with_device(system, "silent", name) else { return };
         others_go_on(&trial, id);
         let broken = health(&trial, 0, id);
         assert!(broken.age_ms >= 2_000, "{name}: {broken:?}");
@@ -96,9 +130,8 @@ fn inputs_that_fall_silent() {
     }
 }
 
-#[test]
-fn a_supply_that_breaks_down() {
-    let Some(trial) = with("kind = \"reset\"\nat = \"4 s\"\nfor = \"200 ms\"") else { return };
+fn a_supply_that_breaks_down(system: System) {
+    let Some(trial) = with(system, "kind = \"reset\"\nat = \"4 s\"\nfor = \"200 ms\"") else { return };
     let resets: Vec<_> = trial.told.iter().collect();
     let is_power = |one: &&&Event| matches!(one, Event::Reset { cause: ResetCause::Power, .. });
     assert_eq!(resets.iter().filter(is_power).count(), 1, "{resets:?}");
@@ -109,9 +142,8 @@ fn a_supply_that_breaks_down() {
     assert!(health.uptime_ms < 2_400 && health.reset_cause == Cause::Power, "{health:?}");
 }
 
-#[test]
-fn garbage_on_the_link() {
-    let Some(trial) = with("kind = \"garbage\"\nat = \"4 s\"\nfor = \"500 ms\"") else { return };
+fn garbage_on_the_link(system: System) {
+    let Some(trial) = with(system, "kind = \"garbage\"\nat = \"4 s\"\nfor = \"500 ms\"") else { return };
     assert!(trial.dropped > 0);
     assert!(trial.reports_of(NEAR, 4_600, 10_000) > 200);
 }
@@ -126,7 +158,30 @@ fn a_thread_that_hangs() {
                 while (up_now_ms() > 2000U && up_reset_cause() != UP_CAUSE_WATCHDOG) {\n  }\n}\n";
     std::fs::write(board.join("user/user.c"), user).unwrap();
     build(&tree, &board, "production");
-    let trial = run(&rover(), &rover_world(), &image(&board), 14, &[13_500]);
+    let trial =
+        run(System::Chibios, (&rover(), &rover_world()), &image(&board), 14, &[13_500]);
+    assert_is_bitten(&trial);
+}
+
+/// A task that waits for ever, for a transfer of its bus that ends no more, say.
+#[test]
+fn a_task_that_hangs() {
+    let Some(board) = embassy::project("trial_hang_embassy", &rover()) else { return };
+    let path = board.join("src/main.rs");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let beats: Vec<&str> = text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C")).collect();
+    let [beat] = beats[..] else { panic!("{beats:?}") };
+    let hang = "if now_ms() > 2_000 && LIFE.cause() != sense_rt::Cause::Watchdog {\n\
+                core::future::pending::<()>().await;\n}\n";
+    std::fs::write(&path, text.replacen(beat, &format!("{hang}{beat}"), 1)).unwrap();
+    let program = std::fs::read(embassy::build(&board)).unwrap();
+    let trial = run(System::Embassy, (&rover(), &rover_world()), &program, 14, &[13_500]);
+    assert_is_bitten(&trial);
+}
+
+/// The watchdog has bitten once, the board says for whom, and goes on.
+#[track_caller]
+fn assert_is_bitten(trial: &Trial) {
     let is_bite = |one: &&Event| matches!(one, Event::Reset { cause: ResetCause::Watchdog, .. });
     assert_eq!(trial.told.iter().filter(is_bite).count(), 1, "{:?}", trial.told);
     let (_, health) = trial.health.first().unwrap();
@@ -145,7 +200,7 @@ fn a_program_that_only_starts() {
                 void sense_transform_Rear(uint16_t *value) {\n  (void)value;\n  for (;;) {\n  }\n}\n";
     std::fs::write(board.join("user/user.c"), user).unwrap();
     build(&tree, &board, "production");
-    let trial = run(&rover(), &rover_world(), &image(&board), 40, &[]);
+    let trial = run(System::Chibios, (&rover(), &rover_world()), &image(&board), 40, &[]);
     let halt = trial.halt.unwrap();
     assert!(halt.why.contains("the watchdog has reset it 3 times"), "{halt}");
 }

@@ -3,6 +3,8 @@
 //! Built with the feature `machine`; needs a ChibiOS tree.
 
 mod bench;
+mod both;
+mod examples;
 mod faults;
 mod kinds;
 mod seeded;

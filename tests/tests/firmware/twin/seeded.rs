@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use super::bench::folder;
-use super::trial::{rover, rover_world, run};
+use super::trial::{System, rover, rover_world, run};
 use crate::firmware::chibios::tree;
 use crate::firmware::tools::root;
 
@@ -217,7 +217,7 @@ fn noticed(tree: &Path, board: &Path) -> String {
         return "compiler".to_owned();
     }
     let image = super::trial::image(board);
-    let trial = run(&rover(), &rover_world(), &image, 5, &[]);
+    let trial = run(System::Chibios, (&rover(), &rover_world()), &image, 5, &[]);
     if let Some(halt) = &trial.halt {
         return format!("the program stops: {}", halt.why);
     }

@@ -1,6 +1,6 @@
 //! A real image in a simulated world before a judge, as `simulate --firmware IMAGE --judge` runs it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::OnceLock;
 
 use sensedsl_codegen::job::{BoardJob, jobs};
@@ -20,6 +20,7 @@ use sensedsl_wire::{
 
 use super::bench::{MS, folder};
 use crate::firmware::chibios::{build, tree};
+use crate::firmware::embassy;
 use crate::firmware::tools::root;
 
 /// What came of a run.
@@ -30,8 +31,8 @@ pub(super) struct Trial {
     pub told: Vec<Told>,
     /// What the board said of itself, with the time.
     pub health: Vec<(u64, Health)>,
-    /// Identifiers that were reported, with the time in milliseconds.
-    pub reported: Vec<(u64, u8)>,
+    /// What was reported, with the time in milliseconds and the identifier.
+    pub reported: Vec<(u64, u8, Vec<Scalar>)>,
     pub dropped: u64,
     /// What the outputs of the rover are not.
     pub outputs: Vec<String>,
@@ -45,7 +46,7 @@ impl Trial {
     }
 
     pub(super) fn reports_of(&self, id: u8, from_ms: u64, to_ms: u64) -> usize {
-        let hits = |one: &&(u64, u8)| one.1 == id && (from_ms..to_ms).contains(&one.0);
+        let hits = |one: &&(u64, u8, Vec<Scalar>)| one.1 == id && (from_ms..to_ms).contains(&one.0);
         self.reported.iter().filter(hits).count()
     }
 }
@@ -58,11 +59,41 @@ impl Files for NoFiles {
     }
 }
 
+/// What a program is generated for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum System {
+    Chibios,
+    Embassy,
+}
+
+impl System {
+    /// The program of a design's only board; none where the machine cannot build it, or has no time to.
+    pub(super) fn image(self, name: &str, text: &str) -> Option<Vec<u8>> {
+        match self {
+            Self::Chibios => {
+                let tree = tree()?;
+                let board = folder(name, text);
+                build(&tree, &board, "production");
+                Some(image(&board))
+            }
+            Self::Embassy => Some(std::fs::read(embassy::program(name, text)?).unwrap()),
+        }
+    }
+
+    fn target(self) -> Option<&'static str> {
+        match self {
+            Self::Chibios => None,
+            Self::Embassy => Some("embassy"),
+        }
+    }
+}
+
 /// Makes the first board's job of a text and hands it on.
-pub(super) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
+fn with_job<T>(system: System, text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> T {
     let mut workspace = Workspace::default();
     workspace.open("board.sense", text);
-    let snapshot = workspace.snapshot("board.sense", On { board: None, target: None }, &NoFiles);
+    let on = On { board: None, target: system.target() };
+    let snapshot = workspace.snapshot("board.sense", on, &NoFiles);
     let answer = snapshot.solve(&Ask::default());
     let Some((design, wiring)) = answer.wired() else { panic!("{:#?}", answer.diagnostics) };
     let job = jobs(design, wiring).next().unwrap();
@@ -70,8 +101,14 @@ pub(super) fn with_job<T>(text: &str, then: impl FnOnce(&BoardJob<'_>) -> T) -> 
 }
 
 /// Runs an image of a text's board; asks how it is at those times.
-pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: &[u64]) -> Trial {
-    with_job(text, |job| {
+pub(super) fn run(
+    system: System,
+    (text, world): (&str, &str),
+    image: &[u8],
+    seconds: u64,
+    asks_ms: &[u64],
+) -> Trial {
+    with_job(system, text, |job| {
         let mut sources = SourceMap::default();
         let file = sources.add("world.toml", world);
         let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
@@ -114,7 +151,7 @@ pub(super) fn run(text: &str, world: &str, image: &[u8], seconds: u64, asks_ms: 
             decoder.feed(&board.link_read(), |event| match event {
                 Event::Report(_, values) => {
                     judge.take(ms * MS, &values);
-                    reported.extend(values.iter().map(|(id, _)| (ms, *id)));
+                    reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
                 }
                 Event::Hello(hash) => assert_eq!(hash, job.schema.hash()),
                 Event::Health(found) => health.push((ms, found)),
@@ -161,14 +198,13 @@ pub(super) fn image(board: &Path) -> Vec<u8> {
     std::fs::read(board.join("build/production/sense.elf")).unwrap()
 }
 
-/// The rover's image, built once; none without a tree.
-pub(super) fn rover_image() -> Option<&'static [u8]> {
-    static IMAGE: OnceLock<Option<Vec<u8>>> = OnceLock::new();
-    let built = IMAGE.get_or_init(|| {
-        let tree: PathBuf = tree()?;
-        let board = folder("trial_rover", &rover());
-        build(&tree, &board, "production");
-        Some(image(&board))
-    });
-    built.as_deref()
+/// The rover's image, built once; none where it cannot be built.
+pub(super) fn rover_image(system: System) -> Option<&'static [u8]> {
+    static CHIBIOS: OnceLock<Option<Vec<u8>>> = OnceLock::new();
+    static EMBASSY: OnceLock<Option<Vec<u8>>> = OnceLock::new();
+    let built = match system {
+        System::Chibios => &CHIBIOS,
+        System::Embassy => &EMBASSY,
+    };
+    built.get_or_init(|| system.image(&format!("trial_rover_{system:?}"), &rover())).as_deref()
 }

@@ -27,7 +27,7 @@ const PERIPHERALS: &[Peripheral] = &[
     inputs::plan,
 ];
 
-/// The reporter's cycle where nothing asks for another.
+/// The reporter's cycle where nothing asks for a shorter one.
 const REPORT_MS: u32 = 10;
 
 /// What the templates print.
@@ -105,7 +105,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     }
     let board = context.job.board;
     let is_usb = section.runtime.contains("link_usb.rs");
-    let rate = board.link.rate_hz.map_or(0, |hz| 1_000 / hz.max(1));
+    let report_ms = report_ms(context);
     let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
     let led = board.facts.as_ref().and_then(|facts| facts.led.as_ref());
     let led = led.filter(|led| !taken(led.pin.as_str()));
@@ -128,7 +128,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         watched: section.watched,
         begins: section.begins,
         fallbacks: fallback::values(context),
-        report_ms: REPORT_MS.max(rate),
+        report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| (led.pin.to_string(), led.active_high)),
         reset: context.names.reset.clone(),
@@ -136,7 +136,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         is_usb,
         is_otg: section.is_otg,
         is_uart: section.runtime.contains("link_uart.rs"),
-        heard_bytes: link::heard_bytes(board.link.baud, REPORT_MS.max(rate)),
+        heard_bytes: link::heard_bytes(board.link.baud, report_ms),
         has_buses: section.runtime.contains("i2c.rs"),
         has_ports: section.runtime.contains("serial.rs"),
         has_new_ports: section.runtime.contains("port_new.rs"),
@@ -153,6 +153,16 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         fails: section.fails,
         runtime: section.runtime,
     }
+}
+
+/// As often as something can become due, or as the link says.
+fn report_ms(context: &Context<'_>) -> u32 {
+    if let Some(rate_hz) = context.job.board.link.rate_hz {
+        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    }
+    let devices = context.job.devices.iter().map(|one| one.device);
+    let served = devices.filter(|device| !device.kind.name().spec().triggers_itself);
+    served.map(|device| device.delay_ms).fold(REPORT_MS, u32::min).max(1)
 }
 
 /// What is set of the HAL's clocks.

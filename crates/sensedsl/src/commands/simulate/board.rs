@@ -21,6 +21,8 @@ pub(super) trait Board {
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic>;
     /// What a user wants to hear of since the last call.
     fn news(&mut self) -> Vec<String>;
+    /// Instructions that the firmware has executed, where they are counted.
+    fn instructions(&self) -> Option<u64>;
 }
 
 impl Board for SoftBoard {
@@ -51,6 +53,10 @@ impl Board for SoftBoard {
 
     fn news(&mut self) -> Vec<String> {
         Vec::new()
+    }
+
+    fn instructions(&self) -> Option<u64> {
+        None
     }
 }
 

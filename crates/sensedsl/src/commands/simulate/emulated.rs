@@ -29,6 +29,10 @@ impl Board for EmulatedBoard {
         self.halt().map(|lockup| (u64::from(lockup.pc), lockup.why))
     }
 
+    fn instructions(&self) -> Option<u64> {
+        Some(EmulatedBoard::instructions(self))
+    }
+
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
         let now = format!("{:.3}", seconds(self.now_ns()));
         let told = self.misled().into_iter();

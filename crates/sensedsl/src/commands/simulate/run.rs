@@ -70,6 +70,7 @@ struct Session<'a> {
     is_known: bool,
     is_stranger: bool,
     last: Option<Health>,
+    reports: u64,
     /// The firmware has done something that the plan does not say.
     is_wrong: bool,
 }
@@ -88,6 +89,7 @@ impl<'a> Session<'a> {
             is_known: false,
             is_stranger: false,
             last: None,
+            reports: 0,
             is_wrong: false,
         }
     }
@@ -108,10 +110,11 @@ impl<'a> Session<'a> {
         }
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
         let hash = self.scenery.job.schema.hash();
-        let (is_known, is_stranger, last) =
-            (&mut self.is_known, &mut self.is_stranger, &mut self.last);
+        let (is_known, is_stranger, last, reports) =
+            (&mut self.is_known, &mut self.is_stranger, &mut self.last, &mut self.reports);
         self.decoder.feed(&bytes, |event| match event {
             Event::Report(_, values) => {
+                *reports += 1;
                 judge.take(now_ns, &values);
                 screen.take(now_ns, &values, Direction::Sensor);
                 if let Some(line) = &mut line {
@@ -280,7 +283,7 @@ impl<'a> Session<'a> {
 
     /// What the judge has found out.
     fn verdict(self) -> Result<Status> {
-        let Self { scenery, judge, now_ns, is_wrong, .. } = self;
+        let Self { scenery, board, judge, now_ns, reports, is_wrong, .. } = self;
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 5]> = judged.iter().map(cells).collect();
         let heads = [
@@ -313,6 +316,11 @@ impl<'a> Session<'a> {
         scenery
             .terminal
             .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
+        if let Some(instructions) = board.instructions() {
+            let each = instructions / reports.max(1);
+            let text = format!("{reports} reports, {each} instructions for each, with all that is measured\n");
+            scenery.terminal.note(&text)?;
+        }
         Ok(if is_wrong { Status::Wrong } else { Status::Done })
     }
 }
