@@ -47,6 +47,12 @@ impl<const BYTES: usize> Heard<BYTES> {
     }
 }
 
+/// A port that also runs on a slow clock: the PAC has a type of its own for it, with the same registers.
+pub const fn low_power(registers: *mut ()) -> Usart {
+    // The pointer is one of the PAC's.
+    unsafe { Usart::from_ptr(registers) }
+}
+
 /// Lets a port interrupt for each character.
 pub fn listen(port: Usart) {
     port.cr1().modify(|register| register.set_rxneie(true));

@@ -122,7 +122,8 @@ fn taken<'a>(
     interrupts: &'a BTreeMap<String, String>,
 ) -> impl Iterator<Item = &'a String> {
     let is_timer = unit.starts_with("TIM");
-    let has_handler = move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
+    let has_handler =
+        move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
     interrupts.iter().filter(move |(signal, _)| has_handler(signal)).map(|(_, name)| name)
 }
 
@@ -165,6 +166,13 @@ fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {
         let lines = exti.interrupts.iter().filter(|(signal, _)| signal.starts_with("EXTI"));
         own.interrupts
             .extend(lines.map(|(line, one)| (line.clone(), format!("GLOBAL = \"{one}\""))));
+        // The metadata have no line for an interrupt that something else has as well: `EXTI2_TSC` of F3.
+        for line in (0..16).map(|number| format!("EXTI{number}")) {
+            let shared = body.interrupts.iter().find(|name| name.starts_with(&format!("{line}_")));
+            if let (None, Some(one)) = (exti.interrupts.get(&line), shared) {
+                own.interrupts.insert(line, format!("GLOBAL = \"{one}\""));
+            }
+        }
     }
     own.multiplexers
         .retain(|name, _| own.units.values().any(|entry| entry.contains(&format!("\"{name}\""))));

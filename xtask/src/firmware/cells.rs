@@ -177,9 +177,10 @@ fn together<'a>(
             other @ (Made::Files(..) | Made::Refused(_) | Made::NotOffered) => made = other,
         }
     }
-    match made {
-        Made::Files(files, _) => Made::Files(files, notes),
-        other @ (Made::NotOffered | Made::NoWiring(..) | Made::Refused(_)) => other,
+    match (made, notes.refused.first()) {
+        (Made::Files(files, _), _) => Made::Files(files, notes),
+        (Made::NotOffered, Some((_, why))) => Made::Refused(why.clone()),
+        (other @ (Made::NotOffered | Made::NoWiring(..) | Made::Refused(_)), _) => other,
     }
 }
 

@@ -159,6 +159,8 @@ impl Bus<'_> {
 
     fn plan(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let (name, hal) = (snake(&self.unit), context.peripheral(&self.unit));
+        // As the pins spell the unit: `CAN`, where there is one.
+        let moved = context.generics(lack::unit(self.first)?, &["_"]);
         let (rx, tx) = (lack::pad(self.first, Role::Rx)?, lack::pad(self.first, Role::Tx)?);
         let (rx, tx) = (&rx.pin.name, &tx.pin.name);
         let handlers = ["TX", "RX0", "RX1", "SCE"];
@@ -171,7 +173,7 @@ impl Bus<'_> {
             name: name.clone(),
             comment: format!("{} at {rx} (RX) and {tx} (TX): {}", self.unit, who.join(", ")),
             type_: "hal::can::Can<'static>".to_owned(),
-            make: format!("hal::can::Can::new(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
+            make: format!("hal::can::Can::new{moved}(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
         });
         section.runtime.insert("can.rs");
         let upper = self.unit.to_uppercase();

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::catalog::Crystal;
 use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
-use super::gaps;
 use super::names::{Chip, Names};
+use super::{gaps, moved};
 use crate::job::{BoardJob, Cycle, JobConnection, JobDevice};
 
 /// One board on its way to a plan.
@@ -21,6 +22,8 @@ pub(super) struct Context<'a> {
     pub(super) chip: Chip,
     /// The timer that the clock runs on.
     pub(super) timer: String,
+    /// The block of pins of each unit that moves as a whole.
+    pub(super) blocks: BTreeMap<UnitName, u8>,
 }
 
 /// A device of one value with its wires.
@@ -46,10 +49,11 @@ impl<'a> Context<'a> {
         let timer = super::clock::timer(job, profile).ok_or_else(|| {
             let timers = profile.kernel.timers.join(", ");
             lack(&format!(
-                "its devices leave no timer for Embassy's clock, which runs on one of {timers}"
+                "its devices leave no timer for Embassy's clock, which runs on one of {timers}; another pin or \
+                 kind for one of them frees one"
             ))
         })?;
-        Ok(Self { job, profile, names, chip, timer })
+        Ok(Self { job, profile, names, chip, timer, blocks: moved::blocks(job) })
     }
 
     /// The connections of a kind, in the design's order. Those that no code is made for are left out: they are told as

@@ -54,8 +54,10 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> 
             comment: format!("{unit} at {} and {}: {}", scl.pin.name, sda.pin.name, bus.titles()),
             type_: "hal::i2c::I2c<'static, hal::mode::Async, hal::i2c::Master>".to_owned(),
             make: format!(
-                "hal::i2c::I2c::new(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, bus({hz}))",
-                scl.pin.name, sda.pin.name
+                "hal::i2c::I2c::new{}(p.{hal}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, bus({hz}))",
+                context.generics(unit, &["_"; 3]),
+                scl.pin.name,
+                sda.pin.name
             ),
         },
         section,

@@ -63,12 +63,13 @@ fn input(
     section.bind(interrupt, format!("hal::timer::CaptureCompareInterruptHandler<{hal}>"));
     let (ident, pin) = (&wire.ident, &pad.pin.name);
     let (type_, make) = if icu.mode == Mode::Count {
-        counter(&hal, pin.as_str(), channel, icu)
+        counter(&context.generics(unit, &[]), &hal, pin.as_str(), channel, icu)
     } else {
         (
             format!("hal::timer::pwm_input::PwmInput<'static, {hal}>"),
             format!(
-                "hal::timer::pwm_input::PwmInput::new_ch{channel}(p.{hal}, p.{pin}, Irqs, Pull::None, hz({}))",
+                "hal::timer::pwm_input::PwmInput::new_ch{channel}{}(p.{hal}, p.{pin}, Irqs, Pull::None, hz({}))",
+                context.generics(unit, &[]),
                 icu.tick_hz
             ),
         )
@@ -112,7 +113,7 @@ fn input(
 }
 
 /// A timer that tells edges.
-fn counter(hal: &str, pin: &str, channel: u8, icu: &Icu) -> (String, String) {
+fn counter(moved: &str, hal: &str, pin: &str, channel: u8, icu: &Icu) -> (String, String) {
     let slots = (1..=4).map(|slot| {
         if slot == channel {
             format!("Some(hal::timer::input_capture::CapturePin::new(p.{pin}, Pull::None))")
@@ -124,7 +125,7 @@ fn counter(hal: &str, pin: &str, channel: u8, icu: &Icu) -> (String, String) {
     (
         format!("hal::timer::input_capture::InputCapture<'static, {hal}>"),
         format!(
-            "hal::timer::input_capture::InputCapture::new(p.{hal}, {}, Irqs, hz({}), CountingMode::EdgeAlignedUp)",
+            "hal::timer::input_capture::InputCapture::new{moved}(p.{hal}, {}, Irqs, hz({}), CountingMode::EdgeAlignedUp)",
             slots.join(", "),
             icu.tick_hz
         ),

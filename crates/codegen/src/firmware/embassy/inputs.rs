@@ -127,15 +127,18 @@ fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Sectio
     let (a, b) = (lack::pad(wire, Role::A)?, lack::pad(wire, Role::B)?);
     let hal = context.peripheral(unit);
     // The HAL takes either order of the channels.
-    let (first, second) = (lack::channel(a)?, lack::channel(b)?);
+    let type_of = |channel| format!("hal::timer::Ch{channel}");
+    let (first, second) = (type_of(lack::channel(a)?), type_of(lack::channel(b)?));
     let type_ = format!("hal::timer::qei::Qei<'static, {hal}>");
     section.fields.push(Field {
         name: wire.ident.clone(),
         comment: wire.place(),
         type_: type_.clone(),
         make: format!(
-            "hal::timer::qei::Qei::new::<hal::timer::Ch{first}, hal::timer::Ch{second}>(p.{hal}, p.{}, p.{}, Default::default())",
-            a.pin.name, b.pin.name
+            "hal::timer::qei::Qei::new{}(p.{hal}, p.{}, p.{}, Default::default())",
+            context.generics(unit, &[&first, &second]),
+            a.pin.name,
+            b.pin.name
         ),
     });
     let from = format!("wiring.{}", wire.ident);

@@ -49,9 +49,11 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
         comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
         type_: "crate::rt::link_uart::Port".to_owned(),
         make: format!(
-            "crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new(p.{hal}, p.{}, p.{}, said, heard, Irqs, \
+            "crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, said, heard, Irqs, \
              baud({baud}))), crate::SAID)",
-            rx.pin.name, tx.pin.name
+            context.generics(link.unit, &["_"]),
+            rx.pin.name,
+            tx.pin.name
         ),
     });
     section.keeps.push(Keep {

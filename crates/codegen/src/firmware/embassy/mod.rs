@@ -23,6 +23,7 @@ mod lack;
 mod levels;
 mod link;
 mod message;
+mod moved;
 mod names;
 mod outputs;
 mod plan;
@@ -56,10 +57,6 @@ impl Target for Embassy {
 
     fn refusal(&self, profile: &TargetProfile, _facts: Option<&catalog::Board>) -> Option<String> {
         match Names::of(profile) {
-            Ok(names) if names.afio => Some(
-                "Embassy's firmware does not move units to other pins yet, as this family must"
-                    .to_owned(),
-            ),
             Ok(_) => None,
             Err(message) => Some(format!("its profile is damaged: {message}")),
         }

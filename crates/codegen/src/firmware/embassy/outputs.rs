@@ -147,7 +147,8 @@ fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mu
         comment: format!("{unit}: {}", places.join("; ")),
         type_: format!("hal::timer::simple_pwm::SimplePwm<'static, {hal}>"),
         make: format!(
-            "hal::timer::simple_pwm::SimplePwm::new(p.{hal}, {}, hz({}), CountingMode::EdgeAlignedUp)",
+            "hal::timer::simple_pwm::SimplePwm::new{}(p.{hal}, {}, hz({}), CountingMode::EdgeAlignedUp)",
+            context.generics(unit, &[]),
             slots.join(", "),
             first.pwm.frequency_hz
         ),

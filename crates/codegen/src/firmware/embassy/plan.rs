@@ -34,6 +34,8 @@ const REPORT_MS: u32 = 10;
 pub(super) struct Plan {
     pub(super) board: String,
     pub(super) chip: String,
+    /// The MCU has a second core, which is left alone.
+    pub(super) has_two_cores: bool,
     /// The triple of the core.
     pub(super) target: String,
     pub(super) manifest: String,
@@ -117,6 +119,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     Plan {
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
+        has_two_cores: context.chip.feature.contains("-cm"),
         target: context.names.target.clone(),
         manifest: cargo::manifest(context),
         lock: cargo::lock(context),

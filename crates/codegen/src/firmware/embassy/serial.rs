@@ -118,18 +118,19 @@ impl Port<'_> {
         let hal = context.peripheral(self.unit);
         let pin = |role| self.wire.pad(role).map(|pad| pad.pin.name.as_str());
         let config = self.config();
+        let moved = context.generics(self.unit, &["_"]);
         let (type_, make) = match (pin(Role::Rx), pin(Role::Tx)) {
             (Some(rx), Some(tx)) => (
                 "hal::usart::Uart<'static, hal::mode::Blocking>",
-                format!("hal::usart::Uart::new_blocking(p.{hal}, p.{rx}, p.{tx}, {config})"),
+                format!("hal::usart::Uart::new_blocking{moved}(p.{hal}, p.{rx}, p.{tx}, {config})"),
             ),
             (Some(rx), None) => (
                 "hal::usart::UartRx<'static, hal::mode::Blocking>",
-                format!("hal::usart::UartRx::new_blocking(p.{hal}, p.{rx}, {config})"),
+                format!("hal::usart::UartRx::new_blocking{moved}(p.{hal}, p.{rx}, {config})"),
             ),
             (None, Some(tx)) => (
                 "hal::usart::UartTx<'static, hal::mode::Blocking>",
-                format!("hal::usart::UartTx::new_blocking(p.{hal}, p.{tx}, {config})"),
+                format!("hal::usart::UartTx::new_blocking{moved}(p.{hal}, p.{tx}, {config})"),
             ),
             (None, None) => return Err(Lack::wire("a pin for `rx` or `tx`".to_owned())),
         };
@@ -252,16 +253,21 @@ impl Port<'_> {
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
         let interrupt = context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Heard"));
+        let registers = if hal.starts_with("LPUART") {
+            format!("rt::serial::low_power(hal::pac::{hal}.as_ptr())")
+        } else {
+            format!("hal::pac::{hal}")
+        };
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
         section.begins.push(format!(
-            "rt::serial::listen(hal::pac::{hal});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"
+            "rt::serial::listen({registers});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"
         ));
         Ok(format!(
             "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
              /// What comes in at {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
              pub struct {upper}Heard;\n\n\
              impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
-             unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt(hal::pac::{hal}, {mask});\n    }}\n}}\n\n",
+             unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt({registers}, {mask});\n    }}\n}}\n\n",
             self.wire.place()
         ))
     }

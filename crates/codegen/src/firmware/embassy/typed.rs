@@ -7,14 +7,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::profile::{self, Target, TargetProfile};
-use sensedsl_board::remap::Blocks;
-use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine};
+use sensedsl_board::signal::{CanLine, Function, I2cLine, SpiLine, TimerLine, UartLine, UnitName};
 use sensedsl_diagnostics::Span;
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::{Kind, KindName};
 
-use super::cargo;
 use super::names::Names;
+use super::{cargo, moved};
 use crate::fileset::FileSet;
 use crate::job::{BoardJob, JobConnection, Pad};
 
@@ -137,25 +136,14 @@ struct Lines<'a> {
     names: &'a Names,
     job: &'a BoardJob<'a>,
     /// The block of pins of each unit.
-    blocks: BTreeMap<String, u8>,
+    blocks: BTreeMap<UnitName, u8>,
     all: Vec<(String, Judged)>,
     unjudged: Vec<String>,
 }
 
 impl<'a> Lines<'a> {
     fn new(profile: &'a TargetProfile, names: &'a Names, job: &'a BoardJob<'a>) -> Self {
-        let mut sets: BTreeMap<String, Option<Blocks>> = BTreeMap::new();
-        let linked = job.link.iter().map(|link| (Some(link.unit), &link.pads));
-        let wired = job.connections.iter().map(|one| (one.unit, &one.pads));
-        for (unit, pads) in wired.chain(linked) {
-            for usage in pads.iter().filter_map(|pad| pad.usage) {
-                let (Some(unit), Some(blocks)) = (unit, usage.blocks) else { continue };
-                let known = sets.entry(unit.to_owned()).or_insert(Some(blocks));
-                *known = known.and_then(|known| known.and(blocks));
-            }
-        }
-        let lowest = |(unit, set): (String, Option<Blocks>)| Some((unit, set?.first()));
-        let blocks = sets.into_iter().filter_map(lowest).collect();
+        let blocks = moved::blocks(job);
         Self { profile, names, job, blocks, all: Vec::new(), unjudged: Vec::new() }
     }
 
@@ -235,7 +223,8 @@ impl<'a> Lines<'a> {
         if !self.knows(unit) {
             return None;
         }
-        let moved = self.names.remap(unit, self.blocks.get(unit).copied().unwrap_or(0));
+        let moved =
+            self.names.remap(unit, self.blocks.get(&UnitName::new(unit)).copied().unwrap_or(0));
         let moved = moved.map_or(String::new(), |block| format!(", {block}"));
         let unit = self.names.peripheral(unit);
         let (call, extra) = match function {
