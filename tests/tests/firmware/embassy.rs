@@ -62,7 +62,7 @@ pub(crate) fn build(board: &Path) -> PathBuf {
 fn an_image_for_each_core_links() {
     for (board, core) in [
         ("NUCLEO_F072RB", "Tag_CPU_arch: v6S-M"),
-        ("NUCLEO_L152RE", "Tag_CPU_arch: v7"),
+        ("NUCLEO_F103RB", "Tag_CPU_arch: v7"),
         ("NUCLEO_H563ZI", "Tag_CPU_arch: v8-M.mainline"),
     ] {
         let text = format!(
