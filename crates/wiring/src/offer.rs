@@ -103,7 +103,14 @@ impl<'a> Offer<'a> {
         keep_pads_free(pins, &rules, &pads, &mut withheld);
         let shared = pins.iter().map(|pin| shared(board, &rules, &roles, pin)).collect();
         let silicon = board.silicon();
-        let analog_only = board.mcu.as_deref().map(silicon::analog_only).unwrap_or_default();
+        let mut analog_only = board.mcu.as_deref().map(silicon::analog_only).unwrap_or_default();
+        // `PC3_C` is the converter's side of a switch. Where `PC3` is there as well, that is the port's.
+        let is_beside = |pin: &&Pin| {
+            let of_port = pin.name.as_str().strip_suffix("_C").and_then(PinName::parse);
+            of_port.is_some_and(|name| board.table.pin(&name).is_some())
+        };
+        let sides = board.table.pins.iter().filter(is_beside).map(|pin| pin.name.clone());
+        analog_only.extend(sides);
         let remaps = remaps(pins);
         Self { index, board, silicon, analog_only, rules, withheld, shared, pads, remaps }
     }

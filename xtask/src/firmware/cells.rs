@@ -109,7 +109,7 @@ pub(super) fn make(cell: &Cell) -> Made {
     }
     let offered = |kind: &&&str| has(&profile, kind);
     if cell.kind == ALL {
-        return together(&board, None, KINDS.iter().filter(offered));
+        return together(&board, None, &[], KINDS.iter().filter(offered));
     }
     if !has(&profile, &cell.kind) {
         return Made::NotOffered;
@@ -121,8 +121,12 @@ pub(super) fn make(cell: &Cell) -> Made {
 /// cover the MCU.
 pub(super) fn all_on(board: &str, mcu: &str, target: &str) -> Option<Made> {
     let profile = profile_of(Some(target), mcu)?;
-    let offered = KINDS.iter().filter(|kind| has(&profile, kind));
-    Some(together(&board.replace('-', "_"), Some(target), offered))
+    let offered = || KINDS.iter().filter(|kind| has(&profile, kind));
+    let board = board.replace('-', "_");
+    let made = together(&board, Some(target), &[], offered());
+    let is_refused = matches!(made, Made::Refused(_));
+    let serial = || together(&board, Some(target), &[SERIAL_LINK.to_owned()], offered());
+    Some(if is_refused { serial() } else { made })
 }
 
 /// One kind; where the pins that it needs are taken, with what the tool says would help.
@@ -154,13 +158,14 @@ fn alone(board: &str, kind: &str) -> Made {
 fn together<'a>(
     board: &str,
     target: Option<&str>,
+    rules: &[String],
     kinds: impl Iterator<Item = &'a &'static str>,
 ) -> Made {
-    let mut notes = Notes::default();
+    let mut notes = Notes { rules: rules.to_vec(), ..Notes::default() };
     let mut made = Made::NotOffered;
     for kind in kinds {
         notes.taken.push(kind);
-        let text = match design(board, &notes.taken, &[]) {
+        let text = match design(board, &notes.taken, rules) {
             Ok(text) => text,
             Err(error) => return Made::Refused(format!("{error:#}")),
         };

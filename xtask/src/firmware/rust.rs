@@ -26,8 +26,8 @@ const HEAD: &str = "# Firmware for Embassy, board by board
 
 Each line is the whole firmware of a board with a device of each kind that the board's MCU has, as far as they fit on
 its pins together ([designs](../tests/firmware/kinds)), generated, and judged by the Rust compiler on a PC: types, pins,
-units, DMA channels and interrupts, but neither instructions nor linking. `cargo xtask firmware --embassy --write` writes
-this page.
+units, DMA channels and interrupts, but neither instructions nor linking. `*`: over a serial port, because nothing makes
+the clock of USB. `cargo xtask firmware --embassy --write` writes this page.
 ";
 
 /// What is asked for.
@@ -159,9 +159,10 @@ fn page(done: &[Done]) -> String {
     for one in done {
         let state = if one.refused.is_some() { "**refused**" } else { "taken" };
         let (board, mcu, notes) = (one.board, one.mcu, &one.notes);
+        let link = if notes.rules.is_empty() { "" } else { " \\*" };
         let (taken, left_out) = (notes.taken.join(" "), notes.left_out.join(" "));
         // Writing to a string cannot fail.
-        let _ = writeln!(page, "| {board} | {mcu} | {taken} | {left_out} | {state} |");
+        let _ = writeln!(page, "| {board}{link} | {mcu} | {taken} | {left_out} | {state} |");
     }
     let taken = done.iter().filter(|one| one.refused.is_none()).count();
     let _ = writeln!(page, "\n{taken} of {} boards are taken.", done.len());

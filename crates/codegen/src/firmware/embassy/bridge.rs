@@ -55,12 +55,14 @@ fn bridge(
     let outputs = outputs(context, wired);
     let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
     let arms: String = arms.collect::<Made<String>>()?;
-    let drive = |scalar: &str, value: &str| {
-        format!(
-            "for write in tables::{upper}_BRIDGE.drive(&mut outputs.{ident}_bridge, {scalar}, {value}).as_slice() {{ \
-             match write.output {{ {arms}_ => {{}} }} }}"
-        )
-    };
+    section.items.push(format!(
+        "/// Gives the outputs of {} what its value asks of each.\n\
+         fn drive_{ident}(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {{\n    \
+         for write in tables::{upper}_BRIDGE.drive(&mut outputs.{ident}_bridge, scalar, value).as_slice() {{\n        \
+         match write.output {{\n{arms}            _ => {{}}\n        }}\n    }}\n}}",
+        wired.device.name()
+    ));
+    let drive = |scalar: &str, value: &str| format!("drive_{ident}(outputs, {scalar}, {value});");
     let own = scalar(wired.device.device.value.value.scalar);
     section.sets.entry(wired.index).or_default().push(drive(&own, "value"));
     if let Kind::Pwm(pwm) = &wired.device.device.kind
@@ -89,7 +91,7 @@ fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Made<Str
     if let Some(own) = wire.connection.kind.digital() {
         lack::pad(wire, Role::Out)?;
         return Ok(format!(
-            "{at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}), ",
+            "            {at} => outputs.{}.set_level(if write.value != 0 {{ {} }} else {{ {} }}),\n",
             wire.ident,
             level_of(own, true),
             level_of(own, false)
@@ -97,7 +99,7 @@ fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Made<Str
     }
     let pulse = Pulse::of(context, wire)?;
     Ok(format!(
-        "{at} if write.value == 0 => {{ {} }} {at} => {{ {} }} ",
+        "            {at} if write.value == 0 => {{ {} }}\n            {at} => {{ {} }}\n",
         pulse.stop(),
         pulse.set("write.value")
     ))

@@ -2,6 +2,8 @@
 //!
 //! The lock files are part of this program, so that a project is built from the same sources everywhere and for good.
 
+use std::collections::BTreeSet;
+
 use super::context::Context;
 use super::names::Chip;
 use crate::part::uses;
@@ -71,8 +73,19 @@ pub(super) fn manifest(context: &Context<'_>) -> String {
     let timer = context.timer.to_lowercase();
     MANIFEST
         .replace("{board}", &context.job.board.name.value)
-        .replace("{features}", &format!("\"{}\", {banks}\"time-driver-{timer}\"", chip.feature))
+        .replace(
+            "{features}",
+            &format!("\"{}\", {banks}{}\"time-driver-{timer}\"", chip.feature, split(context)),
+        )
         .replace("{uses}", &used(context).join(", "))
+}
+
+/// The features that part pins whose analog side is a pin of its own, `PA1_C`, from their digital sides.
+fn split(context: &Context<'_>) -> String {
+    let pads = context.job.connections.iter().flat_map(|one| &one.pads);
+    let pins: BTreeSet<&str> =
+        pads.filter_map(|pad| pad.pin.name.as_str().strip_suffix("_C")).collect();
+    pins.iter().map(|pin| format!("\"split-{}\", ", pin.to_lowercase())).collect()
 }
 
 /// What the values need of the runtime.

@@ -99,6 +99,14 @@ pub(super) struct ItemPlan {
     pub(super) make: String,
 }
 
+impl Plan {
+    /// The constant of an item; `usize::MAX` for one that is not there, which no item matches.
+    pub(super) fn item(&self, index: &usize) -> String {
+        let item = self.schema.items.get(*index);
+        item.map_or_else(|| "usize::MAX".to_owned(), |item| format!("tables::{}", item.constant))
+    }
+}
+
 /// Puts a project together.
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Plan {
     let mut section = Section::default();
@@ -127,7 +135,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         clock: clock(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
-        sets: section.sets.into_iter().map(|(index, sets)| (index, sets.join(" "))).collect(),
+        sets: section.sets.into_iter().map(|(index, sets)| (index, sets.join("\n"))).collect(),
         watched: section.watched,
         begins: section.begins,
         fallbacks: fallback::values(context),

@@ -264,7 +264,7 @@ impl Port<'_> {
         ));
         Ok(format!(
             "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
-             /// What comes in at {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
+             /// The bytes of {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
              pub struct {upper}Heard;\n\n\
              impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
              unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt({registers}, {mask});\n    }}\n}}\n\n",
