@@ -71,7 +71,7 @@ fn input(
         Some(Edge::Both) | None => "Both",
     };
     let (kind, type_, make) = if own.edge.is_some() {
-        let line = pin.number().ok_or_else(|| Lack::wire("a pin of a port".to_owned()))?;
+        let line = pin.number().ok_or_else(|| lack::Lack::wire("a pin of a port".to_owned()))?;
         let line = format!("EXTI{line}");
         let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
         lines.entry(interrupt).or_default().push(kept.clone());
