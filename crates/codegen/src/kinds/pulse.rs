@@ -63,7 +63,7 @@ pub fn pulses<'a>(job: &'a BoardJob<'a>) -> Vec<Pulses<'a>> {
 
 /// Lines of one group wait for each other: elements of an array, and devices whose cycle is too short for turns.
 fn apart(mut lines: Vec<Line<'_>>) -> Vec<Line<'_>> {
-    // Those of other groups first, so that nobody waits for what it does not hear.
+    // Lines of one group follow each other, so that none waits for a ranger that it does not hear.
     lines.sort_by(|a, b| a.group.cmp(&b.group));
     let next: Vec<Option<&str>> = lines.iter().skip(1).map(|line| line.group).collect();
     for (line, next) in lines.iter_mut().zip(next) {

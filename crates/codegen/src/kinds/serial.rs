@@ -8,7 +8,7 @@ use sensedsl_model::kind::uart::{MessageChecksum, Uart};
 
 use crate::part::MessagePlan;
 
-/// For how long a port's queue holds what comes in, in ms: whoever takes it out may have to wait for others.
+/// For how long a port's queue holds what comes in, in ms: the task that takes it out may have to wait for others.
 pub const PATIENCE_MS: u32 = 20;
 
 /// The smallest and the largest queue of a port, in bytes.
@@ -23,7 +23,7 @@ pub fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
     if is_told { 0 } else { two_characters_ms.max(2) }
 }
 
-/// The bytes that come in while nobody takes them out.
+/// The bytes that come in during [`PATIENCE_MS`].
 #[must_use]
 pub fn waiting_bytes(uart: &Uart) -> u32 {
     (uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000

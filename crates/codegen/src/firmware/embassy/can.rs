@@ -136,7 +136,7 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
 fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
     let upper = bus.unit.to_uppercase();
     if bus.frames.is_empty() {
-        // Whoever holds the half keeps the bus on.
+        // Dropping this half would turn the bus off.
         section.keeps.push(keep(&format!("_{name}_tx"), name));
         return;
     }

@@ -114,7 +114,7 @@ impl Port<'_> {
             type_: type_.to_owned(),
             make: format!("port({make})"),
         });
-        // Whoever holds a half keeps its pin: where nothing is sent, the task that listens has both.
+        // A task that holds a half keeps its pin. If nothing is sent, the listening task holds both.
         let ident = &self.wire.ident;
         if self.is_split() {
             section.starts.push(Start::Make(format!(
