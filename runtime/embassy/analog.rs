@@ -12,8 +12,8 @@ pub enum Value {
     Computed(&'static Formula, usize, &'static [i32]),
 }
 
-/// Tells the value of one device: of each element what is made of the mean of its samples, which stand element by
-/// element. One element that is no measurement makes the whole value none.
+/// Tells the value of one device: of each element what is made of the mean of its samples, which are element by
+/// element. One element without a measurement makes the whole value invalid.
 pub fn tell(
     board: &dyn Tell,
     filter: Option<&mut Filter>,

@@ -156,7 +156,7 @@ impl Sent {
     }
 }
 
-/// The frames of a bus; they stand in a `static`.
+/// The frames of a bus; they are a `static`.
 pub type Frames<const COUNT: usize> = Mutex<CriticalSectionRawMutex, RefCell<[Sent; COUNT]>>;
 
 pub const fn frames<const COUNT: usize>(all: [Sent; COUNT]) -> Frames<COUNT> {

@@ -32,7 +32,7 @@ impl Level for ExtiInput<'static, Blocking> {
     }
 }
 
-/// A pin with what was seen of it; it stands in a `static`.
+/// A pin with what was seen of it; it is a `static`.
 pub struct Kept<P> {
     config: ContactConfig,
     seen: Mutex<CriticalSectionRawMutex, RefCell<Option<(P, Contact)>>>,

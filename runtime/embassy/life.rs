@@ -12,7 +12,7 @@ const HALTED: u32 = 0x100;
 /// What the stack is filled with, and so much of it at most: a start must not take long.
 const FILL: u32 = 0x5555_5555;
 const FILLED_BYTES: u32 = 16_384;
-/// Below whoever fills.
+/// Left alone below the function that fills.
 const SPARED_BYTES: u32 = 256;
 
 unsafe extern "C" {
@@ -44,7 +44,7 @@ pub fn halt() {
     keep([MAGIC, HALTED]);
 }
 
-/// What is known of the board itself; it stands in a `static`.
+/// What is known of the board itself; it is a `static`.
 pub struct Life {
     /// By the number of the cause on the wire.
     flags: AtomicU32,

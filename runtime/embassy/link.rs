@@ -9,7 +9,7 @@ use sense_rt::Channel;
 /// Bytes of a host that wait.
 const HEARD: usize = 256;
 
-/// The two queues of a link; it stands in a `static`.
+/// The two queues of a link; they are a `static`.
 pub struct Link<const SAID: usize> {
     pub said: Pipe<CriticalSectionRawMutex, SAID>,
     pub heard: Pipe<CriticalSectionRawMutex, HEARD>,

@@ -69,7 +69,7 @@ pub async fn run<D: Driver<'static>, const SAID: usize>(
             control.control_changed().await;
             let is_open = control.dtr();
             if !is_open {
-                // What nobody reads is not kept for who comes next.
+                // Unread bytes are not kept for the next host.
                 link.said.clear();
             }
             link.is_open.store(is_open, Ordering::Relaxed);

@@ -18,7 +18,7 @@ use super::shared::Tell;
 /// A device that says nothing for so long may have lost its supply, and what it was told with it.
 const FORGOTTEN_MS: u32 = 5_000;
 
-/// What comes from a device and waits; it stands in a `static`.
+/// What comes from a device and waits; it is a `static`.
 pub struct Heard<const BYTES: usize> {
     bytes: Pipe<CriticalSectionRawMutex, BYTES>,
     has_fault: AtomicBool,
@@ -38,7 +38,7 @@ impl<const BYTES: usize> Heard<BYTES> {
         }
     }
 
-    /// Damaged characters and those that nobody took in time, since the last time.
+    /// Whether characters were damaged, or not taken in time, since the last call.
     fn take_fault(&self) -> bool {
         // Not a swap, which small cores lack: a fault between the two is one with the one before.
         let has_fault = self.has_fault.load(Ordering::Relaxed);
@@ -65,7 +65,7 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
     config.data_bits = if bits == 7 { DataBits::DataBits7 } else { DataBits::DataBits8 };
     config.parity = parity;
     config.stop_bits = if stop_bits == 2 { StopBits::STOP2 } else { StopBits::STOP1 };
-    // A wire that nobody drives rests.
+    // A wire that nothing drives rests.
     config.rx_pull = Pull::Up;
     config
 }
@@ -117,7 +117,7 @@ impl<const BYTES: usize> Device<'_, BYTES> {
     }
 }
 
-/// What is to be sent to a device; it stands in a `static`.
+/// What is to be sent to a device; it is a `static`.
 pub type Said<const BYTES: usize> = Pipe<CriticalSectionRawMutex, BYTES>;
 
 /// Queues what is due of the steps that start a device.

@@ -15,7 +15,7 @@ struct Known<const VALUES: usize, const ITEMS: usize> {
     sets: [u32; ITEMS],
 }
 
-/// See above; it stands in a `static`.
+/// See above; it is a `static`.
 pub struct Shared<const VALUES: usize, const ITEMS: usize> {
     known: Mutex<CriticalSectionRawMutex, RefCell<Known<VALUES, ITEMS>>>,
 }

@@ -219,6 +219,17 @@ impl<'a> BoardJob<'a> {
         self.connections.iter().filter(move |one| one.connection.kind.name() == kind)
     }
 
+    /// The connections of a device, in the order in which its value goes over them.
+    #[must_use]
+    pub fn wires_of(&self, device: &Device) -> Vec<&JobConnection<'a>> {
+        let connections = device.connections.iter();
+        let connections = connections.filter_map(|index| self.design.connection(*index));
+        let wired = |one: &Connection| {
+            self.connections.iter().find(|wire| std::ptr::eq(wire.connection, one))
+        };
+        connections.filter_map(wired).collect()
+    }
+
     /// The tables of the part that a connection is of.
     #[must_use]
     pub fn tables_of(&self, connection: &JobConnection<'_>) -> Option<&PartPlan> {

@@ -4,6 +4,7 @@ pub mod fileset;
 pub mod firmware;
 pub mod host;
 pub mod job;
+pub mod kinds;
 pub mod part;
 mod print;
 mod project;

@@ -9,7 +9,7 @@ pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     }
 }
 
-/// Moves what stands in `[from, end)` to the front.
+/// Moves the bytes of `[from, end)` to the front.
 #[inline(never)]
 pub(crate) fn move_down(bytes: &mut [u8], from: usize, end: usize) {
     if from == 0 {

@@ -7,7 +7,7 @@ use crate::convert::{store_ratio, store_unsigned};
 use crate::count::store_count;
 use crate::scalar::Scalar;
 
-/// A count that stands still is told again so often.
+/// How often an unchanged count is told again.
 const COUNT_REPEAT_MS: u32 = 1000;
 
 /// What a sensor wants to know.
@@ -32,7 +32,7 @@ pub struct CaptureConfig {
     pub mode: CaptureMode,
     /// Of the timer.
     pub tick_hz: u32,
-    /// After so long without an edge, frequency and duty are 0.
+    /// After this time without an edge, frequency and duty are 0.
     pub silent_ms: u32,
 }
 

@@ -40,7 +40,7 @@ pub enum Crc {
 /// How the words of a value are coded; one word is one element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coding {
-    /// For each element where its word stands, counted in words; empty: in order.
+    /// For each element the number of its word; empty: in order.
     pub elements: &'static [u8],
     /// Words there are with `elements` (its greatest entry + 1); 0: as many as elements.
     pub words: u16,
@@ -48,13 +48,13 @@ pub struct Coding {
     pub code: Code,
     /// Not with packed words; then `word_bytes * words` is even.
     pub crc: Crc,
-    /// 1 to 8; of no meaning with packed words.
+    /// 1 to 8; ignored for packed words.
     pub word_bytes: u8,
     /// Lowest bit of the word that counts, 0 = its least significant; packed: 0.
     pub low: u8,
     /// Bits that count from there, 1 to 64; 0: up to the word's highest. Packed: 1 to 32.
     pub bits: u8,
-    /// The highest of the bits is a sign; of no meaning with floats and BCD.
+    /// The highest of the bits is a sign; ignored for floats and BCD.
     pub is_signed: bool,
     /// The word's first byte is its least significant.
     pub is_little_endian: bool,
@@ -101,7 +101,7 @@ impl Coding {
         }
     }
 
-    /// Where a byte of the words stands on the wire.
+    /// Where a byte of the words is on the wire.
     fn place(&self, byte: usize) -> usize {
         match self.crc() {
             Crc::None => byte,
@@ -130,7 +130,7 @@ impl Coding {
         if bits == 0 || bits > most { most } else { bits }
     }
 
-    /// Where the word of an element stands; none where there is no such word.
+    /// Where the word of an element is; `None` if there is no such word.
     fn word_of(&self, element: usize, count: u16) -> Option<usize> {
         let word = if self.elements.is_empty() {
             element
@@ -142,7 +142,7 @@ impl Coding {
 
     // ---- decoding ----
 
-    /// Stores the value of an item that stands in the first [`Self::wire_bytes`]. Fresh; a wrong CRC
+    /// Stores the value of an item from the first [`Self::wire_bytes`]. Fresh; a wrong CRC
     /// where a checksum is wrong; invalid where a BCD digit is greater than 9, a float is infinite or
     /// not a number, or bytes are missing. Unless it is fresh, `value` may be half written.
     #[must_use]
@@ -311,7 +311,7 @@ fn store_bcd(scalar: Scalar, digits: u64, element: &mut [u8]) -> bool {
     true
 }
 
-/// IEEE 754 bits as they are; an exponent of all ones is no number.
+/// IEEE 754 bits as they are; an exponent of all ones is not a number.
 fn store_float(scalar: Scalar, bits: u64, word_bytes: u8, element: &mut [u8]) -> bool {
     let exponent = if word_bytes == 4 { 0x7F80_0000 } else { 0x7FF0_0000_0000_0000 };
     if usize::from(word_bytes) != scalar.bytes() || bits & exponent == exponent {

@@ -1,4 +1,4 @@
-//! A message that is sent to a serial device: a value with what stands around it.
+//! A message that is sent to a serial device: a value with what is around it.
 
 use crate::bytes::{Writer, split};
 use crate::coding::Coding;

@@ -1,4 +1,4 @@
-//! Counts: what a hardware counter of 16 bits has counted in all, and when what stands still is
+//! Counts: what a hardware counter of 16 bits has counted in all, and when an unchanged count is
 //! told again.
 //!
 //! A count wraps in its type, as a counter does, so that the difference of two values is right
@@ -48,7 +48,7 @@ pub fn store_count(scalar: Scalar, count: i64, element: &mut [u8]) {
     }
 }
 
-/// When a value that stands still is told again.
+/// When a value that does not change is told again.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Repeat {
     told_ms: u32,

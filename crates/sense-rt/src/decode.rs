@@ -104,7 +104,7 @@ struct Candidate {
     items_start: usize,
     values_end: usize,
     frame_bytes: usize,
-    /// Where the next identifier stands.
+    /// Where the next identifier is.
     at: usize,
     /// Up to here the elements of a bool were looked at.
     looked_at: usize,

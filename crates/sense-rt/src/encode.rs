@@ -25,7 +25,7 @@ pub struct Stamp {
 
 /// Puts the values whose bit is set in `due` (bit i is `items[i]`) into a frame; `values` has all of
 /// them, as a [`crate::Store`] does. Returns the bytes of the frame; 0 when there is nothing to say.
-/// The stamp is of no meaning where there is none.
+/// Without stamps on the link, `stamp` is ignored.
 pub fn encode_values(
     schema: &Schema,
     direction: Direction,
@@ -126,7 +126,7 @@ fn frame_of(
     if out.is_full {
         return 0;
     }
-    // The length stands right in front of the payload; a short one leaves room before it.
+    // The length is right in front of the payload; a short one leaves room before it.
     let end = head_bytes + out.size;
     let mut start = head_bytes - 1;
     put_at(frame, start, b':');

@@ -11,7 +11,7 @@
 //! **A value is its bytes on the wire**: elements one behind the other in network byte order, as
 //! [`Scalar`] reads and writes them. So a report is copied together, and one code serves all types.
 //!
-//! **State has its memory inside**, sized by a constant function of its table, and can stand in a
+//! **State has its memory inside**, sized by a constant function of its table, and can be a
 //! `static`: `Store<[u8; SCHEMA.values_bytes()]>`. Each such type dereferences to its unsized form
 //! (`Store<[u8]>`), which has the methods: one copy of the code serves all sizes.
 //!

@@ -131,7 +131,7 @@ impl MessageStream {
         self.drop_bytes(count);
     }
 
-    /// Before the first end nobody knows where a message began. True when the byte was taken.
+    /// Before the first end, it is unknown where a message began. True when the byte was taken.
     fn align(&mut self) -> bool {
         if self.is_aligned || !self.table.needs_alignment() {
             return false;

@@ -1,9 +1,9 @@
 //! What a reading, a message or a transfer came to, and why.
 
-/// Whoever makes values says one of these for each.
+/// What came of one attempt to get a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Not due, not ready, not measured: the last value stands.
+    /// Not due, not ready, not measured: the last value remains valid.
     Nothing,
     /// A new value; a transfer that went through.
     Fresh,

@@ -1,6 +1,6 @@
 //! One end of a link on a board: takes what the host sends, and sends what is due.
 //!
-//! Whoever has the link calls [`Reporter::cycle`] at its rate. Nothing waits. A report is only put
+//! The owner of the link calls [`Reporter::cycle`] at its rate. Nothing waits. A report is only put
 //! together when the one before it has left the channel, so that its values have waited for one
 //! report at most, however slow the line. A frame that the channel does not take at once is finished
 //! in the next cycles.
@@ -66,7 +66,7 @@ pub struct ReporterConfig {
     pub schema: &'static Schema,
     /// How often [`Reporter::cycle`] is called.
     pub cycle_ms: u32,
-    /// Actuators fall back after so long without a frame of the host, 10 to 3600000; 0: never.
+    /// Actuators fall back after this time without a frame from the host, 10 to 3600000; 0: never.
     pub silence_ms: u32,
 }
 
@@ -347,7 +347,7 @@ impl Reporter {
 
     // ---- the cycle ----
 
-    /// What is done whoever has the channel; `is_open` says whether frames have it.
+    /// What is done with the channel in either mode; `is_open`: frames have it.
     fn begin_cycle(&mut self, now_us: u64, is_open: bool, host: &mut dyn Host) {
         self.now_us = now_us;
         let now_ms = self.now_ms();

@@ -6,9 +6,9 @@ use crate::scalar::Scalar;
 pub(crate) const ID_HELLO: u8 = 0;
 /// Identifier that health begins with as the first byte of a payload.
 pub(crate) const ID_HEALTH: u8 = 255;
-/// Identifier of the checksum that stands last.
+/// Identifier of the checksum, which comes last.
 pub(crate) const ID_CHECKSUM: u8 = 255;
-/// What stands behind the 0 of a request for health.
+/// What follows the 0 of a request for health.
 pub(crate) const HEALTH_REQUEST: u8 = 1;
 
 pub(crate) const HELLO_BYTES: usize = 5;
@@ -99,7 +99,7 @@ impl Schema {
         bytes
     }
 
-    /// Where the value of an item stands in this memory.
+    /// Where the value of an item is in this memory.
     pub(crate) fn place(&self, index: usize) -> Option<(usize, &'static Item)> {
         let mut at = 0;
         for (here, item) in self.items.iter().enumerate() {

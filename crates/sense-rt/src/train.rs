@@ -1,7 +1,7 @@
 //! The pulse train of a model receiver (PPM sum): one interval between edges for each channel, and a
 //! gap.
 //!
-//! A train counts when it stands between two gaps and each interval is long enough.
+//! A train counts if it is between two gaps and each of its intervals is long enough.
 
 use crate::convert::store_ratio;
 use crate::outcome::Outcome;

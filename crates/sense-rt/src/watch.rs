@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 /// A task may be late by a cycle and so much more.
 const LATE_MS: u32 = 1000;
 
-/// When each task made its last cycle. It can stand in a `static` that all tasks share: it only
+/// When each task made its last cycle. It can be a `static` that all tasks share: it only
 /// loads and stores words, which every core does at once.
 #[derive(Debug)]
 pub struct Watch<const TASKS: usize> {

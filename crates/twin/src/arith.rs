@@ -44,7 +44,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     2.0 * sum + (number(exponent) - 1023.0) * std::f64::consts::LN_2
 }
 
-/// A number that nobody can tell from chance, always the same one for the same input (`SplitMix64`).
+/// A pseudo-random number, always the same one for the same input (`SplitMix64`).
 pub(crate) fn scrambled(mut state: u64) -> u64 {
     state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     state = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

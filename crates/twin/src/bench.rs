@@ -145,7 +145,7 @@ impl Bench {
         self.faults.iter().any(|one| one.kind == FaultKind::Reset && one.is_there(now_ns))
     }
 
-    /// What arrives on the link that nobody sent, in this millisecond.
+    /// Random bytes that arrive on the link in this millisecond.
     #[must_use]
     pub fn garbage(&self, now_ns: u64) -> Option<u8> {
         let is_there = |one: &&Fault| one.kind == FaultKind::Garbage && one.is_there(now_ns);
@@ -166,7 +166,7 @@ impl Bench {
     pub fn millivolts_at(&self, connection: ConnectionIndex, now_ns: u64) -> f64 {
         let Some(wired) = self.wires.get(&connection) else { return 0.0 };
         if self.has(FaultKind::Torn, wired.part, now_ns) {
-            // An input that nobody drives floats.
+            // An input that nothing drives floats.
             return REFERENCE_MV / 2.0 * (1.0 + chance(self.seed ^ (now_ns / MS_NS)) / 4.0);
         }
         let Some(analog) = &wired.analog else { return 0.0 };
@@ -182,7 +182,7 @@ impl Bench {
         level.clamp(0.0, FULL) * REFERENCE_MV / FULL
     }
 
-    /// The level at a wire of a connection; none where nobody drives it.
+    /// The level at a wire of a connection; `None` if nothing drives it.
     pub fn level_at(
         &mut self,
         connection: ConnectionIndex,

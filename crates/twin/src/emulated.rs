@@ -1,6 +1,6 @@
 //! A board's image on the emulated MCU, in the same bench as the board that does its job in this program.
 //!
-//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program stands, and what it has done to
+//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program is, and what it has done to
 //! the pads at each start that the plan does not say.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -54,7 +54,7 @@ pub struct Judged {
     pub quantity: String,
     /// Values that were compared.
     pub reports: u64,
-    /// Values during and right after a fault that concerns it, which nobody compares.
+    /// Values during and right after a fault that concerns it; they are not compared.
     pub excused: u64,
     /// Values that disagree, and silences.
     pub wrong: u64,
@@ -81,7 +81,7 @@ struct Accused {
     bounds: Option<(f64, f64)>,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
-    /// Where it stood before the board was up nobody knows.
+    /// Where it was before the board was up is unknown.
     is_anywhere: bool,
     /// What a count may have begun with, less what the world had: from, to.
     bases: Vec<Option<(f64, f64)>>,
@@ -218,7 +218,7 @@ impl Accused {
             .then(|| self.wrong(now_ns, element, (least, greatest), (got, off)))
     }
 
-    /// What a counter has counted before nobody knows: what it started with must be the same for all reports.
+    /// What a counter counted before is unknown, but it must be the same for all reports.
     fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
         let (least, greatest) = self.expected(now_ns, element);
         let found = (got - greatest - self.tolerance, got - least + self.tolerance);

@@ -97,7 +97,7 @@ pub trait Surroundings: Send {
         0.0
     }
 
-    /// The level that somebody outside drives; `None`: nobody drives it, and the pull decides. A source of a voltage
+    /// The level that is driven from outside; `None`: nothing drives it, and the pull decides. A source of a voltage
     /// drives its pad, too, and a resistor that pulls a bus up drives its wires high: firmware looks for loose wires.
     fn level(&mut self, pad: Pad, now_ns: u64) -> Option<bool> {
         let _ = (pad, now_ns);

@@ -35,7 +35,7 @@ pub fn unknown(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
         .help(format!("there is one of {}", boards.join(", ")))
 }
 
-/// `name` is no board of the file, or one that carries no devices; `boards` are those that do.
+/// No board called `name` carries a device of the file. `boards` are the ones that do.
 #[must_use]
 pub fn not_in_file(span: Span, name: &str, boards: &[&str]) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("no board `{name}` carries a device of this file"))

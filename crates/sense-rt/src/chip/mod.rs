@@ -6,7 +6,7 @@
 //!
 //! After a failed transfer the chip is started again. A chip that is not the one it should be never
 //! gives values. It is asked for nothing but its identity, in every cycle, until it is the right one;
-//! then, and after each 16th look in vain, it is started again from the beginning. Of transfers with
+//! then, and after each 16th failed look, it is started again from the beginning. Of transfers with
 //! a trigger one is under way at a time, the one that has been due for longest: their converter is
 //! one.
 
@@ -249,7 +249,7 @@ impl Chip {
     /// the command.
     ///
     /// What was written before a start is lost in the chip: when [`ChipCounts::starts`] has changed,
-    /// all commands are written anew by whoever calls.
+    /// the caller writes all commands again.
     ///
     /// # Errors
     ///

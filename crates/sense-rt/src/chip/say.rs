@@ -8,7 +8,7 @@ use crate::formula::Outputs;
 use crate::outcome::{Outcome, Sink};
 use crate::uses;
 
-/// The formula's outputs of one raw block, computed once for all readings that stand in it.
+/// The formula's outputs of one raw block, computed once for all readings in it.
 pub(super) type Computed = Option<(u16, Option<Outputs>)>;
 
 impl Chip {

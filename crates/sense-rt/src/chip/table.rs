@@ -107,7 +107,7 @@ pub struct Command {
 pub struct ChipTable {
     /// How it is set up.
     pub init: &'static [InitStep],
-    /// Who it must be; none: whoever answers is right.
+    /// What the part must be; none: any part that answers is right.
     pub identity: Option<Identity>,
     /// What its formula is told of it.
     pub calibration: &'static [Calibration],

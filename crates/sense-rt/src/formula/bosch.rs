@@ -10,7 +10,7 @@ const FINE_MAX: i64 = 110 * 5120;
 /// What is read of a quantity that is switched off, in 20 and in 16 bits.
 const SKIPPED: i64 = 0x80000;
 const SKIPPED_HUMIDITY: i64 = 0x8000;
-/// What a line reads that nobody drives.
+/// What an undriven line reads.
 const ONES: i64 = 0xFFFFF;
 /// 100 %, in the unit before the last division by 2^12.
 const HUMIDITY_FULL: i64 = 419_430_400;

@@ -11,7 +11,7 @@ use crate::schema::{Item, Schema};
 const DVB_S2_POLYNOMIAL: u8 = 0xD5;
 const IBUS_START: u16 = 0xFFFF;
 
-/// What stands behind the body.
+/// What follows the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageChecksum {
     /// Nothing.
@@ -40,7 +40,7 @@ impl MessageChecksum {
         }
     }
 
-    /// The checksum of what stands before it, and its bytes.
+    /// The checksum of the bytes before it, and its length.
     pub(crate) fn of(self, before: &[u8], start_bytes: usize, from: u8) -> ([u8; 3], usize) {
         let from = if self == Self::Nmea { start_bytes } else { usize::from(from) };
         let summed = before.get(from..).unwrap_or_default();
@@ -61,7 +61,7 @@ impl MessageChecksum {
         (bytes, self.bytes())
     }
 
-    /// Whether what begins with the checksum has that of what stands before it.
+    /// Whether the bytes from `place` on begin with the checksum of those before.
     fn is_right(self, bytes: &[u8], place: usize, start_bytes: usize, from: u8) -> bool {
         let before = bytes.get(..place).unwrap_or_default();
         let (sum, size) = self.of(before, start_bytes, from);
@@ -77,7 +77,7 @@ const fn hex_digit(number: u8) -> u8 {
     if number < 10 { b'0' + number } else { b'A' + number - 10 }
 }
 
-/// How a number stands in a message.
+/// How a number is written in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldFormat {
     /// `byte` and `value` say how.
@@ -96,7 +96,7 @@ pub enum FieldFormat {
 pub struct MessageField {
     /// Index of the item in the schema.
     pub item: u16,
-    /// How the number stands there.
+    /// How the number is written there.
     pub format: FieldFormat,
     /// Binary: where the value begins, counted from the first byte behind `start`.
     pub byte: u16,
@@ -185,7 +185,7 @@ impl MessageField {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MessageTable {
     /// First bytes of every message; empty for none: then what comes before the first `end` or the
-    /// first gap is dropped, because nobody knows where it began.
+    /// first gap is dropped, because it is unknown where it began.
     pub start: &'static [u8],
     /// Last bytes; empty for none: then `length` is not 0.
     pub end: &'static [u8],
@@ -219,7 +219,7 @@ impl MessageTable {
         self.bytes_max as usize + schema.value_bytes_max()
     }
 
-    /// What stands around a body.
+    /// What is around a body.
     pub(super) fn frame_bytes(&self) -> usize {
         self.start.len() + self.checksum.bytes() + self.end.len()
     }

@@ -9,7 +9,7 @@ use crate::arith::{ln, number};
 use crate::truth::halved;
 
 /// The calibration that a BME280 or BMP280 of this bench has: that of the BMP280's data sheet, and humidity as most
-/// parts have it. As it stands from 0x88 on, then 0xA1, then from 0xE1 on.
+/// parts have it. As it is read from 0x88 on, then 0xA1, then from 0xE1 on.
 const CALIBRATION: [u8; 32] = [
     0x70, 0x6B, 0x43, 0x67, 0x18, 0xFC, 0x7D, 0x8E, 0x43, 0xD6, 0xD0, 0x0B, 0x27, 0x0B, 0x8C, 0x00,
     0xF9, 0xFF, 0x8C, 0x3C, 0xF8, 0xC6, 0x70, 0x17, 0x4B, 0x6B, 0x01, 0x00, 0x13, 0x2D, 0x03, 0x1E,
@@ -43,7 +43,7 @@ pub(crate) fn calibration(formula: Formula) -> &'static [u8] {
     }
 }
 
-/// The raw bytes from which the board computes these outputs; an output that nobody wants is what is usual.
+/// The raw bytes from which the board computes these outputs; an output that is not asked for has its usual value.
 pub(crate) fn raw(formula: Formula, parameters: &[i32], wanted: [Option<f64>; 3]) -> Vec<u8> {
     let [first, second, third] = wanted;
     match formula {

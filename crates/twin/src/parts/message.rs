@@ -20,7 +20,7 @@ pub(crate) struct Field {
     pub(crate) byte: u16,
     /// How a binary value is coded.
     pub(crate) words: Option<Words>,
-    /// How it stands in a text.
+    /// How it is written in a text.
     pub(crate) text: Option<TextField>,
     /// Of degrees: whether the sign is told by north and south.
     pub(crate) is_latitude: bool,
@@ -68,7 +68,7 @@ impl Talker {
     pub(crate) fn next(&mut self, subjects: &[Subject], now_ns: u64) -> Option<u8> {
         let begins_ns = self.period_ns.saturating_mul(self.number + 1);
         if self.sent >= self.message.len() && now_ns >= begins_ns {
-            // What nobody took in the meantime is lost, as it is in a receiver.
+            // What was not taken in the meantime is lost, as it is in a receiver.
             self.number = now_ns / self.period_ns;
             self.began_ns = self.period_ns.saturating_mul(self.number);
             self.message = self.compose(subjects, self.began_ns);
@@ -190,7 +190,7 @@ impl Talker {
     }
 }
 
-/// A number as it stands in a text: of degrees also the column behind it.
+/// A number as a text has it; for degrees, the next column as well.
 fn written(text: &TextField, raw: f64, is_latitude: bool) -> Vec<String> {
     match text.format {
         Format::Hex => vec![format!("{:X}", rounded(raw).max(0))],

@@ -1,7 +1,7 @@
 //! A part with registers on I2C or SPI: what it answers, byte by byte, as its driver describes it.
 //!
-//! What is written is kept and can be read back. Where values stand, the world's are; where the driver knows an
-//! identity or a calibration, it is there. A trigger starts a measurement, and the part answers nobody until it is done.
+//! What is written is kept and can be read back. Registers of values have the world's; where the driver knows an
+//! identity or a calibration, it is there. A trigger starts a measurement; the part does not answer until it is done.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub(crate) struct Reading {
     pub(crate) trigger: Vec<u8>,
     /// How long that lasts.
     pub(crate) wait_ns: u64,
-    /// Where it stands; none where it is read without a register.
+    /// Its register; `None` if it is read without one.
     pub(crate) register: Option<u16>,
     /// Sent before it is read, on SPI.
     pub(crate) select: Vec<u8>,
@@ -81,7 +81,7 @@ impl Registers {
         *self = Self::new(self.protocol.clone(), std::mem::take(&mut self.readings));
     }
 
-    /// Whether it measures and answers nobody. A part that is set up first, or is asked for several things, has a
+    /// Whether it measures and does not answer. A part that is set up first, or is asked for several things, has a
     /// processor of its own for its bus.
     pub(crate) fn is_busy(&self, now_ns: u64) -> bool {
         let first = self.readings.first().map(|one| &one.trigger);

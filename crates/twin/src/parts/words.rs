@@ -4,7 +4,7 @@ use sensedsl_model::kind::i2c::ByteOrder;
 use sensedsl_model::protocol::Crc;
 use sensedsl_model::words::{Code, Words};
 
-/// The bytes of a value, checksums included. A word that no element stands in is 0.
+/// The bytes of a value, checksums included. A word without an element is 0.
 pub(crate) fn bytes(words: &Words, raw: &[f64]) -> Vec<u8> {
     if words.code == Code::Packed {
         return packed(words, raw);
@@ -34,7 +34,7 @@ pub(crate) fn bytes(words: &Words, raw: &[f64]) -> Vec<u8> {
     }
 }
 
-/// The least and the greatest number that a word holds; none for what is no whole number.
+/// The least and the greatest number that a word holds; `None` if it does not hold integers.
 pub(crate) fn range(words: &Words) -> Option<(f64, f64)> {
     let bits = u32::from(words.bits).min(53);
     let full = crate::arith::number(1 << bits);

@@ -39,7 +39,7 @@ pub enum FaultKind {
     Silent,
     /// The supply breaks down, and the board starts again.
     Reset,
-    /// Bytes arrive on the link that nobody sent.
+    /// Random bytes arrive on the link.
     Garbage,
 }
 

@@ -1,5 +1,5 @@
 //! What sensors measure of which a world says nothing: something that moves within their range, each at a pace of its
-//! own, so that a board without any world shows live values and no two of them are alike.
+//! own, so that a board without a world shows live values, each different from the others.
 
 use sensedsl_model::design::{Device, DeviceIndex};
 use sensedsl_model::kind::Kind;

@@ -2,7 +2,6 @@
 
 use sensedsl_board::profile::Timer;
 use sensedsl_board::signal::{Function, TimerLine};
-use sensedsl_model::design::Connection;
 use sensedsl_model::kind::KindName;
 
 use super::context::Context;
@@ -25,19 +24,6 @@ pub(super) fn channel<'a>(context: &Context<'a>, pad: &Pad<'_>) -> Option<Channe
     Some(Channel { timer, number: *channel, is_inverted: *line == TimerLine::Inverted })
 }
 
-/// The connections of a device, in the order in which its value goes over them.
-pub(super) fn wires<'a>(
-    context: &Context<'a>,
-    device: &JobDevice<'_>,
-) -> Vec<&'a JobConnection<'a>> {
-    let job = context.job;
-    let indices = device.device.connections.iter();
-    let connections = indices.filter_map(|index| job.design.connection(*index));
-    let wired =
-        |one: &Connection| job.connections.iter().find(|wired| std::ptr::eq(wired.connection, one));
-    connections.filter_map(wired).collect()
-}
-
 /// The devices of a kind that a driver serves, each with its connections.
 pub(super) fn devices<'a>(
     context: &Context<'a>,
@@ -45,7 +31,7 @@ pub(super) fn devices<'a>(
 ) -> impl Iterator<Item = (&'a JobDevice<'a>, Vec<&'a JobConnection<'a>>)> {
     let of_kind = move |one: &&JobDevice<'_>| one.device.kind.name() == kind;
     let devices = context.job.devices.iter().filter(of_kind);
-    devices.map(move |device| (device, wires(context, device)))
+    devices.map(move |device| (device, context.job.wires_of(device.device)))
 }
 
 /// 64-bit words of memory for a value of a device.

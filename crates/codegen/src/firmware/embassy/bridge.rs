@@ -1,7 +1,6 @@
 //! Motors behind H-bridges: one value becomes the strength of a pulse and the levels of two pins, or two pulses.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::design::Connection;
 use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
@@ -52,7 +51,8 @@ fn bridge(
         type_: "sense_rt::BridgeState".to_owned(),
         make: "sense_rt::BridgeState::NEW".to_owned(),
     });
-    let outputs = outputs(context, wired);
+    // In the order of the runtime's outputs.
+    let outputs = context.job.wires_of(wired.device.device);
     let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
     let arms: String = arms.collect::<Made<String>>()?;
     section.items.push(format!(
@@ -74,16 +74,6 @@ fn bridge(
         section.fails.push(safe);
     }
     Ok(())
-}
-
-/// The connections of a device in the order of the runtime's outputs.
-fn outputs<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Vec<&'a JobConnection<'a>> {
-    let job = context.job;
-    let indices = wired.device.device.connections.iter();
-    let connections = indices.filter_map(|index| job.design.connection(*index));
-    let wire =
-        |one: &Connection| job.connections.iter().find(|wire| std::ptr::eq(wire.connection, one));
-    connections.filter_map(wire).collect()
 }
 
 /// What writes one output.

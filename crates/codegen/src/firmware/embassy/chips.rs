@@ -1,4 +1,4 @@
-//! Parts on register buses, as I²C and SPI have them alike: which task serves which part.
+//! Parts on register buses, I²C and SPI alike: which task serves which part.
 
 use std::collections::BTreeMap;
 

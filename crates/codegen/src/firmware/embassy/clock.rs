@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::job::BoardJob;
 
-/// The first timer of the profile that no device has; none where all are taken.
+/// The first timer of the profile that no device uses; `None` if all are taken.
 pub(super) fn timer(job: &BoardJob<'_>, profile: &TargetProfile) -> Option<String> {
     let units: BTreeSet<UnitName> =
         job.connections.iter().filter_map(|one| one.unit).map(UnitName::new).collect();
@@ -37,7 +37,7 @@ struct Way {
     crystal: Option<Crystals>,
     #[serde(default)]
     set: Vec<String>,
-    /// What gives a USB device its 48 MHz; none where nothing does.
+    /// What gives a USB device its 48 MHz; `None` if nothing does.
     usb: Option<Vec<String>>,
 }
 
@@ -58,7 +58,7 @@ impl Crystals {
 }
 
 impl Clock {
-    /// The assignments for a board; none where nothing gives what is needed.
+    /// The assignments for a board; `None` if no oscillator gives what is needed.
     pub(super) fn lines(&self, crystal: &Crystal, needs_usb: bool) -> Option<Vec<String>> {
         let fits = |way: &&Way| {
             let is_driven = match way.crystal {

@@ -1,4 +1,4 @@
-//! What there is no firmware for yet. A gap is told; nothing is left out in silence.
+//! What Embassy firmware cannot do yet. Every gap is reported; nothing is left out in silence.
 
 use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_model::kind::{Kind, KindName, Role};

@@ -11,7 +11,7 @@ use super::section::{Field, Section, Start};
 use crate::job::JobConnection;
 use crate::part::TrainPlan;
 
-/// After so long without an edge there is no frequency.
+/// After this time without an edge there is no frequency.
 const SILENT_MS: u32 = 1_000;
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
@@ -37,7 +37,7 @@ fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Ma
     Ok(())
 }
 
-/// How a pulse train is read; none where there is no train.
+/// How the pulse train of a device is read; `None` if it has none.
 fn train<'a>(context: &Context<'a>, wired: &Wired<'_>) -> Option<&'a TrainPlan> {
     let name = wired.device.name();
     let mut all = context.job.parts.iter().flat_map(|part| &part.plan.trains);

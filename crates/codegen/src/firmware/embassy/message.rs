@@ -91,7 +91,7 @@ fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> String {
     )
 }
 
-/// A list that stands so many steps further left.
+/// The list with its indent reduced by `steps`.
 fn flat(text: &str, steps: usize) -> String {
     text.replace(&format!("\n{}", "    ".repeat(steps)), "\n")
 }

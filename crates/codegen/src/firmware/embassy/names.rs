@@ -21,7 +21,7 @@ pub struct Names {
     i2c: String,
     /// The version of the serial ports.
     usart: String,
-    /// The register that tells the cause of the last reset from bit 26 on; none where it is told otherwise.
+    /// The register that tells the cause of the last reset from bit 26 on; `None` if another register does.
     #[serde(default)]
     pub(super) reset: Option<String>,
     /// The driver of the CAN controllers.
@@ -129,7 +129,7 @@ pub(super) struct Line {
     chips: String,
     /// Interrupts that no unit in use has.
     pub(super) spare: Vec<String>,
-    /// What the firmware makes of the clocks; none where it keeps those after a reset.
+    /// How the firmware sets the clocks; `None` if it keeps those of the reset.
     pub(super) clock: Option<Clock>,
 }
 

@@ -1,4 +1,4 @@
-//! What the host sets: pins, pulse widths, voltages. All stand in one static, so that a frame sets them at once.
+//! What the host sets: pins, pulse widths, voltages. All are in one static, so that a frame sets them at once.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ use crate::print::snake;
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    // Some are of no device: a part has them at their level for good.
+    // Some belong to no device: their part needs them at a fixed level.
     for wire in context.connections(KindName::Digital) {
         let made = pin(wire, &mut section);
         context.tell(wire.part, made, diagnostics);

@@ -1,8 +1,7 @@
 //! Serial devices: a task for each port that listens, and one that sends where something is sent.
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
+use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
@@ -10,13 +9,8 @@ use super::lack::{self, Lack, Made};
 use super::section::{Field, Section, Start, Watched};
 use super::{filter, message};
 use crate::job::JobConnection;
+use crate::kinds::serial::{self, QUEUE_BYTES};
 use crate::part::MessagePlan;
-
-/// The queue of a port holds what comes in so long: its task may have to wait for others.
-const PATIENCE_MS: u32 = 20;
-
-/// The smallest and the largest queue.
-const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
 
 /// A port with its device.
 struct Port<'a> {
@@ -47,7 +41,8 @@ fn port(
     let (unit, uart) = (lack::unit(wire)?, lack::kind(wire.connection.kind.uart())?);
     let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
     let plan = plan.ok_or_else(|| Lack::table("messages"))?;
-    if refuse(context, wire, uart, diagnostics) {
+    if uart.is_inverted && context.names.has_old_ports() {
+        diagnostics.push(serial::not_inverted(wire.part, context.profile));
         return Ok(());
     }
     if !plan.fields.is_empty() {
@@ -70,27 +65,6 @@ fn port(
         port.listen(context, section)?;
     }
     Ok(())
-}
-
-/// A port that cannot do what its device needs.
-fn refuse(
-    context: &Context<'_>,
-    wire: &JobConnection<'_>,
-    uart: &Uart,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> bool {
-    let is_refused = uart.is_inverted && context.names.has_old_ports();
-    if is_refused {
-        let name = &wire.part.name;
-        let message =
-            format!("the serial ports of {} cannot invert their wires", context.profile.family);
-        let help = format!(
-            "put an inverter in front of {} and leave `invert` out, or take another MCU",
-            name.value
-        );
-        diagnostics.push(e0506_hardware_limit::hardware_limit(name.span, &message, &help));
-    }
-    is_refused
 }
 
 impl Port<'_> {
@@ -140,7 +114,7 @@ impl Port<'_> {
             type_: type_.to_owned(),
             make: format!("port({make})"),
         });
-        // Whoever holds a half keeps its pin: where nothing is sent, the task that listens has both.
+        // A task that holds a half keeps its pin. If nothing is sent, the listening task holds both.
         let ident = &self.wire.ident;
         if self.is_split() {
             section.starts.push(Start::Make(format!(
@@ -249,7 +223,7 @@ impl Port<'_> {
     /// The handler of the port's interrupt, and what it fills.
     fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Made<String> {
         let (upper, hal) = (self.upper(), context.peripheral(self.unit));
-        let queue = (self.uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000;
+        let queue = serial::waiting_bytes(self.uart);
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
         let interrupt = context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Heard"));
@@ -281,7 +255,7 @@ impl Port<'_> {
              let mut device = rt::serial::Device {{\n        heard: &{upper}_HEARD,\n        stream: &mut stream,\n        \
              gap_ms: {},\n        is_silent: false,\n        heard_ms: now_ms(),\n    }};\n    \
              const OWN: [usize; {}] = {:?};\n",
-            gap_ms(self.uart, self.plan),
+            serial::gap_ms(self.uart, self.plan),
             self.plan.fields.len(),
             self.plan.fields.iter().map(|one| context.item(&one.field)).collect::<Vec<_>>()
         )
@@ -316,11 +290,4 @@ impl Port<'_> {
         }
         text
     }
-}
-
-/// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
-fn gap_ms(uart: &Uart, plan: &MessagePlan) -> u32 {
-    let is_told = plan.checksum != MessageChecksum::None || !uart.end.is_empty();
-    let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
-    if is_told { 0 } else { two_characters_ms.max(2) }
 }

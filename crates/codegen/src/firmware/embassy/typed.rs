@@ -73,7 +73,7 @@ pub struct TypeCheck {
 /// What a line of the check is of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Judged {
-    /// Where it stands in the file: the name of the device or the board.
+    /// Where it is in the file: the name of the device or the board.
     pub span: Span,
     /// For people: `IRFront at PB0 (ADC12-IN8)`.
     pub what: String,

@@ -2,8 +2,7 @@
 
 use askama::Template;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::e0506_hardware_limit;
-use sensedsl_model::kind::uart::{MessageChecksum, Parity, Uart};
+use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use crate::firmware::chibios::context::{Context, Drive};
@@ -11,6 +10,7 @@ use crate::firmware::chibios::names::Setting;
 use crate::firmware::chibios::section::{Apply, Section, Size, Work};
 use crate::firmware::chibios::stacks::Depth;
 use crate::job::{Cycle, JobConnection};
+use crate::kinds::serial::{self, QUEUE_BYTES};
 use crate::part::MessagePlan;
 use crate::print::block;
 use sensedsl_board::signal::UnitName;
@@ -52,12 +52,6 @@ struct Port {
 /// The version whose ports cannot invert.
 const WITHOUT_INVERSION: &str = "USARTv1";
 
-/// The queue of a port holds what comes in so long: the thread that takes it out may have to wait for others.
-const PATIENCE_MS: u32 = 20;
-
-/// The smallest and the largest queue.
-const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
-
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let (mut ports, mut queue_bytes, mut send_bytes) = (Vec::new(), 0, 1);
@@ -68,7 +62,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             continue;
         };
         let Some(port) = Port::new(context, wired, uart, message) else { continue };
-        refuse(context, wired, uart, diagnostics);
+        if uart.is_inverted && context.names.drivers.serial == WITHOUT_INVERSION {
+            diagnostics.push(serial::not_inverted(wired.part, context.profile));
+        }
         for pad in &wired.pads {
             let drive =
                 if pad.role == Role::Rx { Drive::Resting(!uart.is_inverted) } else { Drive::Plain };
@@ -77,7 +73,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         let sent = message.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
         let told = message.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
         send_bytes = send_bytes.max(sent);
-        let needed = (uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000;
+        let needed = serial::waiting_bytes(uart);
         let needed = needed.max(2 * sent).max(u32::try_from(told).unwrap_or(0));
         queue_bytes = queue_bytes.max(needed.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end()));
         section.units.insert(UnitName::new(&port.unit));
@@ -109,25 +105,6 @@ fn uart<'a>(context: &Context<'a>, wired: &JobConnection<'a>) -> Option<&'a Uart
     own.or_else(|| context.device_of(wired)?.device.kind.uart())
 }
 
-/// A port that cannot do what the device needs.
-fn refuse(
-    context: &Context<'_>,
-    wired: &JobConnection<'_>,
-    uart: &Uart,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    if uart.is_inverted && context.names.drivers.serial == WITHOUT_INVERSION {
-        let name = &wired.part.name;
-        let message =
-            format!("the serial ports of {} cannot invert their wires", context.profile.family);
-        let help = format!(
-            "put an inverter in front of {} and leave `invert` out, or take another MCU",
-            name.value
-        );
-        diagnostics.push(e0506_hardware_limit::hardware_limit(name.span, &message, &help));
-    }
-}
-
 impl Port {
     fn new(
         context: &Context<'_>,
@@ -148,7 +125,7 @@ impl Port {
             prefix: message.prefix.clone(),
             init: message.init.len(),
             fields: message.fields.len(),
-            gap_ms: gap_ms(uart, message),
+            gap_ms: serial::gap_ms(uart, message),
             cycle: wired.cycle,
             id: context.id_of(wired),
         })
@@ -198,11 +175,4 @@ fn cr2(uart: &Uart) -> String {
     let invert = uart.is_inverted.then_some("USART_CR2_RXINV | USART_CR2_TXINV");
     let all: Vec<&str> = stop.into_iter().chain(invert).collect();
     all.join(" | ")
-}
-
-/// How long the line is silent between two messages of a device that nothing else tells apart: two characters.
-fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
-    let is_told = message.checksum != MessageChecksum::None || !uart.end.is_empty();
-    let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
-    if is_told { 0 } else { two_characters_ms.max(2) }
 }

@@ -1,0 +1,42 @@
+//! Devices on serial ports.
+
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::e0506_hardware_limit;
+use sensedsl_model::design::Part;
+use sensedsl_model::kind::uart::{MessageChecksum, Uart};
+
+use crate::part::MessagePlan;
+
+/// For how long a port's queue holds what comes in, in ms: the task that takes it out may have to wait for others.
+pub const PATIENCE_MS: u32 = 20;
+
+/// The smallest and the largest queue of a port, in bytes.
+pub const QUEUE_BYTES: std::ops::RangeInclusive<u32> = 64..=2_048;
+
+/// For how long the line is silent between two messages that nothing else tells apart, in ms: two characters. 0 for
+/// messages with a checksum or an end.
+#[must_use]
+pub fn gap_ms(uart: &Uart, message: &MessagePlan) -> u32 {
+    let is_told = message.checksum != MessageChecksum::None || !uart.end.is_empty();
+    let two_characters_ms = 24_000_u32.div_ceil(uart.baud.max(1));
+    if is_told { 0 } else { two_characters_ms.max(2) }
+}
+
+/// The bytes that come in during [`PATIENCE_MS`].
+#[must_use]
+pub fn waiting_bytes(uart: &Uart) -> u32 {
+    (uart.baud / 10).saturating_mul(PATIENCE_MS) / 1_000
+}
+
+/// What is told where a device's wires are inverted and the MCU's ports cannot invert.
+#[must_use]
+pub fn not_inverted(part: &Part, profile: &TargetProfile) -> Diagnostic {
+    let name = &part.name;
+    let message = format!("the serial ports of {} cannot invert their wires", profile.family);
+    let help = format!(
+        "put an inverter in front of {} and leave `invert` out, or take another MCU",
+        name.value
+    );
+    e0506_hardware_limit::hardware_limit(name.span, &message, &help)
+}
