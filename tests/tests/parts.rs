@@ -105,7 +105,8 @@ fn the_first_ones_in_the_order_asked_for() {
     assert!(by_pins[0]["cost"].as_u64() > all[0]["cost"].as_u64(), "{by_pins:?}");
     assert_eq!(all[0]["profile"], true);
     let cut = sensedsl(["parts", fig2, "--family", "F4", "--limit", "3"]).run().exits(0).stdout;
-    let count = format!("{0} of {0} parts and boards can carry the devices; the first 3", all.len());
+    let count =
+        format!("{0} of {0} parts and boards can carry the devices; the first 3", all.len());
     assert!(cut.contains(&count), "{cut}");
 }
 

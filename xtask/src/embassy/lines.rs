@@ -122,7 +122,8 @@ fn taken<'a>(
     interrupts: &'a BTreeMap<String, String>,
 ) -> impl Iterator<Item = &'a String> {
     let is_timer = unit.starts_with("TIM");
-    let has_handler = move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
+    let has_handler =
+        move |signal: &String| !is_timer || matches!(signal.as_str(), "CC" | "GLOBAL");
     interrupts.iter().filter(move |(signal, _)| has_handler(signal)).map(|(_, name)| name)
 }
 

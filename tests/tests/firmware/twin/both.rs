@@ -76,10 +76,12 @@ fn differs(one: &Course, other: &Course) -> Option<String> {
         let apart = APART_MS + LONGEST_CYCLE_MS;
         let about = [at - apart, at, at + apart].map(|at| known(other, at).to_vec());
         let between = other.iter().filter(|(when, _)| when.abs_diff(at) <= apart);
-        let about: Vec<Vec<f64>> = about.into_iter().chain(between.map(|(_, all)| all.clone())).collect();
+        let about: Vec<Vec<f64>> =
+            about.into_iter().chain(between.map(|(_, all)| all.clone())).collect();
         for (place, value) in known(one, at).iter().enumerate() {
             let all = about.iter().map(|elements| elements[place]);
-            let (least, greatest) = all.fold((f64::MAX, f64::MIN), |(l, g), v| (l.min(v), g.max(v)));
+            let (least, greatest) =
+                all.fold((f64::MAX, f64::MIN), |(l, g), v| (l.min(v), g.max(v)));
             if *value < least || *value > greatest {
                 return Some(format!("at {at} ms: {value}, not {least} to {greatest}"));
             }
@@ -115,6 +117,9 @@ fn programs_of_both_targets_say_the_same() {
         assert_eq!(last, other_last, "device {id} ends at another value");
         // A reading more or less at either end, and those that a report came just before.
         let most = 3 + count / 8;
-        assert!(count.abs_diff(other_count) <= most, "device {id}: {count} and {other_count} values");
+        assert!(
+            count.abs_diff(other_count) <= most,
+            "device {id}: {count} and {other_count} values"
+        );
     }
 }

@@ -29,7 +29,12 @@ fn world(name: &str) -> String {
 /// no clock.
 #[track_caller]
 fn assert_agrees(what: &str, trial: &Trial) {
-    assert!(trial.halt.is_none() && trial.misled.is_empty(), "{what}: {:?} {:?}", trial.halt, trial.misled);
+    assert!(
+        trial.halt.is_none() && trial.misled.is_empty(),
+        "{what}: {:?} {:?}",
+        trial.halt,
+        trial.misled
+    );
     let told = trial.told.iter().filter(|one| !matches!(one, Event::Reset { .. }));
     let told: Vec<&Event> = told.collect();
     assert!(told.is_empty(), "{what}: {told:?}");

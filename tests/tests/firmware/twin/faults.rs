@@ -131,7 +131,9 @@ fn inputs_that_fall_silent(system: System) {
 }
 
 fn a_supply_that_breaks_down(system: System) {
-    let Some(trial) = with(system, "kind = \"reset\"\nat = \"4 s\"\nfor = \"200 ms\"") else { return };
+    let Some(trial) = with(system, "kind = \"reset\"\nat = \"4 s\"\nfor = \"200 ms\"") else {
+        return;
+    };
     let resets: Vec<_> = trial.told.iter().collect();
     let is_power = |one: &&&Event| matches!(one, Event::Reset { cause: ResetCause::Power, .. });
     assert_eq!(resets.iter().filter(is_power).count(), 1, "{resets:?}");
@@ -143,7 +145,9 @@ fn a_supply_that_breaks_down(system: System) {
 }
 
 fn garbage_on_the_link(system: System) {
-    let Some(trial) = with(system, "kind = \"garbage\"\nat = \"4 s\"\nfor = \"500 ms\"") else { return };
+    let Some(trial) = with(system, "kind = \"garbage\"\nat = \"4 s\"\nfor = \"500 ms\"") else {
+        return;
+    };
     assert!(trial.dropped > 0);
     assert!(trial.reports_of(NEAR, 4_600, 10_000) > 200);
 }
@@ -158,8 +162,7 @@ fn a_thread_that_hangs() {
                 while (up_now_ms() > 2000U && up_reset_cause() != UP_CAUSE_WATCHDOG) {\n  }\n}\n";
     std::fs::write(board.join("user/user.c"), user).unwrap();
     build(&tree, &board, "production");
-    let trial =
-        run(System::Chibios, (&rover(), &rover_world()), &image(&board), 14, &[13_500]);
+    let trial = run(System::Chibios, (&rover(), &rover_world()), &image(&board), 14, &[13_500]);
     assert_is_bitten(&trial);
 }
 
@@ -169,7 +172,8 @@ fn a_task_that_hangs() {
     let Some(board) = embassy::project("trial_hang_embassy", &rover()) else { return };
     let path = board.join("src/main.rs");
     let text = std::fs::read_to_string(&path).unwrap();
-    let beats: Vec<&str> = text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C")).collect();
+    let beats: Vec<&str> =
+        text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C1_100MS")).collect();
     let [beat] = beats[..] else { panic!("{beats:?}") };
     let hang = "if now_ms() > 2_000 && LIFE.cause() != sense_rt::Cause::Watchdog {\n\
                 core::future::pending::<()>().await;\n}\n";

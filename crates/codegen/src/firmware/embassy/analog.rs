@@ -85,7 +85,7 @@ fn task(
         if !own.is_empty() {
             state.push_str(&format!("    {own}"));
         }
-        reads.push_str(&read(context, device, &pass));
+        reads.push_str(&read(context, device, &pass, section));
     }
     let mut text = format!(
         "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(\n    unit: &'static {unit}Unit,\n{}) {{\n{}{state}    \
@@ -109,8 +109,36 @@ fn task(
     section.watched.push(Watched::new(constant, cycle, device));
 }
 
-/// Samples one device, whose inputs are converted one right after the other.
-fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
+/// All inputs one right after the other, as often as there are samples.
+fn rows(wired: &Wired<'_>, call: &str, time: &str, wait: &str) -> String {
+    let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
+    let mut text = format!("        for [{}] in samples.as_chunks_mut().0 {{\n", names.join(", "));
+    for (name, wire) in names.iter().zip(&wired.wires) {
+        text.push_str(&format!(
+            "            *{name} = adc.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            wire.ident
+        ));
+    }
+    text + "        }\n"
+}
+
+/// All samples of an input, then those of the next: what sets the converter up takes longer than a sample.
+fn columns(context: &Context<'_>, wired: &Wired<'_>, time: &str, section: &mut Section) -> String {
+    section.runtime.insert("again.rs");
+    let count = wired.wires.len();
+    let columns = wired.wires.iter().enumerate().filter_map(|(at, wire)| {
+        let hal = context.peripheral(wire.unit?);
+        Some(format!(
+            "        let first = adc.blocking_read(&mut {}, SampleTime::{time});\n        \
+             rt::again::fill(hal::pac::{hal}, first, samples.iter_mut().skip({at}).step_by({count}));\n",
+            wire.ident
+        ))
+    });
+    columns.collect()
+}
+
+/// Samples one device.
+fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str, section: &mut Section) -> String {
     let Some(analog) = wired.wires.first().and_then(|one| one.connection.kind.analog()) else {
         return String::new();
     };
@@ -119,22 +147,12 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
     let time = sample_time(time);
     let samples = usize::from(analog.samples.max(1)) * count;
-    let names: Vec<String> = (0..count).map(|at| format!("s{at}")).collect();
-    let mut text = format!(
-        "        let mut samples = [0; {samples}];\n        for [{}] in samples.as_chunks_mut().0 {{\n",
-        names.join(", ")
-    );
-    for (name, wire) in names.iter().zip(&wired.wires) {
-        let call = match context.names.adc.read {
-            AdcRead::Blocking => "blocking_read",
-            AdcRead::Async => "read",
-        };
-        let wait = if context.names.adc.read == AdcRead::Async { ".await" } else { "" };
-        text.push_str(&format!(
-            "            *{name} = adc.{call}(&mut {}, SampleTime::{time}){wait};\n",
-            wire.ident
-        ));
-    }
+    let mut text = format!("        let mut samples = [0; {samples}];\n");
+    text.push_str(&match context.names.adc.read {
+        AdcRead::Blocking => rows(wired, "blocking_read", &time, ""),
+        AdcRead::Async => rows(wired, "read", &time, ".await"),
+        AdcRead::Again => columns(context, wired, &time, section),
+    });
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
     let formula = wired.wires.first().and_then(|one| {
@@ -154,7 +172,7 @@ fn read(context: &Context<'_>, wired: &Wired<'_>, filter: &str) -> String {
         None => "rt::analog::Value::Mean".to_owned(),
     };
     text.push_str(&format!(
-        "        }}\n        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
+        "        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
         scalar(value.scalar),
         value.size_bytes(),
     ));

@@ -318,7 +318,9 @@ impl<'a> Session<'a> {
             .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
         if let Some(instructions) = board.instructions() {
             let each = instructions / reports.max(1);
-            let text = format!("{reports} reports, {each} instructions for each, with all that is measured\n");
+            let text = format!(
+                "{reports} reports, {each} instructions for each, with all that is measured\n"
+            );
             scenery.terminal.note(&text)?;
         }
         Ok(if is_wrong { Status::Wrong } else { Status::Done })
