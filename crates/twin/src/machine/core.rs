@@ -1,5 +1,6 @@
 //! The core with its memory, and the loop that lets it and the chip take turns.
 
+use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -362,8 +362,22 @@ fn search(
         return None;
     }
     if to - from <= PRECISION_NS {
-        return differs(to).then_some(to);
+        return differs(to).then(|| first(from, to, differs));
     }
     let middle = from + (to - from) / 2;
     search(from, middle, may_differ, differs).or_else(|| search(middle, to, may_differ, differs))
+}
+
+/// The first moment, to the nanosecond: whoever asks again from just before it must get it again.
+fn first(from: u64, to: u64, differs: &impl Fn(u64) -> bool) -> u64 {
+    let (mut from, mut to) = (from, to);
+    while to - from > 1 {
+        let middle = from + (to - from) / 2;
+        if differs(middle) {
+            to = middle;
+        } else {
+            from = middle;
+        }
+    }
+    to
 }

@@ -173,7 +173,7 @@ fn a_task_that_hangs() {
     let path = board.join("src/main.rs");
     let text = std::fs::read_to_string(&path).unwrap();
     let beats: Vec<&str> =
-        text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C")).collect();
+        text.lines().filter(|line| line.contains("WATCH.beat(tables::I2C1_100MS")).collect();
     let [beat] = beats[..] else { panic!("{beats:?}") };
     let hang = "if now_ms() > 2_000 && LIFE.cause() != sense_rt::Cause::Watchdog {\n\
                 core::future::pending::<()>().await;\n}\n";

@@ -127,7 +127,7 @@ pub(super) fn run(
         let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
         let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
         let (mut misled, mut outputs) = (Vec::new(), Vec::new());
-        let motor = job.schema.items.iter().any(|item| item.name == "Motor");
+        let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
         for ms in 1..=seconds * 1_000 {
             if ms == 500 {
                 board.link_write(&encode_hello_request(&job.schema));

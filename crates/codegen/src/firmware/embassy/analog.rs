@@ -133,7 +133,7 @@ fn task(
         if !own.is_empty() {
             state.push_str(&format!("    {own}"));
         }
-        reads.push_str(&read(context, converters, device, &pass)?);
+        reads.push_str(&read(context, converters, device, &pass, section)?);
     }
     let units: Vec<&str> = converters.all.iter().copied().collect();
     let shared =
@@ -163,12 +163,56 @@ fn task(
     Ok(())
 }
 
-/// Samples one device, whose inputs are converted one right after the other.
+/// All inputs one right after the other, as often as there are samples.
+fn rows(
+    converters: &Converters<'_>,
+    wired: &Wired<'_>,
+    call: &str,
+    time: &str,
+    wait: &str,
+) -> Made<String> {
+    let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
+    let mut text = format!("        for [{}] in samples.as_chunks_mut().0 {{\n", names.join(", "));
+    for (name, wire) in names.iter().zip(&wired.wires) {
+        text.push_str(&format!(
+            "            *{name} = {}.{call}(&mut {}, SampleTime::{time}){wait};\n",
+            converters.own(lack::unit(wire)?),
+            wire.ident
+        ));
+    }
+    Ok(text + "        }\n")
+}
+
+/// All samples of an input, then those of the next: what sets the converter up takes longer than a sample.
+fn columns(
+    context: &Context<'_>,
+    converters: &Converters<'_>,
+    wired: &Wired<'_>,
+    time: &str,
+    section: &mut Section,
+) -> Made<String> {
+    section.runtime.insert("again.rs");
+    let count = wired.wires.len();
+    let columns = wired.wires.iter().enumerate().map(|(at, wire)| {
+        let unit = lack::unit(wire)?;
+        let hal = context.peripheral(unit);
+        Ok(format!(
+            "        let first = {}.blocking_read(&mut {}, SampleTime::{time});\n        \
+             rt::again::fill(hal::pac::{hal}, first, samples.iter_mut().skip({at}).step_by({count}));\n",
+            converters.own(unit),
+            wire.ident
+        ))
+    });
+    columns.collect()
+}
+
+/// Samples one device.
 fn read(
     context: &Context<'_>,
     converters: &Converters<'_>,
     wired: &Wired<'_>,
     filter: &str,
+    section: &mut Section,
 ) -> Made<String> {
     let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
@@ -176,23 +220,12 @@ fn read(
     let time = time.unwrap_or(context.profile.adc.sample_cycles_default);
     let time = sample_time(time);
     let samples = usize::from(analog.samples.max(1)) * count;
-    let names: Vec<String> = (0..count).map(|at| format!("s{at}")).collect();
-    let mut text = format!(
-        "        let mut samples = [0; {samples}];\n        for [{}] in samples.as_chunks_mut().0 {{\n",
-        names.join(", ")
-    );
-    for (name, wire) in names.iter().zip(&wired.wires) {
-        let call = match context.names.adc.read {
-            AdcRead::Blocking => "blocking_read",
-            AdcRead::Async => "read",
-        };
-        let wait = if context.names.adc.read == AdcRead::Async { ".await" } else { "" };
-        text.push_str(&format!(
-            "            *{name} = {}.{call}(&mut {}, SampleTime::{time}){wait};\n",
-            converters.own(lack::unit(wire)?),
-            wire.ident
-        ));
-    }
+    let mut text = format!("        let mut samples = [0; {samples}];\n");
+    text.push_str(&match context.names.adc.read {
+        AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
+        AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
+        AdcRead::Again => columns(context, converters, wired, &time, section)?,
+    });
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
     let mut formulas = context.job.tables_of(wired.first).into_iter().flat_map(|one| &one.formulas);
@@ -210,7 +243,7 @@ fn read(
         None => "rt::analog::Value::Mean".to_owned(),
     };
     text.push_str(&format!(
-        "        }}\n        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
+        "        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
         scalar(value.scalar),
         value.size_bytes(),
     ));

@@ -70,6 +70,8 @@ pub(super) enum AdcNew {
 pub(super) enum AdcRead {
     /// By waiting in a loop.
     Blocking,
+    /// By waiting in a loop; another sample of the same input needs nothing but a start.
+    Again,
     /// By its interrupt.
     Async,
 }

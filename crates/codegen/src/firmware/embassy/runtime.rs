@@ -13,6 +13,7 @@ macro_rules! files {
 /// Between the runtime and the HAL; path below `src/rt/`.
 pub(super) const ADAPTERS: &[(&str, &str)] = files![
     "runtime/embassy/",
+    "again.rs",
     "analog.rs",
     "bus.rs",
     "can.rs",
