@@ -32,6 +32,7 @@ mod image;
 mod iwdg;
 mod map;
 mod plain;
+mod ports;
 mod rcc;
 mod spi;
 #[cfg(test)]
@@ -48,6 +49,7 @@ use std::sync::{Arc, Mutex};
 pub use self::core::Lockup;
 pub use gpio::{Mode, PadState, Pull};
 pub use image::ImageError;
+pub use ports::{PortState, Setting};
 pub use wires::{Event, LinkPort, ResetCause};
 
 use self::core::Core;
@@ -122,6 +124,12 @@ impl Machine {
     #[must_use]
     pub fn pads(&self) -> Vec<PadState> {
         self.core.chip().wires.gpio.pads()
+    }
+
+    /// How each port is set up that has started.
+    #[must_use]
+    pub fn ports(&self) -> Vec<PortState> {
+        self.core.chip().ports()
     }
 
     /// The core's frequency in Hz, as the clock tree is set now.
