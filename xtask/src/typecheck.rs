@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, Result, bail, ensure};
@@ -82,10 +82,10 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     }
     ensure!(!(is_written && boards.is_some()), "--write is for all boards");
     let wanted = |name: &str| boards.as_ref().is_none_or(|boards| boards.contains(name));
-    let mut done = Vec::new();
+    let (tool, mut done) = (tool()?, Vec::new());
     for entry in catalog::all() {
         if wanted(entry.name) && profile_of(entry.mcu).is_some() {
-            let one = judge(entry.name, entry.mcu)?;
+            let one = judge(&tool, entry.name, entry.mcu)?;
             let state = match &one.outcome {
                 Outcome::Taken(lines) => format!("{lines} lines"),
                 Outcome::Refused(why) => why.clone(),
@@ -106,7 +106,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     Ok(())
 }
 
-fn judge(board: &'static str, mcu: &'static str) -> Result<Done> {
+fn judge(tool: &Path, board: &'static str, mcu: &'static str) -> Result<Done> {
     let is_covered = matches!(profile::find(profile::DEFAULT, mcu), Ok(Target::Profile(_)));
     let target = if is_covered { profile::DEFAULT } else { "embassy" };
     let (mut taken, mut left_out) = (Vec::new(), Vec::new());
@@ -117,7 +117,7 @@ fn judge(board: &'static str, mcu: &'static str) -> Result<Done> {
             left_out.push(name);
         }
     }
-    let outcome = check(&design(board, &taken), target)?;
+    let outcome = check(tool, &design(board, &taken), target)?;
     Ok(Done { board, mcu, target, left_out, outcome })
 }
 
@@ -144,15 +144,23 @@ fn has_wiring(text: &str, target: &str) -> bool {
     snapshot.solve(&Ask::default()).wired().is_some()
 }
 
+/// Builds the command line tool beside this program, once for all boards.
+fn tool() -> Result<PathBuf> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--quiet", "--profile", "test", "--package", "sensedsl"]);
+    cargo.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    ensure!(cargo.status().context("cargo")?.success(), "sensedsl does not build");
+    let own = std::env::current_exe().context("the path of this program")?;
+    Ok(own.with_file_name(format!("sensedsl{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// What the command line tool says of a design.
-fn check(text: &str, target: &str) -> Result<Outcome> {
-    let mut command = Command::new(env!("CARGO"));
-    command.args(["run", "--quiet", "--package", "sensedsl", "--", "check", "--typecheck"]);
-    command.args(["--target", target, "-"]);
-    command.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
+    let mut command = Command::new(tool);
+    command.args(["check", "--typecheck", "--target", target, "-"]);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = command.spawn().context("cargo")?;
-    let mut stdin = child.stdin.take().context("cargo takes no input")?;
+    let mut child = command.spawn().with_context(|| tool.display().to_string())?;
+    let mut stdin = child.stdin.take().context("the tool takes no input")?;
     stdin.write_all(text.as_bytes())?;
     drop(stdin);
     let output = child.wait_with_output()?;
