@@ -11,12 +11,16 @@ use super::tools::scratch;
 /// All projects are built in one folder, one at a time.
 static FOLDER: Mutex<()> = Mutex::new(());
 
-/// A program of the only board of a design, which has so many bytes; none where the machine cannot build it, or has no
-/// time to.
+/// A program of the only board of a design; none where the machine cannot build it, or has no time to.
 pub(crate) fn program(name: &str, text: &str) -> Option<PathBuf> {
     if !is_thorough() {
         return None;
     }
+    Some(build(&project(name, text)?))
+}
+
+/// The project of the only board of a design; none where the machine cannot build it.
+pub(crate) fn project(name: &str, text: &str) -> Option<PathBuf> {
     if !Path::new("/usr/bin/rustc").exists() || !has("arm-none-eabi-ld") {
         missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
         return None;
@@ -28,12 +32,11 @@ pub(crate) fn program(name: &str, text: &str) -> Option<PathBuf> {
     let call = ["generate", &file, "--target", "embassy", "--without", "host", "-q", "-o", &out];
     let _ = sensedsl(call).run().exits(0);
     let mut boards = std::fs::read_dir(folder.join("firmware")).unwrap();
-    let board = boards.next().unwrap().unwrap().path();
-    Some(build(&board))
+    Some(boards.next().unwrap().unwrap().path())
 }
 
 /// Builds a project without optimisation at link time, which takes long and changes nothing here.
-fn build(board: &Path) -> PathBuf {
+pub(crate) fn build(board: &Path) -> PathBuf {
     let target = root().join("target/embassy-build");
     let _alone = FOLDER.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let mut cargo = Command::new("cargo");

@@ -6,6 +6,7 @@ mod bench;
 mod faults;
 mod kinds;
 mod seeded;
+mod seeded_rust;
 mod trial;
 
 use std::collections::BTreeMap;
