@@ -56,6 +56,26 @@ pub fn text(path: &str) -> String {
     read(&root().join(path))
 }
 
+/// Compares a section of a page, from the line after its heading to the next heading of its level, with what it must be;
+/// with `SENSEDSL_BLESS=1` writes it.
+#[track_caller]
+pub fn assert_section(page: &str, heading: &str, wanted: &str) {
+    let whole = text(page);
+    let start = whole.find(&format!("\n## {heading}\n\n"));
+    let start = start.unwrap_or_else(|| panic!("{page} has no section {heading}"));
+    let begin = start + heading.len() + "\n## \n\n".len();
+    // From the empty line before: what follows may be the next heading.
+    let rest = whole.get(begin - 1..).unwrap_or_default();
+    let end = rest.find("\n## ").map_or(whole.len(), |at| begin + at.max(1) - 1);
+    let found = whole.get(begin..end).unwrap_or_default();
+    if std::env::var_os("SENSEDSL_BLESS").is_some() {
+        let [before, after] = [whole.get(..begin), whole.get(end..)].map(Option::unwrap_or_default);
+        fs::write(root().join(page), [before, wanted, after].concat()).unwrap();
+    } else {
+        assert!(found == wanted, "{page}, {heading}: SENSEDSL_BLESS=1\n{found}\n---\n{wanted}");
+    }
+}
+
 /// Any file as text.
 #[must_use]
 pub fn read(path: &Path) -> String {

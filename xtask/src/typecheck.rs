@@ -3,10 +3,9 @@
 //!
 //! The wiring is ChibiOS's where it covers the board, so that tables of other people judge ours; elsewhere Embassy's.
 
-use std::collections::BTreeSet;
-use std::fmt::Write as _;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, Result, bail, ensure};
@@ -20,11 +19,11 @@ use crate::say;
 
 const USAGE: &str = "cargo xtask typecheck [--boards A,B] [--write]";
 
-/// The page that a complete run writes.
+/// The page that a run writes; the rows of other boards stay.
 const PAGE: &str = "docs/typecheck.md";
 
-/// What is asked of every board, as far as it has it: a name for people and the device.
-const DEMAND: [(&str, &str); 11] = [
+/// What is asked of every board, as far as it has it: the kind and the device.
+const DEMAND: [(&str, &str); 13] = [
     ("analog", "sensor Light returns uint16 { id = 1; type = analog; }"),
     ("analog", "sensor Battery returns uint16 { id = 2; type = analog; }"),
     (
@@ -39,15 +38,27 @@ const DEMAND: [(&str, &str); 11] = [
     ("pwm", "actuator Motor accepts uint16 { id = 9; type = pwm; frequency = 50 Hz; }"),
     ("digital", "sensor Touch returns bool { id = 10; type = digital; edge = both; }"),
     ("digital", "sensor Door returns bool { id = 11; type = digital; }"),
+    ("can", "sensor Speed returns uint16 { id = 12; type = can; frame = 1; }"),
+    ("dac", "actuator Level accepts uint16 { id = 13; type = dac; }"),
 ];
 
 const HEAD: &str = "# Wirings judged by types
 
-One demand on every built-in board with an MCU that Embassy knows: two `analog`, one `i2c`, `icu`, `encoder`, `uart` and
-`spi`, two `pwm`, and two `digital`, one of them with an edge, and the board's link. It is wired for ChibiOS where that
-covers the board and for Embassy elsewhere, and `sensedsl check --typecheck` puts the wiring into types, which the Rust
-compiler takes or refuses. `cargo xtask typecheck --write` writes this page. *Left out* is what the board has no free
-unit or pin for beside the rest.
+One demand on every built-in board with an MCU that Embassy knows: two `analog`, one `i2c`, `icu`, `encoder`, `uart`,
+`spi`, `can` and `dac`, two `pwm`, and two `digital`, one of them with an edge, and the board's link. It is wired for
+ChibiOS where that covers the board and for Embassy elsewhere. [`sensedsl check
+--typecheck`](firmware.md#in-rust-on-embassy) puts the wiring into types, and the Rust compiler takes or refuses it: the
+types are made from ST's data by other people. Which mistakes they notice is in [seeded-mistakes.md](seeded-mistakes.md).
+
+`cargo xtask typecheck --write` writes this page, with `--boards A,B` the rows of these boards. A chip takes some ten
+seconds of a processor the first time, and a second or two after that. *Lines* is how many lines of wiring the compiler
+takes. *Left out* is what the board has no free unit or pin for beside the rest, or its system no driver. *Not judged*
+is what the HAL has no types for.
+";
+
+const COLUMNS: &str = "
+| board | MCU | wired for | lines | left out | not judged |
+| --- | --- | --- | ---: | --- | --- |
 ";
 
 /// A board with what came of it.
@@ -60,8 +71,8 @@ struct Done {
 }
 
 enum Outcome {
-    /// The compiler takes so many lines.
-    Taken(u32),
+    /// The compiler takes so many lines; and wires that it was not asked about.
+    Taken(u32, Vec<String>),
     /// What the tool says.
     Refused(String),
 }
@@ -80,14 +91,13 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
             _ => bail!(USAGE),
         }
     }
-    ensure!(!(is_written && boards.is_some()), "--write is for all boards");
     let wanted = |name: &str| boards.as_ref().is_none_or(|boards| boards.contains(name));
-    let mut done = Vec::new();
+    let (tool, mut done) = (tool()?, Vec::new());
     for entry in catalog::all() {
         if wanted(entry.name) && profile_of(entry.mcu).is_some() {
-            let one = judge(entry.name, entry.mcu)?;
+            let one = judge(&tool, entry.name, entry.mcu)?;
             let state = match &one.outcome {
-                Outcome::Taken(lines) => format!("{lines} lines"),
+                Outcome::Taken(lines, _) => format!("{lines} lines"),
                 Outcome::Refused(why) => why.clone(),
             };
             say(&format!("{} {}: {state}\n", one.board, one.target))?;
@@ -95,7 +105,8 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         }
     }
     ensure!(!done.is_empty(), "there is no such board with an MCU that Embassy knows");
-    let page = page(&done);
+    let earlier = boards.is_some().then(|| std::fs::read_to_string(PAGE)).transpose();
+    let page = page(&done, &earlier.context(PAGE)?.unwrap_or_default());
     if is_written {
         std::fs::write(PAGE, &page).context(PAGE)?;
     } else {
@@ -106,7 +117,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
     Ok(())
 }
 
-fn judge(board: &'static str, mcu: &'static str) -> Result<Done> {
+fn judge(tool: &Path, board: &'static str, mcu: &'static str) -> Result<Done> {
     let is_covered = matches!(profile::find(profile::DEFAULT, mcu), Ok(Target::Profile(_)));
     let target = if is_covered { profile::DEFAULT } else { "embassy" };
     let (mut taken, mut left_out) = (Vec::new(), Vec::new());
@@ -117,7 +128,7 @@ fn judge(board: &'static str, mcu: &'static str) -> Result<Done> {
             left_out.push(name);
         }
     }
-    let outcome = check(&design(board, &taken), target)?;
+    let outcome = check(tool, &design(board, &taken), target)?;
     Ok(Done { board, mcu, target, left_out, outcome })
 }
 
@@ -144,23 +155,33 @@ fn has_wiring(text: &str, target: &str) -> bool {
     snapshot.solve(&Ask::default()).wired().is_some()
 }
 
+/// Builds the command line tool beside this program, once for all boards.
+fn tool() -> Result<PathBuf> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--quiet", "--profile", "test", "--package", "sensedsl"]);
+    cargo.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    ensure!(cargo.status().context("cargo")?.success(), "sensedsl does not build");
+    let own = std::env::current_exe().context("the path of this program")?;
+    Ok(own.with_file_name(format!("sensedsl{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// What the command line tool says of a design.
-fn check(text: &str, target: &str) -> Result<Outcome> {
-    let mut command = Command::new(env!("CARGO"));
-    command.args(["run", "--quiet", "--package", "sensedsl", "--", "check", "--typecheck"]);
-    command.args(["--target", target, "-"]);
-    command.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+fn check(tool: &Path, text: &str, target: &str) -> Result<Outcome> {
+    let mut command = Command::new(tool);
+    command.args(["check", "--typecheck", "--target", target, "-"]);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = command.spawn().context("cargo")?;
-    let mut stdin = child.stdin.take().context("cargo takes no input")?;
+    let mut child = command.spawn().with_context(|| tool.display().to_string())?;
+    let mut stdin = child.stdin.take().context("the tool takes no input")?;
     stdin.write_all(text.as_bytes())?;
     drop(stdin);
     let output = child.wait_with_output()?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let lines = said.split("the compiler takes all ").nth(1);
     let lines = lines.and_then(|rest| rest.split_whitespace().next()?.parse().ok());
+    let unjudged = said.lines().filter_map(|line| line.split_once("not judged: "));
+    let unjudged = unjudged.filter_map(|(_, wire)| Some(wire.split_once(", which")?.0.to_owned()));
     Ok(match lines.filter(|_| output.status.success()) {
-        Some(lines) => Outcome::Taken(lines),
+        Some(lines) => Outcome::Taken(lines, unjudged.collect()),
         None => {
             let errors = said.lines().filter(|line| line.starts_with("error"));
             Outcome::Refused(errors.collect::<Vec<_>>().join("; "))
@@ -168,32 +189,26 @@ fn check(text: &str, target: &str) -> Result<Outcome> {
     })
 }
 
-fn page(done: &[Done]) -> String {
-    let mut page = HEAD.to_owned();
-    page.push_str(
-        "\n| board | MCU | wired for | lines | left out |\n| --- | --- | --- | ---: | --- |\n",
-    );
+/// The page: a row for each board, of this run or of the page as it was.
+fn page(done: &[Done], earlier: &str) -> String {
+    let board_of = |row: &str| row.split(" | ").next().unwrap_or_default().to_owned();
+    let rows = earlier.lines().filter(|line| line.starts_with("| ") && !COLUMNS.contains(line));
+    let mut rows: BTreeMap<String, String> =
+        rows.map(|row| (board_of(row), row.to_owned())).collect();
     for one in done {
-        let lines = match &one.outcome {
-            Outcome::Taken(lines) => lines.to_string(),
-            Outcome::Refused(_) => "**refused**".to_owned(),
+        let (lines, unjudged) = match &one.outcome {
+            Outcome::Taken(lines, unjudged) => (lines.to_string(), unjudged.join(", ")),
+            Outcome::Refused(why) => {
+                (format!("**refused**: {}", why.replace('|', "/")), String::new())
+            }
         };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            page,
-            "| {} | {} | {} | {lines} | {} |",
-            one.board,
-            one.mcu,
-            one.target,
-            one.left_out.join(", ")
-        );
+        let left_out = one.left_out.join(", ");
+        let cells = [one.board, one.mcu, one.target, &lines, &left_out, &unjudged];
+        let row = format!("| {} |", cells.join(" | "));
+        let _ = rows.insert(board_of(&row), row);
     }
-    let taken = done.iter().filter(|one| matches!(one.outcome, Outcome::Taken(_))).count();
-    let _ = writeln!(page, "\n{taken} of {} boards are taken.", done.len());
-    for one in done {
-        if let Outcome::Refused(why) = &one.outcome {
-            let _ = writeln!(page, "\n- {}: {}", one.board, why.replace('|', "/"));
-        }
-    }
-    page
+    let refused = rows.values().filter(|row| row.contains("**refused**")).count();
+    let table: String = rows.values().map(|row| format!("{row}\n")).collect();
+    let count = rows.len();
+    format!("{HEAD}{COLUMNS}{table}\n{} of {count} boards are taken.\n", count - refused)
 }

@@ -1,7 +1,7 @@
 //! A board's image on the emulated MCU, in the same bench as the board that does its job in this program.
 //!
-//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program is, and what it has done to
-//! the pads at each start that the plan does not say.
+//! In: a board's job, its bench, an image. Out: the bytes of the link, where the program stands, and what it has done to
+//! pads and ports at each start that the plan does not say.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -11,11 +11,12 @@ use sensedsl_model::design::Transport;
 use crate::bench::{Bench, number_of};
 use crate::machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
 use crate::pads::{Misled, Planned, misled, planned};
+use crate::ports::{self, PlannedPort};
 
 /// The crystal of the boards that have this MCU.
 const CRYSTAL_HZ: u64 = 8_000_000;
 const MS_NS: u64 = 1_000_000;
-/// When pads are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
+/// When pads and ports are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
 /// pads to itself for a moment.
 const LOOK_NS: u64 = 1_000 * MS_NS;
 const LOOKS: u32 = 4;
@@ -28,6 +29,7 @@ pub struct EmulatedBoard {
     machine: Machine,
     bench: Arc<Mutex<Bench>>,
     planned: Vec<Planned>,
+    ports: Vec<PlannedPort>,
     garbage: Vec<u8>,
     garbage_ms: u64,
     is_off: bool,
@@ -39,7 +41,7 @@ pub struct EmulatedBoard {
     pc: u32,
 }
 
-/// When the pads are looked at next, how often still, and what was wrong each time so far.
+/// When pads and ports are looked at next, how often still, and what was wrong each time so far.
 struct Look {
     at_ns: u64,
     left: u32,
@@ -72,6 +74,7 @@ impl EmulatedBoard {
             machine,
             bench,
             planned: planned(job),
+            ports: ports::planned(job),
             garbage: Vec::new(),
             garbage_ms: 0,
             is_off: false,
@@ -156,10 +159,11 @@ impl EmulatedBoard {
         self.pc = self.machine.pc();
     }
 
-    /// Compares the pads with the plan, when it is time.
+    /// Compares pads and ports with the plan, when it is time.
     fn look(&mut self, now_ns: u64) {
         let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
-        let now = misled(&self.planned, &self.machine.pads());
+        let mut now = misled(&self.planned, &self.machine.pads());
+        now.extend(ports::misled(&self.ports, &self.machine.ports()));
         let still = match look.wrong.take() {
             None => now,
             Some(before) => before.into_iter().filter(|one| now.contains(one)).collect(),
@@ -174,7 +178,7 @@ impl EmulatedBoard {
         self.misled.extend(still);
     }
 
-    /// The pads that are not as planned, since the last call.
+    /// The pads and ports that are not as planned, since the last call.
     pub fn misled(&mut self) -> Vec<Misled> {
         std::mem::take(&mut self.misled)
     }

@@ -19,6 +19,8 @@ pub mod machine;
 #[cfg(feature = "machine")]
 pub mod pads;
 mod parts;
+#[cfg(feature = "machine")]
+mod ports;
 pub mod range;
 pub mod soft;
 pub mod surroundings;

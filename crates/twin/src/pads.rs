@@ -24,13 +24,13 @@ pub(crate) struct Planned {
     pulls: &'static [Pull],
 }
 
-/// A pad that is not as planned.
+/// A pad or a port that is not as planned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misled {
     /// The device, or the link.
     pub title: String,
-    /// The pad.
-    pub pad: Pad,
+    /// The pad or the port, as in `PB4` or `USART2`.
+    pub place: String,
     /// How it should be.
     pub expected: String,
     /// How it is.
@@ -117,7 +117,7 @@ pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
         let is_right = state.mode == one.mode && drives && one.pulls.contains(&state.pull);
         (!is_right).then(|| Misled {
             title: one.title.clone(),
-            pad: one.pad,
+            place: one.pad.to_string(),
             expected: expected(one),
             found: found(one, state),
         })

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 use crate::surroundings::CanFrame;
 
@@ -159,10 +160,20 @@ impl Can {
         self.tell(wires);
     }
 
-    fn bits_ns(&self, bits: u64, wires: &Wires) -> u64 {
+    /// Periods of its clock in one bit.
+    fn divider(&self) -> u64 {
         let quanta = u64::from((self.btr >> 16 & 15) + (self.btr >> 20 & 7) + 3);
-        let scale = u64::from(self.btr & 0x3FF) + 1;
-        periods_ns(bits * quanta * scale, wires.clocks.apb1).max(1)
+        quanta * (u64::from(self.btr & 0x3FF) + 1)
+    }
+
+    fn bits_ns(&self, bits: u64, wires: &Wires) -> u64 {
+        periods_ns(bits * self.divider(), wires.clocks.apb1).max(1)
+    }
+
+    /// How it is set up, once it has started.
+    pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
+        let setting = Setting::Can { bitrate_hz: wires.clocks.apb1 / self.divider() };
+        self.is_on().then(|| PortState { unit: format!("CAN{}", self.unit), setting })
     }
 
     pub(super) fn deadline(&self) -> u64 {

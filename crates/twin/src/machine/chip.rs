@@ -9,6 +9,7 @@ use super::i2c::I2c;
 use super::iwdg::Iwdg;
 use super::map::{self, Device};
 use super::plain::{self, Plain};
+use super::ports::PortState;
 use super::rcc::Rcc;
 use super::spi::Spi;
 use super::timer::Timer;
@@ -103,6 +104,15 @@ impl Chip {
         self.wires.gpio.reset();
         self.wires.clocks = self.rcc.clocks();
         self.settle();
+    }
+
+    /// How the ports are set up that have started.
+    pub(super) fn ports(&self) -> Vec<PortState> {
+        let serial = self.usarts.iter().filter_map(|one| one.state(&self.wires));
+        let spi = self.spis.iter().filter_map(|one| one.state(&self.wires));
+        let i2c = self.i2cs.iter().filter_map(|one| one.state(&self.wires));
+        let can = self.cans.iter().filter_map(|one| one.state(&self.wires));
+        serial.chain(spi).chain(i2c).chain(can).collect()
     }
 
     pub(super) fn deadline(&self) -> u64 {

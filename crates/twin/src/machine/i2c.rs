@@ -1,5 +1,6 @@
 //! I2C1 to I2C3, as masters. The block is the first version of ST's: F1, F2, F4, L1.
 
+use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 use crate::surroundings::{I2cEvent, I2cReply};
 
@@ -103,13 +104,25 @@ impl I2c {
         self.tell(wires);
     }
 
-    fn bit_ns(&self, wires: &Wires) -> u64 {
+    /// Periods of its clock in one of the bus.
+    fn divider(&self) -> u64 {
         let parts = match self.ccr >> 14 & 3 {
             2 => 3,
             3 => 25,
             _ => 2,
         };
-        periods_ns(u64::from(self.ccr & 0xFFF).max(1) * parts, wires.clocks.apb1).max(1)
+        u64::from(self.ccr & 0xFFF).max(1) * parts
+    }
+
+    fn bit_ns(&self, wires: &Wires) -> u64 {
+        periods_ns(self.divider(), wires.clocks.apb1).max(1)
+    }
+
+    /// How it is set up, once it has started.
+    pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
+        let [cr, _] = self.cr;
+        let setting = Setting::I2c { clock_hz: wires.clocks.apb1 / self.divider() };
+        (cr & ENABLE != 0).then(|| PortState { unit: format!("I2C{}", self.unit), setting })
     }
 
     /// Whether a wire is low though this unit leaves it alone, or leads nowhere.

@@ -33,6 +33,7 @@ mod iwdg;
 mod lockup;
 mod map;
 mod plain;
+mod ports;
 mod rcc;
 mod spi;
 #[cfg(test)]
@@ -49,6 +50,7 @@ use std::sync::{Arc, Mutex};
 pub use gpio::{Mode, PadState, Pull};
 pub use image::ImageError;
 pub use lockup::Lockup;
+pub use ports::{PortState, Setting};
 pub use wires::{Event, LinkPort, ResetCause};
 
 use self::core::Core;
@@ -129,6 +131,12 @@ impl Machine {
     #[must_use]
     pub fn pads(&self) -> Vec<PadState> {
         self.core.chip().wires.gpio.pads()
+    }
+
+    /// How each port is set up that has started.
+    #[must_use]
+    pub fn ports(&self) -> Vec<PortState> {
+        self.core.chip().ports()
     }
 
     /// The core's frequency in Hz, as the clock tree is set now.

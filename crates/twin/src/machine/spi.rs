@@ -1,5 +1,6 @@
 //! SPI1 to SPI3 as masters.
 
+use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 
 /// Bits of SR.
@@ -56,6 +57,19 @@ impl Spi {
         self.tell(wires);
     }
 
+    fn clock_hz(&self, wires: &Wires) -> u64 {
+        if self.unit == 1 { wires.clocks.apb2 } else { wires.clocks.apb1 }
+    }
+
+    /// How it is set up, once it is a master.
+    pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
+        let [cr, _] = self.cr;
+        let fastest_hz = self.clock_hz(wires) / 2;
+        let clock_hz = fastest_hz >> (cr >> 3 & 7);
+        let setting = Setting::Spi { clock_hz, fastest_hz, mode: (cr & 3) as u8 };
+        (cr & MASTER != 0).then(|| PortState { unit: format!("SPI{}", self.unit), setting })
+    }
+
     pub(super) fn deadline(&self) -> u64 {
         self.until
     }
@@ -69,7 +83,7 @@ impl Spi {
             self.sr &= !BUSY;
             return;
         };
-        let clock = if self.unit == 1 { wires.clocks.apb2 } else { wires.clocks.apb1 };
+        let clock = self.clock_hz(wires);
         let bits = if self.cr[0] & WIDE != 0 { 16 } else { 8 };
         self.shifting = Some(item);
         self.sr |= EMPTY | BUSY;

@@ -1,5 +1,6 @@
 //! USART1 to USART3, UART4, UART5, USART6.
 
+use super::ports::{PortState, Setting};
 use super::wires::{LinkPort, NEVER, Wires, merge, periods_ns};
 
 /// Bits of SR.
@@ -65,16 +66,39 @@ impl Usart {
         self.tell(wires);
     }
 
+    fn clock_hz(&self, wires: &Wires) -> u64 {
+        if matches!(self.unit, 1 | 6) { wires.clocks.apb2 } else { wires.clocks.apb1 }
+    }
+
+    /// Periods of its clock in one bit.
+    fn divider(&self) -> u64 {
+        let divider =
+            if self.cr[0] >> 15 & 1 == 1 { (self.brr >> 4) * 8 + (self.brr & 7) } else { self.brr };
+        u64::from(divider).max(1)
+    }
+
     fn frame_ns(&self, wires: &Wires) -> u64 {
-        let clock = if matches!(self.unit, 1 | 6) { wires.clocks.apb2 } else { wires.clocks.apb1 };
-        let divider = if self.cr[0] >> 15 & 1 == 1 {
-            u64::from((self.brr >> 4) * 8 + (self.brr & 7))
-        } else {
-            u64::from(self.brr)
-        };
         let data = if self.cr[0] >> 12 & 1 == 1 { 9 } else { 8 };
         let stop = if self.cr[1] >> 13 & 1 == 1 { 2 } else { 1 };
-        periods_ns(divider.max(1) * (1 + data + stop), clock).max(1)
+        periods_ns(self.divider() * (1 + data + stop), self.clock_hz(wires)).max(1)
+    }
+
+    /// How it is set up, once it has started.
+    pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
+        let [cr, stops, _] = self.cr;
+        let odd_parity = (cr >> 10 & 1 == 1).then_some(cr >> 9 & 1 == 1);
+        let setting = Setting::Serial {
+            baud: self.clock_hz(wires) / self.divider(),
+            data_bits: 8 + (cr >> 12 & 1) as u8 - u8::from(odd_parity.is_some()),
+            odd_parity,
+            stop_bits: match stops >> 12 & 3 {
+                0 => 1,
+                2 => 2,
+                _ => 0,
+            },
+        };
+        let unit = self.tx.trim_end_matches("_TX").to_owned();
+        (cr & ENABLE != 0).then_some(PortState { unit, setting })
     }
 
     pub(super) fn deadline(&self) -> u64 {

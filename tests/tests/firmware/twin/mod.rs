@@ -8,6 +8,7 @@ mod examples;
 mod faults;
 mod kinds;
 mod seeded;
+mod seeded_rust;
 mod trial;
 
 use std::collections::BTreeMap;

@@ -135,8 +135,8 @@ pub(super) fn run(
             if asks_ms.contains(&ms) {
                 board.link_write(&encode_health_request(&job.schema));
             }
-            // Full speed for 400 ms of messages; then the host is silent.
-            if motor && (1_500..1_900).contains(&ms) && ms % 100 == 0 {
+            // Full speed for 300 ms of messages; then the host is silent.
+            if motor && (600..900).contains(&ms) && ms % 100 == 0 {
                 let values = [(20, vec![Scalar::Unsigned(10_000)])];
                 let bytes = encode_report(&job.schema, Direction::Actuator, &values);
                 board.link_write(&bytes.unwrap());
@@ -178,9 +178,9 @@ pub(super) fn run(
 
 /// When the rover's motor has pulses of which width.
 const PULSES: [(u64, &str, u64); 3] = [
-    (1_000, "before the host says something", 1_500_000),
-    (1_900, "as the host wants it", 2_000_000),
-    (3_000, "when the host is silent", 1_500_000),
+    (500, "before the host says something", 1_500_000),
+    (900, "as the host wants it", 2_000_000),
+    (1_700, "when the host is silent", 1_500_000),
 ];
 
 /// The design that has one of everything.

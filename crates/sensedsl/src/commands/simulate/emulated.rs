@@ -36,10 +36,8 @@ impl Board for EmulatedBoard {
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
         let now = format!("{:.3}", seconds(self.now_ns()));
         let told = self.misled().into_iter();
-        let told = told.map(|one| {
-            let pad = one.pad.to_string();
-            not_as_planned(at, &one.title, &pad, &one.expected, &one.found, &now)
-        });
+        let told = told
+            .map(|one| not_as_planned(at, &one.title, &one.place, &one.expected, &one.found, &now));
         told.collect()
     }
 

@@ -2,10 +2,12 @@
 //!
 //! What needs cargo and its registry runs with `SENSEDSL_THOROUGH=1`.
 
-use std::path::Path;
-use std::process::{Command, Output};
+mod seeds;
 
-use sensedsl_codegen::firmware::embassy::{TypeCheck, type_check};
+use std::path::Path;
+use std::process::Command;
+
+use sensedsl_codegen::firmware::embassy::{TypeCheck, profile_of, type_check};
 use sensedsl_codegen::job::{BoardJob, JobConnection, jobs};
 use sensedsl_codegen::target;
 use sensedsl_model::kind::KindName;
@@ -54,17 +56,6 @@ fn with_job<T>(text: &str, target: Option<&str>, then: impl FnOnce(&BoardJob<'_>
 
 fn checked(text: &str) -> TypeCheck {
     with_job(text, None, |job| type_check(job).unwrap())
-}
-
-/// Compiles a check whose source was changed.
-fn compile(check: &TypeCheck, folder: &Scratch, target: &Path, source: &str) -> Output {
-    for (path, file) in check.files.iter() {
-        folder.write(path, &file.bytes);
-    }
-    folder.write("src/lib.rs", source);
-    let mut cargo = Command::new("cargo");
-    cargo.args(["check", "--locked", "--quiet", "--target-dir"]).arg(target);
-    cargo.env_remove("RUSTFLAGS").current_dir(folder.path()).output().unwrap()
 }
 
 fn source(check: &TypeCheck) -> String {
@@ -153,53 +144,6 @@ fn features_are_those_of_the_runtime(manifest: &str) {
     assert!(ours.len() > 10 && features(manifest) == ours, "{manifest}");
 }
 
-/// What a seed changes, and whether the types see it; the others are refused by the profile.
-const SEEDS: &[(&str, &str)] = &[
-    ("analog::<ADC1, _>(p.PC1)", "analog::<ADC1, _>(p.PD1)"),
-    ("analog::<ADC1, _>(p.PC1)", "analog::<ADC1, _>(p.PB4)"),
-    ("scl::<I2C1, _>(p.PB6)", "scl::<I2C1, _>(p.PB7)"),
-    ("sda::<I2C1, _>(p.PB7)", "sda::<I2C1, _>(p.PB6)"),
-    ("scl::<I2C1, _>(p.PB6)", "scl::<I2C2, _>(p.PB6)"),
-    ("channel::<TIM3, hal::timer::Ch1, _>(p.PB4)", "channel::<TIM3, hal::timer::Ch2, _>(p.PB4)"),
-    ("channel::<TIM3, hal::timer::Ch1, _>(p.PB4)", "channel::<TIM4, hal::timer::Ch1, _>(p.PB4)"),
-    ("channel::<TIM1, hal::timer::Ch1, _>(p.PE9)", "channel::<TIM1, hal::timer::Ch1, _>(p.PE10)"),
-    ("edge!(p.PD6, p.EXTI6)", "edge!(p.PD6, p.EXTI7)"),
-    ("edge!(p.PD6, p.EXTI6)", "edge!(p.PC7, p.EXTI7)"),
-    ("sck::<SPI2, _>(p.PB13)", "sck::<SPI2, _>(p.PB14)"),
-    ("miso::<SPI2, _>(p.PB14)", "miso::<SPI1, _>(p.PB14)"),
-    ("mosi::<SPI2, _>(p.PB15)", "mosi::<SPI2, _>(p.PB14)"),
-    ("pin(p.PD9)", "pin(p.PD0)"),
-    ("pin(p.PD9)", "pin(p.PZ9)"),
-    ("uart_rx::<USART3, _>(p.PC11)", "uart_rx::<USART3, _>(p.PC10)"),
-    ("uart_tx::<USART2, _>(p.PD5)", "uart_tx::<USART2, _>(p.PA3)"),
-    ("can_rx::<CAN1, _>(p.PD0)", "can_rx::<CAN1, _>(p.PD1)"),
-    ("dac_out::<DAC1, hal::dac::Ch1, _>(p.PA4)", "dac_out::<DAC1, hal::dac::Ch2, _>(p.PA4)"),
-    ("unit(p.TIM3)", "unit(p.TIM5)"),
-    ("unit(p.TIM3)", "unit(p.TIM1)"),
-    ("unit(p.TIM3)", "unit(p.TIM99)"),
-    ("p.DMA1_CH0)", "p.DMA1_CH1)"),
-    ("p.DMA1_CH0)", "p.DMA2_CH0)"),
-];
-
-/// The wiring compiles, and no seeded mistake does.
-#[test]
-fn mistakes_do_not_compile() {
-    if !is_thorough() {
-        return;
-    }
-    let check = checked(KINDS);
-    let source = source(&check);
-    let (folder, target) = (Scratch::new("seeds"), root().join("target/embassy-check"));
-    let output = compile(&check, &folder, &target, &source);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    for (from, to) in SEEDS {
-        assert_eq!(source.matches(from).count(), 1, "{from}\n{source}");
-        let output = compile(&check, &folder, &target, &source.replace(from, to));
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(!output.status.success() && said.contains("error[E"), "{from} as {to}: {said}");
-    }
-}
-
 /// Wirings of the default target on boards of all families, judged as a user has them judged.
 #[test]
 fn wirings_of_other_targets_compile() {
@@ -269,28 +213,22 @@ fn fig2_builds() {
     assert!((8_000..39_000).contains(&bytes), "{size}");
 }
 
-/// Two mistakes that the types of the HAL take: an encoder on a timer that decodes none, and periods on a timer of one
-/// channel. The profiles of both targets refuse them.
+/// `cargo xtask typecheck --boards NAME --write` writes the row of a board.
 #[test]
-fn what_types_take_the_profile_refuses() {
-    let is_wired = |target: &str, device: &str| {
-        let mut workspace = Workspace::default();
-        let link = "link { transport = none; }";
-        workspace.open("x.sense", format!("board B on STM32F407VGT6 {{ {link}\n{device}\n}}\n"));
-        let on = On { board: None, target: Some(target) };
-        workspace.snapshot("x.sense", on, &Alone).solve(&Ask::default()).wired().is_some()
-    };
-    let encoder =
-        |pins: &str| format!("sensor A returns int32 {{ id = 1; type = encoder; {pins} }}");
-    let period = |pin: &str| {
-        format!("sensor A returns uint32 {{ id = 1; type = icu; mode = period; pin = {pin}; }}")
-    };
-    for target in ["chibios", "embassy"] {
-        assert!(is_wired(target, &encoder("a = PB4; b = PB5;")), "{target}: TIM3");
-        assert!(!is_wired(target, &encoder("a = PE5; b = PE6;")), "{target}: TIM9");
-        assert!(is_wired(target, &period("PB4")), "{target}: TIM3");
-        assert!(!is_wired(target, &period("PB8")), "{target}: TIM10");
+fn boards_that_embassy_knows_are_judged() {
+    let page = text("docs/typecheck.md");
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| ")).skip(2).collect();
+    let known: Vec<_> =
+        sensedsl_board::catalog::all().iter().filter(|one| profile_of(one.mcu).is_some()).collect();
+    assert!(known.len() > 50);
+    for one in &known {
+        let row =
+            rows.iter().find(|row| row.starts_with(&format!("| {} | {} | ", one.name, one.mcu)));
+        let row = row.unwrap_or_else(|| panic!("{} is not in docs/typecheck.md", one.name));
+        let lines: u32 = row.split(" | ").nth(3).unwrap().parse().unwrap();
+        assert!(lines > 5, "{row}");
     }
+    assert_eq!(rows.len(), known.len(), "docs/typecheck.md has a board that is not there");
 }
 
 /// Whatever a device's code is made of: where it is missing the device is named, and there is no firmware without it.

@@ -1,0 +1,225 @@
+//! How ports must be set up, from the wiring alone, and which are not.
+//!
+//! In: a board's job, and how the ports of the emulated MCU are. Out: what differs. A part that is talked to at another
+//! speed, or with another edge of its clock, understands nothing, and the parts of the simulated world take bytes and
+//! not edges. Nothing here is shared with the generators.
+
+use std::collections::BTreeMap;
+
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::uart::Parity;
+
+use crate::machine::{PortState, Setting};
+use crate::pads::Misled;
+
+/// A serial port takes characters whose speed is off by up to so many per cent.
+const BAUD_PERCENT: u64 = 2;
+
+/// How a port must be set up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PlannedPort {
+    unit: String,
+    /// The devices.
+    title: String,
+    /// Any of them will do: the chips of an SPI bus have each their own.
+    wanted: Vec<Wanted>,
+}
+
+/// What one device needs of its port.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    Serial { baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8 },
+    Spi { most_hz: u64, mode: u8 },
+    I2c { most_hz: u64 },
+    Can { bitrate_hz: u64 },
+}
+
+/// The ports of all devices and of a serial link.
+pub(crate) fn planned(job: &BoardJob<'_>) -> Vec<PlannedPort> {
+    let mut ports: BTreeMap<String, PlannedPort> = BTreeMap::new();
+    let mut add = |unit: &str, title: &str, wanted: Wanted| {
+        let fresh = || PlannedPort { unit: unit.to_owned(), title: String::new(), wanted: vec![] };
+        let port = ports.entry(unit.to_owned()).or_insert_with(fresh);
+        let and = if port.title.is_empty() { "" } else { " and " };
+        port.title.push_str(&format!("{and}{title}"));
+        match (port.wanted.first_mut(), wanted) {
+            // The slowest part says how fast a bus is.
+            (Some(Wanted::I2c { most_hz }), Wanted::I2c { most_hz: other }) => {
+                *most_hz = other.min(*most_hz);
+            }
+            (_, _) => port.wanted.push(wanted),
+        }
+    };
+    for one in &job.connections {
+        if let (Some(unit), Some(wanted)) = (one.unit, of_kind(&one.connection.kind)) {
+            add(unit, &one.title, wanted);
+        }
+    }
+    if let Some(link) = &job.link {
+        let baud = u64::from(job.board.link.baud);
+        let plain = Wanted::Serial { baud, data_bits: 8, odd_parity: None, stop_bits: 1 };
+        add(link.unit, "the link", plain);
+    }
+    ports.into_values().collect()
+}
+
+fn of_kind(kind: &Kind) -> Option<Wanted> {
+    match kind {
+        Kind::Uart(own) => Some(Wanted::Serial {
+            baud: u64::from(own.baud),
+            data_bits: own.data_bits,
+            odd_parity: match own.parity {
+                Parity::None => None,
+                Parity::Even => Some(false),
+                Parity::Odd => Some(true),
+            },
+            stop_bits: own.stop_bits,
+        }),
+        Kind::Spi(own) => Some(Wanted::Spi { most_hz: u64::from(own.clock_hz), mode: own.mode }),
+        Kind::I2c(own) => Some(Wanted::I2c { most_hz: u64::from(own.speed_hz) }),
+        Kind::Can(own) => Some(Wanted::Can { bitrate_hz: u64::from(own.bitrate_hz) }),
+        Kind::Analog(_)
+        | Kind::Dac(_)
+        | Kind::Digital(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Pwm(_) => None,
+    }
+}
+
+/// What is not as planned. A port that was not started is told by the silence of its devices.
+pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<Misled> {
+    let differs = |one: &PlannedPort| {
+        let state = states.iter().find(|state| state.unit == one.unit)?;
+        let is_right = one.wanted.iter().any(|wanted| fits(*wanted, state.setting));
+        let expected: Vec<String> = one.wanted.iter().map(|wanted| expected(*wanted)).collect();
+        (!is_right).then(|| Misled {
+            title: one.title.clone(),
+            place: one.unit.clone(),
+            expected: expected.join(" or "),
+            found: found(state.setting),
+        })
+    };
+    planned.iter().filter_map(differs).collect()
+}
+
+fn fits(wanted: Wanted, state: Setting) -> bool {
+    match (wanted, state) {
+        (
+            Wanted::Serial { baud, data_bits, odd_parity, stop_bits },
+            Setting::Serial {
+                baud: found,
+                data_bits: found_bits,
+                odd_parity: found_parity,
+                stop_bits: found_stops,
+            },
+        ) => {
+            baud.abs_diff(found) * 100 <= baud * BAUD_PERCENT
+                && (data_bits, odd_parity, stop_bits) == (found_bits, found_parity, found_stops)
+        }
+        (Wanted::Spi { most_hz, mode }, Setting::Spi { clock_hz, fastest_hz, mode: found }) => {
+            // Dividers are powers of 2, so that more than half of what is allowed can always be had.
+            let least_hz = (most_hz / 2).min(fastest_hz);
+            mode == found && (least_hz..=most_hz).contains(&clock_hz)
+        }
+        // A driver that divides without a remainder may have to stay below what is allowed.
+        (Wanted::I2c { most_hz }, Setting::I2c { clock_hz }) => {
+            (most_hz / 2..=most_hz).contains(&clock_hz)
+        }
+        (Wanted::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => bitrate_hz == found,
+        (
+            Wanted::Serial { .. } | Wanted::Spi { .. } | Wanted::I2c { .. } | Wanted::Can { .. },
+            Setting::Serial { .. }
+            | Setting::Spi { .. }
+            | Setting::I2c { .. }
+            | Setting::Can { .. },
+        ) => false,
+    }
+}
+
+fn serial(baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8) -> String {
+    let parity = match odd_parity {
+        None => 'N',
+        Some(false) => 'E',
+        Some(true) => 'O',
+    };
+    format!("at {baud} baud, {data_bits}{parity}{stop_bits}")
+}
+
+fn expected(wanted: Wanted) -> String {
+    match wanted {
+        Wanted::Serial { baud, data_bits, odd_parity, stop_bits } => {
+            serial(baud, data_bits, odd_parity, stop_bits)
+        }
+        Wanted::Spi { most_hz, mode } => {
+            format!("at {} to {most_hz} Hz in mode {mode}", most_hz / 2)
+        }
+        Wanted::I2c { most_hz } => format!("at {} to {most_hz} Hz", most_hz / 2),
+        Wanted::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
+    }
+}
+
+fn found(state: Setting) -> String {
+    match state {
+        Setting::Serial { baud, data_bits, odd_parity, stop_bits } => {
+            serial(baud, data_bits, odd_parity, stop_bits)
+        }
+        Setting::Spi { clock_hz, mode, .. } => format!("at {clock_hz} Hz in mode {mode}"),
+        Setting::I2c { clock_hz } => format!("at {clock_hz} Hz"),
+        Setting::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_misled(wanted: &[Wanted], setting: Setting) -> bool {
+        let [unit, title] = ["SPI2", "Angle"].map(str::to_owned);
+        let planned = PlannedPort { unit: unit.clone(), title, wanted: wanted.to_vec() };
+        !misled(&[planned], &[PortState { unit, setting }]).is_empty()
+    }
+
+    #[test]
+    fn a_clock_of_spi_is_the_fastest_that_is_allowed() {
+        let wanted = [Wanted::Spi { most_hz: 1_000_000, mode: 1 }];
+        let found = |clock_hz, mode| Setting::Spi { clock_hz, fastest_hz: 21_000_000, mode };
+        assert!(!is_misled(&wanted, found(656_250, 1)));
+        for (clock_hz, mode) in [(656_250, 0), (1_312_500, 1), (328_125, 1)] {
+            assert!(is_misled(&wanted, found(clock_hz, mode)), "{clock_hz} Hz, {mode}");
+        }
+        // What the port cannot do is not asked of it.
+        let slow = Setting::Spi { clock_hz: 250_000, fastest_hz: 250_000, mode: 1 };
+        assert!(!is_misled(&wanted, slow));
+        // Two chips on one bus have each their own.
+        let both = [wanted[0], Wanted::Spi { most_hz: 10_000_000, mode: 3 }];
+        assert!(!is_misled(&both, found(5_250_000, 3)) && is_misled(&both, found(5_250_000, 1)));
+    }
+
+    #[test]
+    fn characters_and_rates_are_compared() {
+        let serial = |baud, odd_parity, stop_bits| Setting::Serial {
+            baud,
+            data_bits: 8,
+            odd_parity,
+            stop_bits,
+        };
+        let wanted =
+            [Wanted::Serial { baud: 115_200, data_bits: 8, odd_parity: None, stop_bits: 1 }];
+        assert!(!is_misled(&wanted, serial(115_384, None, 1)));
+        let wrong = [serial(57_692, None, 1), serial(115_384, Some(false), 1)];
+        for setting in wrong.into_iter().chain([serial(115_384, None, 2)]) {
+            assert!(is_misled(&wanted, setting), "{setting:?}");
+        }
+        let bus = [Wanted::I2c { most_hz: 400_000 }];
+        assert!(!is_misled(&bus, Setting::I2c { clock_hz: 280_000 }));
+        for clock_hz in [100_000, 410_000] {
+            assert!(is_misled(&bus, Setting::I2c { clock_hz }), "{clock_hz}");
+        }
+        let bus = [Wanted::Can { bitrate_hz: 500_000 }];
+        assert!(!is_misled(&bus, Setting::Can { bitrate_hz: 500_000 }));
+        assert!(is_misled(&bus, Setting::Can { bitrate_hz: 250_000 }));
+        assert!(is_misled(&bus, Setting::I2c { clock_hz: 500_000 }));
+    }
+}

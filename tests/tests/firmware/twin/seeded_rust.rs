@@ -1,0 +1,94 @@
+//! Mistakes put into the Rust that is generated for a rover, one at a time, which the types of the HAL take: who notices
+//! them when the program runs in its world?
+//!
+//! The table is in `docs/seeded-mistakes.md`, written with that of `seeded.rs`.
+
+use sensedsl_tests::assert_section;
+
+use super::seeded::{noticed_by, table};
+use super::trial::{System, rover};
+use crate::firmware::embassy::{build, project};
+
+const WIRING: &str = "src/wiring.rs";
+const MAIN: &str = "src/main.rs";
+const TABLES: &str = "src/tables.rs";
+
+/// What is wrong, and in which files a text is replaced by another, each time that it is there.
+type Seed = (&'static str, &'static [&'static str], &'static str, &'static str);
+
+const SEEDS: &[Seed] = &[
+    ("another pin of the converter", &[WIRING, MAIN], "PC4", "PC3"),
+    ("two analog sensors are swapped", &[MAIN], "tables::NEAR, Scalar", "tables::FAR, Scalar"),
+    ("address of a chip", &[TABLES], "address: 0x70", "address: 0x71"),
+    ("register of a chip", &[TABLES], "select: &[0x02]", "select: &[0x03]"),
+    ("trigger of a chip", &[TABLES], "&[0x00, 0x51]", "&[0x00, 0x50]"),
+    ("wait for a chip", &[TABLES], "wait_ms: 65", "wait_ms: 6"),
+    ("clock of a bus", &[WIRING], "bus(400000)", "bus(100000)"),
+    ("mode of SPI", &[MAIN], "rt::spi::config(1, 656250)", "rt::spi::config(0, 656250)"),
+    ("clock of SPI", &[MAIN], "rt::spi::config(1, 656250)", "rt::spi::config(1, 5250000)"),
+    (
+        "byte order of a serial message",
+        &[TABLES],
+        "is_little_endian: true",
+        "is_little_endian: false",
+    ),
+    ("checksum of a message", &[TABLES], "MessageChecksum::Sum8", "MessageChecksum::Xor8"),
+    ("speed of a serial port", &[WIRING], "config(115200,", "config(57600,"),
+    ("parity of a serial port", &[WIRING], "Parity::ParityNone", "Parity::ParityEven"),
+    ("filter of a CAN frame", &[MAIN], "standard(0x120)", "standard(0x121)"),
+    ("place in a CAN frame", &[TABLES], "item: 8, byte: 2", "item: 8, byte: 3"),
+    ("bit rate of a CAN bus", &[MAIN], "500000,", "250000,"),
+    (
+        "divider of a timer that measures",
+        &[WIRING],
+        "Pull::None, hz(1000000)",
+        "Pull::None, hz(500000)",
+    ),
+    ("ticks that a width is computed with", &[MAIN], "tick_hz: 1000000", "tick_hz: 500000"),
+    ("edge of a measured pulse", &[MAIN], "measure(timer, true,", "measure(timer, false,"),
+    ("pull of a contact is left out", &[WIRING], "Pull::Up", "Pull::None"),
+    ("level of a contact", &[MAIN], "bumper.is_low()", "bumper.is_high()"),
+    ("frequency of pulses", &[WIRING], "hz(50)", "hz(60)"),
+    ("shortest pulse", &[MAIN], "[1000, 2000, 20000]", "[1100, 2000, 20000]"),
+    ("failsafe", &[MAIN], "20000], 5000", "20000], 0"),
+];
+
+/// Those that nobody notices here, and why.
+const UNSEEN: &[(&str, &str)] = &[];
+
+const HEADING: &str = "In Rust, when it runs";
+
+const INTRO: &str = "\
+The same rover, generated for Embassy, with mistakes that its types take. Written by
+`tests/tests/firmware/twin/seeded_rust.rs`.
+
+";
+
+#[test]
+fn mistakes_that_types_take_are_noticed() {
+    if !sensedsl_tests::is_exhaustive() {
+        return;
+    }
+    let Some(board) = project("seeded_rust", &rover()) else { return };
+    let try_out = || noticed_by(System::Embassy, &std::fs::read(build(&board)).unwrap());
+    assert_eq!(try_out(), "", "the rover is wrong without a mistake");
+    let mut rows = Vec::new();
+    for (what, files, find, with) in SEEDS {
+        let right: Vec<_> = files
+            .iter()
+            .map(|file| (board.join(file), std::fs::read_to_string(board.join(file)).unwrap()))
+            .collect();
+        for (path, text) in &right {
+            assert!(text.contains(find), "{what}: {} has no `{find}`", path.display());
+            std::fs::write(path, text.replace(find, with)).unwrap();
+        }
+        let by = try_out();
+        for (path, text) in &right {
+            std::fs::write(path, text).unwrap();
+        }
+        eprintln!("{what}: {by}");
+        rows.push((*what, by));
+    }
+    let table = table(&rows, UNSEEN);
+    assert_section("docs/seeded-mistakes.md", HEADING, &format!("{INTRO}{table}"));
+}
