@@ -109,7 +109,7 @@ fn a_project_is_whole() {
     }
     let (manifest, lock) = (text_of("Cargo.toml"), text_of("Cargo.lock"));
     let exact: Vec<&str> = manifest.lines().filter(|line| line.contains("\"=")).collect();
-    assert_eq!(exact.len(), 10, "{manifest}");
+    assert_eq!(exact.len(), 11, "{manifest}");
     for line in exact {
         let name = line.split(' ').next().unwrap();
         let version = line.split("\"=").nth(1).unwrap().split('"').next().unwrap();
