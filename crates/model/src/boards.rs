@@ -87,7 +87,7 @@ pub(crate) fn read(context: &mut Context<'_>, file: FileId, node: &ast::Board) -
     let mcu = pins.as_ref().and_then(|pins| pins.table.mcu.clone());
     let target = pins.as_ref().and_then(|pins| {
         let shown = context.sources.name(pins.file).to_owned();
-        targets::find(asked, &shown, mcu.as_deref(), context.diagnostics)
+        targets::find(&asked, &shown, mcu.as_deref(), context.diagnostics)
     });
     let wired = entry.and_then(|entry| entry.board().ok()).map(|board| board.link);
     let mut link = links::read(

@@ -48,7 +48,7 @@ pub(crate) fn asked(
 
 /// The profile that is asked for, of the MCU that the table `shown` is of.
 pub(crate) fn find(
-    asked: Asked,
+    asked: &Asked,
     shown: &str,
     mcu: Option<&str>,
     diagnostics: &mut Vec<Diagnostic>,

@@ -138,9 +138,9 @@ fn swapped(text: &str, swaps: Swaps) -> String {
         while let Some(at) = rest.find(from) {
             let (before, after) = (&rest[..at], &rest[at + from.len()..]);
             done.push_str(before);
-            let is_whole = !(starts_word && is_word(done.chars().next_back()))
-                && !(ends_word && is_word(after.chars().next()));
-            done.push_str(if is_whole { to } else { from });
+            let is_part = starts_word && is_word(done.chars().next_back())
+                || ends_word && is_word(after.chars().next());
+            done.push_str(if is_part { from } else { to });
             rest = after;
         }
         done.push_str(rest);

@@ -92,9 +92,8 @@ pub fn buses<'a>(
         bus.wires.push(wire);
         for index in &wire.devices {
             let Some(device) = job.devices.get(*index) else { continue };
-            match Value::new(*index, device) {
-                Ok(value) => bus.add(value),
-                Err(report) => diagnostics.push(report),
+            if let Some(value) = Value::new(*index, device, diagnostics) {
+                bus.add(value);
             }
         }
     }
@@ -127,21 +126,30 @@ impl<'a> Bus<'a> {
 }
 
 impl<'a> Value<'a> {
-    fn new(index: usize, device: &'a JobDevice<'a>) -> Result<Self, Diagnostic> {
+    /// The value of a device; one that cannot be sent is told.
+    fn new(
+        index: usize,
+        device: &'a JobDevice<'a>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
         let name = &device.device.name;
         let coded = device.device.kind.can().zip(Words::of(device.device));
-        let (can, words) = coded.ok_or_else(|| {
-            e0501_no_generator::not_made_yet(name.span, &name.value, "values without a coding")
-        })?;
+        let Some((can, words)) = coded else {
+            let what = "values without a coding";
+            let report = e0501_no_generator::not_made_yet(name.span, &name.value, what);
+            diagnostics.push(report);
+            return None;
+        };
         let end = u16::from(can.byte).saturating_add(words.wire_bytes());
         if end > FRAME_BYTES {
             let message =
                 format!("{} ends {end} bytes into its frame, which has {FRAME_BYTES}", name.value);
             let help = "let it begin earlier (`byte`), or take a smaller type";
-            return Err(e0506_hardware_limit::hardware_limit(name.span, &message, help));
+            diagnostics.push(e0506_hardware_limit::hardware_limit(name.span, &message, help));
+            return None;
         }
         let (identifier, byte) = (can.frame_id, can.byte);
-        Ok(Self { index, device, identifier, byte, how: ValuePlan::new(&words), end })
+        Some(Self { index, device, identifier, byte, how: ValuePlan::new(&words), end })
     }
 
     /// Whether the identifier has 29 bits.

@@ -39,9 +39,9 @@ pub(super) struct Wired<'a> {
 
 impl<'a> Context<'a> {
     /// Fails if Embassy does not support the board's MCU, or if the devices leave no timer for its clock.
-    pub(super) fn new(job: &'a BoardJob<'a>) -> Result<Self, Diagnostic> {
+    pub(super) fn new(job: &'a BoardJob<'a>) -> Result<Self, Vec<Diagnostic>> {
         let board = &job.board.name;
-        let lack = |why: &str| no_firmware_target(board.span, &board.value, why);
+        let lack = |why: &str| vec![no_firmware_target(board.span, &board.value, why)];
         let profile = job.profile.ok_or_else(|| lack("it has no target profile"))?;
         let names = Names::of(profile).map_err(|error| lack(&error))?;
         let chip = job.board.mcu.as_deref().and_then(|mcu| names.chip(mcu));

@@ -78,7 +78,7 @@ impl Target for Embassy {
     }
 
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
-        let context = Context::new(job).map_err(|report| vec![report])?;
+        let context = Context::new(job)?;
         let mut diagnostics = Vec::new();
         let plan = plan::plan(&context, &mut diagnostics);
         if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }
