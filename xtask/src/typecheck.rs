@@ -33,7 +33,10 @@ const DEMAND: [(&str, &str); 13] = [
     ("icu", "sensor Wheel returns uint32 { id = 4; type = icu; }"),
     ("encoder", "sensor Turns returns int32 { id = 5; type = encoder; }"),
     ("uart", "sensor Place returns uint16 { id = 6; type = uart; length = 2; }"),
-    ("spi", "sensor Gyro returns uint16 { id = 7; type = spi; read = [0]; length = 2; }"),
+    (
+        "spi",
+        "sensor Gyro returns uint16 { id = 7; type = spi; clock = 2 MHz; read = [0]; length = 2; }",
+    ),
     ("pwm", "actuator Servo accepts uint16 { id = 8; type = pwm; frequency = 50 Hz; }"),
     ("pwm", "actuator Motor accepts uint16 { id = 9; type = pwm; frequency = 50 Hz; }"),
     ("digital", "sensor Touch returns bool { id = 10; type = digital; edge = both; }"),

@@ -163,9 +163,15 @@ fn refusal(folder: &Path, target: &Path, triple: Option<&str>) -> Option<String>
     Some(code.unwrap_or_else(|| panic!("{said}")).0.to_owned())
 }
 
-/// What the crate of `check --typecheck` says of each mistake.
-fn of_the_check() -> Vec<Option<Option<String>>> {
-    let check = checked(BENCH);
+/// STM32F1 moves the pins of a unit as a block.
+const MOVED: &str = "board BLUEPILL_F103C8 { link { transport = none; }\n\
+                     sensor A returns uint32 { id = 1; type = icu; pin = PB4; } }";
+const MOVED_SEED: (&str, Swaps) =
+    ("a block of pins that does not fit (STM32F1)", &[("AfioRemap<2>", "AfioRemap<3>")]);
+
+/// What the crate of `check --typecheck` says of each mistake in a design.
+fn of_the_check(text: &str, all: &[Swaps]) -> Vec<Option<Option<String>>> {
+    let check = checked(text);
     let source = source(&check);
     let (folder, target) = (Scratch::new("seeds"), root().join("target/embassy-check"));
     for (path, file) in check.files.iter() {
@@ -181,7 +187,7 @@ fn of_the_check() -> Vec<Option<Option<String>>> {
         assert!(wrong != source, "{swaps:?} is not in\n{source}");
         judge(&wrong)
     };
-    SEEDS.iter().map(|(_, swaps, _)| (!swaps.is_empty()).then(|| of(swaps))).collect()
+    all.iter().map(|swaps| (!swaps.is_empty()).then(|| of(swaps))).collect()
 }
 
 /// What the generated project says of each mistake.
@@ -228,7 +234,7 @@ fn mistakes_do_not_compile() {
     if !is_thorough() {
         return;
     }
-    let check = of_the_check();
+    let check = of_the_check(BENCH, &SEEDS.map(|(_, swaps, _)| swaps));
     let project = if is_exhaustive() { of_the_project() } else { vec![None; SEEDS.len()] };
     let mut table =
         "| mistake | `check --typecheck` | the project |\n| --- | --- | --- |\n".to_owned();
@@ -238,6 +244,10 @@ fn mistakes_do_not_compile() {
         assert!(!is_taken || TAKEN.iter().any(|one| one.0 == *what), "{what} compiles:\n{table}");
     }
     if is_exhaustive() {
+        let (what, swaps) = MOVED_SEED;
+        let judged = of_the_check(MOVED, &[swaps]).remove(0);
+        assert_ne!(judged, Some(None), "{what} compiles");
+        table.push_str(&format!("| {what} | {} | - |\n", cell(&judged)));
         let mut section = format!("{}{table}\nThe types take:\n", INTRO);
         for (what, why) in TAKEN {
             section.push_str(&format!("\n- **{what}**: {why}."));
@@ -253,8 +263,8 @@ const INTRO: &str = "\
 A board with wires of all kinds (STM32F407) is generated for Embassy. Each mistake is put into its `wiring.rs`, and
 `main.rs` where it repeats a name, and into the crate of [`check --typecheck`](typecheck.md), as if our data were wrong;
 then the compiler has its say. Named is its first error: E0277 is a pin, channel or stream that the unit does not have,
-E0382 one that is taken twice, E0609 one that the chip does not have or that the clock has taken. Written by
-`tests/tests/embassy/seeds.rs`.
+E0382 one that is taken twice, E0609 one that the chip does not have or that the clock has taken, E0271 and E0308 one
+that does not fit beside another. A dash: there is nothing to get wrong. Written by `tests/tests/embassy/seeds.rs`.
 
 ";
 

@@ -233,6 +233,10 @@ pub(super) fn noticed_by(system: System, image: &[u8]) -> String {
     if !misled.is_empty() {
         all.push(format!("pads and ports ({})", misled.join(", ")));
     }
+    for one in &trial.misled {
+        eprintln!("    {} of {} is {}, not {}", one.place, one.title, one.found, one.expected);
+    }
+    trial.wrong().iter().chain(&trial.outputs).for_each(|one| eprintln!("    {one}"));
     let wrong = trial.judged.iter().filter(|one| one.wrong > 0 || one.reports == 0);
     let wrong: Vec<&str> = wrong.map(|one| one.name.as_str()).collect();
     if !wrong.is_empty() {
