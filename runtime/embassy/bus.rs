@@ -1,6 +1,6 @@
 //! Parts on register buses: the runtime says what is to be sent and read, and a line does it.
 
-use embassy_time::{Duration, Instant, Timer};
+use embassy_time::Duration;
 use sense_rt::{Chip, Outcome, Sink, Step};
 
 use super::now_ms;
@@ -81,9 +81,4 @@ pub async fn write<L: Line>(
             board.tell(None, index, outcome, &mut []);
         }
     }
-}
-
-/// Waits until so many milliseconds of the clock have begun, so that what a cycle takes does not delay the next one.
-pub async fn rest(idle_ms: u32) {
-    Timer::at(Instant::from_millis(Instant::now().as_millis() + u64::from(idle_ms.max(1)))).await;
 }

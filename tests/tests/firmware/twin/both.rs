@@ -115,8 +115,9 @@ fn programs_of_both_targets_say_the_same() {
         assert_eq!(apart, None, "device {id}");
         let ((last, count), (other_last, other_count)) = (ends(one), ends(other));
         assert_eq!(last, other_last, "device {id} ends at another value");
-        // A reading more or less at either end, and those that a report came just before.
-        let most = 3 + count / 8;
+        // A reading more or less at either end. A chip on Embassy is read a little later each time, so that with the
+        // reporter's own cycle one value in seven is overwritten before it is sent.
+        let most = 3 + count / 6;
         assert!(
             count.abs_diff(other_count) <= most,
             "device {id}: {count} and {other_count} values"
