@@ -25,6 +25,11 @@ pub(crate) fn project(name: &str, text: &str) -> Option<PathBuf> {
         missing("rustc-web with rust-web-src, and arm-none-eabi-ld");
         return None;
     }
+    Some(generated(name, text))
+}
+
+/// The project of the only board of a design, not built.
+pub(crate) fn generated(name: &str, text: &str) -> PathBuf {
     let designs = Scratch::new(name);
     let file = designs.write("design.sense", text).display().to_string();
     let folder = scratch(name);
@@ -32,7 +37,7 @@ pub(crate) fn project(name: &str, text: &str) -> Option<PathBuf> {
     let call = ["generate", &file, "--target", "embassy", "--without", "host", "-q", "-o", &out];
     let _ = sensedsl(call).run().exits(0);
     let mut boards = std::fs::read_dir(folder.join("firmware")).unwrap();
-    Some(boards.next().unwrap().unwrap().path())
+    boards.next().unwrap().unwrap().path()
 }
 
 /// Builds a project without optimisation at link time, which takes long and changes nothing here.

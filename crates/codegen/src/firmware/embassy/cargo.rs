@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use super::context::Context;
 use super::names::Chip;
+use crate::job::BoardJob;
 use crate::part::uses;
 
 /// The crates of a check.
@@ -17,11 +18,11 @@ const CHECK_F3: &str = include_str!("templates/check-f3.lock.txt");
 const CLOCK: &str = " \"embassy-time-driver\",\n \"embassy-time-queue-utils\",\n";
 
 /// The manifest of a check.
-pub(super) fn check_manifest(chip: &Chip, timer: Option<&str>) -> String {
+pub(super) fn check_manifest(job: &BoardJob<'_>, chip: &Chip, timer: Option<&str>) -> String {
     let timer = timer.map(|name| format!("time-driver-{}", name.to_lowercase()));
     let banks = chip.banks.then(|| "dual-bank".to_owned());
-    let features: Vec<String> =
-        banks.into_iter().chain(timer).map(|one| format!(", \"{one}\"")).collect();
+    let features = banks.into_iter().chain(split(job)).chain(timer);
+    let features: Vec<String> = features.map(|one| format!(", \"{one}\"")).collect();
     format!(
         "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
          [dependencies]\n\
@@ -71,21 +72,21 @@ pub(super) fn manifest(context: &Context<'_>) -> String {
     let chip = &context.chip;
     let banks = if chip.banks { "\"dual-bank\", " } else { "" };
     let timer = context.timer.to_lowercase();
+    let split: String = split(context.job).iter().map(|one| format!("\"{one}\", ")).collect();
     MANIFEST
         .replace("{board}", &context.job.board.name.value)
         .replace(
             "{features}",
-            &format!("\"{}\", {banks}{}\"time-driver-{timer}\"", chip.feature, split(context)),
+            &format!("\"{}\", {banks}{split}\"time-driver-{timer}\"", chip.feature),
         )
         .replace("{uses}", &used(context).join(", "))
 }
 
 /// The features that part pins whose analog side is a pin of its own, `PA1_C`, from their digital sides.
-fn split(context: &Context<'_>) -> String {
-    let pads = context.job.connections.iter().flat_map(|one| &one.pads);
-    let pins: BTreeSet<&str> =
-        pads.filter_map(|pad| pad.pin.name.as_str().strip_suffix("_C")).collect();
-    pins.iter().map(|pin| format!("\"split-{}\", ", pin.to_lowercase())).collect()
+fn split(job: &BoardJob<'_>) -> BTreeSet<String> {
+    let pads = job.connections.iter().flat_map(|one| &one.pads);
+    let pins = pads.filter_map(|pad| pad.pin.name.as_str().strip_suffix("_C"));
+    pins.map(|pin| format!("split-{}", pin.to_lowercase())).collect()
 }
 
 /// What the values need of the runtime.

@@ -105,7 +105,7 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
     lines.link();
     let (text, known) = print(&names, lines.all);
     let mut files = FileSet::default();
-    files.add("Cargo.toml", cargo::check_manifest(&chip, kernel.as_deref()));
+    files.add("Cargo.toml", cargo::check_manifest(job, &chip, kernel.as_deref()));
     files.add("Cargo.lock", cargo::check_lock(&chip, kernel.as_deref()));
     files.add("src/lib.rs", text);
     Ok(TypeCheck { chip: chip.feature, files, lines: known, unjudged: lines.unjudged })
