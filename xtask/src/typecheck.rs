@@ -51,7 +51,7 @@ One demand on every built-in board with an MCU that Embassy knows: two `analog`,
 `spi`, `can` and `dac`, two `pwm`, and two `digital`, one of them with an edge, and the board's link. It is wired for
 ChibiOS where that covers the board and for Embassy elsewhere. [`sensedsl check
 --typecheck`](firmware.md#in-rust-on-embassy) puts the wiring into types, and the Rust compiler takes or refuses it: the
-types are made from ST's data by other people. Which mistakes they notice is in [seeded-mistakes.md](seeded-mistakes.md).
+types are made from ST's data by other people. [seeded-mistakes.md](seeded-mistakes.md) says which mistakes they notice.
 
 `cargo xtask typecheck --write` writes this page, with `--boards A,B` the rows of these boards. A chip takes some ten
 seconds of a processor the first time, and a second or two after that. *Lines* is how many lines of wiring the compiler

@@ -197,7 +197,7 @@ const SEEDS: [Seed; COUNT] = [
 const UNSEEN: &[(&str, &str)] = &[
     (
         "number of samples in the sum",
-        "the mean of 16 is that of 32 where nothing is noisy; the reader of `mutants.md` sees it.",
+        "without noise the mean of 16 is that of 32; the reader of `mutants.md` sees it.",
     ),
     (
         "full scale",
