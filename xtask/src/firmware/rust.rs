@@ -27,7 +27,8 @@ const HEAD: &str = "# Firmware for Embassy, board by board
 Each line is the whole firmware of a board with a device of each kind that the board's MCU has, as far as they fit on
 its pins together ([designs](../tests/firmware/kinds)), generated, and judged by the Rust compiler on a PC: types, pins,
 units, DMA channels and interrupts, but neither instructions nor linking. `*`: over a serial port, because nothing makes
-the clock of USB. `cargo xtask firmware --embassy --write` writes this page.
+the clock of USB. `cargo xtask firmware --embassy --write` writes this page. What lacks is told by the tool before
+anything is written.
 ";
 
 /// What is asked for.
