@@ -119,7 +119,7 @@ fn a_board_for_embassy_is_built_by_cargo() {
     let settings = [("CARGO", ""), ("RUSTC", ""), ("CARGO_TARGET_DIR", ""), here];
     let _ = machine.run(&build, &settings).exits(0);
     let elf = "build/firmware/STM32F407G_DISC1/target/thumbv7em-none-eabihf/release/firmware";
-    assert_eq!(machine.calls(), "build --release --locked\n");
+    assert_eq!(machine.calls(), "build --release --locked --target-dir target\n");
     let failed = machine.run(&build, &[&settings[..], &[("CARGO_ENDS", "101")]].concat()).exits(1);
     assert!(failed.stderr.contains("error[E0521]"), "{}", failed.stderr);
     assert!(failed.stderr.contains("cargo ended with status 101"), "{}", failed.stderr);

@@ -46,6 +46,10 @@ pub(crate) fn build(board: &Path) -> PathBuf {
     let triple = config.split("target = \"").nth(1).unwrap().split('"').next().unwrap();
     let target = root().join("target/embassy-build");
     let _alone = FOLDER.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    // All projects have one name: cargo would take another's program for this one's, where that was built later than
+    // this was written.
+    let main = std::fs::File::options().append(true).open(board.join("src/main.rs")).unwrap();
+    main.set_modified(std::time::SystemTime::now()).unwrap();
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]).arg(&target);
     let linker = format!("target.{triple}.linker=\"arm-none-eabi-ld\"");

@@ -54,9 +54,7 @@ impl Job<'_> {
         match &program.build {
             Build::Make(_) => program.folder.join("build").join(self.mode()).join("sense.elf"),
             Build::Cargo(triple) => {
-                let shared = std::env::var_os("CARGO_TARGET_DIR").filter(|one| !one.is_empty());
-                let target = shared.map_or_else(|| program.folder.join("target"), PathBuf::from);
-                target.join(triple).join("release/firmware")
+                program.folder.join("target").join(triple).join("release/firmware")
             }
         }
     }
@@ -285,7 +283,9 @@ fn command(
         }
         Build::Cargo(_) => {
             let mut command = Command::new(&builders.cargo.as_ref()?.0);
-            command.args(["build", "--release", "--locked"]).current_dir(&program.folder);
+            // A folder that boards share would hand one of them the program of another: all are called `firmware`.
+            command.args(["build", "--release", "--locked", "--target-dir", "target"]);
+            command.current_dir(&program.folder);
             if terminal.is_quiet() {
                 command.arg("--quiet");
             }
