@@ -1,6 +1,6 @@
 //! Parts on register buses: the runtime says what is to be sent and read, and a line does it.
 
-use embassy_time::Duration;
+use embassy_time::{Duration, Instant, Timer};
 use sense_rt::{Chip, Outcome, Sink, Step};
 
 use super::now_ms;
@@ -81,4 +81,11 @@ pub async fn write<L: Line>(
             board.tell(None, index, outcome, &mut []);
         }
     }
+}
+
+/// Waits until so many milliseconds of the clock have begun, so that what a cycle takes does not delay the next one, and
+/// half a millisecond more: the reporter begins with a millisecond, and finds what was read before it each time.
+pub async fn rest(idle_ms: u32) {
+    let begin_ms = Instant::now().as_millis() + u64::from(idle_ms.max(1));
+    Timer::at(Instant::from_micros(begin_ms * 1_000 + 500)).await;
 }

@@ -150,7 +150,7 @@ fn task(
     }
     text.push_str(&format!(
         "        WATCH.beat(tables::{constant}, now_ms());\n        \
-         Timer::after_millis(u64::from(idle_ms.max(1))).await;\n    }}\n}}"
+         rt::bus::rest(idle_ms).await;\n    }}\n}}"
     ));
     section.items.push(text);
     let call = format!("{ident}({}{})", snake(bus.unit.as_str()), reach.arguments);
