@@ -115,9 +115,8 @@ fn programs_of_both_targets_say_the_same() {
         assert_eq!(apart, None, "device {id}");
         let ((last, count), (other_last, other_count)) = (ends(one), ends(other));
         assert_eq!(last, other_last, "device {id} ends at another value");
-        // A reading more or less at either end. A chip on Embassy is read a little later each time, so that with the
-        // reporter's own cycle one value in seven is overwritten before it is sent.
-        let most = 3 + count / 6;
+        // A reading more or less at either end, and what chance may take of those between.
+        let most = 3 + count / 50;
         assert!(
             count.abs_diff(other_count) <= most,
             "device {id}: {count} and {other_count} values"
