@@ -1,6 +1,6 @@
 //! A board's whole project: the sections of its kinds, put together.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_wire::{Checksum, Direction};
@@ -55,13 +55,13 @@ pub(super) struct Plan {
     pub(super) keeps: Vec<Keep>,
     pub(super) states: Vec<String>,
     pub(super) polls: Vec<String>,
-    /// By item: what is done when the host sets it.
-    pub(super) sets: Vec<(usize, String)>,
+    /// By the constant of an item: what is done when the host sets it.
+    pub(super) sets: Vec<(String, String)>,
     pub(super) fails: Vec<String>,
     /// What is done with outputs and interrupts at the start.
     pub(super) begins: Vec<String>,
-    /// By item: the value that is sent when the host is silent.
-    pub(super) fallbacks: Vec<(usize, Vec<u8>)>,
+    /// By the constant of an item: the value that is sent when the host is silent.
+    pub(super) fallbacks: Vec<(String, Vec<u8>)>,
     pub(super) watched: Vec<Watched>,
     pub(super) runtime: BTreeSet<&'static str>,
     pub(super) report_ms: u32,
@@ -99,14 +99,6 @@ pub(super) struct ItemPlan {
     pub(super) make: String,
 }
 
-impl Plan {
-    /// The constant of an item; `usize::MAX` for one that is not there, which no item matches.
-    pub(super) fn item(&self, index: &usize) -> String {
-        let item = self.schema.items.get(*index);
-        item.map_or_else(|| "usize::MAX".to_owned(), |item| format!("tables::{}", item.constant))
-    }
-}
-
 /// Puts a project together.
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Plan {
     let mut section = Section::default();
@@ -124,6 +116,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     call.extend(section.keeps.iter().map(|keep| format!(", {}", keep.from)));
     section.starts.push(Start::Task(0, call + ")"));
     let levels = levels::levels(context, &section.starts, diagnostics);
+    let fallbacks: BTreeMap<usize, Vec<u8>> = fallback::values(context).into_iter().collect();
     Plan {
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
@@ -135,10 +128,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         clock: clock(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
-        sets: section.sets.into_iter().map(|(index, sets)| (index, sets.join("\n"))).collect(),
+        sets: by_item(context, |index| Some(section.sets.get(&index)?.join("\n"))),
         watched: section.watched,
         begins: section.begins,
-        fallbacks: fallback::values(context),
+        fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),
         report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
         led: led.map(|led| (led.pin.to_string(), led.active_high)),
@@ -187,6 +180,12 @@ fn handlers(all: &Handlers) -> Vec<(String, String)> {
         handlers.iter().map(String::as_str).collect::<Vec<_>>().join(", ")
     };
     all.iter().map(|(interrupt, handlers)| (interrupt.clone(), joined(handlers))).collect()
+}
+
+/// What there is of each item, with the item's constant.
+fn by_item<T>(context: &Context<'_>, of: impl Fn(usize) -> Option<T>) -> Vec<(String, T)> {
+    let devices = context.job.devices.iter().enumerate();
+    devices.filter_map(|(at, one)| Some((one.ident.to_uppercase(), of(at)?))).collect()
 }
 
 fn schema(context: &Context<'_>) -> SchemaPlan {
