@@ -89,9 +89,14 @@ fn split(job: &BoardJob<'_>) -> BTreeSet<String> {
     pins.map(|pin| format!("split-{}", pin.to_lowercase())).collect()
 }
 
+/// The features of the runtime, and whether the board needs them.
+fn features(job: &BoardJob<'_>) -> impl Iterator<Item = (&'static str, bool)> {
+    std::iter::once(("actuators", job.has_actuators())).chain(uses(job))
+}
+
 /// What the values need of the runtime.
 fn used(context: &Context<'_>) -> Vec<String> {
-    let used = uses(context.job).into_iter().filter(|(_, is_used)| *is_used);
+    let used = features(context.job).filter(|(_, is_used)| *is_used);
     used.map(|(name, _)| format!("\"{name}\"")).collect()
 }
 
@@ -100,7 +105,7 @@ pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
     let mut text = "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\
                     license = \"MIT OR Apache-2.0\"\npublish = false\n\n[features]\n"
         .to_owned();
-    for (name, _) in uses(context.job) {
+    for (name, _) in features(context.job) {
         text.push_str(&format!("{name} = []\n"));
     }
     text

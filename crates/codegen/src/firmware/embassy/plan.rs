@@ -57,6 +57,10 @@ pub(super) struct Plan {
     pub(super) polls: Vec<String>,
     /// By the constant of an item: what is done when the host sets it.
     pub(super) sets: Vec<(String, String)>,
+    /// Whether the host sets anything.
+    pub(super) has_actuators: bool,
+    /// Whether there is anything that only the program drives.
+    pub(super) has_outputs: bool,
     pub(super) fails: Vec<String>,
     /// What is done with outputs and interrupts at the start.
     pub(super) begins: Vec<String>,
@@ -128,6 +132,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         clock: clock(context, is_usb),
         schema: schema(context),
         handlers: handlers(&section.handlers),
+        has_actuators: context.job.has_actuators(),
+        has_outputs: !section.outputs.is_empty(),
         sets: by_item(context, |index| Some(section.sets.get(&index)?.join("\n"))),
         watched: section.watched,
         begins: section.begins,
