@@ -6,6 +6,7 @@ mod bench;
 mod both;
 mod examples;
 mod faults;
+mod hosted;
 mod kinds;
 mod seeded;
 mod seeded_rust;
