@@ -9,6 +9,7 @@ mod faults;
 mod hosted;
 mod kinds;
 mod seeded;
+mod seeded_profiles;
 mod seeded_rust;
 mod trial;
 

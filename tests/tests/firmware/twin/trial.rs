@@ -56,7 +56,7 @@ impl Trial {
     }
 }
 
-struct NoFiles;
+pub(super) struct NoFiles;
 
 impl Files for NoFiles {
     fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
@@ -94,7 +94,7 @@ impl System {
         }
     }
 
-    fn target(self) -> Option<&'static str> {
+    pub(super) fn target(self) -> Option<&'static str> {
         match self {
             Self::Chibios => None,
             Self::Embassy => Some("embassy"),
@@ -123,10 +123,7 @@ pub(super) fn run(
     asks_ms: &[u64],
 ) -> Trial {
     run_with(system, design, image, seconds, |ms, _, schema| {
-        let mut said = Vec::new();
-        if ms == 500 {
-            said.extend(encode_hello_request(schema));
-        }
+        let mut said = greets(ms, &[], schema);
         if asks_ms.contains(&ms) {
             said.extend(encode_health_request(schema));
         }
@@ -141,81 +138,95 @@ pub(super) fn run_with(
     (text, world): (&str, &str),
     image: &[u8],
     seconds: u64,
+    host: impl FnMut(u64, &[u8], &Schema) -> Vec<u8>,
+) -> Trial {
+    with_job(system, text, |job| run_job(job, world, image, seconds, host))
+}
+
+/// A host that only greets.
+pub(super) fn greets(ms: u64, _: &[u8], schema: &Schema) -> Vec<u8> {
+    if ms == 500 { encode_hello_request(schema) } else { Vec::new() }
+}
+
+/// Runs an image on a board's job.
+pub(super) fn run_job(
+    job: &BoardJob<'_>,
+    world: &str,
+    image: &[u8],
+    seconds: u64,
     mut host: impl FnMut(u64, &[u8], &Schema) -> Vec<u8>,
 ) -> Trial {
-    with_job(system, text, |job| {
-        let mut sources = SourceMap::default();
-        let file = sources.add("world.toml", world);
-        let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
-        let scene = Scene {
-            design: job.design,
-            devices: &devices,
-            transport: job.board.link.transport,
-            seed: None,
-            samples: &|_| Err("there are no files".to_owned()),
-        };
-        let (world, said) = world::read(file, world, &scene);
-        assert!(said.is_empty(), "{said:#?}");
-        let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
-        let mut judge = Judge::new(job, &bench);
-        let mut board = EmulatedBoard::new(job, bench, image).unwrap();
-        let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
-        let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut misled, mut outputs) = (Vec::new(), Vec::new());
-        let (mut said, mut greeted) = (Vec::new(), None);
-        let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
-        for ms in 1..=seconds * 1_000 {
-            board.link_write(&host(ms, &said, &job.schema));
-            // Full speed for 300 ms of messages; then the host is silent.
-            if motor && (600..900).contains(&ms) && ms % 100 == 0 {
-                let values = [(20, vec![Scalar::Unsigned(10_000)])];
-                let bytes = encode_report(&job.schema, Direction::Actuator, &values);
-                board.link_write(&bytes.unwrap());
-            }
-            board.run_until(ms * MS);
-            for (at, name, width) in PULSES {
-                let found = board.waves().get(&(9, 1)).copied();
-                let is_right = |(period_ns, width_ns): (u64, u64)| {
-                    period_ns.abs_diff(20 * MS) < 1_000 && width_ns.abs_diff(width) < 1_000
-                };
-                if motor && ms == at && !found.is_some_and(is_right) {
-                    outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
-                }
-            }
-            said = board.link_read();
-            decoder.feed(&said, |event| match event {
-                Event::Report(_, values) => {
-                    judge.take(ms * MS, &values);
-                    reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
-                }
-                Event::Hello(hash) => {
-                    assert_eq!(hash, job.schema.hash());
-                    greeted.get_or_insert(reported.len());
-                }
-                Event::Health(found) => health.push((ms, found)),
-                Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
-            });
-            told.extend(board.events());
-            misled.extend(board.misled());
-            if board.halt().is_some() {
-                break;
+    let mut sources = SourceMap::default();
+    let file = sources.add("world.toml", world);
+    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+    let scene = Scene {
+        design: job.design,
+        devices: &devices,
+        transport: job.board.link.transport,
+        seed: None,
+        samples: &|_| Err("there are no files".to_owned()),
+    };
+    let (world, said) = world::read(file, world, &scene);
+    assert!(said.is_empty(), "{said:#?}");
+    let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
+    let mut judge = Judge::new(job, &bench);
+    let mut board = EmulatedBoard::new(job, bench, image).unwrap();
+    let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
+    let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut misled, mut outputs) = (Vec::new(), Vec::new());
+    let (mut said, mut greeted) = (Vec::new(), None);
+    let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
+    for ms in 1..=seconds * 1_000 {
+        board.link_write(&host(ms, &said, &job.schema));
+        // Full speed for 300 ms of messages; then the host is silent.
+        if motor && (600..900).contains(&ms) && ms % 100 == 0 {
+            let values = [(20, vec![Scalar::Unsigned(10_000)])];
+            let bytes = encode_report(&job.schema, Direction::Actuator, &values);
+            board.link_write(&bytes.unwrap());
+        }
+        board.run_until(ms * MS);
+        for (at, name, width) in PULSES {
+            let found = board.waves().get(&(9, 1)).copied();
+            let is_right = |(period_ns, width_ns): (u64, u64)| {
+                period_ns.abs_diff(20 * MS) < 1_000 && width_ns.abs_diff(width) < 1_000
+            };
+            if motor && ms == at && !found.is_some_and(is_right) {
+                outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
             }
         }
-        // Nothing that it says now gets anywhere.
-        let _ = host(seconds * 1_000, &said, &job.schema);
-        Trial {
-            judged: judge.finish(board.now_ns()),
-            misled,
-            halt: board.halt(),
-            told,
-            health,
-            reported,
-            greeted,
-            names: job.schema.items.iter().map(|item| (item.id, item.name.clone())).collect(),
-            dropped: decoder.dropped_bytes(),
-            outputs,
+        said = board.link_read();
+        decoder.feed(&said, |event| match event {
+            Event::Report(_, values) => {
+                judge.take(ms * MS, &values);
+                reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
+            }
+            Event::Hello(hash) => {
+                assert_eq!(hash, job.schema.hash());
+                greeted.get_or_insert(reported.len());
+            }
+            Event::Health(found) => health.push((ms, found)),
+            Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
+        });
+        told.extend(board.events());
+        misled.extend(board.misled());
+        if board.halt().is_some() {
+            break;
         }
-    })
+    }
+    // Nothing that it says now gets anywhere.
+    let _ = host(seconds * 1_000, &said, &job.schema);
+    Trial {
+        judged: judge.finish(board.now_ns()),
+        misled,
+        halt: board.halt(),
+        told,
+        health,
+        reported,
+        greeted,
+        names: job.schema.items.iter().map(|item| (item.id, item.name.clone())).collect(),
+        dropped: decoder.dropped_bytes(),
+        outputs,
+    }
 }
 
 /// When the rover's motor has pulses of which width.
