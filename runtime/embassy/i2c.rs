@@ -8,12 +8,13 @@ use embassy_time::{Duration, with_timeout};
 use sense_rt::{Outcome, Step};
 
 use super::bus::Line;
+use super::reset::reset;
 
 /// A bus that several tasks share.
 pub type I2cBus = Mutex<CriticalSectionRawMutex, I2c<'static, Async, Master>>;
 
-/// A part that its address chooses.
-pub struct I2cLine(pub &'static I2cBus);
+/// A part that its address chooses, and the registers of its bus.
+pub struct I2cLine(pub &'static I2cBus, pub embassy_stm32::pac::i2c::I2c);
 
 /// What came of a transfer.
 fn outcome(result: Result<Result<(), i2c::Error>, embassy_time::TimeoutError>) -> Outcome {
@@ -29,7 +30,7 @@ fn outcome(result: Result<Result<(), i2c::Error>, embassy_time::TimeoutError>) -
 impl Line for I2cLine {
     async fn transfer(&mut self, address: u8, step: Step<'_>, timeout: Duration) -> Outcome {
         let mut bus = self.0.lock().await;
-        outcome(match step {
+        let outcome = outcome(match step {
             Step::Write(bytes) => with_timeout(timeout, bus.write(address, bytes)).await,
             Step::WriteRead([], bytes) => with_timeout(timeout, bus.read(address, bytes)).await,
             Step::WriteRead(select, bytes) => {
@@ -37,6 +38,11 @@ impl Line for I2cLine {
             }
             // Of SPI only.
             Step::Exchange(..) | Step::Wait(_) => return Outcome::BusError,
-        })
+        });
+        // What a transfer that did not end has left in the unit would go on, or stop each one that follows.
+        if matches!(outcome, Outcome::TimedOut | Outcome::ArbitrationLost | Outcome::BusError) {
+            reset(self.1);
+        }
+        outcome
     }
 }

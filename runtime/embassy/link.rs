@@ -6,6 +6,8 @@ use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::pipe::Pipe;
 use sense_rt::Channel;
 
+use super::queue;
+
 /// Bytes of a host that wait.
 const HEARD: usize = 256;
 
@@ -51,6 +53,6 @@ impl<const SAID: usize> Channel for Near<SAID> {
     }
 
     fn write(&mut self, bytes: &[u8]) -> bool {
-        self.0.said.try_write(bytes) == Ok(bytes.len())
+        queue(&self.0.said, bytes)
     }
 }

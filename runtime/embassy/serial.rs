@@ -11,7 +11,7 @@ use embassy_sync::pipe::Pipe;
 use embassy_time::{Duration, Instant, Timer, with_deadline};
 use sense_rt::{Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
 
-use super::now_ms;
+use super::{now_ms, queue};
 use super::port::take;
 use super::shared::Tell;
 
@@ -139,7 +139,7 @@ pub fn send<const BYTES: usize>(
 ) {
     let size = schema.items.get(index).map_or(0, |item| how.write(item, value, message));
     let message = message.get(..size).unwrap_or_default();
-    if size == 0 || said.free_capacity() < size || said.try_write(message) != Ok(size) {
+    if size == 0 || said.free_capacity() < size || !queue(said, message) {
         board.tell(None, index, Outcome::BusError, &mut []);
     }
 }

@@ -171,9 +171,15 @@ pub fn lines(target: &str) -> Result<Vec<LineFacts>, String> {
     Ok(all)
 }
 
-fn read(text: &str, mcu: &str) -> Result<Target, String> {
+/// The profile of an MCU from the text of a file.
+///
+/// # Errors
+///
+/// When the text is no profile, or has no line for the MCU.
+pub fn read(text: &str, mcu: &str) -> Result<Target, String> {
     let file = File::parse(text)?;
-    let line = file.line_of(mcu).cloned().ok_or_else(|| format!("no line for {mcu}"))?;
+    let line =
+        file.line_of(&mcu::normalise(mcu)).cloned().ok_or_else(|| format!("no line for {mcu}"))?;
     Ok(Target::Profile(Box::new(file.into_profile(&line))))
 }
 

@@ -42,6 +42,28 @@ impl Line {
         }
     }
 
+    /// All of the bytes, however slowly the host takes them.
+    pub(crate) fn say_all(&mut self, mut bytes: &[u8]) {
+        let start = Instant::now();
+        while !bytes.is_empty() {
+            match self.board.write(bytes) {
+                Ok(count) => bytes = &bytes[count..],
+                Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {
+                    assert!(start.elapsed() < Duration::from_secs(60), "the host does not listen");
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+
+    /// What the host has sent.
+    pub(crate) fn heard(&mut self) -> Vec<u8> {
+        let mut bytes = [0_u8; 256];
+        let count = self.board.read(&mut bytes).unwrap_or(0);
+        bytes[..count].to_vec()
+    }
+
     /// What the host sends within the time, or the first `enough` bytes of it.
     pub(crate) fn hear(&mut self, enough: usize, time: Duration) -> Vec<u8> {
         let start = Instant::now();

@@ -1,5 +1,6 @@
 //! Finding and running the programs of this machine.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -53,10 +54,19 @@ pub(crate) struct Background {
 impl Background {
     /// Starts it, its output in a file of `folder`.
     pub(crate) fn start(command: &mut Command, folder: &Path) -> Self {
+        Self::start_with(command, folder, |output| output.try_clone().unwrap())
+    }
+
+    /// The same, with what it says on standard error in a file of that name.
+    pub(crate) fn start_apart(command: &mut Command, folder: &Path, errors: &str) -> Self {
+        Self::start_with(command, folder, |_| File::create(folder.join(errors)).unwrap())
+    }
+
+    fn start_with(command: &mut Command, folder: &Path, errors: impl Fn(&File) -> File) -> Self {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let log = folder.join(format!("log{}.txt", NUMBER.fetch_add(1, Ordering::Relaxed)));
-        let file = std::fs::File::create(&log).unwrap();
-        let errors = file.try_clone().unwrap();
+        let file = File::create(&log).unwrap();
+        let errors = errors(&file);
         let child = command.stdin(Stdio::null()).stdout(file).stderr(errors).spawn();
         Self { child: child.unwrap_or_else(|error| panic!("{command:?}: {error}")), log }
     }

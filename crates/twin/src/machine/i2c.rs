@@ -358,12 +358,13 @@ impl I2c {
             if self.sr2 & MASTER != 0 {
                 self.ask(I2cEvent::Stop, wires);
             }
-            let (cr, names) = (self.cr, (self.scl.clone(), self.sda.clone()));
-            let kept = (self.oar, self.ccr, self.trise);
+            let kept = (self.cr[1], self.oar, self.ccr, self.trise);
             *self = Self::new(self.unit);
-            (self.scl, self.sda) = names;
-            self.cr = [cr[0] & !(START | STOP), cr[1]];
-            (self.oar, self.ccr, self.trise) = kept;
+            self.cr[0] = new & !(START | STOP);
+            // A reset takes all settings, being switched off none.
+            if new & RESET == 0 {
+                (self.cr[1], self.oar, self.ccr, self.trise) = kept;
+            }
         }
     }
 

@@ -5,41 +5,16 @@ use std::collections::BTreeMap;
 
 use sensedsl_wire::Scalar;
 
+use super::examples::{UART, USB, on_discovery};
 use super::trial::{System, Trial, run};
-use crate::firmware::tools::root;
 
 const SECONDS: u64 = 8;
-/// From here on all devices have reported.
-const BEGIN_MS: u64 = 1_500;
+/// From here on all devices have reported, whichever the link.
+const BEGIN_MS: u64 = 2_000;
 /// Values are compared at these distances.
 const STEP_MS: u64 = 5;
 /// So far apart the programs may be: a cycle of the device, and this.
 const APART_MS: u64 = 40;
-const LONGEST_CYCLE_MS: u64 = 100;
-
-/// What is constant must be the same, what jumps must jump to the same, and what counts must count the same edges.
-const WORLD: &str = r#"
-seed = 11
-
-[devices]
-Distance = { steps = [["0 s", 1200], ["3 s", 3100]] }
-Motor = { steps = [["0 s", 25], ["4 s", 61]] }
-Heading = [-3000, { steps = [["0 s", 1200], ["5 s", -7]] }, 32767]
-Angle = { steps = [["0 s", 4660], ["2500 ms", 65535]] }
-Speed = { steps = [["0 s", 1250], ["4500 ms", 333]] }
-Turns = { steps = [["0 s", 0], ["2 s", 0], ["5 s", 2100]] }
-Bumper = { square = [0, 1], period = "3 s" }
-Drops = { steps = [["0 s", 0], ["2 s", 0], ["6 s", 160]] }
-Ahead = { steps = [["0 s", 300], ["3500 ms", 1199]] }
-Torque = { steps = [["0 s", 10000], ["5500 ms", 2]] }
-Position = { steps = [["0 s", 0], ["2 s", 0], ["6 s", 500]] }
-
-[[fault]]
-kind = "no_answer"
-device = "Heading"
-at = "6500 ms"
-for = "300 ms"
-"#;
 
 fn number(scalar: Scalar) -> f64 {
     match scalar {
@@ -71,9 +46,8 @@ fn known(course: &Course, at_ms: u64) -> &[f64] {
 
 /// What a host knows at a time must be what it knows from the other program about then: exactly, where that does not
 /// change meanwhile.
-fn differs(one: &Course, other: &Course) -> Option<String> {
-    for at in (BEGIN_MS..SECONDS * 1_000 - LONGEST_CYCLE_MS).step_by(STEP_MS as usize) {
-        let apart = APART_MS + LONGEST_CYCLE_MS;
+fn differs(one: &Course, other: &Course, apart: u64) -> Option<String> {
+    for at in (BEGIN_MS..SECONDS * 1_000 - apart).step_by(STEP_MS as usize) {
         let about = [at - apart, at, at + apart].map(|at| known(other, at).to_vec());
         let between = other.iter().filter(|(when, _)| when.abs_diff(at) <= apart);
         let about: Vec<Vec<f64>> =
@@ -92,34 +66,71 @@ fn differs(one: &Course, other: &Course) -> Option<String> {
 
 /// The last values, once everything stands still, and how many values came.
 fn ends(course: &Course) -> (&[f64], usize) {
-    (&course.last().unwrap().1, course.len())
+    let count = course.iter().filter(|(at, _)| *at > BEGIN_MS).count();
+    (&course.last().unwrap().1, count)
 }
 
-#[test]
-fn programs_of_both_targets_say_the_same() {
-    let text = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
+/// What always runs; the rest only where everything is asked for.
+const ALWAYS: (&str, &str) = ("all_kinds", UART);
+
+/// Both programs of a design in its world over a link; no device has a longer cycle than that.
+fn say_the_same(design: &str, link: &str, cycle_ms: u64) {
+    if (design, link) != ALWAYS && !sensedsl_tests::is_exhaustive() {
+        return;
+    }
+    let text = on_discovery(design, link);
+    let world = sensedsl_tests::text(&format!("tests/firmware/both/{design}.toml"));
     let trials = [System::Chibios, System::Embassy].map(|system| {
-        let image = system.image(&format!("both_{system:?}"), &text)?;
-        let trial = run(system, (&text, WORLD), &image, SECONDS, &[]);
+        let which = if link == UART { "uart" } else { "usb" };
+        let image = system.image(&format!("both_{design}_{which}_{system:?}"), &text)?;
+        let trial = run(system, (&text, &world), &image, SECONDS, &[]);
         assert!(trial.halt.is_none() && trial.misled.is_empty(), "{:?}", trial.misled);
         assert!(trial.wrong().is_empty(), "{system:?}: {:#?}", trial.wrong());
-        Some(courses(&trial))
+        let silent = trial.judged.iter().filter(|one| one.reports == 0);
+        assert_eq!(silent.map(|one| one.name.as_str()).collect::<Vec<_>>(), [""; 0]);
+        Some((courses(&trial), trial.names))
     });
-    let [Some(chibios), Some(embassy)] = trials else { return };
+    let [Some((chibios, names)), Some((embassy, _))] = trials else { return };
     let ids = |courses: &BTreeMap<u8, Course>| courses.keys().copied().collect::<Vec<u8>>();
     assert_eq!(ids(&chibios), ids(&embassy));
-    assert_eq!(ids(&chibios), [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 17]);
     for (id, one) in &chibios {
-        let other = &embassy[id];
-        let apart = differs(one, other).or_else(|| differs(other, one));
-        assert_eq!(apart, None, "device {id}");
+        let (name, other, apart) = (&names[id], &embassy[id], APART_MS + cycle_ms);
+        let found = differs(one, other, apart).or_else(|| differs(other, one, apart));
+        assert_eq!(found, None, "{design}: {name}");
         let ((last, count), (other_last, other_count)) = (ends(one), ends(other));
-        assert_eq!(last, other_last, "device {id} ends at another value");
+        assert_eq!(last, other_last, "{design}: {name} ends at another value");
         // A reading more or less at either end, and what chance may take of those between.
         let most = 3 + count / 50;
         assert!(
             count.abs_diff(other_count) <= most,
-            "device {id}: {count} and {other_count} values"
+            "{design}: {name} has {count} and {other_count} values"
         );
     }
+    eprintln!("{design}: {} devices say the same", chibios.len());
+}
+
+macro_rules! designs {
+    ($($name:ident in $cycle_ms:literal,)*) => {
+        $(
+            mod $name {
+                #[test]
+                fn uart() {
+                    super::say_the_same(stringify!($name), super::UART, $cycle_ms);
+                }
+
+                #[test]
+                fn usb() {
+                    super::say_the_same(stringify!($name), super::USB, $cycle_ms);
+                }
+            }
+        )*
+    };
+}
+
+designs! {
+    all_kinds in 100,
+    fig2 in 100,
+    miniature_car in 100,
+    line_follower in 100,
+    quadcopter in 200,
 }

@@ -6,8 +6,10 @@ mod bench;
 mod both;
 mod examples;
 mod faults;
+mod hosted;
 mod kinds;
 mod seeded;
+mod seeded_profiles;
 mod seeded_rust;
 mod trial;
 

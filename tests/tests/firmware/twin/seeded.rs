@@ -9,7 +9,7 @@ use std::process::Command;
 use sensedsl_tests::assert_section;
 
 use super::bench::folder;
-use super::trial::{System, rover, rover_world, run};
+use super::trial::{System, Trial, rover, rover_world, run};
 use crate::firmware::chibios::tree;
 
 const HARDWARE: &str = "generated/sense_hw.c";
@@ -17,7 +17,7 @@ const MCU: &str = "cfg/mcuconf.h";
 const ENCODER: &str = "uproxy/chibios/up_encoder.c";
 const COUNT: usize = 48;
 /// How long each runs: the motor is commanded and abandoned in that, and everything in the world has moved.
-const SECONDS: u64 = 2;
+pub(super) const SECONDS: u64 = 2;
 
 /// What is wrong, in which file, the text that is replaced first, and with what.
 type Seed = (&'static str, &'static str, &'static str, &'static str);
@@ -211,19 +211,29 @@ const UNSEEN: &[(&str, &str)] = &[
 
 /// Who noticed, in words; empty for nobody.
 fn noticed(tree: &Path, board: &Path) -> String {
+    match made(tree, board) {
+        None => "compiler".to_owned(),
+        Some(image) => noticed_by(System::Chibios, &image),
+    }
+}
+
+/// The image of a board's folder; none where the compiler refuses it or warns.
+pub(super) fn made(tree: &Path, board: &Path) -> Option<Vec<u8>> {
     let mut make = Command::new("make");
     make.current_dir(board).args(["-j2", "UP_MODE=production", "USE_LTO=no"]);
     let output = make.arg(format!("CHIBIOS={}", tree.display())).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    if !output.status.success() || said.contains("warning") {
-        return "compiler".to_owned();
-    }
-    noticed_by(System::Chibios, &super::trial::image(board))
+    let is_made = output.status.success() && !said.contains("warning");
+    is_made.then(|| super::trial::image(board))
 }
 
 /// Who noticed that a program is wrong, in words; empty for nobody.
 pub(super) fn noticed_by(system: System, image: &[u8]) -> String {
-    let trial = run(system, (&rover(), &rover_world()), image, SECONDS, &[]);
+    noticed_in(&run(system, (&rover(), &rover_world()), image, SECONDS, &[]))
+}
+
+/// Who noticed in a run that something is wrong.
+pub(super) fn noticed_in(trial: &Trial) -> String {
     if let Some(halt) = &trial.halt {
         return format!("the program stops: {}", halt.why);
     }

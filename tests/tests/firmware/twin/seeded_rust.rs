@@ -38,6 +38,24 @@ const SEEDS: &[Seed] = &[
     ("filter of a CAN frame", &[MAIN], "standard(0x120)", "standard(0x121)"),
     ("place in a CAN frame", &[TABLES], "item: 8, byte: 2", "item: 8, byte: 3"),
     ("bit rate of a CAN bus", &[MAIN], "500000,", "250000,"),
+    ("divider of a timer that measures", &[WIRING], "hz(1000000)", "hz(500000)"),
+    (
+        "ticks of a measured pulse",
+        &[MAIN],
+        "measure(timer, true, 1000000,",
+        "measure(timer, true, 500000,",
+    ),
+    ("edges that are counted", &[MAIN], "Edges::Rising", "Edges::Both"),
+    ("pull of a contact", &[WIRING], "(p.PC5, Pull::Up)", "(p.PC5, Pull::Down)"),
+    ("level of a contact", &[MAIN], "bumper.is_low()", "bumper.is_high()"),
+    ("frequency of pulses", &[WIRING], "hz(50)", "hz(60)"),
+    (
+        "shortest pulse",
+        &[MAIN],
+        "[1000, 2000, 20000], pulse_level",
+        "[1100, 2000, 20000], pulse_level",
+    ),
+    ("failsafe", &[MAIN], "[1000, 2000, 20000], 5000);\n", "[1000, 2000, 20000], 0);\n"),
 ];
 
 /// Those that nobody notices here, and why.

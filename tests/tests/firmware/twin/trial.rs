@@ -1,7 +1,8 @@
 //! A real image in a simulated world before a judge, as `simulate --firmware IMAGE --judge` runs it.
 
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::SourceMap;
@@ -14,7 +15,7 @@ use sensedsl_twin::machine::{Event as Told, Lockup};
 use sensedsl_twin::pads::Misled;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{
-    Decoder, Direction, Event, Health, Scalar, encode_health_request, encode_hello_request,
+    Decoder, Direction, Event, Health, Scalar, Schema, encode_health_request, encode_hello_request,
     encode_report,
 };
 
@@ -33,6 +34,10 @@ pub(super) struct Trial {
     pub health: Vec<(u64, Health)>,
     /// What was reported, with the time in milliseconds and the identifier.
     pub reported: Vec<(u64, u8, Vec<Scalar>)>,
+    /// How many of these came before the board's greeting; none where it greets nobody.
+    pub greeted: Option<usize>,
+    /// What the identifiers are called.
+    pub names: BTreeMap<u8, String>,
     pub dropped: u64,
     /// What the outputs of the rover are not.
     pub outputs: Vec<String>,
@@ -51,7 +56,7 @@ impl Trial {
     }
 }
 
-struct NoFiles;
+pub(super) struct NoFiles;
 
 impl Files for NoFiles {
     fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
@@ -60,15 +65,24 @@ impl Files for NoFiles {
 }
 
 /// What a program is generated for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum System {
     Chibios,
     Embassy,
 }
 
 impl System {
-    /// The program of a design's only board; none where the machine cannot build it, or has no time to.
-    pub(super) fn image(self, name: &str, text: &str) -> Option<Vec<u8>> {
+    /// The program of a design's only board, built once; none where the machine cannot build it, or has no time to.
+    pub(super) fn image(self, name: &str, text: &str) -> Option<Arc<[u8]>> {
+        type Built = Arc<OnceLock<Option<Arc<[u8]>>>>;
+        static BUILT: Mutex<BTreeMap<(System, String), Built>> = Mutex::new(BTreeMap::new());
+        let mut all = BUILT.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let own = Arc::clone(all.entry((self, text.to_owned())).or_default());
+        drop(all);
+        own.get_or_init(|| self.build(name, text).map(Into::into)).clone()
+    }
+
+    fn build(self, name: &str, text: &str) -> Option<Vec<u8>> {
         match self {
             Self::Chibios => {
                 let tree = tree()?;
@@ -80,7 +94,7 @@ impl System {
         }
     }
 
-    fn target(self) -> Option<&'static str> {
+    pub(super) fn target(self) -> Option<&'static str> {
         match self {
             Self::Chibios => None,
             Self::Embassy => Some("embassy"),
@@ -100,83 +114,119 @@ fn with_job<T>(system: System, text: &str, then: impl FnOnce(&BoardJob<'_>) -> T
     then(&job)
 }
 
-/// Runs an image of a text's board; asks how it is at those times.
+/// Runs an image of a text's board, which is greeted; asks how it is at those times.
 pub(super) fn run(
     system: System,
-    (text, world): (&str, &str),
+    design: (&str, &str),
     image: &[u8],
     seconds: u64,
     asks_ms: &[u64],
 ) -> Trial {
-    with_job(system, text, |job| {
-        let mut sources = SourceMap::default();
-        let file = sources.add("world.toml", world);
-        let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
-        let scene = Scene {
-            design: job.design,
-            devices: &devices,
-            transport: job.board.link.transport,
-            seed: None,
-            samples: &|_| Err("there are no files".to_owned()),
-        };
-        let (world, said) = world::read(file, world, &scene);
-        assert!(said.is_empty(), "{said:#?}");
-        let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
-        let mut judge = Judge::new(job, &bench);
-        let mut board = EmulatedBoard::new(job, bench, image).unwrap();
-        let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
-        let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut misled, mut outputs) = (Vec::new(), Vec::new());
-        let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
-        for ms in 1..=seconds * 1_000 {
-            if ms == 500 {
-                board.link_write(&encode_hello_request(&job.schema));
-            }
-            if asks_ms.contains(&ms) {
-                board.link_write(&encode_health_request(&job.schema));
-            }
-            // Full speed for 300 ms of messages; then the host is silent.
-            if motor && (600..900).contains(&ms) && ms % 100 == 0 {
-                let values = [(20, vec![Scalar::Unsigned(10_000)])];
-                let bytes = encode_report(&job.schema, Direction::Actuator, &values);
-                board.link_write(&bytes.unwrap());
-            }
-            board.run_until(ms * MS);
-            for (at, name, width) in PULSES {
-                let found = board.waves().get(&(9, 1)).copied();
-                let is_right = |(period_ns, width_ns): (u64, u64)| {
-                    period_ns.abs_diff(20 * MS) < 1_000 && width_ns.abs_diff(width) < 1_000
-                };
-                if motor && ms == at && !found.is_some_and(is_right) {
-                    outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
-                }
-            }
-            decoder.feed(&board.link_read(), |event| match event {
-                Event::Report(_, values) => {
-                    judge.take(ms * MS, &values);
-                    reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
-                }
-                Event::Hello(hash) => assert_eq!(hash, job.schema.hash()),
-                Event::Health(found) => health.push((ms, found)),
-                Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
-            });
-            told.extend(board.events());
-            misled.extend(board.misled());
-            if board.halt().is_some() {
-                break;
-            }
+    run_with(system, design, image, seconds, |ms, _, schema| {
+        let mut said = greets(ms, &[], schema);
+        if asks_ms.contains(&ms) {
+            said.extend(encode_health_request(schema));
         }
-        Trial {
-            judged: judge.finish(board.now_ns()),
-            misled,
-            halt: board.halt(),
-            told,
-            health,
-            reported,
-            dropped: decoder.dropped_bytes(),
-            outputs,
-        }
+        said
     })
+}
+
+/// Runs an image of a text's board with a host that is called each millisecond: it is told the time and what the board
+/// said, and gives what it says itself.
+pub(super) fn run_with(
+    system: System,
+    (text, world): (&str, &str),
+    image: &[u8],
+    seconds: u64,
+    host: impl FnMut(u64, &[u8], &Schema) -> Vec<u8>,
+) -> Trial {
+    with_job(system, text, |job| run_job(job, world, image, seconds, host))
+}
+
+/// A host that only greets.
+pub(super) fn greets(ms: u64, _: &[u8], schema: &Schema) -> Vec<u8> {
+    if ms == 500 { encode_hello_request(schema) } else { Vec::new() }
+}
+
+/// Runs an image on a board's job.
+pub(super) fn run_job(
+    job: &BoardJob<'_>,
+    world: &str,
+    image: &[u8],
+    seconds: u64,
+    mut host: impl FnMut(u64, &[u8], &Schema) -> Vec<u8>,
+) -> Trial {
+    let mut sources = SourceMap::default();
+    let file = sources.add("world.toml", world);
+    let devices: Vec<_> = job.devices.iter().map(|one| one.index).collect();
+    let scene = Scene {
+        design: job.design,
+        devices: &devices,
+        transport: job.board.link.transport,
+        seed: None,
+        samples: &|_| Err("there are no files".to_owned()),
+    };
+    let (world, said) = world::read(file, world, &scene);
+    assert!(said.is_empty(), "{said:#?}");
+    let bench = Bench::new(job, &world, world.seed.unwrap_or(1));
+    let mut judge = Judge::new(job, &bench);
+    let mut board = EmulatedBoard::new(job, bench, image).unwrap();
+    let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
+    let (mut health, mut reported, mut told) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut misled, mut outputs) = (Vec::new(), Vec::new());
+    let (mut said, mut greeted) = (Vec::new(), None);
+    let motor = job.schema.items.iter().any(|item| item.name == "Motor" && item.id == 20);
+    for ms in 1..=seconds * 1_000 {
+        board.link_write(&host(ms, &said, &job.schema));
+        // Full speed for 300 ms of messages; then the host is silent.
+        if motor && (600..900).contains(&ms) && ms % 100 == 0 {
+            let values = [(20, vec![Scalar::Unsigned(10_000)])];
+            let bytes = encode_report(&job.schema, Direction::Actuator, &values);
+            board.link_write(&bytes.unwrap());
+        }
+        board.run_until(ms * MS);
+        for (at, name, width) in PULSES {
+            let found = board.waves().get(&(9, 1)).copied();
+            let is_right = |(period_ns, width_ns): (u64, u64)| {
+                period_ns.abs_diff(20 * MS) < 1_000 && width_ns.abs_diff(width) < 1_000
+            };
+            if motor && ms == at && !found.is_some_and(is_right) {
+                outputs.push(format!("{name}: {found:?} and not 20 ms, {width} ns"));
+            }
+        }
+        said = board.link_read();
+        decoder.feed(&said, |event| match event {
+            Event::Report(_, values) => {
+                judge.take(ms * MS, &values);
+                reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
+            }
+            Event::Hello(hash) => {
+                assert_eq!(hash, job.schema.hash());
+                greeted.get_or_insert(reported.len());
+            }
+            Event::Health(found) => health.push((ms, found)),
+            Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
+        });
+        told.extend(board.events());
+        misled.extend(board.misled());
+        if board.halt().is_some() {
+            break;
+        }
+    }
+    // Nothing that it says now gets anywhere.
+    let _ = host(seconds * 1_000, &said, &job.schema);
+    Trial {
+        judged: judge.finish(board.now_ns()),
+        misled,
+        halt: board.halt(),
+        told,
+        health,
+        reported,
+        greeted,
+        names: job.schema.items.iter().map(|item| (item.id, item.name.clone())).collect(),
+        dropped: decoder.dropped_bytes(),
+        outputs,
+    }
 }
 
 /// When the rover's motor has pulses of which width.
@@ -201,13 +251,7 @@ pub(super) fn image(board: &Path) -> Vec<u8> {
     std::fs::read(board.join("build/production/sense.elf")).unwrap()
 }
 
-/// The rover's image, built once; none where it cannot be built.
-pub(super) fn rover_image(system: System) -> Option<&'static [u8]> {
-    static CHIBIOS: OnceLock<Option<Vec<u8>>> = OnceLock::new();
-    static EMBASSY: OnceLock<Option<Vec<u8>>> = OnceLock::new();
-    let built = match system {
-        System::Chibios => &CHIBIOS,
-        System::Embassy => &EMBASSY,
-    };
-    built.get_or_init(|| system.image(&format!("trial_rover_{system:?}"), &rover())).as_deref()
+/// The rover's image; none where it cannot be built.
+pub(super) fn rover_image(system: System) -> Option<Arc<[u8]>> {
+    system.image(&format!("trial_rover_{system:?}"), &rover())
 }

@@ -19,9 +19,10 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 /// Every part is reached by its address.
-fn reach(served: &[Served<'_>]) -> Reach {
+fn reach(unit: &str, served: &[Served<'_>]) -> Reach {
     let line = |one: &Served<'_>| {
-        format!("    let mut {}_line = rt::i2c::I2cLine(bus);\n", one.plan.prefix)
+        let prefix = &one.plan.prefix;
+        format!("    let mut {prefix}_line = rt::i2c::I2cLine(bus, hal::pac::{unit});\n")
     };
     Reach {
         parameters: String::new(),
@@ -62,6 +63,7 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> 
         },
         section,
     );
-    section.runtime.insert("i2c.rs");
-    chips::tasks(context, bus, hz, |served| Ok(reach(served)), section)
+    let reset = if context.names.has_old_buses() { "reset_old.rs" } else { "reset_new.rs" };
+    section.runtime.extend(["i2c.rs", reset]);
+    chips::tasks(context, bus, hz, |served| Ok(reach(&hal, served)), section)
 }

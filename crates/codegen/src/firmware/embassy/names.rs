@@ -245,6 +245,11 @@ impl Names {
         matches!(self.usart.as_str(), "v1" | "v2")
     }
 
+    /// Whether the units for I²C lose their settings when they are to forget what they were doing.
+    pub(super) fn has_old_buses(&self) -> bool {
+        self.i2c == "v1"
+    }
+
     /// Whether the CAN controllers are those with filter banks.
     pub(super) fn has_can_banks(&self) -> bool {
         self.can == Can::Bxcan

@@ -27,6 +27,8 @@ pub(super) const ADAPTERS: &[(&str, &str)] = files![
     "port_new.rs",
     "port_old.rs",
     "pwm.rs",
+    "reset_new.rs",
+    "reset_old.rs",
     "serial.rs",
     "shared.rs",
     "spi.rs",
@@ -45,9 +47,10 @@ pub(super) fn module(own: &BTreeSet<&'static str>) -> String {
         own.iter().chain(ALWAYS).filter_map(|name| name.strip_suffix(".rs")).collect();
     let mut modules = String::new();
     for name in names {
-        // The serial ports of a chip are of one sort, and the code around them does not know which.
-        if name.starts_with("port_") {
-            let _ = writeln!(modules, "#[path = \"{name}.rs\"]\npub mod port;");
+        // The units of a chip are of one sort, and the code around them does not know which.
+        let sort = ["_new", "_old"].iter().find_map(|sort| name.strip_suffix(sort));
+        if let Some(module) = sort {
+            let _ = writeln!(modules, "#[path = \"{name}.rs\"]\npub mod {module};");
         } else {
             let _ = writeln!(modules, "pub mod {name};");
         }

@@ -1,0 +1,110 @@
+//! The generated program of the host at the other end of an emulated board's link: it opens a pseudo-terminal, is greeted
+//! by the firmware, and prints what the judge has seen.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use sensedsl_tests::{Scratch, sensedsl};
+use sensedsl_wire::Scalar;
+
+use super::trial::Trial;
+use crate::firmware::tools::scratch;
+use crate::hosts::terminal::Line;
+use crate::hosts::tools::{Background, have, run};
+
+const NOTES: &str = "notes.txt";
+/// When what the host sent first gets to the board, which is up by then.
+const GREETING_MS: u64 = 500;
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A host that runs.
+pub(super) struct Host {
+    line: Line,
+    program: Background,
+    folder: PathBuf,
+    heard: Vec<u8>,
+}
+
+impl Host {
+    /// The host of a design's only board, generated and compiled as its README says; none without a compiler.
+    pub(super) fn start(name: &str, text: &str) -> Option<Self> {
+        if !have("g++") {
+            return None;
+        }
+        let folder = generated(name, text);
+        let program = folder.join("monitor");
+        let mut command = Command::new("g++");
+        command.current_dir(&folder).args(["-std=c++17", "-O0", "-pthread", "-Iinclude"]);
+        let _ = run(command.arg(source(&folder)).arg("-o").arg(&program));
+        let mut line = Line::new();
+        let mut command = Command::new(&program);
+        command.arg("--no-reconnect").arg(&line.device);
+        let program = Background::start_apart(&mut command, &folder, NOTES);
+        // It has made the terminal a plain line by the time it asks.
+        let heard = line.hear(1, PATIENCE);
+        assert!(!heard.is_empty(), "the host asks nothing: {}", program.output());
+        Some(Self { line, program, folder, heard })
+    }
+
+    /// A millisecond has passed: what the board said goes to the host, and what the host said comes back.
+    pub(super) fn pass(&mut self, ms: u64, said: &[u8]) -> Vec<u8> {
+        self.line.say_all(said);
+        self.heard.extend(self.line.heard());
+        if ms < GREETING_MS { Vec::new() } else { std::mem::take(&mut self.heard) }
+    }
+
+    /// The cable is pulled. The host must have shown each value since the greeting, in order, and have dropped no byte
+    /// that our decoder takes.
+    #[track_caller]
+    pub(super) fn assert_shows(mut self, what: &str, trial: &Trial) {
+        let greeted = trial.greeted.unwrap_or_else(|| panic!("{what}: the board greets nobody"));
+        let wanted: Vec<String> = trial.reported[greeted..]
+            .iter()
+            .map(|(_, id, value)| format!("{} = {}", trial.names[id], text(value)))
+            .collect();
+        let start = Instant::now();
+        while self.program.output().lines().count() < wanted.len() && start.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        drop(self.line);
+        let _ = self.program.exit_status();
+        let notes = sensedsl_tests::read(&self.folder.join(NOTES));
+        assert!(notes.contains("firmware and program agree\n"), "{what}: {notes}");
+        let dropped = format!(" frames, {} bytes dropped\n", trial.dropped);
+        assert!(notes.contains(&dropped), "{what}: {notes}");
+        let output = self.program.output();
+        let shown: Vec<&str> = output.lines().collect();
+        assert_eq!(shown.len(), wanted.len(), "{what}");
+        for (line, wanted) in shown.iter().zip(&wanted) {
+            let behind = line.strip_prefix(wanted.as_str());
+            let is_right = behind.is_some_and(|rest| rest.is_empty() || rest.starts_with(" ("));
+            assert!(is_right, "{what}: `{line}`, not `{wanted}`");
+        }
+        eprintln!("{what}: the host shows {} values", shown.len());
+    }
+}
+
+/// A value as a host prints it.
+fn text(value: &[Scalar]) -> String {
+    let all: Vec<String> = value.iter().map(ToString::to_string).collect();
+    if all.len() == 1 { all.concat() } else { format!("[{}]", all.join(", ")) }
+}
+
+/// The host without middleware.
+fn generated(name: &str, text: &str) -> PathBuf {
+    let name = format!("{name}_host");
+    let designs = Scratch::new(&name);
+    let file = designs.write("design.sense", text).display().to_string();
+    let folder = scratch(&name);
+    let out = folder.display().to_string();
+    let call = ["generate", &file, "--host", "cpp", "--without", "firmware", "-q", "-o", &out];
+    let _ = sensedsl(call).run().exits(0);
+    folder.join("host/cpp")
+}
+
+/// Its only program.
+fn source(folder: &Path) -> PathBuf {
+    let mut all = std::fs::read_dir(folder.join("src")).unwrap().map(|entry| entry.unwrap().path());
+    all.find(|path| path.extension().is_some_and(|one| one == "cpp")).unwrap()
+}
