@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 
 use super::context::Context;
+use super::hal::Hal;
 use super::names::Chip;
 use crate::job::BoardJob;
 use crate::part::uses;
@@ -64,21 +65,38 @@ fn hal_clock(text: &str) -> String {
 const FIRMWARE: &str = include_str!("templates/firmware.lock.txt");
 const FIRMWARE_G4: &str = include_str!("templates/firmware-g4.lock.txt");
 const FIRMWARE_F3: &str = include_str!("templates/firmware-f3.lock.txt");
+/// Those on another HAL.
+const FIRMWARE_RP: &str = include_str!("templates/firmware-rp.lock.txt");
 /// How the manifest goes on behind the package.
 const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
 
 /// The manifest of a firmware.
 pub(super) fn manifest(context: &Context<'_>) -> String {
-    let chip = &context.chip;
-    let banks = if chip.banks { "\"dual-bank\", " } else { "" };
-    let timer = context.timer.to_lowercase();
-    let split: String = split(context.job).iter().map(|one| format!("\"{one}\", ")).collect();
+    let hal = match context.names.hal {
+        Hal::Stm32 => {
+            let banks = if context.chip.banks { "\"dual-bank\", " } else { "" };
+            let timer = context.timer.iter().map(|one| format!("\"time-driver-{}\", ", one.to_lowercase()));
+            let split = split(context.job).into_iter().map(|one| format!("\"{one}\", "));
+            format!(
+                "embassy-stm32 = {{ version = \"=0.6.0\", features = [\"{}\", {banks}{}\"exti\", \"memory-x\", \
+                 \"unstable-pac\"] }}",
+                context.chip.feature,
+                split.chain(timer).collect::<String>(),
+            )
+        }
+        Hal::Rp => format!(
+            "embassy-rp = {{ version = \"=0.10.0\", features = [\"{}\", \"time-driver\", \"unstable-pac\"] }}",
+            context.chip.feature
+        ),
+    };
+    let more = match context.names.hal {
+        Hal::Stm32 => "",
+        Hal::Rp => "fixed = \"=1.31.0\"\n",
+    };
     MANIFEST
         .replace("{board}", &context.job.board.name.value)
-        .replace(
-            "{features}",
-            &format!("\"{}\", {banks}{split}\"time-driver-{timer}\"", chip.feature),
-        )
+        .replace("{hal}", &hal)
+        .replace("{more}", more)
         .replace("{uses}", &used(context).join(", "))
 }
 
@@ -108,6 +126,9 @@ pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
 
 /// The lock file of a firmware.
 pub(super) fn lock(context: &Context<'_>) -> String {
+    if context.names.hal == Hal::Rp {
+        return FIRMWARE_RP.to_owned();
+    }
     let starts =
         |starts: &[&str]| starts.iter().any(|start| context.chip.feature.starts_with(start));
     let text = if starts(&["stm32g474", "stm32g484"]) {
