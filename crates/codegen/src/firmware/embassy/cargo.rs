@@ -15,6 +15,8 @@ const CHECK: &str = include_str!("templates/check.lock.txt");
 /// As that, with the crates that the HAL takes for the high-resolution timers of STM32G4 and of STM32F3.
 const CHECK_G4: &str = include_str!("templates/check-g4.lock.txt");
 const CHECK_F3: &str = include_str!("templates/check-f3.lock.txt");
+/// Those on the HAL of RP.
+pub(super) const CHECK_RP: &str = include_str!("templates/check-rp.lock.txt");
 /// What the lock file lacks where no timer is left for the clock.
 const CLOCK: &str = " \"embassy-time-driver\",\n \"embassy-time-queue-utils\",\n";
 
@@ -35,6 +37,17 @@ pub(super) fn check_manifest(job: &BoardJob<'_>, chip: &Chip, timer: Option<&str
          [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
         chip.feature,
         features.concat(),
+    )
+}
+
+/// The manifest of a check on the HAL of RP.
+pub(super) fn check_manifest_rp(chip: &Chip) -> String {
+    format!(
+        "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [dependencies]\n\
+         embassy-rp = {{ version = \"=0.10.0\", default-features = false, features = [\"{}\", \"unstable-pac\"] }}\n\n\
+         [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
+        chip.feature,
     )
 }
 

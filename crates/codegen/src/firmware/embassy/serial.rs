@@ -8,7 +8,7 @@ use super::context::{Context, late};
 use super::hal::Hal;
 use super::lack::{self, Lack, Made};
 use super::section::{Field, Section, Start, Watched};
-use super::{filter, message, stm32};
+use super::{filter, message, rp, stm32};
 use crate::job::JobConnection;
 use crate::kinds::serial::{self, QUEUE_BYTES};
 use crate::part::MessagePlan;
@@ -141,6 +141,9 @@ impl Port<'_> {
                 return Err(Lack::wire("a pin for `rx` or `tx`".to_owned()));
             }
         };
+        if let (Some(rx), Hal::Rp) = (self.wire.pad(Role::Rx), context.names.hal) {
+            rp::link::rest(context, rx, self.uart.is_inverted, section);
+        }
         let module = module(context.names.hal);
         let made =
             format!("hal::{module}::{name}::new_blocking{moved}(p.{hal}, {pins}, {config})");

@@ -7,6 +7,7 @@ pub(super) mod gaps;
 pub(super) mod icu;
 pub(super) mod link;
 pub(super) mod pwm;
+pub(super) mod typed;
 
 use super::context::Context;
 use super::hal::Hal;
