@@ -26,8 +26,9 @@ MCU's part. The names of the Discovery, Nucleo and other boards are those of the
   care* (a light, a button) is among them and gives a warning; `release` frees a taken one.
 - **Places**: what `header = …;` may name.
 - **Link**: what carries the frames to the host; the first is the default.
-- **ChibiOS**: the folder of the tree below `os/hal/boards` that firmware is built with. Without one, and on MCUs for
-  which there is no [target profile](../targets/README.md), there is wiring and no firmware.
+- **ChibiOS**: the folder of the tree below `os/hal/boards` that firmware in C is built with. Without one there is
+  firmware in [Rust](firmware.md#in-rust-on-embassy) where Embassy [knows the MCU](embassy-boards.md), and otherwise
+  wiring alone; `sensedsl boards` has the systems of each board.
 
 This page is made from `boards/`.
 ";

@@ -82,15 +82,20 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         pins.len().to_string(),
         free.to_string(),
         or_dash(&links.join(" ")),
-        firmware(board).unwrap_or_else(|| "-".to_owned()),
+        or_dash(&firmware(board).join(" ")),
     ]
 }
 
-/// The system that there is firmware for.
-pub(crate) fn firmware(board: &catalog::Entry) -> Option<String> {
-    let Ok(Target::Profile(profile)) = profile::find(profile::DEFAULT, board.mcu) else {
-        return None;
-    };
+/// The systems that there is firmware for, the usual one first.
+pub(crate) fn firmware(board: &catalog::Entry) -> Vec<&'static str> {
     let facts = board.board().ok();
-    target::serving(Some(&profile), facts.as_ref()).is_ok().then_some(profile.name)
+    let names = profile::names();
+    let mut systems: Vec<&'static str> =
+        names.iter().filter_map(|name| profile::full_name(name)).collect();
+    systems.dedup();
+    systems.retain(|name| match profile::find(name, board.mcu) {
+        Ok(Target::Profile(profile)) => target::serving(Some(&profile), facts.as_ref()).is_ok(),
+        Ok(Target::None) | Err(_) => false,
+    });
+    systems
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use sensedsl_board::catalog;
+use sensedsl_board::{catalog, profile};
 use sensedsl_diagnostics::visible;
 
 use super::{boards, in_the_way, starter};
@@ -13,6 +13,7 @@ use crate::files::{files_below, shown, write_together};
 use crate::terminal::Terminal;
 
 const README: &str = include_str!("../../templates/project-readme.md");
+const README_OF_EMBASSY: &str = include_str!("../../templates/project-readme-embassy.md");
 const README_OF_WIRING: &str = include_str!("../../templates/project-readme-wiring.md");
 const IGNORED: &str = "/build/\n";
 
@@ -20,8 +21,7 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(board) = catalog::find(&args.board) else {
         bail!("there is no built-in board {} (`sensedsl boards` lists them)", args.board);
     };
-    let robot = starter::robot(board);
-    let readme = if boards::firmware(board).is_some() { README } else { README_OF_WIRING };
+    let (readme, robot) = begin(board);
     let texts = [(".gitignore", IGNORED), ("README.md", readme), ("robot.sense", &robot)];
     let paths = texts.map(|(name, text)| (args.dir.join(name), text.as_bytes()));
     let files: Vec<_> = paths.iter().map(|(path, bytes)| (path.as_path(), *bytes)).collect();
@@ -44,4 +44,16 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
         visible(&shown(&file))
     ))?;
     Ok(Status::Done)
+}
+
+/// The first files: with firmware of the first system that a robot can have it of, or with a wiring alone.
+fn begin(board: &catalog::Entry) -> (&'static str, String) {
+    let usual = profile::full_name(profile::DEFAULT);
+    for system in boards::firmware(board) {
+        if let Some(robot) = starter::robot(board, Some(system)) {
+            return (if usual == Some(system) { README } else { README_OF_EMBASSY }, robot);
+        }
+    }
+    let empty = || format!("board Robot on {} {{}}\n", board.name.replace('-', "_"));
+    (README_OF_WIRING, starter::robot(board, None).unwrap_or_else(empty))
 }

@@ -1,11 +1,13 @@
 //! The robot that `sensedsl new` begins with: of a few devices those that the board can carry.
 //!
 //! The template has a sensor of each common kind. They are put on the board one by one, and one
-//! stays where there is a wiring with it; the last stands in where another could not stay.
+//! stays where there is a wiring with it, and firmware where the board has some; the last stands in
+//! where another could not stay.
 
 use std::path::Path;
 
-use sensedsl_board::catalog;
+use sensedsl_board::{catalog, profile};
+use sensedsl_codegen::{Selection, project};
 use sensedsl_session::{Ask, Goal, On, Workspace, has_errors};
 
 use crate::files::Disk;
@@ -15,33 +17,41 @@ const TEMPLATE: &str = include_str!("../../templates/starter.sense");
 /// Devices of a small robot.
 const ENOUGH: usize = 3;
 
-/// The text of the robot.
-pub(crate) fn robot(board: &catalog::Entry) -> String {
+/// The text of the robot, with firmware of that system; `None` where it can have no device.
+pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<String> {
     let template = TEMPLATE.replace("BOARD", &board.name.replace('-', "_"));
     let template = template.trim_end().trim_end_matches('}').trim_end();
     let mut sections = template.split("\n\n");
-    let mut text = String::new();
+    let (head, first) = sections.next()?.split_once("{\n")?;
+    let mut text = format!("{head}{{\n");
+    let is_usual = |system: &str| profile::full_name(profile::DEFAULT) == Some(system);
+    if let Some((name, _)) =
+        system.filter(|one| !is_usual(one)).and_then(|one| one.rsplit_once('-'))
+    {
+        text.push_str(&format!("    target = {name};\n"));
+    }
     let mut count = 0;
-    if let Some((head, first)) = sections.next().and_then(|first| first.split_once("{\n")) {
-        text = format!("{head}{{\n");
-        for device in [first].into_iter().chain(sections) {
-            let more = format!("{text}{device}\n");
-            if count < ENOUGH && is_wired(&format!("{more}}}\n")) {
-                text = more;
-                count += 1;
-            }
+    for device in [first].into_iter().chain(sections) {
+        let more = format!("{text}{device}\n");
+        if count < ENOUGH && is_made(&format!("{more}}}\n"), system.is_some()) {
+            text = more;
+            count += 1;
         }
     }
-    text.push_str("}\n");
-    text
+    (count > 0).then(|| text + "}\n")
 }
 
-/// Whether a file has a wiring.
-fn is_wired(text: &str) -> bool {
+/// Whether a file has a wiring, and firmware where that is asked for.
+fn is_made(text: &str, has_firmware: bool) -> bool {
     const NAME: &str = "robot.sense";
     let mut workspace = Workspace::default();
     workspace.open(NAME, text);
     let snapshot = workspace.snapshot(NAME, On::default(), &Disk::of(Path::new("-"), &[]));
-    let answer = snapshot.solve(&Ask { goal: Goal::Any, ..Ask::default() });
-    answer.wired().is_some() && !has_errors(&answer.diagnostics)
+    let goal = if has_firmware { Goal::Best } else { Goal::Any };
+    let answer = snapshot.solve(&Ask { goal, ..Ask::default() });
+    let Some((design, wiring)) = answer.wired().filter(|_| !has_errors(&answer.diagnostics)) else {
+        return false;
+    };
+    let wanted = Selection { firmware: has_firmware, hosts: &[] };
+    project("robot", design, wiring, &wanted).gaps.is_empty()
 }
