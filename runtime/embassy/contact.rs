@@ -2,13 +2,12 @@
 
 use core::cell::RefCell;
 
-use embassy_stm32::exti::ExtiInput;
-use embassy_stm32::gpio::Input;
-use embassy_stm32::mode::Blocking;
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::Instant;
 use sense_rt::{Contact, ContactConfig, ContactTold, Scalar, store_count};
+
+use crate::hal::gpio::Input;
 
 /// Microseconds, which wrap.
 fn now_us() -> u32 {
@@ -18,15 +17,14 @@ fn now_us() -> u32 {
 /// A pin that can be looked at.
 pub trait Level {
     fn level(&self) -> bool;
-}
 
-impl Level for Input<'static> {
-    fn level(&self) -> bool {
-        self.is_high()
+    /// Whether an edge of it is what interrupted, which is forgotten by that.
+    fn take_edge(&mut self) -> bool {
+        true
     }
 }
 
-impl Level for ExtiInput<'static, Blocking> {
+impl Level for Input<'static> {
     fn level(&self) -> bool {
         self.is_high()
     }
@@ -40,8 +38,6 @@ pub struct Kept<P> {
 
 /// An input that is looked at.
 pub type Looked = Kept<Input<'static>>;
-/// An input whose edges interrupt.
-pub type Awaited = Kept<ExtiInput<'static, Blocking>>;
 
 impl<P: Level> Kept<P> {
     pub const fn new(config: ContactConfig) -> Self {
@@ -69,15 +65,12 @@ impl<P: Level> Kept<P> {
     pub fn level(&self) -> bool {
         self.seen.lock(|seen| seen.borrow().as_ref().is_some_and(|(_, contact)| contact.level()))
     }
-}
 
-impl Awaited {
-    /// In the interrupt of the pin's line, which others may share.
+    /// Where an edge has interrupted; others may share the interrupt.
     pub fn on_interrupt(&self) {
         self.seen.lock(|seen| {
             let Some((pin, contact)) = &mut *seen.borrow_mut() else { return };
-            if pin.is_pending() {
-                pin.clear_pending();
+            if pin.take_edge() {
                 contact.on_edge(&self.config, pin.level(), now_us());
             }
         });

@@ -3,23 +3,22 @@
 use core::task::Poll;
 
 use embassy_futures::poll_once;
-use embassy_stm32::usart::BufferedUart;
 use embedded_io_async::{Read, Write};
 use sense_rt::Channel;
 
 /// A port whose queue to the host takes a whole frame.
-pub struct Port {
-    port: BufferedUart<'static>,
+pub struct Port<P> {
+    port: P,
     frame_bytes: usize,
 }
 
-impl Port {
-    pub fn new(port: BufferedUart<'static>, frame_bytes: usize) -> Self {
+impl<P> Port<P> {
+    pub fn new(port: P, frame_bytes: usize) -> Self {
         Self { port, frame_bytes }
     }
 }
 
-impl Channel for Port {
+impl<P: Read + Write> Channel for Port<P> {
     fn is_open(&mut self) -> bool {
         true
     }
@@ -41,6 +40,6 @@ impl Channel for Port {
     }
 
     fn write(&mut self, bytes: &[u8]) -> bool {
-        poll_once(self.port.write(bytes)) == Poll::Ready(Ok(bytes.len()))
+        matches!(poll_once(self.port.write(bytes)), Poll::Ready(Ok(size)) if size == bytes.len())
     }
 }

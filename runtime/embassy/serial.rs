@@ -2,17 +2,12 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use embassy_stm32::gpio::Pull;
-use embassy_stm32::mode::Blocking;
-use embassy_stm32::pac::usart::Usart;
-use embassy_stm32::usart::{Config, DataBits, Parity, StopBits, UartTx};
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::pipe::Pipe;
-use embassy_time::{Duration, Instant, Timer, with_deadline};
+use embassy_time::{Duration, Instant, with_deadline};
 use sense_rt::{Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
 
 use super::{now_ms, queue};
-use super::port::take;
 use super::shared::Tell;
 
 /// A device that says nothing for so long may have lost its supply, and what it was told with it.
@@ -29,9 +24,9 @@ impl<const BYTES: usize> Heard<BYTES> {
         Self { bytes: Pipe::new(), has_fault: AtomicBool::new(false) }
     }
 
-    /// In the port's interrupt: takes the character that has come. `mask` has the bits that are data.
-    pub fn on_interrupt(&self, port: Usart, mask: u8) {
-        let Some((byte, is_whole)) = take(port) else { return };
+    /// In the port's interrupt: a character has come, if it was not lost, and whether all is well. `mask` has the bits
+    /// that are data.
+    pub fn take(&self, byte: Option<u8>, is_whole: bool, mask: u8) {
         let is_taken = byte.is_none_or(|byte| self.bytes.try_write(&[byte & mask]).is_ok());
         if !is_whole || !is_taken {
             self.has_fault.store(true, Ordering::Relaxed);
@@ -45,29 +40,6 @@ impl<const BYTES: usize> Heard<BYTES> {
         self.has_fault.store(false, Ordering::Relaxed);
         has_fault
     }
-}
-
-/// A port that also runs on a slow clock: the PAC has a type of its own for it, with the same registers.
-pub const fn low_power(registers: *mut ()) -> Usart {
-    // The pointer is one of the PAC's.
-    unsafe { Usart::from_ptr(registers) }
-}
-
-/// Lets a port interrupt for each character.
-pub fn listen(port: Usart) {
-    port.cr1().modify(|register| register.set_rxneie(true));
-}
-
-/// How a port is set. `invert`: its wires rest low, where the port can do that.
-pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
-    let mut config = Config::default();
-    config.baudrate = baud;
-    config.data_bits = if bits == 7 { DataBits::DataBits7 } else { DataBits::DataBits8 };
-    config.parity = parity;
-    config.stop_bits = if stop_bits == 2 { StopBits::STOP2 } else { StopBits::STOP1 };
-    // A wire that nothing drives rests.
-    config.rx_pull = Pull::Up;
-    config
 }
 
 /// What the cycles of a device keep.
@@ -141,18 +113,5 @@ pub fn send<const BYTES: usize>(
     let message = message.get(..size).unwrap_or_default();
     if size == 0 || said.free_capacity() < size || !queue(said, message) {
         board.tell(None, index, Outcome::BusError, &mut []);
-    }
-}
-
-/// Sends what is queued, for ever: a character in the time that it takes.
-pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: &'static Said<BYTES>, baud: u32) -> ! {
-    // Twelve bits are the longest character.
-    let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
-    loop {
-        let mut bytes = [0];
-        said.read(&mut bytes).await;
-        // It waits for room in the port, and what it returns is always `Ok`: nothing is there that a device could be told of.
-        let _ = port.blocking_write(&bytes);
-        Timer::after(character).await;
     }
 }

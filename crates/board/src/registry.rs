@@ -182,6 +182,18 @@ pub(crate) const TARGETS: &[Target] = &[
     },
     Target {
         target: "embassy-0.6",
+        family: "RP2040",
+        parts: &["RP2040"],
+        text: include_str!("../../../targets/embassy-0.6/rp2040.toml"),
+    },
+    Target {
+        target: "embassy-0.6",
+        family: "RP2350",
+        parts: &["RP2350A", "RP2350B"],
+        text: include_str!("../../../targets/embassy-0.6/rp2350.toml"),
+    },
+    Target {
+        target: "embassy-0.6",
         family: "STM32C0",
         parts: &["STM32C011", "STM32C031", "STM32C051", "STM32C071", "STM32C091", "STM32C092"],
         text: include_str!("../../../targets/embassy-0.6/stm32c0.toml"),

@@ -13,7 +13,7 @@ use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::{Starts, starts};
-use sensedsl_wire::Schema;
+use sensedsl_wire::{Direction, Schema};
 use sensedsl_wiring::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
 };
@@ -206,6 +206,12 @@ impl<'a> BoardJob<'a> {
     #[must_use]
     pub fn system(&self) -> Option<&'a str> {
         self.profile.map(TargetProfile::system)
+    }
+
+    /// Whether the host sets any value.
+    #[must_use]
+    pub fn has_actuators(&self) -> bool {
+        self.devices.iter().any(|one| one.device.direction == Direction::Actuator)
     }
 
     /// The pads of all devices and of a serial link.

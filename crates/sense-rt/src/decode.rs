@@ -448,7 +448,7 @@ impl Decoder {
     /// Frames so far; wraps.
     #[must_use]
     pub fn frames(&self) -> u32 {
-        self.machine.frames
+        self.machine.frames()
     }
 
     /// Bytes so far that were in no valid frame; wraps.

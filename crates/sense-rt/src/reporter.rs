@@ -10,12 +10,14 @@ use core::ops::{Deref, DerefMut};
 use crate::bits::Bits;
 use crate::bytes::{part, part_mut, split};
 use crate::convert::milliseconds;
-use crate::decode::{Frame, Machine};
+use crate::decode::Frame;
 use crate::encode::{Stamp, encode_health, encode_hello};
 use crate::health::{AGE_NEVER, BoardHealth, Health};
+use crate::listener::Listener;
 use crate::schema::{Direction, Schema};
 use crate::silence::Silence;
 use crate::store::Store;
+use crate::uses;
 
 /// Bytes that are read at a time, and how often in a cycle: a host that sends without end must not
 /// keep reports waiting.
@@ -51,7 +53,7 @@ pub trait Host {
     fn describe(&mut self, board: &mut BoardHealth) {
         let _ = board;
     }
-    /// A byte between two frames, before the decoder gets it: true when it was meant for somebody
+    /// A byte between two frames, before the reporter gets it: true when it was meant for somebody
     /// else.
     fn intercept(&mut self, byte: u8) -> bool {
         let _ = byte;
@@ -87,7 +89,7 @@ pub struct ReporterCounts {
 #[derive(Debug)]
 pub struct Reporter<B: ?Sized = [u8]> {
     config: ReporterConfig,
-    decoder: Machine,
+    listener: Listener,
     silence: Silence,
     counts: ReporterCounts,
     now_us: u64,
@@ -114,7 +116,7 @@ impl<const BYTES: usize> Reporter<[u8; BYTES]> {
     pub const fn new(config: ReporterConfig) -> Self {
         let is_enough = BYTES >= config.schema.reporter_bytes();
         Self {
-            decoder: Machine::new(config.schema, Direction::ToBoard, is_enough),
+            listener: Listener::new(config.schema, is_enough),
             silence: Silence::new(config.silence_ms, 0),
             counts: ReporterCounts {
                 reports_sent: 0,
@@ -192,7 +194,7 @@ impl Reporter {
     // ---- from the host ----
 
     fn receive(&mut self, channel: &mut dyn Channel, host: &mut dyn Host) {
-        let frames = self.decoder.frames();
+        let frames = self.listener.frames();
         let mut bytes = [0; READ_BYTES];
         for _ in 0..READS_MAX {
             let size = channel.read(&mut bytes).min(READ_BYTES);
@@ -201,7 +203,7 @@ impl Reporter {
                 break;
             }
         }
-        if self.decoder.frames() != frames {
+        if self.listener.frames() != frames {
             self.silence.heard(self.now_ms());
         }
     }
@@ -211,13 +213,13 @@ impl Reporter {
         let (_, buffer) = split(&mut self.memory, frame_bytes);
         let count = self.config.schema.items.len();
         for byte in bytes {
-            if self.decoder.is_idle() && host.intercept(*byte) {
+            if self.listener.is_idle() && host.intercept(*byte) {
                 continue;
             }
             let (hello_due, health_due) = (&mut self.hello_due, &mut self.health_due);
-            self.decoder.feed(buffer, core::slice::from_ref(byte), &mut |frame| match frame {
-                Frame::Values(_, items) => {
-                    // In the order of the schema, whatever that of the frame is.
+            self.listener.feed(buffer, core::slice::from_ref(byte), &mut |frame| match frame {
+                // In the order of the schema, whatever that of the frame is.
+                Frame::Values(_, items) if uses::ACTUATORS => {
                     for index in 0..count {
                         let own = |(of, _): &(usize, &[u8])| *of == index;
                         if let Some((_, value)) = items.into_iter().find(own) {
@@ -227,7 +229,7 @@ impl Reporter {
                 }
                 Frame::HelloRequest => *hello_due = true,
                 Frame::HealthRequest => *health_due = true,
-                Frame::Hello(_) | Frame::Health(_) => {}
+                Frame::Values(..) | Frame::Hello(_) | Frame::Health(_) => {}
             });
         }
     }

@@ -2,6 +2,8 @@
 //!
 //! What a program turns off is left out of it, and its tables must not ask for it.
 
+/// Values that the host sets.
+pub(crate) const ACTUATORS: bool = cfg!(feature = "actuators");
 /// Values of float32 and float64.
 pub(crate) const REALS: bool = cfg!(feature = "reals");
 /// Words that are floats, BCD or packed.

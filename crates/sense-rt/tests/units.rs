@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sense_rt::{
-    Channel, Chip, ChipTable, Coding, Command, Filter, FilterTable, Health, Host, InitStep, Item,
-    MessageStart, Number, Outcome, Record, Reporter, ReporterConfig, Scalar, Schema, Status, Step,
-    Store, Watch,
+    Channel, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable, Health,
+    Host, InitStep, Item, MessageStart, Number, Outcome, Record, Reporter, ReporterConfig,
+    Requests, Scalar, Schema, Status, Step, Store, Watch, encode_health_request,
+    encode_hello_request,
 };
 
 static SCHEMA: Schema = Schema {
@@ -161,4 +162,37 @@ fn with_too_little_memory_nothing_is_said_and_nothing_breaks() {
     let mut enough = Reporter::<[u8; SCHEMA.reporter_bytes()]>::new(config);
     enough.cycle(0, &mut line, &mut board);
     assert!(line.1.starts_with(b"5:\0") && board.2 == 3);
+}
+
+/// With sensors alone: streams of pieces of requests, and of what only looks like one.
+#[test]
+fn requests_are_what_a_decoder_finds() {
+    const fn schema(checksum: bool) -> Schema {
+        const ITEMS: &[Item] = &[Item::sensor(17, Scalar::Uint16, 1)];
+        Schema { items: ITEMS, hash: 1, stamp: false, checksum }
+    }
+    static SCHEMAS: [Schema; 2] = [schema(false), schema(true)];
+    for schema in &SCHEMAS {
+        let mut pieces = vec![b"4".to_vec(), b"5:".to_vec(), b":\0\x01".to_vec(), b",".to_vec()];
+        for encode in [encode_hello_request, encode_health_request] {
+            let mut frame = [0; 8];
+            let size = encode(schema, &mut frame);
+            pieces.push(frame[..size].to_vec());
+            pieces.push(frame[..size - 1].to_vec());
+            pieces.push(frame[1..size].to_vec());
+        }
+        let mut requests = Requests::new(schema);
+        let mut decoder: Decoder<[u8; 8]> = Decoder::new(schema, Direction::ToBoard);
+        let mut seed = 1_u64;
+        for _ in 0..20_000 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let piece = &pieces[(seed >> 33) as usize % pieces.len()];
+            let (mut heard, mut decoded) = (String::new(), String::new());
+            requests.feed(piece, &mut |frame| heard += &format!("{frame:?}"));
+            decoder.feed(piece, &mut |frame| decoded += &format!("{frame:?}"));
+            assert_eq!((&heard, requests.frames()), (&decoded, decoder.frames()), "{piece:?}");
+            assert!(requests.is_idle() || !decoder.is_idle());
+        }
+        assert!(requests.frames() > 3_000);
+    }
 }

@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
         let Some(made) = cells::all_on(entry.name, entry.mcu, TARGET) else { continue };
         let (notes, refused) = match made {
             Made::Files(files, notes) => {
-                let refused = check(&files, &scratch, &host)?;
+                let refused = check(&files, &scratch, (&host, flags(entry.mcu)))?;
                 (notes, refused)
             }
             Made::NotOffered => (Notes::default(), Some("no kind fits".to_owned())),
@@ -118,8 +118,17 @@ fn host() -> Result<String> {
     Ok(host.context("rustc -vV names no host")?.to_owned())
 }
 
+/// What the compiler is told for an MCU: the HAL of RP2350 names registers that the core's crate has for ARMv8-M alone.
+fn flags(mcu: &str) -> Option<&'static str> {
+    mcu.starts_with("RP235").then_some("--cfg armv8m --cfg armv8m_main")
+}
+
 /// The first thing that the compiler does not take, or warns of in our files.
-fn check(files: &FileSet, scratch: &Path, host: &str) -> Result<Option<String>> {
+fn check(
+    files: &FileSet,
+    scratch: &Path,
+    (host, flags): (&str, Option<&str>),
+) -> Result<Option<String>> {
     let project = scratch.join("project");
     if project.exists() {
         std::fs::remove_dir_all(&project).with_context(|| project.display().to_string())?;
@@ -136,6 +145,9 @@ fn check(files: &FileSet, scratch: &Path, host: &str) -> Result<Option<String>> 
     cargo.arg("--target-dir").arg(scratch.join("target")).arg("--manifest-path").arg(&manifest);
     for name in ["CARGO_BUILD_TARGET", "CARGO_ENCODED_RUSTFLAGS", "RUSTFLAGS", "RUSTC_WRAPPER"] {
         cargo.env_remove(name);
+    }
+    if let Some(flags) = flags {
+        cargo.env("RUSTFLAGS", flags);
     }
     let output = cargo.env("CARGO_INCREMENTAL", "0").output().context("cargo")?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -115,7 +115,9 @@ fn read(job: &BoardJob<'_>, check: &TypeCheck, output: &Output) -> Vec<Diagnosti
     let mut elsewhere = None;
     for message in messages(output) {
         let said = message.get("message").and_then(Value::as_str).unwrap_or_default();
-        let said = said.replace("embassy_stm32::peripherals::", "").replace("embassy_stm32::", "");
+        let said = ["embassy_stm32::", "embassy_rp::", "peripherals::"]
+            .iter()
+            .fold(said.to_owned(), |said, path| said.replace(path, ""));
         let Some(line) = line_of(&message) else { continue };
         match check.lines.get(&line) {
             Some(judged) if seen.insert(line) => {

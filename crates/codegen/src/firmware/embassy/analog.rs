@@ -8,10 +8,11 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, late, scalar};
+use super::hal::Hal;
 use super::lack::{self, Made};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
-use super::{chip, filter};
+use super::{chip, filter, rp};
 use crate::job::Cycle;
 use crate::print::snake;
 
@@ -87,15 +88,24 @@ fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Made<()> {
         }
         AdcNew::Resolution => format!("Adc::new(p.{hal}, hal::adc::Resolution::BITS12)"),
         AdcNew::Default => format!("Adc::new(p.{hal}, hal::adc::AdcConfig::default())"),
+        AdcNew::Config => {
+            let interrupt = context.interrupt(unit, "GLOBAL")?;
+            section.bind(interrupt, "hal::adc::InterruptHandler".to_owned());
+            format!("Adc::new(p.{hal}, Irqs, hal::adc::Config::default())")
+        }
+    };
+    let type_ = match context.names.hal {
+        Hal::Stm32 => format!("hal::adc::Adc<'static, {hal}>"),
+        Hal::Rp => "hal::adc::Adc<'static, hal::adc::Async>".to_owned(),
     };
     section.fields.push(Field {
         name: name.clone(),
         comment: format!("{unit}, which converts"),
-        type_: format!("hal::adc::Adc<'static, {hal}>"),
+        type_: type_.clone(),
         make: make.replace("Adc::new", "hal::adc::Adc::new"),
     });
     section.items.push(format!(
-        "type {unit}Unit = Mutex<CriticalSectionRawMutex, hal::adc::Adc<'static, {hal}>>;\n\
+        "type {unit}Unit = Mutex<CriticalSectionRawMutex, {type_}>;\n\
          static {unit}_UNIT: StaticCell<{unit}Unit> = StaticCell::new();"
     ));
     section.starts.push(Start::Make(format!(
@@ -118,13 +128,12 @@ fn task(
     let mut pins = String::new();
     for wire in &wires {
         let pin = &lack::pad(wire, Role::In)?.pin.name;
-        pins.push_str(&format!("    mut {}: Peri<'static, {pin}>,\n", wire.ident));
-        section.fields.push(Field {
-            name: wire.ident.clone(),
-            comment: wire.place(),
-            type_: format!("Peri<'static, {pin}>"),
-            make: format!("p.{pin}"),
-        });
+        let (type_, make) = match context.names.hal {
+            Hal::Stm32 => (format!("Peri<'static, {pin}>"), format!("p.{pin}")),
+            Hal::Rp => rp::analog::input(context, pin),
+        };
+        pins.push_str(&format!("    mut {}: {type_},\n", wire.ident));
+        section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     }
     let (mut state, mut reads) = (String::new(), String::new());
     for device in devices {
@@ -225,6 +234,7 @@ fn read(
         AdcRead::Blocking => rows(converters, wired, "blocking_read", &time, "")?,
         AdcRead::Async => rows(converters, wired, "read", &time, ".await")?,
         AdcRead::Again => columns(context, converters, wired, &time, section)?,
+        AdcRead::Checked => rp::analog::rows(wired, section),
     });
     let value = wired.device.device.value.value;
     let upper = wired.device.ident.to_uppercase();
@@ -242,11 +252,15 @@ fn read(
         }
         None => "rt::analog::Value::Mean".to_owned(),
     };
-    text.push_str(&format!(
-        "        rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);\n",
+    let tell = format!(
+        "rt::analog::tell(&BOARD, {filter}, tables::{upper}, {}, {how}, &samples, {count}, &mut [0; {}]);",
         scalar(value.scalar),
         value.size_bytes(),
-    ));
+    );
+    text.push_str(&match context.names.adc.read {
+        AdcRead::Blocking | AdcRead::Async | AdcRead::Again => format!("        {tell}\n"),
+        AdcRead::Checked => rp::analog::tell(&upper, &tell),
+    });
     Ok(text)
 }
 

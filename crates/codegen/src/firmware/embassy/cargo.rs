@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 
 use super::context::Context;
+use super::hal::Hal;
 use super::names::Chip;
 use crate::job::BoardJob;
 use crate::part::uses;
@@ -14,6 +15,8 @@ const CHECK: &str = include_str!("templates/check.lock.txt");
 /// As that, with the crates that the HAL takes for the high-resolution timers of STM32G4 and of STM32F3.
 const CHECK_G4: &str = include_str!("templates/check-g4.lock.txt");
 const CHECK_F3: &str = include_str!("templates/check-f3.lock.txt");
+/// Those on the HAL of RP.
+pub(super) const CHECK_RP: &str = include_str!("templates/check-rp.lock.txt");
 /// What the lock file lacks where no timer is left for the clock.
 const CLOCK: &str = " \"embassy-time-driver\",\n \"embassy-time-queue-utils\",\n";
 
@@ -34,6 +37,17 @@ pub(super) fn check_manifest(job: &BoardJob<'_>, chip: &Chip, timer: Option<&str
          [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
         chip.feature,
         features.concat(),
+    )
+}
+
+/// The manifest of a check on the HAL of RP.
+pub(super) fn check_manifest_rp(chip: &Chip) -> String {
+    format!(
+        "[package]\nname = \"wiring-check\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [dependencies]\n\
+         embassy-rp = {{ version = \"=0.10.0\", default-features = false, features = [\"{}\", \"unstable-pac\"] }}\n\n\
+         [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
+        chip.feature,
     )
 }
 
@@ -64,21 +78,39 @@ fn hal_clock(text: &str) -> String {
 const FIRMWARE: &str = include_str!("templates/firmware.lock.txt");
 const FIRMWARE_G4: &str = include_str!("templates/firmware-g4.lock.txt");
 const FIRMWARE_F3: &str = include_str!("templates/firmware-f3.lock.txt");
+/// Those on another HAL.
+const FIRMWARE_RP: &str = include_str!("templates/firmware-rp.lock.txt");
 /// How the manifest goes on behind the package.
 const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
 
 /// The manifest of a firmware.
 pub(super) fn manifest(context: &Context<'_>) -> String {
-    let chip = &context.chip;
-    let banks = if chip.banks { "\"dual-bank\", " } else { "" };
-    let timer = context.timer.to_lowercase();
-    let split: String = split(context.job).iter().map(|one| format!("\"{one}\", ")).collect();
+    let hal = match context.names.hal {
+        Hal::Stm32 => {
+            let banks = if context.chip.banks { "\"dual-bank\", " } else { "" };
+            let timer =
+                context.timer.iter().map(|one| format!("\"time-driver-{}\", ", one.to_lowercase()));
+            let split = split(context.job).into_iter().map(|one| format!("\"{one}\", "));
+            format!(
+                "embassy-stm32 = {{ version = \"=0.6.0\", features = [\"{}\", {banks}{}\"exti\", \"memory-x\", \
+                 \"unstable-pac\"] }}",
+                context.chip.feature,
+                split.chain(timer).collect::<String>(),
+            )
+        }
+        Hal::Rp => format!(
+            "embassy-rp = {{ version = \"=0.10.0\", features = [\"{}\", \"time-driver\", \"unstable-pac\"] }}",
+            context.chip.feature
+        ),
+    };
+    let more = match context.names.hal {
+        Hal::Stm32 => "",
+        Hal::Rp => "fixed = \"=1.31.0\"\n",
+    };
     MANIFEST
         .replace("{board}", &context.job.board.name.value)
-        .replace(
-            "{features}",
-            &format!("\"{}\", {banks}{split}\"time-driver-{timer}\"", chip.feature),
-        )
+        .replace("{hal}", &hal)
+        .replace("{more}", more)
         .replace("{uses}", &used(context).join(", "))
 }
 
@@ -89,9 +121,14 @@ fn split(job: &BoardJob<'_>) -> BTreeSet<String> {
     pins.map(|pin| format!("split-{}", pin.to_lowercase())).collect()
 }
 
+/// The features of the runtime, and whether the board needs them.
+fn features(job: &BoardJob<'_>) -> impl Iterator<Item = (&'static str, bool)> {
+    std::iter::once(("actuators", job.has_actuators())).chain(uses(job))
+}
+
 /// What the values need of the runtime.
 fn used(context: &Context<'_>) -> Vec<String> {
-    let used = uses(context.job).into_iter().filter(|(_, is_used)| *is_used);
+    let used = features(context.job).filter(|(_, is_used)| *is_used);
     used.map(|(name, _)| format!("\"{name}\"")).collect()
 }
 
@@ -100,7 +137,7 @@ pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
     let mut text = "[package]\nname = \"sense-rt\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\
                     license = \"MIT OR Apache-2.0\"\npublish = false\n\n[features]\n"
         .to_owned();
-    for (name, _) in uses(context.job) {
+    for (name, _) in features(context.job) {
         text.push_str(&format!("{name} = []\n"));
     }
     text
@@ -108,6 +145,9 @@ pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
 
 /// The lock file of a firmware.
 pub(super) fn lock(context: &Context<'_>) -> String {
+    if context.names.hal == Hal::Rp {
+        return FIRMWARE_RP.to_owned();
+    }
     let starts =
         |starts: &[&str]| starts.iter().any(|start| context.chip.feature.starts_with(start));
     let text = if starts(&["stm32g474", "stm32g484"]) {

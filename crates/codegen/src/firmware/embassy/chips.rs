@@ -22,7 +22,7 @@ const TIMEOUT_BASE_MS: u32 = 10;
 pub(super) struct Bus<'a> {
     pub(super) unit: UnitName,
     /// The runtime's type of it.
-    type_: &'static str,
+    type_: String,
     /// One of those on it: all have the wires of the bus.
     pub(super) first: &'a JobConnection<'a>,
     pub(super) all: Vec<&'a JobConnection<'a>>,
@@ -32,7 +32,7 @@ pub(super) struct Bus<'a> {
 pub(super) fn buses<'a>(
     context: &Context<'a>,
     kind: KindName,
-    type_: &'static str,
+    type_: impl Fn(&UnitName) -> String,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Bus<'a>> {
     for wire in context.connections(kind) {
@@ -40,7 +40,7 @@ pub(super) fn buses<'a>(
     }
     let buses = by_unit(context.connections(kind)).into_iter();
     let bus = |(unit, all): (UnitName, Vec<&'a JobConnection<'a>>)| {
-        Some(Bus { unit, type_, first: all.first()?, all })
+        Some(Bus { type_: type_(&unit), unit, first: all.first()?, all })
     };
     buses.filter_map(bus).collect()
 }

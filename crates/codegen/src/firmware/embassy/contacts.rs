@@ -8,10 +8,11 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
-use super::filter;
+use super::hal::Hal;
 use super::lack::{self, Made};
 use super::section::{Field, Section};
-use crate::job::JobConnection;
+use super::{filter, rp};
+use crate::job::{JobConnection, Pad};
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
@@ -23,7 +24,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
             continue;
         }
         for wire in &wired.wires {
-            let made = input(context, wire, own, &mut lines, &mut section);
+            let prio = wired.device.cycle.prio;
+            let made = input(context, wire, (own, prio), &mut lines, &mut section);
             context.tell(wire.part, made, diagnostics);
         }
         if own.edge.is_some() {
@@ -59,11 +61,11 @@ pub(super) const fn pull(own: &Digital) -> &'static str {
 fn input(
     context: &Context<'_>,
     wire: &JobConnection<'_>,
-    own: &Digital,
+    (own, prio): (&Digital, i8),
     lines: &mut BTreeMap<String, Vec<String>>,
     section: &mut Section,
 ) -> Made<()> {
-    let pin = &lack::pad(wire, Role::In)?.pin.name;
+    let pad = lack::pad(wire, Role::In)?;
     let kept = name(wire);
     let edge = match own.edge {
         Some(Edge::Rising) => "Rising",
@@ -71,44 +73,58 @@ fn input(
         Some(Edge::Both) | None => "Both",
     };
     let (kind, type_, make) = if own.edge.is_some() {
-        let line = pin.number().ok_or_else(|| lack::Lack::wire("a pin of a port".to_owned()))?;
-        let line = format!("EXTI{line}");
-        let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
-        lines.entry(interrupt).or_default().push(kept.clone());
         // A level that is to last must be seen to come and to go.
         let trigger = match own.edge {
             Some(Edge::Rising) if own.debounce_us == 0 => "Rising",
             Some(Edge::Falling) if own.debounce_us == 0 => "Falling",
             Some(Edge::Rising | Edge::Falling | Edge::Both) | None => "Any",
         };
-        (
-            "Awaited",
-            "hal::exti::ExtiInput<'static, hal::mode::Blocking>",
-            format!(
-                "hal::exti::ExtiInput::new_blocking(p.{pin}, p.{line}, {}, hal::exti::TriggerEdge::{trigger})",
-                pull(own)
-            ),
-        )
+        match context.names.hal {
+            Hal::Stm32 => awaited(context, (wire, pad), own, trigger, (lines, section))?,
+            Hal::Rp => rp::edges::input(context, wire, (pad, own), prio, trigger, section),
+        }
     } else {
-        ("Looked", "Input<'static>", format!("Input::new(p.{pin}, {})", pull(own)))
+        let make = format!("Input::new(p.{}, {})", context.pin(&pad.pin.name), pull(own));
+        section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
+        ("rt::contact::Looked", "Input<'static>".to_owned(), make)
     };
-    section.fields.push(Field {
-        name: wire.ident.clone(),
-        comment: wire.place(),
-        type_: type_.to_owned(),
-        make,
-    });
+    section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     section.items.push(format!(
-        "/// {}.\nstatic {kept}: rt::contact::{kind} =\n    \
+        "/// {}.\nstatic {kept}: {kind} =\n    \
          rt::contact::Kept::new(sense_rt::ContactConfig {{ lasting: {}, edge: sense_rt::Edge::{edge} }});",
         wire.place(),
         own.debounce_us
     ));
-    section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
     if own.edge.is_none() {
         section.polls.push(format!("let _ = {kept}.look();"));
     }
     Ok(())
+}
+
+/// An input whose edges interrupt on a line: the static's kind, the type of what the wiring hands over, and what that is
+/// made of.
+fn awaited(
+    context: &Context<'_>,
+    (wire, pad): (&JobConnection<'_>, &Pad<'_>),
+    own: &Digital,
+    trigger: &str,
+    (lines, section): (&mut BTreeMap<String, Vec<String>>, &mut Section),
+) -> Made<(&'static str, String, String)> {
+    let (pin, kept) = (&pad.pin.name, name(wire));
+    let line = pin.number().ok_or_else(|| lack::Lack::wire("a pin of a port".to_owned()))?;
+    let line = format!("EXTI{line}");
+    let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
+    section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
+    section.runtime.insert("exti.rs");
+    lines.entry(interrupt).or_default().push(kept);
+    Ok((
+        "rt::exti::Awaited",
+        "hal::exti::ExtiInput<'static, hal::mode::Blocking>".to_owned(),
+        format!(
+            "hal::exti::ExtiInput::new_blocking(p.{pin}, p.{line}, {}, hal::exti::TriggerEdge::{trigger})",
+            pull(own)
+        ),
+    ))
 }
 
 /// The handler of an interrupt, which lines may share.

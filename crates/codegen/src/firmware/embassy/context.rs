@@ -10,8 +10,9 @@ use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
+use super::hal::Hal;
 use super::names::{Chip, Names};
-use super::{gaps, moved};
+use super::{gaps, moved, rp};
 use crate::job::{BoardJob, Cycle, JobConnection, JobDevice};
 
 /// One board on its way to a plan.
@@ -20,8 +21,8 @@ pub(super) struct Context<'a> {
     pub(super) profile: &'a TargetProfile,
     pub(super) names: Names,
     pub(super) chip: Chip,
-    /// The timer that the clock runs on.
-    pub(super) timer: String,
+    /// The timer that the clock runs on; `None` where the HAL has one of its own.
+    pub(super) timer: Option<String>,
     /// The block of pins of each unit that moves as a whole.
     pub(super) blocks: BTreeMap<UnitName, u8>,
 }
@@ -46,13 +47,19 @@ impl<'a> Context<'a> {
         let names = Names::of(profile).map_err(|error| lack(&error))?;
         let chip = job.board.mcu.as_deref().and_then(|mcu| names.chip(mcu));
         let chip = chip.ok_or_else(|| lack("Embassy does not support its MCU"))?;
-        let timer = super::clock::timer(job, profile).ok_or_else(|| {
-            let timers = profile.kernel.timers.join(", ");
-            lack(&format!(
-                "its devices leave no timer for Embassy's clock, which runs on one of {timers}; another pin or \
-                 kind for one of them frees one"
-            ))
-        })?;
+        let timer = match names.hal {
+            Hal::Stm32 => Some(super::clock::timer(job, profile).ok_or_else(|| {
+                let timers = profile.kernel.timers.join(", ");
+                lack(&format!(
+                    "its devices leave no timer for Embassy's clock, which runs on one of {timers}; another pin or \
+                     kind for one of them frees one"
+                ))
+            })?),
+            Hal::Rp => None,
+        };
+        if let Some(why) = rp::refusal(names.hal, job) {
+            return Err(lack(&why));
+        }
         Ok(Self { job, profile, names, chip, timer, blocks: moved::blocks(job) })
     }
 

@@ -3,7 +3,9 @@
 use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_model::kind::{Kind, KindName, Role};
 
+use super::hal::Hal;
 use super::names::Names;
+use super::rp;
 use crate::job::{BoardJob, JobConnection};
 
 /// The kinds that there is code for.
@@ -22,6 +24,14 @@ pub(super) const KINDS: &[KindName] = &[
 
 /// What a connection needs and no code is made for.
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+    match hal(job) {
+        Some(Hal::Rp) => {
+            if let Some(gap) = rp::gaps::lacks(job, connection) {
+                return Some(gap);
+            }
+        }
+        Some(Hal::Stm32) | None => {}
+    }
     match &connection.connection.kind {
         Kind::Pwm(_) if is_complementary(connection) => {
             Some("complementary outputs in Embassy's firmware")
@@ -56,6 +66,10 @@ fn is_complementary(connection: &JobConnection<'_>) -> bool {
 fn on_buses(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> usize {
     let kind = connection.connection.kind.name();
     job.connections(kind).filter(|one| one.connection.part == connection.connection.part).count()
+}
+
+fn hal(job: &BoardJob<'_>) -> Option<Hal> {
+    Some(Names::of(job.profile?).ok()?.hal)
 }
 
 fn has_can_banks(job: &BoardJob<'_>) -> bool {

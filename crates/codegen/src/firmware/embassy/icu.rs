@@ -5,9 +5,10 @@ use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, Wired, scalar};
-use super::filter;
+use super::hal::Hal;
 use super::lack::{self, Made};
 use super::section::{Field, Section, Start};
+use super::{filter, rp};
 use crate::job::JobConnection;
 use crate::part::TrainPlan;
 
@@ -25,6 +26,19 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 
 fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
     let icu = lack::kind(wired.first.connection.kind.icu())?;
+    match context.names.hal {
+        Hal::Stm32 => captured(context, wired, icu, section),
+        Hal::Rp => rp::icu::device(context, wired, icu, section),
+    }
+}
+
+/// A device on timers that keep the count of an edge.
+fn captured(
+    context: &Context<'_>,
+    wired: &Wired<'_>,
+    icu: &Icu,
+    section: &mut Section,
+) -> Made<()> {
     let train = train(context, wired);
     for wire in &wired.wires {
         input(context, wire, icu, (wired.device.cycle.prio, train), section)?;
@@ -33,7 +47,7 @@ fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Ma
         Some(train) => poll_train(context, wired, train, section),
         None => poll(context, wired, icu, section),
     }
-    section.runtime.insert("capture.rs");
+    section.runtime.extend(["capture.rs", "timer.rs"]);
     Ok(())
 }
 
@@ -97,7 +111,7 @@ fn input(
                  sense_rt::TrainConfig {{ tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
                 plan.tick_hz, plan.gap_ticks, plan.min_ticks
             ),
-            format!("rt::capture::train(timer, &{upper}_TRAIN, &{upper}_SEEN)"),
+            format!("rt::timer::train(timer, &{upper}_TRAIN, &{upper}_SEEN)"),
         ),
         None => (
             format!("static {upper}_SEEN: Seen = rt::capture::nothing();"),
@@ -140,22 +154,25 @@ fn run(icu: &Icu, channel: u8, upper: &str) -> String {
         Edge::Both => "Both",
     };
     if icu.mode == Mode::Count {
-        format!("rt::capture::count(timer, Channel::Ch{channel}, Edges::{edges}, &{upper}_SEEN)")
+        format!(
+            "rt::timer::count(timer, Channel::Ch{channel}, rt::timer::Edges::{edges}, &{upper}_SEEN)"
+        )
     } else {
         let is_width = icu.mode == Mode::Width;
-        format!("rt::capture::measure(timer, {is_width}, {}, &{upper}_SEEN)", icu.tick_hz)
+        format!("rt::timer::measure(timer, {is_width}, {}, &{upper}_SEEN)", icu.tick_hz)
     }
 }
 
 /// The filter of a device whose state the reporter keeps.
-fn filter(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> String {
+pub(super) fn filter(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> String {
     let mut state = String::new();
     let filter = filter::pass(context, wired.index, section, &mut state);
     section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
     filter
 }
 
-fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) {
+/// What the reporter does with what was captured.
+pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) {
     let filter = filter(context, wired, section);
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let mode = match icu.mode {

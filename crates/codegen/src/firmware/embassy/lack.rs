@@ -30,6 +30,11 @@ impl Lack {
         Self { what, whose: "its wiring" }
     }
 
+    /// Something that the unit cannot make.
+    pub(super) fn unit(what: String) -> Self {
+        Self { what, whose: "its unit" }
+    }
+
     /// Something that the part's tables do not have.
     pub(super) fn table(what: &str) -> Self {
         Self { what: what.to_owned(), whose: "its part" }

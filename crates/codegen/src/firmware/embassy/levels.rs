@@ -27,7 +27,7 @@ pub(super) fn levels(
 ) -> Vec<Level> {
     let prios: BTreeSet<i8> = starts.iter().filter_map(Start::prio).chain([0]).collect();
     // The HAL's own interrupts have the number 0.
-    let last = if context.names.target.starts_with("thumbv6m") { 3 } else { 7 };
+    let last = context.names.hal.last_priority(&context.names.target);
     let spare = &context.names.line.spare;
     let above: Vec<i8> = prios.into_iter().skip(1).collect();
     if above.len() > spare.len().min(last) {

@@ -7,8 +7,10 @@ use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Role;
 
 use super::context::Context;
+use super::hal::Hal;
 use super::section::{Field, Keep, Section, Start};
-use crate::job::BoardJob;
+use super::{rp, stm32};
+use crate::job::{BoardJob, Pad};
 
 /// The USB device of a board, whatever its system.
 pub(super) fn usb(job: &BoardJob<'_>) -> Option<Usb> {
@@ -18,7 +20,10 @@ pub(super) fn usb(job: &BoardJob<'_>) -> Option<Usb> {
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     let made = match context.job.board.link.transport {
-        Transport::Usb => over_usb(context, &mut section),
+        Transport::Usb => match context.names.hal {
+            Hal::Stm32 => over_usb(context, &mut section),
+            Hal::Rp => rp::link::over_usb(context, &mut section),
+        },
         Transport::Uart => over_uart(context, &mut section),
         Transport::None => None,
     };
@@ -40,29 +45,46 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
     let link = context.job.link.as_ref()?;
     let pad = |role| link.pads.iter().find(|pad| pad.role == role);
-    let (tx, rx, hal) = (pad(Role::Tx)?, pad(Role::Rx)?, context.peripheral(link.unit));
+    let (tx, rx) = (pad(Role::Tx)?, pad(Role::Rx)?);
     let interrupt = context.names.interrupt(link.unit, "GLOBAL")?;
-    section.bind(interrupt, format!("hal::usart::BufferedInterruptHandler<{hal}>"));
-    let baud = context.job.board.link.baud;
+    let (handler, type_, make) = match context.names.hal {
+        Hal::Stm32 => port(context, link.unit, tx, rx, section),
+        Hal::Rp => rp::link::port(context, link.unit, tx, rx, section),
+    };
+    section.bind(interrupt, handler);
+    let type_ = format!("rt::link_uart::Port<{type_}>");
     section.fields.push(Field {
         name: "link".to_owned(),
         comment: format!("the link at {} (TX) and {} (RX)", tx.pin.name, rx.pin.name),
-        type_: "crate::rt::link_uart::Port".to_owned(),
-        make: format!(
-            "crate::rt::link_uart::Port::new(port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, said, heard, Irqs, \
-             baud({baud}))), crate::SAID)",
-            context.generics(link.unit, &["_"]),
-            rx.pin.name,
-            tx.pin.name
-        ),
+        type_: format!("crate::{type_}"),
+        make: format!("crate::rt::link_uart::Port::new({make}, crate::SAID)"),
     });
-    section.keeps.push(Keep {
-        name: "mut link".to_owned(),
-        type_: "rt::link_uart::Port".to_owned(),
-        from: "wiring.link".to_owned(),
-    });
+    section.keeps.push(Keep { name: "mut link".to_owned(), type_, from: "wiring.link".to_owned() });
     section.runtime.insert("link_uart.rs");
     Some(())
+}
+
+/// The handler of the link's port, its type, and what it is made of.
+fn port(
+    context: &Context<'_>,
+    unit: &str,
+    tx: &Pad<'_>,
+    rx: &Pad<'_>,
+    section: &mut Section,
+) -> (String, String, String) {
+    let hal = context.peripheral(unit);
+    section.helpers.extend([stm32::BAUD.to_owned(), stm32::PORT.to_owned()]);
+    (
+        format!("hal::usart::BufferedInterruptHandler<{hal}>"),
+        "hal::usart::BufferedUart<'static>".to_owned(),
+        format!(
+            "port(hal::usart::BufferedUart::new{}(p.{hal}, p.{}, p.{}, said, heard, Irqs, baud({})))",
+            context.generics(unit, &["_"]),
+            rx.pin.name,
+            tx.pin.name,
+            context.job.board.link.baud
+        ),
+    )
 }
 
 fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
@@ -89,15 +111,23 @@ fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
             format!("hal::usb::Driver::new(p.{hal}, Irqs, p.{dp}, p.{dm})")
         },
     });
+    usb_task(context, &format!("hal::usb::Driver<'static, {hal}>"), section);
+    if is_otg {
+        section.helpers.insert(stm32::USB.to_owned());
+    }
+    section.is_otg = is_otg;
+    Some(())
+}
+
+/// The task of the USB device, whose driver is of that type.
+pub(super) fn usb_task(context: &Context<'_>, driver: &str, section: &mut Section) {
     let product = &context.job.board.name.value;
     section.items.push(format!(
-        "/// The link's device.\n#[embassy_executor::task]\nasync fn link(device: hal::usb::Driver<'static, {hal}>) {{\n    \
+        "/// The link's device.\n#[embassy_executor::task]\nasync fn link(device: {driver}) {{\n    \
          rt::link_usb::run(device, {product:?}, &LINK).await;\n}}"
     ));
     section.starts.push(Start::Task(0, "link(wiring.link)".to_owned()));
     section.runtime.extend(["link.rs", "link_usb.rs"]);
-    section.is_otg = is_otg;
-    Some(())
 }
 
 /// What a port must hold of what the host sends: twice what comes between two looks of the reporter.

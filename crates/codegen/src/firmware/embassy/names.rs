@@ -8,11 +8,15 @@ use sensedsl_board::profile::TargetProfile;
 use serde::Deserialize;
 
 use super::clock::Clock;
+use super::hal::Hal;
 
 /// The names of one line of MCUs.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Names {
+    /// Whose HAL it is.
+    #[serde(default)]
+    pub(super) hal: Hal,
     /// The triple that the Rust compiler knows the core by.
     pub(super) target: String,
     /// How a converter is made and read.
@@ -62,6 +66,8 @@ pub(super) enum AdcNew {
     Resolution,
     /// A configuration.
     Default,
+    /// Its interrupt and a configuration.
+    Config,
 }
 
 /// How an input is read.
@@ -74,6 +80,8 @@ pub(super) enum AdcRead {
     Again,
     /// By its interrupt.
     Async,
+    /// By its interrupt; the conversion may have failed.
+    Checked,
 }
 
 /// The HAL's drivers of CAN controllers.
@@ -131,8 +139,12 @@ pub(super) struct Line {
     chips: String,
     /// Interrupts that no unit in use has.
     pub(super) spare: Vec<String>,
-    /// How the firmware sets the clocks; `None` if it keeps those of the reset.
+    /// How the firmware sets the clocks; `None` if it keeps those of the reset, or the HAL sets them.
     pub(super) clock: Option<Clock>,
+    /// The HAL's feature for the line, where it is not the chip's name.
+    feature: Option<String>,
+    /// What a debug probe calls the chip, where it is not the feature's name.
+    probe: Option<String>,
 }
 
 /// A chip of the HAL.
@@ -142,6 +154,8 @@ pub struct Chip {
     pub feature: String,
     /// Whether the HAL must be told how many banks its flash is.
     pub banks: bool,
+    /// What debug probes call it: `STM32F407VG`.
+    pub probe: String,
 }
 
 impl Names {
@@ -194,8 +208,10 @@ impl Names {
             wanted.starts_with(name)
         });
         let found = fits.max_by_key(|chip| chip.len())?;
-        let feature = found.trim_end_matches('*');
-        Some(Chip { feature: feature.to_owned(), banks: found.ends_with('*') })
+        let chip = found.trim_end_matches('*');
+        let feature = self.line.feature.as_deref().unwrap_or(chip);
+        let probe = self.line.probe.clone().unwrap_or_else(|| feature.to_uppercase());
+        Some(Chip { feature: feature.to_owned(), banks: found.ends_with('*'), probe })
     }
 
     /// What the HAL calls a unit.

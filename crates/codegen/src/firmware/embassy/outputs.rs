@@ -9,10 +9,11 @@ use sensedsl_model::kind::pwm::Pwm;
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
-use super::bridge;
 use super::context::{Context, Wired, scalar};
+use super::hal::{Hal, Speed};
 use super::lack::{self, Made};
 use super::section::{Field, Section};
+use super::{bridge, rp};
 use crate::job::JobConnection;
 use crate::print::snake;
 
@@ -20,7 +21,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let mut section = Section::default();
     // Some belong to no device: their part needs them at a fixed level.
     for wire in context.connections(KindName::Digital) {
-        let made = pin(wire, &mut section);
+        let made = pin(context, wire, &mut section);
         context.tell(wire.part, made, diagnostics);
     }
     for wired in actuators(context, KindName::Digital) {
@@ -43,14 +44,14 @@ fn actuators<'a>(context: &Context<'a>, kind: KindName) -> Vec<Wired<'a>> {
 }
 
 /// The bits of an element of the value that has come.
-fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
+pub(super) fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
     let value = wired.device.device.value.value;
     let start = at * value.scalar.size_bytes();
     (scalar(value.scalar), format!("value.get({start}..).unwrap_or_default()"))
 }
 
 /// The output of a pin; inputs have none.
-fn pin(wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
+fn pin(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
     if wire.pad(Role::In).is_some() {
         return Ok(());
     }
@@ -61,7 +62,7 @@ fn pin(wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
         name: wire.ident.clone(),
         comment: wire.place(),
         type_: "Output<'static>".to_owned(),
-        make: format!("Output::new(p.{}, {initial}, Speed::Low)", pad.pin.name),
+        make: context.output(&pad.pin.name, initial, Speed::Low),
     });
     Ok(())
 }
@@ -102,18 +103,26 @@ fn pwm(context: &Context<'_>, section: &mut Section, diagnostics: &mut Vec<Diagn
         }
     }
     for (unit, outputs) in timers {
-        timer(context, unit, &outputs, section);
+        match context.names.hal {
+            Hal::Stm32 => timer(context, unit, &outputs, section),
+            Hal::Rp => {
+                let made = rp::pwm::slice(context, unit, &outputs, section);
+                if let Some(first) = outputs.first() {
+                    context.tell(first.wire.part, made, diagnostics);
+                }
+            }
+        }
     }
 }
 
 /// One element of a value on its channel.
-struct Output<'a> {
-    wired: Wired<'a>,
-    at: usize,
-    wire: &'a JobConnection<'a>,
-    pin: &'a PinName,
-    pwm: &'a Pwm,
-    pulse: Pulse,
+pub(super) struct Output<'a> {
+    pub(super) wired: Wired<'a>,
+    pub(super) at: usize,
+    pub(super) wire: &'a JobConnection<'a>,
+    pub(super) pin: &'a PinName,
+    pub(super) pwm: &'a Pwm,
+    pub(super) pulse: Pulse,
 }
 
 impl<'a> Output<'a> {
@@ -188,11 +197,14 @@ fn hold(hal: &str, is_held: bool) -> String {
 
 /// An output of a timer.
 pub(super) struct Pulse {
+    /// Whose HAL drives it.
+    hal: Hal,
     /// The timer's object in `Outputs`.
     name: String,
     /// What the HAL calls the timer.
-    hal: String,
-    slot: u8,
+    timer: String,
+    /// The channel.
+    pub(super) slot: u8,
     /// Of the pulses for 0 and for the greatest level, and from one to the next.
     min_us: u32,
     max_us: u32,
@@ -206,8 +218,9 @@ impl Pulse {
         let period_us = 1_000_000 / own.frequency_hz.max(1);
         let whole = own.min_us.is_none() && own.max_us.is_none();
         Ok(Self {
+            hal: context.names.hal,
             name: snake(unit),
-            hal: context.peripheral(unit),
+            timer: context.peripheral(unit),
             slot: lack::channel(lack::pad(wire, Role::Out)?)?,
             // Shares of the whole period need no microseconds, which may be few.
             min_us: own.min_us.unwrap_or(0),
@@ -219,18 +232,20 @@ impl Pulse {
     /// Sets a level in ten-thousandths.
     pub(super) fn set(&self, level: &str) -> String {
         let Self { name, slot, min_us, max_us, period_us, .. } = self;
-        format!(
-            "set_pulse(&mut outputs.{name}.ch{slot}(), [{min_us}, {max_us}, {period_us}], {level});"
-        )
+        let times = format!("[{min_us}, {max_us}, {period_us}]");
+        match self.hal {
+            Hal::Stm32 => format!("set_pulse(&mut outputs.{name}.ch{slot}(), {times}, {level});"),
+            Hal::Rp => format!("outputs.{name}.set({slot}, {times}, {level});"),
+        }
     }
 
     /// Turns the output off within the period: what follows must not find the old strength.
     pub(super) fn stop(&self) -> String {
-        let Self { name, hal, slot, .. } = self;
+        let Self { name, timer, slot, .. } = self;
         let (bank, place) = ((slot - 1) / 2, (slot - 1) % 2);
         let preload = |is_on| {
             format!(
-                "hal::pac::{hal}.ccmr_output({bank}).modify(|mode| mode.set_ocpe({place}, {is_on}));"
+                "hal::pac::{timer}.ccmr_output({bank}).modify(|mode| mode.set_ocpe({place}, {is_on}));"
             )
         };
         format!(
@@ -243,7 +258,7 @@ impl Pulse {
 
 /// A level in ten-thousandths, as the runtime counts.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]
-fn level(value: f64) -> u32 {
+pub(super) fn level(value: f64) -> u32 {
     value.clamp(0.0, 10_000.0).round() as u32
 }
 

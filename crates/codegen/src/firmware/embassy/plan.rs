@@ -2,14 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use sensedsl_board::catalog::Lever;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_wire::{Checksum, Direction};
 
 use super::context::{Context, scalar};
+use super::hal::{Hal, Speed};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, serial, spi,
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial,
+    spi, stm32,
 };
 
 /// All kinds, in the order in which their tasks are started.
@@ -34,15 +37,22 @@ const REPORT_MS: u32 = 10;
 pub(super) struct Plan {
     pub(super) board: String,
     pub(super) chip: String,
-    /// The MCU has a second core, which is left alone.
-    pub(super) has_two_cores: bool,
+    /// What debug probes call it.
+    pub(super) probe: String,
     /// The triple of the core.
     pub(super) target: String,
     pub(super) manifest: String,
     pub(super) lock: String,
     pub(super) runtime_manifest: String,
-    /// Members of the HAL's clocks and their values.
-    pub(super) clock: Vec<String>,
+    /// What `main.rs` and `wiring.rs` import of the HAL.
+    pub(super) main_uses: &'static str,
+    pub(super) wiring_uses: &'static str,
+    /// What starts the board anew.
+    pub(super) restart: &'static str,
+    pub(super) begin: Begin,
+    /// Functions of the wiring.
+    pub(super) helpers: BTreeSet<String>,
+    pub(super) hal: Hal,
     pub(super) schema: SchemaPlan,
     pub(super) fields: Vec<Field>,
     pub(super) handlers: Vec<(String, String)>,
@@ -57,6 +67,10 @@ pub(super) struct Plan {
     pub(super) polls: Vec<String>,
     /// By the constant of an item: what is done when the host sets it.
     pub(super) sets: Vec<(String, String)>,
+    /// Whether the host sets anything.
+    pub(super) has_actuators: bool,
+    /// Whether there is anything that only the program drives.
+    pub(super) has_outputs: bool,
     pub(super) fails: Vec<String>,
     /// What is done with outputs and interrupts at the start.
     pub(super) begins: Vec<String>,
@@ -66,22 +80,36 @@ pub(super) struct Plan {
     pub(super) runtime: BTreeSet<&'static str>,
     pub(super) report_ms: u32,
     pub(super) silence_ms: u32,
-    /// The light and whether it shines when high.
-    pub(super) led: Option<(String, bool)>,
-    /// The register with the cause of the last reset.
-    pub(super) reset: Option<String>,
-    /// What the HAL calls the watchdog.
-    pub(super) watchdog: &'static str,
+    /// The light, whether it shines when high, and what it is made of.
+    pub(super) led: Option<(String, bool, String)>,
     pub(super) is_usb: bool,
     pub(super) is_otg: bool,
     pub(super) is_uart: bool,
     /// Of the queue of a serial port for what the host sends.
     pub(super) heard_bytes: u32,
-    pub(super) has_buses: bool,
-    /// Serial devices, and ports that can invert their wires.
-    pub(super) has_ports: bool,
-    pub(super) has_new_ports: bool,
-    pub(super) has_pulls: bool,
+    /// Converters are told how long they sample.
+    pub(super) has_sample_times: bool,
+    /// Pulses are set at channels of timers.
+    pub(super) has_pulses: bool,
+}
+
+/// How a project begins, in the words of its HAL.
+pub(super) struct Begin {
+    /// The function `config` of `main.rs`.
+    pub(super) config: String,
+    /// The first statements of `main`, up to the wiring.
+    pub(super) start: Vec<String>,
+    pub(super) watchdog: Watchdog,
+    /// Arguments of the linker beside those of all cores.
+    pub(super) scripts: &'static str,
+    /// `memory.x`, where the HAL does not have it.
+    pub(super) memory: Option<&'static str>,
+}
+
+/// The watchdog: its type, and what it is made of.
+pub(super) struct Watchdog {
+    pub(super) type_: String,
+    pub(super) make: String,
 }
 
 /// The schema in the runtime's words.
@@ -105,7 +133,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     for peripheral in PERIPHERALS {
         section.append(peripheral(context, diagnostics));
     }
-    let board = context.job.board;
+    let (board, hal) = (context.job.board, context.names.hal);
     let is_usb = section.runtime.contains("link_usb.rs");
     let report_ms = report_ms(context);
     let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
@@ -120,31 +148,37 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     Plan {
         board: board.name.value.clone(),
         chip: context.chip.feature.clone(),
-        has_two_cores: context.chip.feature.contains("-cm"),
+        probe: context.chip.probe.clone(),
         target: context.names.target.clone(),
         manifest: cargo::manifest(context),
         lock: cargo::lock(context),
         runtime_manifest: cargo::runtime_manifest(context),
-        clock: clock(context, is_usb),
+        main_uses: hal.main_uses(),
+        wiring_uses: hal.wiring_uses(),
+        restart: hal.restart(),
+        begin: match hal {
+            Hal::Stm32 => stm32::begin(context, is_usb),
+            Hal::Rp => rp::begin(context),
+        },
+        helpers: section.helpers,
+        hal,
         schema: schema(context),
         handlers: handlers(&section.handlers),
+        has_actuators: context.job.has_actuators(),
+        has_outputs: !section.outputs.is_empty(),
         sets: by_item(context, |index| Some(section.sets.get(&index)?.join("\n"))),
         watched: section.watched,
         begins: section.begins,
         fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),
         report_ms,
         silence_ms: board.link.silence_ms.unwrap_or(0),
-        led: led.map(|led| (led.pin.to_string(), led.active_high)),
-        reset: context.names.reset.clone(),
-        watchdog: if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" },
+        led: led.map(|led| light(context, led)),
         is_usb,
         is_otg: section.is_otg,
         is_uart: section.runtime.contains("link_uart.rs"),
         heard_bytes: link::heard_bytes(board.link.baud, report_ms),
-        has_buses: section.runtime.contains("i2c.rs"),
-        has_ports: section.runtime.contains("serial.rs"),
-        has_new_ports: section.runtime.contains("port_new.rs"),
-        has_pulls: context.names.has_pulls(),
+        has_pulses: hal == Hal::Stm32 && section.runtime.contains("pwm.rs"),
+        has_sample_times: hal == Hal::Stm32 && section.runtime.contains("analog.rs"),
         fields: section.fields,
         outputs: section.outputs,
         items: section.items,
@@ -169,10 +203,10 @@ fn report_ms(context: &Context<'_>) -> u32 {
     served.map(|device| device.delay_ms).fold(REPORT_MS, u32::min).max(1)
 }
 
-/// What is set of the HAL's clocks.
-fn clock(context: &Context<'_>, is_usb: bool) -> Vec<String> {
-    let clock = context.names.line.clock.as_ref();
-    clock.and_then(|clock| clock.lines(&context.crystal(), is_usb)).unwrap_or_default()
+/// The board's light, which is off at first.
+fn light(context: &Context<'_>, led: &Lever) -> (String, bool, String) {
+    let off = if led.active_high { "Level::Low" } else { "Level::High" };
+    (led.pin.to_string(), led.active_high, context.output(&led.pin, off, Speed::Low))
 }
 
 fn handlers(all: &Handlers) -> Vec<(String, String)> {

@@ -4,6 +4,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::Role;
 
 use super::context::{Context, late};
+use super::hal::Speed;
 use super::lack::{self, Made};
 use super::section::{Field, Section, Start, Watched};
 use crate::kinds::pulse::{Pulses, pulses};
@@ -11,7 +12,7 @@ use crate::kinds::pulse::{Pulses, pulses};
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
     for one in pulses(context.job) {
-        let made = task(&one, &mut section);
+        let made = task(context, &one, &mut section);
         if let Some(first) = one.lines.first() {
             context.tell(first.wire.part, made, diagnostics);
         }
@@ -19,7 +20,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-fn task(pulses: &Pulses<'_>, section: &mut Section) -> Made<()> {
+fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Made<()> {
     let Pulses { cycle, pulse_us, id, lines } = pulses;
     let ident = format!("{}_{pulse_us}us", cycle.ident("pulse"));
     let constant = ident.to_uppercase();
@@ -31,7 +32,7 @@ fn task(pulses: &Pulses<'_>, section: &mut Section) -> Made<()> {
             name: ident.clone(),
             comment: format!("{}: the pulse that makes it measure", line.wire.title),
             type_: "Output<'static>".to_owned(),
-            make: format!("Output::new(p.{}, Level::Low, Speed::Low)", pad.pin.name),
+            make: context.output(&pad.pin.name, "Level::Low", Speed::Low),
         });
         parameters.push(format!("mut {ident}: Output<'static>"));
         arguments.push(format!("wiring.{ident}"));

@@ -42,13 +42,15 @@ pub(super) fn render(b: &Plan) -> FileSet {
     files.add("src/wiring.rs", print(&Wiring { b }));
     files.add("src/tables.rs", print(&Tables { b }));
     files.add_once("src/user/mod.rs", USER);
-    let own = runtime::ADAPTERS.iter();
-    for (name, text) in
-        own.filter(|(name, _)| runtime::ALWAYS.contains(name) || b.runtime.contains(name))
-    {
+    if let Some(memory) = b.begin.memory {
+        files.add("memory.x", memory);
+    }
+    let always = runtime::always(b.hal);
+    let own = runtime::adapters(b.hal);
+    for (name, text) in own.filter(|(name, _)| always.contains(name) || b.runtime.contains(name)) {
         files.add(format!("src/rt/{name}"), *text);
     }
-    files.add("src/rt/mod.rs", runtime::module(&b.runtime));
+    files.add("src/rt/mod.rs", runtime::module(&b.runtime, always));
     files.add("sense-rt/Cargo.toml", b.runtime_manifest.clone());
     for (name, text) in runtime::RUNTIME {
         files.add(format!("sense-rt/src/{name}"), *text);

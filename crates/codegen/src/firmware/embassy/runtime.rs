@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use super::hal::Hal;
+
 /// Path and text.
 macro_rules! files {
     ($folder:literal, $($path:literal,)*) => {
@@ -10,41 +12,76 @@ macro_rules! files {
     };
 }
 
-/// Between the runtime and the HAL; path below `src/rt/`.
-pub(super) const ADAPTERS: &[(&str, &str)] = files![
+/// Between the runtime and whatever HAL; path below `src/rt/`.
+const SHARED: &[(&str, &str)] = files![
     "runtime/embassy/",
-    "again.rs",
     "analog.rs",
     "bus.rs",
-    "can.rs",
     "capture.rs",
     "contact.rs",
-    "i2c.rs",
     "life.rs",
     "link.rs",
     "link_uart.rs",
     "link_usb.rs",
+    "serial.rs",
+    "shared.rs",
+];
+
+/// Those between it and `embassy-stm32`.
+const STM32: &[(&str, &str)] = files![
+    "runtime/embassy/",
+    "again.rs",
+    "can.rs",
+    "exti.rs",
+    "i2c.rs",
     "port_new.rs",
     "port_old.rs",
     "pwm.rs",
     "reset_new.rs",
     "reset_old.rs",
-    "serial.rs",
-    "shared.rs",
     "spi.rs",
+    "timer.rs",
+    "usart.rs",
 ];
 
-/// Those that every project has.
-pub(super) const ALWAYS: &[&str] = &["life.rs", "shared.rs"];
+/// Those between it and `embassy-rp`.
+const RP: &[(&str, &str)] = files![
+    "runtime/embassy/rp/",
+    "converter.rs",
+    "edges.rs",
+    "gate.rs",
+    "i2c.rs",
+    "pwm.rs",
+    "spi.rs",
+    "uart.rs",
+    "watchdog.rs",
+];
+
+/// Those of a HAL.
+pub(super) fn adapters(hal: Hal) -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    let own = match hal {
+        Hal::Stm32 => STM32,
+        Hal::Rp => RP,
+    };
+    SHARED.iter().chain(own)
+}
+
+/// Those that every project on a HAL has.
+pub(super) const fn always(hal: Hal) -> &'static [&'static str] {
+    match hal {
+        Hal::Stm32 => &["life.rs", "shared.rs"],
+        Hal::Rp => &["life.rs", "shared.rs", "watchdog.rs"],
+    }
+}
 
 /// How the module of the adapters begins.
 const MODULE: &str = include_str!("../../../../../runtime/embassy/mod.rs");
 
 /// The module of the adapters that a project has.
-pub(super) fn module(own: &BTreeSet<&'static str>) -> String {
+pub(super) fn module(own: &BTreeSet<&'static str>, always: &[&'static str]) -> String {
     let mut text = MODULE.to_owned();
     let names: BTreeSet<&str> =
-        own.iter().chain(ALWAYS).filter_map(|name| name.strip_suffix(".rs")).collect();
+        own.iter().chain(always).filter_map(|name| name.strip_suffix(".rs")).collect();
     let mut modules = String::new();
     for name in names {
         // The units of a chip are of one sort, and the code around them does not know which.
@@ -90,6 +127,7 @@ pub(super) const RUNTIME: &[(&str, &str)] = files![
     "formula/tsl2561.rs",
     "health.rs",
     "lib.rs",
+    "listener.rs",
     "message.rs",
     "message/start.rs",
     "message/table.rs",
@@ -97,6 +135,7 @@ pub(super) const RUNTIME: &[(&str, &str)] = files![
     "parse.rs",
     "pulse_width.rs",
     "reporter.rs",
+    "requests.rs",
     "scalar.rs",
     "schema.rs",
     "silence.rs",

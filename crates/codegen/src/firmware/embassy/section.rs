@@ -37,6 +37,8 @@ pub(super) struct Section {
     pub(super) watched: Vec<Watched>,
     /// The link is the USB peripheral that can be a host as well.
     pub(super) is_otg: bool,
+    /// Functions of the wiring.
+    pub(super) helpers: BTreeSet<String>,
     /// Files of the runtime.
     pub(super) runtime: BTreeSet<&'static str>,
 }
@@ -146,6 +148,7 @@ impl Section {
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
         self.is_otg |= other.is_otg;
+        self.helpers.append(&mut other.helpers);
         self.runtime.append(&mut other.runtime);
     }
 }

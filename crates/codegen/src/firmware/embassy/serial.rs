@@ -5,9 +5,10 @@ use sensedsl_model::kind::uart::{Parity, Uart};
 use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
+use super::hal::Hal;
 use super::lack::{self, Lack, Made};
 use super::section::{Field, Section, Start, Watched};
-use super::{filter, message};
+use super::{filter, message, rp, stm32};
 use crate::job::JobConnection;
 use crate::kinds::serial::{self, QUEUE_BYTES};
 use crate::part::MessagePlan;
@@ -29,6 +30,18 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         context.tell(wire.part, made, diagnostics);
     }
     section
+}
+
+/// What is known of the chip's ports: those of a chip are of one sort.
+fn ports(context: &Context<'_>, section: &mut Section) {
+    section.helpers.insert(stm32::PORT.to_owned());
+    section.runtime.insert("usart.rs");
+    if context.names.has_old_ports() {
+        section.runtime.insert("port_old.rs");
+    } else {
+        section.runtime.insert("port_new.rs");
+        section.helpers.insert(stm32::INVERTED.to_owned());
+    }
 }
 
 /// A port with its tasks.
@@ -55,16 +68,35 @@ fn port(
     let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
     let port = Port { wire, unit, uart, plan, said };
     section.tables.extend(message::tables(context, plan));
-    section.runtime.extend([
-        "serial.rs",
-        if context.names.has_old_ports() { "port_old.rs" } else { "port_new.rs" },
-    ]);
+    section.runtime.insert("serial.rs");
+    match context.names.hal {
+        Hal::Stm32 => ports(context, section),
+        Hal::Rp => {
+            section.runtime.insert("uart.rs");
+        }
+    }
     port.wiring(context, section)?;
     port.say(context, section);
     if !plan.fields.is_empty() || !plan.init.is_empty() {
         port.listen(context, section)?;
     }
     Ok(())
+}
+
+/// The HAL's module of serial ports, and the runtime's between them and the devices.
+const fn module(hal: Hal) -> &'static str {
+    match hal {
+        Hal::Stm32 => "usart",
+        Hal::Rp => "uart",
+    }
+}
+
+/// The type of a port or a half of one.
+fn port_type(hal: Hal, name: &str) -> String {
+    match hal {
+        Hal::Stm32 => format!("hal::usart::{name}<'static, hal::mode::Blocking>"),
+        Hal::Rp => format!("hal::uart::{name}<'static, hal::uart::Blocking>"),
+    }
 }
 
 impl Port<'_> {
@@ -74,45 +106,55 @@ impl Port<'_> {
     }
 
     /// The HAL's configuration.
-    fn config(&self) -> String {
+    fn config(&self, hal: Hal) -> String {
         let Uart { baud, data_bits, parity, stop_bits, is_inverted, .. } = self.uart;
         let parity = match parity {
             Parity::None => "ParityNone",
             Parity::Even => "ParityEven",
             Parity::Odd => "ParityOdd",
         };
-        let config = format!(
-            "crate::rt::serial::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
-        );
-        if *is_inverted { format!("inverted({config})") } else { config }
+        match hal {
+            Hal::Stm32 => {
+                let config = format!(
+                    "crate::rt::usart::config({baud}, {data_bits}, hal::usart::Parity::{parity}, {stop_bits})"
+                );
+                if *is_inverted { format!("inverted({config})") } else { config }
+            }
+            Hal::Rp => format!(
+                "crate::rt::uart::config({baud}, {data_bits}, hal::uart::Parity::{parity}, {stop_bits}, {is_inverted})"
+            ),
+        }
     }
 
     /// The pins, which the HAL keeps in one object, or in one for each direction.
     fn wiring(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let hal = context.peripheral(self.unit);
-        let pin = |role| self.wire.pad(role).map(|pad| pad.pin.name.as_str());
-        let config = self.config();
+        let pin = |role| self.wire.pad(role).map(|pad| context.pin(&pad.pin.name));
+        let config = self.config(context.names.hal);
         let moved = context.generics(self.unit, &["_"]);
-        let (type_, make) = match (pin(Role::Rx), pin(Role::Tx)) {
-            (Some(rx), Some(tx)) => (
-                "hal::usart::Uart<'static, hal::mode::Blocking>",
-                format!("hal::usart::Uart::new_blocking{moved}(p.{hal}, p.{rx}, p.{tx}, {config})"),
-            ),
-            (Some(rx), None) => (
-                "hal::usart::UartRx<'static, hal::mode::Blocking>",
-                format!("hal::usart::UartRx::new_blocking{moved}(p.{hal}, p.{rx}, {config})"),
-            ),
-            (None, Some(tx)) => (
-                "hal::usart::UartTx<'static, hal::mode::Blocking>",
-                format!("hal::usart::UartTx::new_blocking{moved}(p.{hal}, p.{tx}, {config})"),
-            ),
-            (None, None) => return Err(Lack::wire("a pin for `rx` or `tx`".to_owned())),
+        let (name, pins) = match (pin(Role::Rx), pin(Role::Tx), context.names.hal) {
+            (Some(rx), Some(tx), Hal::Stm32) => ("Uart", format!("p.{rx}, p.{tx}")),
+            (Some(rx), Some(tx), Hal::Rp) => ("Uart", format!("p.{tx}, p.{rx}")),
+            (Some(rx), None, Hal::Stm32 | Hal::Rp) => ("UartRx", format!("p.{rx}")),
+            (None, Some(tx), Hal::Stm32 | Hal::Rp) => ("UartTx", format!("p.{tx}")),
+            (None, None, Hal::Stm32 | Hal::Rp) => {
+                return Err(Lack::wire("a pin for `rx` or `tx`".to_owned()));
+            }
         };
+        if let (Some(rx), Hal::Rp) = (self.wire.pad(Role::Rx), context.names.hal) {
+            rp::link::rest(context, rx, self.uart.is_inverted, section);
+        }
+        let module = module(context.names.hal);
+        let made = format!("hal::{module}::{name}::new_blocking{moved}(p.{hal}, {pins}, {config})");
         section.fields.push(Field {
             name: self.wire.ident.clone(),
             comment: self.wire.place(),
-            type_: type_.to_owned(),
-            make: format!("port({make})"),
+            type_: port_type(context.names.hal, name),
+            // The HAL of STM32 judges the rate.
+            make: match context.names.hal {
+                Hal::Stm32 => format!("port({made})"),
+                Hal::Rp => made,
+            },
         });
         // A task that holds a half keeps its pin. If nothing is sent, the listening task holds both.
         let ident = &self.wire.ident;
@@ -135,7 +177,7 @@ impl Port<'_> {
     }
 
     /// The half of the port for a task: its type and where it is.
-    fn half(&self, is_rx: bool) -> (String, String) {
+    fn half(&self, hal: Hal, is_rx: bool) -> (String, String) {
         let ident = &self.wire.ident;
         let both = self.wire.pad(Role::Rx).is_some() && self.wire.pad(Role::Tx).is_some();
         let name = match (both && !self.is_split(), is_rx) {
@@ -148,14 +190,14 @@ impl Port<'_> {
             (true, false) => format!("{ident}_tx"),
             (false, _) => format!("wiring.{ident}"),
         };
-        (format!("hal::usart::{name}<'static, hal::mode::Blocking>"), place)
+        (port_type(hal, name), place)
     }
 
     /// What is sent, and the task that does it.
     fn say(&self, context: &Context<'_>, section: &mut Section) {
         let Some(said) = &self.said else { return };
         let ident = &self.wire.ident;
-        let (type_, place) = self.half(false);
+        let (type_, place) = self.half(context.names.hal, false);
         let port = if type_.contains("UartTx") { "port" } else { "port.split().0" };
         let longest = self.plan.commands.iter().map(|one| u32::from(one.bytes)).max().unwrap_or(0);
         let told = self.plan.init.iter().map(|one| one.bytes.len()).max().unwrap_or(0);
@@ -163,8 +205,9 @@ impl Port<'_> {
         section.items.push(format!(
             "static {said}: rt::serial::Said<{queue}> = rt::serial::Said::new();\n\n/// {}: what it is sent.\n\
              #[embassy_executor::task]\n\
-             async fn {ident}_say(port: {type_}) {{\n    rt::serial::say({port}, &{said}, {}).await;\n}}",
+             async fn {ident}_say(port: {type_}) {{\n    rt::{}::say({port}, &{said}, {}).await;\n}}",
             self.wire.place(),
+            module(context.names.hal),
             self.uart.baud
         ));
         let prio = self.wire.cycle.prio;
@@ -183,7 +226,7 @@ impl Port<'_> {
     fn listen(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
         let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
         let has_fields = self.hears();
-        let (type_, place) = self.half(true);
+        let (type_, place) = self.half(context.names.hal, true);
         let mut text = String::new();
         if has_fields {
             text.push_str(&self.interrupt(context, section)?);
@@ -228,21 +271,23 @@ impl Port<'_> {
         let interrupt = context.interrupt(self.unit, "GLOBAL")?;
         section.bind(interrupt, format!("crate::{upper}Heard"));
         let registers = if hal.starts_with("LPUART") {
-            format!("rt::serial::low_power(hal::pac::{hal}.as_ptr())")
+            format!("rt::usart::low_power(hal::pac::{hal}.as_ptr())")
         } else {
             format!("hal::pac::{hal}")
         };
         let mask = if self.uart.data_bits == 7 { "0x7F" } else { "0xFF" };
         section.begins.push(format!(
-            "rt::serial::listen({registers});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};"
+            "rt::{}::listen({registers});\n// Its handler is there.\nunsafe {{ interrupt::{interrupt}.enable() }};",
+            module(context.names.hal)
         ));
         Ok(format!(
             "static {upper}_HEARD: rt::serial::Heard<{queue}> = rt::serial::Heard::new();\n\n\
              /// The bytes of {}.\n#[allow(non_camel_case_types, reason = \"it is called as the device\")]\n\
              pub struct {upper}Heard;\n\n\
              impl interrupt::typelevel::Handler<interrupt::typelevel::{interrupt}> for {upper}Heard {{\n    \
-             unsafe fn on_interrupt() {{\n        {upper}_HEARD.on_interrupt({registers}, {mask});\n    }}\n}}\n\n",
-            self.wire.place()
+             unsafe fn on_interrupt() {{\n        rt::{}::on_interrupt(&{upper}_HEARD, {registers}, {mask});\n    }}\n}}\n\n",
+            self.wire.place(),
+            module(context.names.hal)
         ))
     }
 

@@ -1,5 +1,6 @@
 //! SPI: a bus for each unit, a chip select for each part, and a task for each bus and cycle.
 
+use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::spi::Spi;
 use sensedsl_model::kind::{KindName, Role};
@@ -7,14 +8,20 @@ use sensedsl_timing::spi_divider;
 
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
+use super::hal::{Hal, Speed};
 use super::lack::{self, Made};
+use super::rp;
 use super::section::{Field, Section};
 use crate::job::JobConnection;
 use crate::print::snake;
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
-    for one in chips::buses(context, KindName::Spi, "SpiBus", diagnostics) {
+    let type_ = |unit: &UnitName| match context.names.hal {
+        Hal::Stm32 => "SpiBus".to_owned(),
+        Hal::Rp => rp::buses::spi_type(unit),
+    };
+    for one in chips::buses(context, KindName::Spi, type_, diagnostics) {
         let made = bus(context, &one, &mut section);
         context.tell(one.first.part, made, diagnostics);
     }
@@ -22,13 +29,13 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 /// A chip select, which is high before it is an output.
-fn select(wire: &JobConnection<'_>) -> Made<Field> {
+fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Field> {
     let pin = &lack::pad(wire, Role::Cs)?.pin.name;
     Ok(Field {
         name: format!("{}_select", wire.ident),
         comment: format!("{}, selected by {pin}", wire.title),
         type_: "Output<'static>".to_owned(),
-        make: format!("Output::new(p.{pin}, Level::High, Speed::Medium)"),
+        make: context.output(pin, "Level::High", Speed::Medium),
     })
 }
 
@@ -53,11 +60,16 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Made<Reach
 
 /// The bus, in the words of the HAL, with the chip selects and the tasks that serve its parts.
 fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
-    let (unit, first) = (bus.unit.as_str(), bus.first);
+    let unit = bus.unit.as_str();
     let hal = context.peripheral(unit);
-    let (tx, rx) = (section.stream(context, first, "_TX")?, section.stream(context, first, "_RX")?);
-    let pin = |role| Ok(&lack::pad(first, role)?.pin.name);
+    let (tx, rx) =
+        (section.stream(context, bus.first, "_TX")?, section.stream(context, bus.first, "_RX")?);
+    let pin = |role| Ok(&lack::pad(bus.first, role)?.pin.name);
     let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+    let type_ = match context.names.hal {
+        Hal::Stm32 => "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
+        Hal::Rp => format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
+    };
     bus.share(
         Field {
             name: snake(unit),
@@ -65,16 +77,19 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> 
                 "{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}",
                 bus.titles()
             ),
-            type_: "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
+            type_,
             make: format!(
-                "hal::spi::Spi::new{}(p.{hal}, p.{sck}, p.{mosi}, p.{miso}, p.{tx}, p.{rx}, Irqs, Default::default())",
-                context.generics(unit, &["_"; 3])
+                "hal::spi::Spi::new{}(p.{hal}, p.{}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, Default::default())",
+                context.generics(unit, &["_"; 3]),
+                context.pin(sck),
+                context.pin(mosi),
+                context.pin(miso)
             ),
         },
         section,
     );
     for one in &bus.all {
-        section.fields.push(select(one)?);
+        section.fields.push(select(context, one)?);
     }
     section.runtime.insert("spi.rs");
     let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());

@@ -12,8 +12,9 @@ use sensedsl_diagnostics::Span;
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::{Kind, KindName};
 
+use super::hal::Hal;
 use super::names::Names;
-use super::{cargo, moved};
+use super::{cargo, moved, rp};
 use crate::fileset::FileSet;
 use crate::job::{BoardJob, JobConnection, Pad};
 
@@ -96,7 +97,10 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
     let profile = profile_of(mcu).ok_or_else(|| format!("Embassy does not know {mcu}"))?;
     let names = Names::of(&profile)?;
     let chip = names.chip(mcu).ok_or_else(|| format!("Embassy does not know {mcu}"))?;
-    let kernel = super::clock::timer(job, &profile);
+    let kernel = match names.hal {
+        Hal::Stm32 => super::clock::timer(job, &profile),
+        Hal::Rp => None,
+    };
     let mut lines = Lines::new(&profile, &names, job);
     lines.units();
     for connection in &job.connections {
@@ -105,8 +109,19 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
     lines.link();
     let (text, known) = print(&names, lines.all);
     let mut files = FileSet::default();
-    files.add("Cargo.toml", cargo::check_manifest(job, &chip, kernel.as_deref()));
-    files.add("Cargo.lock", cargo::check_lock(&chip, kernel.as_deref()));
+    match names.hal {
+        Hal::Stm32 => {
+            files.add("Cargo.toml", cargo::check_manifest(job, &chip, kernel.as_deref()));
+            files.add("Cargo.lock", cargo::check_lock(&chip, kernel.as_deref()));
+        }
+        Hal::Rp => {
+            files.add("Cargo.toml", cargo::check_manifest_rp(&chip));
+            files.add("Cargo.lock", cargo::CHECK_RP);
+            if names.target.starts_with("thumbv8m") {
+                files.add(".cargo/config.toml", rp::typed::CONFIG);
+            }
+        }
+    }
     files.add("src/lib.rs", text);
     Ok(TypeCheck { chip: chip.feature, files, lines: known, unjudged: lines.unjudged })
 }
@@ -114,8 +129,12 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
 /// The crate, and what each line of it is of.
 fn print(names: &Names, lines: Vec<(String, Judged)>) -> (String, BTreeMap<usize, Judged>) {
     let parameter = if names.afio { ", A" } else { "" };
-    let mut text = HEAD.to_owned();
-    for (name, signature) in CALLS {
+    let (head, calls) = match names.hal {
+        Hal::Stm32 => (HEAD, CALLS),
+        Hal::Rp => (rp::typed::HEAD, rp::typed::CALLS),
+    };
+    let mut text = head.to_owned();
+    for (name, signature) in calls {
         if lines.iter().any(|(code, _)| code.starts_with(&format!("{name}::"))) {
             text.push_str(&format!("fn {name}{} {{}}\n", signature.replace("{A}", parameter)));
         }
@@ -205,15 +224,16 @@ impl<'a> Lines<'a> {
 
     /// The line of a wire; none where the HAL has no types for it.
     fn wire(&self, connection: &JobConnection<'_>, pad: &Pad<'_>) -> Option<String> {
-        let pin = pad.pin.name.as_str();
+        let pin = self.names.hal.pin(&pad.pin.name);
         if let Kind::Digital(digital) = &connection.connection.kind {
-            return Some(match pad.interrupt.filter(|_| digital.edge.is_some()) {
+            let line = pad.interrupt.filter(|_| digital.edge.is_some());
+            return Some(match line.filter(|_| self.names.hal == Hal::Stm32) {
                 Some(line) => format!("edge!(p.{pin}, p.EXTI{line});"),
                 None => format!("pin(p.{pin});"),
             });
         }
         match (connection.unit, pad.usage) {
-            (Some(unit), Some(usage)) => self.typed(unit, usage.signal.function(), pin),
+            (Some(unit), Some(usage)) => self.typed(unit, usage.signal.function(), &pin),
             _ => Some(format!("pin(p.{pin});")),
         }
     }
@@ -227,6 +247,9 @@ impl<'a> Lines<'a> {
             self.names.remap(unit, self.blocks.get(&UnitName::new(unit)).copied().unwrap_or(0));
         let moved = moved.map_or(String::new(), |block| format!(", {block}"));
         let unit = self.names.peripheral(unit);
+        if self.names.hal == Hal::Rp {
+            return rp::typed::wire(unit, function, pin);
+        }
         let (call, extra) = match function {
             Function::Adc { .. } => return Some(format!("analog::<{unit}, _>(p.{pin});")),
             Function::Dac { channel, .. } => {
@@ -267,6 +290,10 @@ impl<'a> Lines<'a> {
             return None;
         }
         let channel = self.names.channel(stream)?;
+        if self.names.hal == Hal::Rp {
+            // Any channel serves any unit.
+            return Some(format!("dma(p.{channel});"));
+        }
         let unit = self.names.peripheral(unit);
         let call = match (kind, request.rsplit_once('_').map(|(_, signal)| signal)) {
             (KindName::Analog, _) => "adc_dma",
@@ -293,8 +320,8 @@ impl<'a> Lines<'a> {
             }
             for pad in &link.pads {
                 let function = pad.usage.map(|usage| usage.signal.function());
-                let code =
-                    function.and_then(|one| self.typed(link.unit, one, pad.pin.name.as_str()));
+                let pin = self.names.hal.pin(&pad.pin.name);
+                let code = function.and_then(|one| self.typed(link.unit, one, &pin));
                 let judged = judged(pad.pin.name.as_str());
                 match code {
                     Some(code) => self.push(code, &judged),

@@ -1,0 +1,132 @@
+//! Slices of the PWM unit as inputs: the hardware counts edges, or ticks while the pin is active.
+
+use sensedsl_model::kind::Role;
+use sensedsl_model::kind::icu::{Edge, Icu, Mode};
+
+use super::super::context::{Context, Wired, scalar};
+use super::super::icu::{filter, poll};
+use super::super::lack::{self, Lack, Made};
+use super::super::section::{Field, Keep, Section, Start};
+use crate::job::JobConnection;
+
+/// The fractional divider of a slice has eight bits and four behind the point.
+const SIXTEENTHS: std::ops::RangeInclusive<u32> = 16..=0xFFF;
+
+/// A device with its slices.
+pub(in super::super) fn device(
+    context: &Context<'_>,
+    wired: &Wired<'_>,
+    icu: &Icu,
+    section: &mut Section,
+) -> Made<()> {
+    section.runtime.extend(["capture.rs", "gate.rs"]);
+    if icu.mode == Mode::Count {
+        return count(context, wired, icu, section);
+    }
+    for wire in &wired.wires {
+        gate(context, wire, icu, wired.device.cycle.prio, section)?;
+    }
+    poll(context, wired, icu, section);
+    Ok(())
+}
+
+/// A slice that measures widths, with the task that waits for the ends of pulses.
+fn gate(
+    context: &Context<'_>,
+    wire: &JobConnection<'_>,
+    icu: &Icu,
+    prio: i8,
+    section: &mut Section,
+) -> Made<()> {
+    let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
+    let sixteenths = sixteenths(context, unit, icu.tick_hz)?;
+    let ident = &wire.ident;
+    section.fields.push(Field {
+        name: ident.clone(),
+        comment: wire.place(),
+        type_: "crate::rt::gate::Gate".to_owned(),
+        make: format!(
+            "crate::rt::gate::Gate::new(p.{}, p.{}, {sixteenths}, {})",
+            context.peripheral(unit),
+            context.pin(&pad.pin.name),
+            icu.edge != Edge::Falling
+        ),
+    });
+    let upper = ident.to_uppercase();
+    section.items.push(format!(
+        "static {upper}_SEEN: Seen = rt::capture::nothing();\n\n/// {}.\n#[embassy_executor::task]\n\
+         async fn {ident}_edges(gate: rt::gate::Gate) {{\n    rt::gate::measure(gate, &{upper}_SEEN).await;\n}}",
+        wire.place(),
+    ));
+    section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
+    Ok(())
+}
+
+/// Sixteenths of clocks in a tick, which must be whole.
+fn sixteenths(context: &Context<'_>, unit: &str, tick_hz: u32) -> Made<u32> {
+    let clock_hz = timer_hz(context, unit)?;
+    let whole = (clock_hz.checked_mul(16))
+        .filter(|clocks| tick_hz > 0 && clocks.is_multiple_of(tick_hz))
+        .map(|clocks| clocks / tick_hz)
+        .or_else(|| {
+            (tick_hz > 0 && clock_hz.is_multiple_of(tick_hz)).then(|| clock_hz / tick_hz * 16)
+        });
+    whole.filter(|whole| SIXTEENTHS.contains(whole)).ok_or_else(|| {
+        Lack::unit(format!("a resolution of {tick_hz} Hz, made of {clock_hz} Hz by at most 255"))
+    })
+}
+
+/// The clock of a slice.
+pub(super) fn timer_hz(context: &Context<'_>, unit: &str) -> Made<u32> {
+    let clock = context.profile.timer(unit).map(|timer| timer.clock.as_str());
+    let hz = clock.and_then(|clock| context.profile.clocks_hz.get(clock)).copied();
+    hz.ok_or_else(|| Lack::name(format!("the clock of {unit}")))
+}
+
+/// Slices that count edges, which the reporter looks at.
+fn count(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) -> Made<()> {
+    let edge = match icu.edge {
+        Edge::Rising | Edge::Both => "RisingEdge",
+        Edge::Falling => "FallingEdge",
+    };
+    let mut looks = String::new();
+    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
+    for (at, wire) in wired.wires.iter().enumerate() {
+        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
+        let type_ = "rt::gate::Edges";
+        section.fields.push(Field {
+            name: wire.ident.clone(),
+            comment: wire.place(),
+            type_: format!("crate::{type_}"),
+            make: format!(
+                "crate::{type_}::new(p.{}, p.{}, hal::pwm::InputMode::{edge})",
+                context.peripheral(unit),
+                context.pin(&pad.pin.name)
+            ),
+        });
+        section.keeps.push(Keep {
+            name: format!("{}_slice", wire.ident),
+            type_: type_.to_owned(),
+            from: format!("wiring.{}", wire.ident),
+        });
+        looks.push_str(&format!("{ident}_counters[{at}].step({}_slice.count());\n", wire.ident));
+    }
+    let filter = filter(context, wired, section);
+    section
+        .states
+        .push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
+    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    section.polls.push(format!(
+        "let before = {ident}_counters.map(|counter| counter.total());\n{looks}\
+         let counts = {ident}_counters.map(|counter| counter.total());\n\
+         if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
+         for (at, count) in counts.into_iter().enumerate() {{\n        \
+         store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
+         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+        value.size_bytes(),
+        scalar(value.scalar),
+        value.scalar.size_bytes(),
+        wired.device.ident.to_uppercase()
+    ));
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! The link to the host: its USB device and its serial port.
+
+use super::super::context::Context;
+use super::super::link::{usb, usb_task};
+use super::super::section::{Field, Section};
+use crate::job::Pad;
+
+/// The USB device, whose data lines are pins of their own.
+pub(in super::super) fn over_usb(context: &Context<'_>, section: &mut Section) -> Option<()> {
+    let usb = usb(context.job)?;
+    let hal = context.peripheral(&usb.name);
+    let type_ = format!("hal::usb::Driver<'static, {hal}>");
+    let interrupt = context.names.interrupt(&usb.name, "LP")?;
+    section.bind(interrupt, format!("hal::usb::InterruptHandler<{hal}>"));
+    section.fields.push(Field {
+        name: "link".to_owned(),
+        comment: "the link at the USB socket".to_owned(),
+        type_: type_.clone(),
+        make: format!("hal::usb::Driver::new(p.{hal}, Irqs)"),
+    });
+    usb_task(context, &type_, section);
+    Some(())
+}
+
+/// The handler of the link's port, its type, and what it is made of.
+pub(in super::super) fn port(
+    context: &Context<'_>,
+    unit: &str,
+    tx: &Pad<'_>,
+    rx: &Pad<'_>,
+    section: &mut Section,
+) -> (String, String, String) {
+    let hal = context.peripheral(unit);
+    rest(context, rx, false, section);
+    section.runtime.insert("uart.rs");
+    section.runtime.insert("serial.rs");
+    (
+        format!("hal::uart::BufferedInterruptHandler<{hal}>"),
+        "hal::uart::BufferedUart".to_owned(),
+        format!(
+            "hal::uart::BufferedUart::new(p.{hal}, p.{}, p.{}, Irqs, said, heard, \
+             crate::rt::uart::config({}, 8, hal::uart::Parity::ParityNone, 1, false))",
+            context.pin(&tx.pin.name),
+            context.pin(&rx.pin.name),
+            context.job.board.link.baud
+        ),
+    )
+}
+
+/// A wire that nothing drives rests: the HAL takes its resistors away.
+pub(in super::super) fn rest(
+    context: &Context<'_>,
+    rx: &Pad<'_>,
+    is_inverted: bool,
+    section: &mut Section,
+) {
+    let pin = context.pin(&rx.pin.name);
+    let number = pin.trim_start_matches("PIN_");
+    let pull = if is_inverted { "pde" } else { "pue" };
+    section
+        .begins
+        .push(format!("hal::pac::PADS_BANK0.gpio({number}).modify(|pad| pad.set_{pull}(true));"));
+}

@@ -1,0 +1,83 @@
+//! What a project on `embassy-stm32` begins with: clocks, watchdog, the cause of the last reset, and functions of the
+//! wiring.
+
+use super::context::Context;
+use super::plan::{Begin, Watchdog};
+
+/// A port at a rate.
+pub(super) const BAUD: &str = include_str!("templates/stm32/baud.rs.txt");
+/// A port that could be made.
+pub(super) const PORT: &str = include_str!("templates/stm32/port.rs.txt");
+/// A port whose wires rest low.
+pub(super) const INVERTED: &str = include_str!("templates/stm32/inverted.rs.txt");
+/// A USB device that can be a host as well.
+pub(super) const USB: &str = include_str!("templates/stm32/usb.rs.txt");
+
+/// An I²C bus at a clock; on some chips its pins can be pulled up.
+pub(super) fn bus(has_pulls: bool) -> String {
+    let pulls = "    config.scl_pullup = true;\n    config.sda_pullup = true;\n";
+    let pulls = if has_pulls { pulls } else { "" };
+    format!(
+        "/// A bus at a clock.\nfn bus(clock_hz: u32) -> hal::i2c::Config {{\n    \
+         let mut config = hal::i2c::Config::default();\n    config.frequency = hz(clock_hz);\n{pulls}    config\n}}"
+    )
+}
+
+/// How a project begins.
+pub(super) fn begin(context: &Context<'_>, is_usb: bool) -> Begin {
+    let unit = if context.profile.family == "STM32H7" { "IWDG1" } else { "IWDG" };
+    Begin {
+        config: config(&clock(context, is_usb)),
+        start: start(context),
+        watchdog: Watchdog {
+            type_: format!("hal::wdg::IndependentWatchdog<'static, {unit}>"),
+            make: format!("hal::wdg::IndependentWatchdog::new(p.{unit}, WATCHDOG_US)"),
+        },
+        scripts: "",
+        memory: None,
+    }
+}
+
+/// What is set of the HAL's clocks.
+fn clock(context: &Context<'_>, is_usb: bool) -> Vec<String> {
+    let clock = context.names.line.clock.as_ref();
+    clock.and_then(|clock| clock.lines(&context.crystal(), is_usb)).unwrap_or_default()
+}
+
+/// The function with the clocks.
+fn config(clock: &[String]) -> String {
+    let mut text = "/// The clocks.\nfn config() -> hal::Config {\n".to_owned();
+    if clock.is_empty() {
+        return text + "    hal::Config::default()\n}";
+    }
+    text.push_str("    use hal::rcc::*;\n    let mut config = hal::Config::default();\n");
+    for line in clock {
+        text.push_str(&format!("    config.rcc.{line};\n"));
+    }
+    text + "    config\n}"
+}
+
+/// The first statements of `main`, up to the wiring.
+fn start(context: &Context<'_>) -> Vec<String> {
+    let mut lines = match &context.names.reset {
+        Some(reset) => vec![
+            format!("LIFE.begin(hal::pac::RCC.{reset}().read().0);"),
+            format!("hal::pac::RCC.{reset}().modify(|flags| flags.set_rmvf(true));"),
+        ],
+        None => vec!["LIFE.begin(0);".to_owned()],
+    };
+    // The MCU may have a second core, which is left alone.
+    if context.chip.feature.contains("-cm") {
+        lines.extend(
+            [
+                "// What a program of the other core would wait for.",
+                "static SHARED: core::mem::MaybeUninit<hal::SharedData> = core::mem::MaybeUninit::uninit();",
+                "let wiring = wiring::wire(hal::init_primary(config(), &SHARED));",
+            ]
+            .map(str::to_owned),
+        );
+    } else {
+        lines.push("let wiring = wiring::wire(hal::init(config()));".to_owned());
+    }
+    lines
+}

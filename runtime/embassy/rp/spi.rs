@@ -1,0 +1,62 @@
+//! Parts on SPI: each has a chip select, a mode and a clock of its own.
+
+use embassy_rp::gpio::Output;
+use embassy_rp::spi::{Async, Config, Instance, Phase, Polarity, Spi};
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use embassy_sync::mutex::Mutex;
+use embassy_time::{Duration, with_timeout};
+use sense_rt::{Outcome, Step};
+
+use super::bus::Line;
+
+/// A bus that several tasks share.
+pub type SpiBus<T> = Mutex<CriticalSectionRawMutex, Spi<'static, T, Async>>;
+
+/// A part that a pin chooses, which is high before and after.
+pub struct SpiLine<T: Instance + 'static> {
+    pub bus: &'static SpiBus<T>,
+    pub select: Output<'static>,
+    pub config: Config,
+}
+
+/// A mode, 0 to 3, and a clock that the unit can make.
+pub fn config(mode: u8, clock_hz: u32) -> Config {
+    let mut config = Config::default();
+    config.polarity = if mode & 2 == 0 { Polarity::IdleLow } else { Polarity::IdleHigh };
+    config.phase = if mode & 1 == 0 {
+        Phase::CaptureOnFirstTransition
+    } else {
+        Phase::CaptureOnSecondTransition
+    };
+    config.frequency = clock_hz;
+    config
+}
+
+impl<T: Instance> Line for SpiLine<T> {
+    async fn transfer(&mut self, _: u8, step: Step<'_>, timeout: Duration) -> Outcome {
+        let mut bus = self.bus.lock().await;
+        // The clock rests at the part's level before the part looks at it.
+        bus.set_config(&self.config);
+        self.select.set_low();
+        let result = with_timeout(timeout, async {
+            match step {
+                Step::Write(bytes) => bus.write(bytes).await,
+                Step::WriteRead(select, bytes) => {
+                    if !select.is_empty() {
+                        bus.write(select).await?;
+                    }
+                    bus.read(bytes).await
+                }
+                Step::Exchange(sent, received) => bus.transfer(received, sent).await,
+                Step::Wait(_) => Ok(()),
+            }
+        })
+        .await;
+        self.select.set_high();
+        match result {
+            Ok(Ok(())) => Outcome::Fresh,
+            Ok(Err(_)) => Outcome::BusError,
+            Err(_) => Outcome::TimedOut,
+        }
+    }
+}
