@@ -3,6 +3,7 @@
 //! In: a board's job, and how the pads of the emulated MCU are. Out: what differs. Nothing here is shared with the
 //! generators, which decide the same a second time.
 
+use sensedsl_board::signal::{Function, Signal};
 use sensedsl_codegen::job::{BoardJob, Pad as Wired};
 use sensedsl_model::kind::digital::Pull as Wanted;
 use sensedsl_model::kind::{Kind, Role};
@@ -16,8 +17,8 @@ pub(crate) struct Planned {
     pad: Pad,
     title: String,
     mode: Mode,
-    /// The wire that it is led to, as the table spells it.
-    wire: Option<String>,
+    /// The wire that it is led to.
+    wire: Option<Signal>,
     /// Whether only its low side may be driven; none where it drives nothing.
     open_drain: Option<bool>,
     /// Any of them will do.
@@ -103,7 +104,7 @@ fn led(
         pad: Pad::named(&pad.pin.name.to_string())?,
         title: title.to_owned(),
         mode: Mode::Alternate(number),
-        wire: pad.usage.map(|usage| usage.signal.to_string()),
+        wire: pad.usage.map(|usage| usage.signal.clone()),
         open_drain,
         pulls,
     })
@@ -114,7 +115,10 @@ pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
     let differs = |one: &Planned| {
         let state = states.iter().find(|state| state.pad == one.pad)?;
         let drives = one.open_drain.is_none_or(|open_drain| open_drain == state.open_drain);
-        let is_right = state.mode == one.mode && drives && one.pulls.contains(&state.pull);
+        let is_right = state.mode == one.mode
+            && is_led(one, state)
+            && drives
+            && one.pulls.contains(&state.pull);
         (!is_right).then(|| Misled {
             title: one.title.clone(),
             place: one.pad.to_string(),
@@ -123,6 +127,14 @@ pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
         })
     };
     planned.iter().filter_map(differs).collect()
+}
+
+/// Whether the number of the pad's alternate function is that of its wire: the MCU's own facts know, whatever number was
+/// planned.
+fn is_led(one: &Planned, state: &PadState) -> bool {
+    let Some(wire) = &one.wire else { return true };
+    let is_same = |led: &String| Signal::parse(led).0.function() == wire.function();
+    *wire.function() == Function::Other || state.wires.iter().any(is_same)
 }
 
 fn mode(of: Mode) -> String {
