@@ -133,12 +133,7 @@ fn task(
             Hal::Rp => rp::analog::input(context, pin),
         };
         pins.push_str(&format!("    mut {}: {type_},\n", wire.ident));
-        section.fields.push(Field {
-            name: wire.ident.clone(),
-            comment: wire.place(),
-            type_,
-            make,
-        });
+        section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     }
     let (mut state, mut reads) = (String::new(), String::new());
     for device in devices {

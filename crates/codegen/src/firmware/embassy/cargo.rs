@@ -88,7 +88,8 @@ pub(super) fn manifest(context: &Context<'_>) -> String {
     let hal = match context.names.hal {
         Hal::Stm32 => {
             let banks = if context.chip.banks { "\"dual-bank\", " } else { "" };
-            let timer = context.timer.iter().map(|one| format!("\"time-driver-{}\", ", one.to_lowercase()));
+            let timer =
+                context.timer.iter().map(|one| format!("\"time-driver-{}\", ", one.to_lowercase()));
             let split = split(context.job).into_iter().map(|one| format!("\"{one}\", "));
             format!(
                 "embassy-stm32 = {{ version = \"=0.6.0\", features = [\"{}\", {banks}{}\"exti\", \"memory-x\", \

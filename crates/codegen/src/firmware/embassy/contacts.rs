@@ -88,12 +88,7 @@ fn input(
         section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));
         ("rt::contact::Looked", "Input<'static>".to_owned(), make)
     };
-    section.fields.push(Field {
-        name: wire.ident.clone(),
-        comment: wire.place(),
-        type_,
-        make,
-    });
+    section.fields.push(Field { name: wire.ident.clone(), comment: wire.place(), type_, make });
     section.items.push(format!(
         "/// {}.\nstatic {kept}: {kind} =\n    \
          rt::contact::Kept::new(sense_rt::ContactConfig {{ lasting: {}, edge: sense_rt::Edge::{edge} }});",

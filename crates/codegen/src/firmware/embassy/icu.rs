@@ -154,7 +154,9 @@ fn run(icu: &Icu, channel: u8, upper: &str) -> String {
         Edge::Both => "Both",
     };
     if icu.mode == Mode::Count {
-        format!("rt::timer::count(timer, Channel::Ch{channel}, rt::timer::Edges::{edges}, &{upper}_SEEN)")
+        format!(
+            "rt::timer::count(timer, Channel::Ch{channel}, rt::timer::Edges::{edges}, &{upper}_SEEN)"
+        )
     } else {
         let is_width = icu.mode == Mode::Width;
         format!("rt::timer::measure(timer, {is_width}, {}, &{upper}_SEEN)", icu.tick_hz)

@@ -58,7 +58,11 @@ fn digital(
                 name: wire.ident.clone(),
                 comment: wire.place(),
                 type_: "Input<'static>".to_owned(),
-                make: format!("Input::new(p.{}, {})", context.pin(&pad.pin.name), contacts::pull(own)),
+                make: format!(
+                    "Input::new(p.{}, {})",
+                    context.pin(&pad.pin.name),
+                    contacts::pull(own)
+                ),
             });
             parameters.push_str(&format!(", {}: Input<'static>", wire.ident));
             arguments.push(format!("wiring.{}", wire.ident));

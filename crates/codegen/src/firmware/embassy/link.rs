@@ -59,11 +59,7 @@ fn over_uart(context: &Context<'_>, section: &mut Section) -> Option<()> {
         type_: format!("crate::{type_}"),
         make: format!("crate::rt::link_uart::Port::new({make}, crate::SAID)"),
     });
-    section.keeps.push(Keep {
-        name: "mut link".to_owned(),
-        type_,
-        from: "wiring.link".to_owned(),
-    });
+    section.keeps.push(Keep { name: "mut link".to_owned(), type_, from: "wiring.link".to_owned() });
     section.runtime.insert("link_uart.rs");
     Some(())
 }

@@ -11,8 +11,8 @@ use super::hal::{Hal, Speed};
 use super::levels::{self, Level};
 use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
 use super::{
-    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial, spi,
-    stm32,
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial,
+    spi, stm32,
 };
 
 /// All kinds, in the order in which their tasks are started.

@@ -145,8 +145,7 @@ impl Port<'_> {
             rp::link::rest(context, rx, self.uart.is_inverted, section);
         }
         let module = module(context.names.hal);
-        let made =
-            format!("hal::{module}::{name}::new_blocking{moved}(p.{hal}, {pins}, {config})");
+        let made = format!("hal::{module}::{name}::new_blocking{moved}(p.{hal}, {pins}, {config})");
         section.fields.push(Field {
             name: self.wire.ident.clone(),
             comment: self.wire.place(),

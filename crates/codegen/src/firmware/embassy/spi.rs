@@ -9,8 +9,8 @@ use sensedsl_timing::spi_divider;
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
 use super::hal::{Hal, Speed};
-use super::rp;
 use super::lack::{self, Made};
+use super::rp;
 use super::section::{Field, Section};
 use crate::job::JobConnection;
 use crate::print::snake;
@@ -67,9 +67,7 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> 
     let pin = |role| Ok(&lack::pad(bus.first, role)?.pin.name);
     let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
     let type_ = match context.names.hal {
-        Hal::Stm32 => {
-            "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned()
-        }
+        Hal::Stm32 => "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
         Hal::Rp => format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
     };
     bus.share(

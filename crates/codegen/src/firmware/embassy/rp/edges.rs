@@ -2,8 +2,8 @@
 
 use sensedsl_model::kind::digital::Digital;
 
-use super::super::context::Context;
 use super::super::contacts;
+use super::super::context::Context;
 use super::super::section::{Section, Start};
 use crate::job::{JobConnection, Pad};
 
@@ -23,10 +23,9 @@ pub(in super::super) fn input(
          rt::edges::watch(pin, rt::edges::Trigger::{trigger}, &{kept}).await;\n}}",
         wire.place()
     ));
-    section.begins.push(format!(
-        "{kept}.begin(rt::edges::Pad({}));",
-        pin.trim_start_matches("PIN_")
-    ));
+    section
+        .begins
+        .push(format!("{kept}.begin(rt::edges::Pad({}));", pin.trim_start_matches("PIN_")));
     section.starts.push(Start::Task(prio, format!("{ident}_edges(wiring.{ident})")));
     section.runtime.insert("edges.rs");
     let pull = contacts::pull(own);

@@ -68,7 +68,9 @@ fn sixteenths(context: &Context<'_>, unit: &str, tick_hz: u32) -> Made<u32> {
     let whole = (clock_hz.checked_mul(16))
         .filter(|clocks| tick_hz > 0 && clocks.is_multiple_of(tick_hz))
         .map(|clocks| clocks / tick_hz)
-        .or_else(|| (tick_hz > 0 && clock_hz.is_multiple_of(tick_hz)).then(|| clock_hz / tick_hz * 16));
+        .or_else(|| {
+            (tick_hz > 0 && clock_hz.is_multiple_of(tick_hz)).then(|| clock_hz / tick_hz * 16)
+        });
     whole.filter(|whole| SIXTEENTHS.contains(whole)).ok_or_else(|| {
         Lack::unit(format!("a resolution of {tick_hz} Hz, made of {clock_hz} Hz by at most 255"))
     })
@@ -82,12 +84,7 @@ pub(super) fn timer_hz(context: &Context<'_>, unit: &str) -> Made<u32> {
 }
 
 /// Slices that count edges, which the reporter looks at.
-fn count(
-    context: &Context<'_>,
-    wired: &Wired<'_>,
-    icu: &Icu,
-    section: &mut Section,
-) -> Made<()> {
+fn count(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) -> Made<()> {
     let edge = match icu.edge {
         Edge::Rising | Edge::Both => "RisingEdge",
         Edge::Falling => "FallingEdge",
