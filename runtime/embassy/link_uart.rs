@@ -40,6 +40,14 @@ impl<P: Read + Write> Channel for Port<P> {
     }
 
     fn write(&mut self, bytes: &[u8]) -> bool {
-        matches!(poll_once(self.port.write(bytes)), Poll::Ready(Ok(size)) if size == bytes.len())
+        let mut rest = bytes;
+        while !rest.is_empty() {
+            // A queue that begins anew in the middle of a frame takes it in two pieces.
+            match poll_once(self.port.write(rest)) {
+                Poll::Ready(Ok(size)) if size > 0 => rest = rest.get(size..).unwrap_or_default(),
+                Poll::Ready(Ok(_) | Err(_)) | Poll::Pending => return false,
+            }
+        }
+        true
     }
 }

@@ -9,9 +9,9 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0533",
     severity: Severity::Error,
     title: "there are no types for this MCU",
-    explanation: r#"`check --typecheck` judges a wiring by the types of Embassy's HAL for STM32. It covers C0, F0, F1, F3, F4, F7, G0,
-G4, H5, H7, L0, L1, L4, L5, U0, U5, WB and WL. For another MCU, or a table that does not say which one it describes, there
-is nothing to judge by.
+    explanation: r#"`check --typecheck` judges a wiring by the types of Embassy's HALs. They cover RP2040, RP2350, and of STM32
+C0, F0, F1, F3, F4, F7, G0, G4, H5, H7, L0, L1, L4, L5, U0, U5, WB and WL. For another MCU, or a table that does not say
+which one it describes, there is nothing to judge by.
 
 Way out: check without `--typecheck`, or name the MCU in the first line of the table: `# mcu = STM32F407VGT6`.
 "#,

@@ -150,6 +150,9 @@ pub(crate) fn command(
 /// A part as probe-rs names it, without its grade of temperature: `STM32F407VGTx`.
 fn chip(mcu: &str) -> String {
     const GRADE: usize = "STM32F407VGT".len();
+    if mcu.starts_with("RP235") {
+        return "RP235x".to_owned();
+    }
     match (mcu.get(..GRADE), mcu.get(GRADE..GRADE + 1), mcu.get(GRADE + 1..)) {
         (Some(part), Some(_), Some(rest)) => format!("{part}x{rest}"),
         _ => mcu.to_owned(),
@@ -173,6 +176,7 @@ mod tests {
         assert_eq!(chip("STM32F407VGT6"), "STM32F407VGTx");
         assert_eq!(chip("STM32L552ZET6Q"), "STM32L552ZETxQ");
         assert_eq!(chip("RP2040"), "RP2040");
+        assert_eq!(chip("RP2350A"), "RP235x");
         assert_eq!(target("STM32F407VGT6"), "stm32f4x");
         assert_eq!(target("STM32L073RZT6"), "stm32l0");
         assert_eq!(target("STM32L476RGT6"), "stm32l4x");

@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::clock::Clock;
 use super::hal::Hal;
+use super::rp::Start;
 
 /// The names of one line of MCUs.
 #[derive(Clone, Debug, Deserialize)]
@@ -17,6 +18,9 @@ pub struct Names {
     /// Whose HAL it is.
     #[serde(default)]
     pub(super) hal: Hal,
+    /// How the chips of [`Hal::Rp`] start.
+    #[serde(default)]
+    pub(super) start: Start,
     /// The triple that the Rust compiler knows the core by.
     pub(super) target: String,
     /// How a converter is made and read.

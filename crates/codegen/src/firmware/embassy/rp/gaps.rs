@@ -15,12 +15,12 @@ pub(in super::super) fn lacks(
     let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
     let devices: Vec<&JobDevice<'_>> = own.collect();
     if devices.iter().any(|one| one.device.coding.drive.is_some()) {
-        return Some("motors behind H-bridges in Embassy's firmware for RP2");
+        return Some("motors behind H-bridges on RP2040 and RP2350");
     }
     match &connection.connection.kind {
         Kind::Icu(icu) => of_capture(icu),
         Kind::Digital(own) if counts(own, &devices) => Some(
-            "edges that are counted without `debounce` in Embassy's firmware for RP2; `type = icu` counts them all",
+            "edges counted without `debounce` on RP2040 and RP2350, where `type = icu` counts them",
         ),
         Kind::Digital(_)
         | Kind::Analog(_)
@@ -38,11 +38,11 @@ pub(in super::super) fn lacks(
 const fn of_capture(icu: &Icu) -> Option<&'static str> {
     match (icu.mode, icu.edge) {
         (Mode::Count, Edge::Both) => {
-            Some("both edges to be counted, of which a PWM slice of RP2 counts one")
+            Some("counts of both edges on RP2040 and RP2350, whose PWM slices count one of them")
         }
         (Mode::Count, Edge::Rising | Edge::Falling) | (Mode::Width, _) => None,
         (Mode::Period | Mode::Frequency | Mode::Duty | Mode::Ppm, _) => Some(
-            "the time between edges, which a PWM slice of RP2 does not measure; widths and counts it does",
+            "times between edges on RP2040 and RP2350, whose PWM slices give widths and counts",
         ),
     }
 }

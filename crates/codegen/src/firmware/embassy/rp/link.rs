@@ -32,6 +32,13 @@ pub(in super::super) fn port(
 ) -> (String, String, String) {
     let hal = context.peripheral(unit);
     rest(context, rx, false, section);
+    if let Some(interrupt) = context.names.interrupt(unit, "GLOBAL") {
+        // The HAL waits for a level of the port's own queue, which few bytes do not reach.
+        section.polls.push(format!(
+            "// What waits behind the end of the queue goes on, however few bytes were before it.\n\
+             interrupt::{interrupt}.pend();"
+        ));
+    }
     section.runtime.insert("uart.rs");
     section.runtime.insert("serial.rs");
     (

@@ -9,6 +9,8 @@ pub(super) mod link;
 pub(super) mod pwm;
 pub(super) mod typed;
 
+use serde::Deserialize;
+
 use super::context::Context;
 use super::hal::Hal;
 use super::plan::{Begin, Watchdog};
@@ -19,12 +21,14 @@ const MEMORY_2040: &str = include_str!("../templates/rp/memory_rp2040.x.txt");
 const MEMORY_2350: &str = include_str!("../templates/rp/memory_rp2350.x.txt");
 
 /// The chips by how they start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Start {
-    /// With a second stage in the first 256 bytes of the flash.
-    SecondStage,
-    /// With a block that describes the image.
-    ImageBlock,
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Start {
+    /// With a second stage in the first 256 bytes of the flash: RP2040.
+    #[default]
+    Boot2,
+    /// With a block that describes the image: RP2350.
+    Block,
 }
 
 /// The crystal that the HAL's clocks and the boot loader's USB are made of.
@@ -43,15 +47,10 @@ pub(super) fn refusal(hal: Hal, job: &BoardJob<'_>) -> Option<String> {
 
 /// How a project begins.
 pub(super) fn begin(context: &Context<'_>) -> Begin {
-    let start = match context.profile.family.as_str() {
-        "RP2040" => Start::SecondStage,
-        _ => Start::ImageBlock,
-    };
+    let start = context.names.start;
     let (register, power, run) = match start {
-        Start::SecondStage => ("VREG_AND_CHIP_RESET", "cause.had_por()", "cause.had_run()"),
-        Start::ImageBlock => {
-            ("POWMAN", "cause.had_por() || cause.had_bor()", "cause.had_run_low()")
-        }
+        Start::Boot2 => ("VREG_AND_CHIP_RESET", "cause.had_por()", "cause.had_run()"),
+        Start::Block => ("POWMAN", "cause.had_por() || cause.had_bor()", "cause.had_run_low()"),
     };
     Begin {
         config: "/// The clocks, which the HAL makes of the crystal of 12 MHz.\n\
@@ -67,12 +66,12 @@ pub(super) fn begin(context: &Context<'_>) -> Begin {
             make: "crate::rt::watchdog::Watchdog::new(p.WATCHDOG, WATCHDOG_US)".to_owned(),
         },
         scripts: match start {
-            Start::SecondStage => ", \"-C\", \"link-arg=-Tlink-rp.x\"",
-            Start::ImageBlock => "",
+            Start::Boot2 => ", \"-C\", \"link-arg=-Tlink-rp.x\"",
+            Start::Block => "",
         },
         memory: Some(match start {
-            Start::SecondStage => MEMORY_2040,
-            Start::ImageBlock => MEMORY_2350,
+            Start::Boot2 => MEMORY_2040,
+            Start::Block => MEMORY_2350,
         }),
     }
 }
