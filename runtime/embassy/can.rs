@@ -1,16 +1,17 @@
 //! CAN buses: values of frames that come, and frames with values of the host's.
 
 use core::cell::RefCell;
+use core::num::NonZeroU8;
 
-use embassy_stm32::can::enums::{BusError, TryReadError};
-use embassy_stm32::can::filter::{ListEntry32, Mask32};
-use embassy_stm32::can::{BufferedCanRx, Can, CanTx, ExtendedId, Fifo, Frame, Id, RxBuf, StandardId};
-use embassy_stm32::pac;
+use embassy_stm32::can::Frame;
+use embassy_stm32::can::enums::BusError;
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_time::{Instant, with_deadline};
+use embedded_can::{ExtendedId, Id, StandardId};
 use sense_rt::{Coding, MessageField, Outcome, Schema, Sink};
 
+use super::controller::{Come, Talk};
 use super::now_ms;
 use super::shared::Tell;
 
@@ -18,10 +19,6 @@ use super::shared::Tell;
 pub const WAITING: usize = 16;
 /// Bytes of a frame.
 const BYTES: usize = 8;
-
-/// The frames that a bus has let through.
-pub type Come = BufferedCanRx<'static, WAITING>;
-pub type Waiting = RxBuf<WAITING>;
 
 /// An identifier of eleven bits.
 pub const fn standard(id: u16) -> Id {
@@ -39,34 +36,19 @@ pub const fn extended(id: u32) -> Id {
     })
 }
 
-/// Starts a bus, which comes back from bus-off by itself and lets only the frames wanted through; none: all.
-pub fn start(
-    can: &'static mut Can<'static>,
-    registers: pac::can::Can,
-    waiting: &'static mut Waiting,
-    bitrate_hz: u32,
-    wanted: &[Id],
-) -> (CanTx<'static>, Come) {
-    can.set_tx_fifo_scheduling(true);
-    drop(can.modify_config().set_bitrate(bitrate_hz));
-    registers.mcr().modify(|control| {
-        control.set_abom(true);
-        control.set_sleep(false);
-    });
-    let mut filters = can.modify_filters();
-    filters.clear();
-    for (bank, pair) in wanted.chunks(2).enumerate() {
-        if let [first, .., last] | [first @ last] = pair {
-            let both = [*first, *last].map(ListEntry32::data_frames_with_id);
-            filters.enable_bank(bank as u8, Fifo::Fifo0, both);
-        }
-    }
-    if wanted.is_empty() {
-        filters.enable_bank(0, Fifo::Fifo0, Mask32::accept_all());
-    }
-    drop(filters);
-    let (tx, rx) = can.split();
-    (tx, rx.buffered(waiting))
+/// What a bit is made of: clocks of the unit in a step, steps before the sample beside the first, steps behind it, and
+/// steps that a bit may jump to follow its sender. None is 0.
+#[derive(Clone, Copy)]
+pub struct Bit {
+    pub divider: u16,
+    pub before: u8,
+    pub behind: u8,
+    pub jump: u8,
+}
+
+/// A count that is not 0; one that were would count as 1.
+pub(super) fn count(count: u8) -> NonZeroU8 {
+    NonZeroU8::new(count).unwrap_or(NonZeroU8::MIN)
 }
 
 /// A value that comes: where it is, the identifier of its frame, and how often it is told at most.
@@ -88,15 +70,15 @@ pub struct Bus<'a> {
 impl Bus<'_> {
     /// Takes the frames that come until then, and what went wrong meanwhile.
     pub async fn hear(&mut self, until: Instant, sink: &mut Sink<'_>) {
-        while let Ok(come) = with_deadline(until, self.come.read()).await {
-            if let Ok(envelope) = come {
-                self.take(&envelope.frame, sink);
+        while let Ok(come) = with_deadline(until, self.come.next()).await {
+            if let Some(frame) = come {
+                self.take(&frame, sink);
             }
         }
-        match self.come.try_read() {
-            Ok(envelope) => self.take(&envelope.frame, sink),
-            Err(TryReadError::BusError(error)) => self.say(outcome(&error), sink),
-            Err(TryReadError::Empty) => {}
+        match self.come.left() {
+            Ok(Some(frame)) => self.take(&frame, sink),
+            Ok(None) => {}
+            Err(error) => self.say(outcome(&error), sink),
         }
     }
 
@@ -189,12 +171,12 @@ pub fn set<const COUNT: usize>(
 }
 
 /// Sends what is due, as far as there is room.
-pub fn send<const COUNT: usize>(bus: &mut CanTx<'static>, frames: &Frames<COUNT>) {
+pub fn send<const COUNT: usize>(bus: &mut Talk, frames: &Frames<COUNT>) {
     frames.lock(|frames| {
         for frame in frames.borrow_mut().iter_mut().filter(|frame| frame.is_due) {
             let data = frame.data.get(..frame.bytes).unwrap_or_default();
             match Frame::new_data(frame.id, data) {
-                Ok(made) if bus.try_write(&made).is_err() => return,
+                Ok(made) if !bus.say(&made) => return,
                 _ => frame.is_due = false,
             }
         }

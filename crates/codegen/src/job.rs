@@ -18,7 +18,7 @@ use sensedsl_wiring::assignment::{
     Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
 };
 
-use crate::part::PartPlan;
+use crate::part::{BusPlan, PartPlan};
 use crate::print::snake;
 
 /// One board with everything that is to run on it.
@@ -241,6 +241,34 @@ impl<'a> BoardJob<'a> {
     pub fn tables_of(&self, connection: &JobConnection<'_>) -> Option<&PartPlan> {
         let mut parts = self.parts.iter();
         Some(&parts.find(|one| one.index == connection.connection.part)?.plan)
+    }
+
+    /// The table of a connection to a register bus.
+    #[must_use]
+    pub fn bus_of(&self, wire: &JobConnection<'_>) -> Option<&BusPlan> {
+        let is_own = |plan: &&BusPlan| {
+            let connection = self.design.connection(plan.connection);
+            connection.is_some_and(|own| std::ptr::eq(own, wire.connection))
+        };
+        self.tables_of(wire)?.buses.iter().find(is_own)
+    }
+
+    /// What a part that is on several register buses needs and no table says; none where all is said. What is of the
+    /// whole part has no bus.
+    #[must_use]
+    pub fn lacks_on_buses(&self, wire: &JobConnection<'_>) -> Option<&'static str> {
+        let buses = &self.tables_of(wire)?.buses;
+        let protocol = wire.part.chip.as_ref().filter(|_| buses.len() > 1)?;
+        let kinds = buses.iter().filter_map(|bus| self.design.connection(bus.connection));
+        let kinds: BTreeSet<&str> = kinds.map(|one| one.kind.name().name()).collect();
+        let has_start = !protocol.init.is_empty() || protocol.identity.is_some();
+        if has_start || !protocol.calibration.is_empty() || protocol.formula.is_some() {
+            Some("the start or the formula of a part on two buses")
+        } else if kinds.len() > 1 && protocol.read_mask != 0 {
+            Some("a mark of what is read (`read_mask`) of a part on I2C and SPI")
+        } else {
+            None
+        }
     }
 
     /// The tables of all parts on the board that have some.

@@ -27,7 +27,7 @@ fn plan(kind: &str, driver: &str, devices: &str) -> PartPlan {
 }
 
 fn bus(driver: &str, devices: &str) -> BusPlan {
-    plan("i2c", &format!("address = 0x20; {driver}"), devices).bus.unwrap()
+    plan("i2c", &format!("address = 0x20; {driver}"), devices).buses.remove(0)
 }
 
 /// `trigger|select:length` for each transfer, and `transfer+offset` for each reading.
@@ -102,13 +102,13 @@ fn checksums_are_counted_as_on_the_wire() {
 
 #[test]
 fn registers_have_their_size_and_their_read_bit() {
-    let spi = plan(
+    let mut spi = plan(
         "spi",
         "register_size = 2; read_mask = 0x80; identity = [0x0001, 0x55]; init = [5 ms, [0x12, 0x34, 1], 2 ms, [1]]; \
          reading a returns uint8 { register = 0x0102; } command b accepts uint8 { register = 0x0304; }",
         "",
     );
-    let bus = spi.bus.unwrap();
+    let bus = spi.buses.remove(0);
     assert_eq!(bus.transfers[0].select, [0x81, 0x02]);
     assert_eq!(bus.identity.unwrap().select, [0x80, 0x01]);
     assert_eq!(bus.commands[0].prefix, [0x03, 0x04]);

@@ -13,7 +13,8 @@ use sensedsl_model::kind::i2c::I2c;
 use sensedsl_model::kind::spi::Spi;
 use sensedsl_wire::Direction;
 
-use crate::clocks::{at_most, nearest, unit_hz};
+use crate::can_bit::can_bit;
+use crate::clocks::{at_most, unit_hz};
 use crate::i2c_clock::{self, BusClock};
 use crate::processor::{Transfers, Work};
 use crate::rows::{Count, Part, Row, clocks_ns, shortest};
@@ -123,7 +124,7 @@ pub(crate) fn exact_hz(context: &Context<'_>, unit: &UnitName, asked_hz: u32) ->
     } else if is_in(&profile.spis) {
         at_most(profile.spi_dividers.as_ref()?, hz, asked_hz)
     } else {
-        nearest(profile.can_dividers.as_ref()?, hz, asked_hz)
+        can_bit(profile.can_dividers.as_ref()?, hz, asked_hz)?.rate_hz(hz)
     }
 }
 

@@ -148,15 +148,6 @@ mod tests {
     }
 
     #[test]
-    fn a_can_bit_has_whole_steps() {
-        let can = dividers([1, 1024], false, [8, 25]);
-        for exact in [10_000, 125_000, 250_000, 500_000, 1_000_000] {
-            assert_eq!(nearest(&can, 42_000_000, exact), Some(exact));
-        }
-        assert_eq!(nearest(&can, 42_000_000, 800_000), Some(807_692));
-    }
-
-    #[test]
     fn a_tick_divides_the_timers_clock() {
         let tick = |tick_hz| Tick { clock_hz: 84_000_000, tick_hz };
         assert!(tick(1_000_000).is_possible() && tick(84_000_000).is_possible());

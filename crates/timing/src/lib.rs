@@ -6,6 +6,7 @@
 //! not known, never a guess.
 
 mod buses;
+mod can_bit;
 mod captures;
 mod clocks;
 mod converters;
@@ -26,6 +27,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
 
+pub use can_bit::{CanBit, can_bit};
 pub use clocks::{Tick, power_of_two, sampling, spi_divider};
 pub use converters::depth;
 pub use groups::{Starts, starts};

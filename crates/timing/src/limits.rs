@@ -11,9 +11,8 @@ use sensedsl_model::kind::Sharing;
 use sensedsl_model::kind::analog::Analog;
 use sensedsl_model::kind::icu::Icu;
 
-use crate::clocks::{
-    PRESCALER_MAX, Tick, nearest, off_ppm, sampling, slowest_hz, timer_hz, unit_hz,
-};
+use crate::can_bit::can_bit;
+use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
 use crate::{Context, Wired, buses, i2c_clock, ports};
 
 /// How far a serial port may be off: half a bit at the end of ten, shared by both ends and the slope of the edges.
@@ -133,7 +132,8 @@ fn of_bus(context: &Context<'_>, unit: &UnitName, on_bus: &[&Wired<'_>]) -> Opti
     let kind_span = wired.device.kind_span;
     let kind = &wired.device.kind;
     if let Some(can) = kind.can() {
-        let exact = nearest(profile.can_dividers.as_ref()?, hz, asked_hz)?;
+        let bit = can_bit(profile.can_dividers.as_ref()?, hz, asked_hz)?;
+        let exact = bit.rate_hz(hz)?;
         if off_ppm(exact, asked_hz) <= CAN_OFF_PPM_MAX {
             return None;
         }

@@ -16,7 +16,7 @@ use crate::parts::line::{Edges, Line};
 use crate::parts::registers::{Reading, Registers};
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
-use crate::surroundings::Pad;
+use crate::surroundings::{Pad, TimerOutput};
 use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
 
@@ -39,7 +39,7 @@ pub struct Bench {
     /// The chip that an I2C unit talks to.
     talked_to: BTreeMap<u8, usize>,
     /// By timer and channel: period and width of its pulses.
-    waves: BTreeMap<(u8, u8), (u64, u64)>,
+    waves: BTreeMap<TimerOutput, (u64, u64)>,
     faults: Vec<Fault>,
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
@@ -135,7 +135,7 @@ impl Bench {
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
     #[must_use]
-    pub fn waves(&self) -> &BTreeMap<(u8, u8), (u64, u64)> {
+    pub fn waves(&self) -> &BTreeMap<TimerOutput, (u64, u64)> {
         &self.waves
     }
 

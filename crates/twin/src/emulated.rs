@@ -185,7 +185,7 @@ impl EmulatedBoard {
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
     #[must_use]
-    pub fn waves(&self) -> std::collections::BTreeMap<(u8, u8), (u64, u64)> {
+    pub fn waves(&self) -> std::collections::BTreeMap<crate::TimerOutput, (u64, u64)> {
         self.bench().waves().clone()
     }
 

@@ -27,4 +27,4 @@ pub mod surroundings;
 pub mod truth;
 pub mod world;
 
-pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
+pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};

@@ -70,6 +70,17 @@ pub enum I2cReply {
     Silent,
 }
 
+/// An output of a timer: that of a channel, or its complement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TimerOutput {
+    /// The timer's number.
+    pub timer: u8,
+    /// The channel, from 1.
+    pub channel: u8,
+    /// `CH1N` in place of `CH1`.
+    pub is_complement: bool,
+}
+
 /// A frame of a CAN bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanFrame {
@@ -156,9 +167,9 @@ pub trait Surroundings: Send {
         let _ = (unit, frame, now_ns);
     }
 
-    /// A channel of a timer has another waveform than before. A width of 0 is off.
-    fn pwm(&mut self, timer: u8, channel: u8, period_ns: u64, width_ns: u64, now_ns: u64) {
-        let _ = (timer, channel, period_ns, width_ns, now_ns);
+    /// An output of a timer has another waveform than before. A width of 0 is off.
+    fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, now_ns: u64) {
+        let _ = (output, period_ns, width_ns, now_ns);
     }
 
     /// An output of the DAC has another voltage than before.

@@ -130,7 +130,7 @@ fn entry(unit: &Unit) -> String {
     let part = &unit.part().name.value;
     let mut text = format!("  {{.schema = &schema_{part}, .fields = unit_fields_{part}");
     let plan = plan(unit);
-    if let Some(bus) = plan.as_ref().and_then(|plan| plan.bus.as_ref()) {
+    if let Some(bus) = plan.as_ref().and_then(|plan| plan.buses.first()) {
         let prefix = &bus.prefix;
         write!(text, ", .chip = &{prefix}_chip, .chip_state = &{prefix}_chip_state, .work_bytes = sizeof {prefix}_work").unwrap();
     }

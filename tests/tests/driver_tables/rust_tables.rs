@@ -251,7 +251,7 @@ impl Tables {
             |name: &str| u16::try_from(names.iter().position(|one| one == name).unwrap()).unwrap();
         let plan = super::program::plan(unit);
         let plan = plan.as_ref();
-        let bus = plan.and_then(|plan| plan.bus.as_ref());
+        let bus = plan.and_then(|plan| plan.buses.first());
         let table = bus.map(|bus| fixed(chip(bus, index)));
         if let (Some(bus), Some(table)) = (bus, table) {
             assert_eq!(table.work_bytes(schema), bus.work_bytes, "the work buffer of {names:?}");

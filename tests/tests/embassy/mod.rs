@@ -107,7 +107,7 @@ fn a_project_is_whole() {
     for (path, bytes) in tree(&root().join("crates/sense-rt/src")) {
         assert_eq!(project.get(&format!("sense-rt/src/{path}")), Some(&bytes), "{path}");
     }
-    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 11);
+    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 12);
     let wiring = text_of("src/wiring.rs");
     assert!(wiring.contains("ir_front: p.PB0,"), "{wiring}");
     assert!(
@@ -256,6 +256,79 @@ fn nothing_is_left_out_in_silence() {
         is_told(job);
         no_interrupt(job, &["Near"]);
     });
+}
+
+/// The same of the other target: a wire or a port that no driver takes is told.
+#[test]
+fn nothing_is_left_out_in_silence_on_chibios() {
+    let kinds = std::fs::read_to_string(root().join("examples/all_kinds.sense")).unwrap();
+    with_job(&kinds, Some("chibios"), |job| {
+        let target = target::of(job.profile.unwrap()).unwrap();
+        assert!(target.generate(job).is_ok(), "{:?}", target.generate(job));
+        let mut changed = 0;
+        for (index, one) in job.connections.iter().enumerate() {
+            let kind = one.connection.kind.name();
+            let has_port = [KindName::I2c, KindName::Spi, KindName::Uart, KindName::Can];
+            if has_port.contains(&kind) {
+                let mut less = job.clone();
+                less.connections[index].unit = None;
+                let told = target.generate(&less).unwrap_err();
+                let name = format!("`{}` needs", one.part.name.value);
+                assert!(told.iter().any(|one| one.message.contains(&name)), "{told:?}");
+                changed += 1;
+            }
+        }
+        assert!(changed > 3);
+    });
+}
+
+/// A part that is on two buses has a table for each, and what only the whole part has is told.
+#[test]
+fn a_part_on_two_buses_has_two_tables() {
+    let design = |start: &str| {
+        format!(
+            "driver Pair {{
+ connection accel for i2c {{ address = 0x19; }}
+ \
+             connection gyro for spi {{ mode = 3; clock = 1 MHz; }}
+ \
+             connection magnet for i2c {{ address = 0x1E; }}
+ {start}\
+             reading A returns uint8 {{ via = accel; register = 1; }}
+ \
+             reading G returns uint8 {{ via = gyro; register = 2; }}
+ \
+             reading M returns uint8 {{ via = magnet; register = 3; }}
+}}
+\
+             board B on STM32F407VGT6 {{ link {{ transport = uart; }} chip Imu {{ driver = Pair; }} }}
+"
+        )
+    };
+    for name in ["chibios", "embassy"] {
+        with_job(&design(""), Some(name), |job| {
+            let buses = &job.parts[0].plan.buses;
+            let tables: Vec<(&str, u8, &[u8])> = buses
+                .iter()
+                .map(|bus| (bus.prefix.as_str(), bus.address, &*bus.transfers[0].select))
+                .collect();
+            let wanted: [(&str, u8, &[u8]); 3] =
+                [("imu_accel", 0x19, &[1]), ("imu_gyro", 0, &[2]), ("imu_magnet", 0x1E, &[3])];
+            assert_eq!(tables, wanted);
+            assert!(target::gaps(job).is_empty(), "{:?}", target::gaps(job));
+        });
+        with_job(
+            &design(
+                "init = [[1, 2]];
+",
+            ),
+            Some(name),
+            |job| {
+                let gaps = target::gaps(job);
+                assert!(gaps.iter().any(|gap| gap.message.contains("on two buses")), "{gaps:?}");
+            },
+        );
+    }
 }
 
 /// What else there is of several wires.

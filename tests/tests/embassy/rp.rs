@@ -135,7 +135,10 @@ fn what_cannot_be_timed_is_told() {
     }
     refused(&sensor("type = icu; edge = both;"), "counts of both edges");
     refused(&sensor("type = digital; edge = both;"), "edges counted without");
-    refused("actuator Odd accepts int16 { id = 1; driver = drv8833; reading = speed_a; }", "H-bridges");
+    refused(
+        "actuator Odd accepts int16 { id = 1; driver = drv8833; reading = speed_a; }",
+        "H-bridges",
+    );
 }
 
 /// What the dividers of a slice do not make.

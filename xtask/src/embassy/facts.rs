@@ -45,6 +45,8 @@ pub(crate) struct Family {
     #[serde(default)]
     pub(crate) excludes: Vec<String>,
     pub(crate) converter: Option<Converter>,
+    /// What the clock of the CAN controllers is called, where it is not the one that their metadata names.
+    pub(crate) can: Option<String>,
 }
 
 /// How the converters of a family are clocked.

@@ -147,7 +147,8 @@ fn facts_of(facts: &Facts, family: &str, body: &Body) -> LineFacts {
             Group::Timers => timer(facts, unit),
             Group::Adcs => adc(facts, family, unit),
             Group::I2cs | Group::Spis => bus(unit, &own.multiplexers),
-            Group::Serials | Group::Cans => Some(clock(unit)),
+            Group::Serials => Some(clock(unit)),
+            Group::Cans => Some(can(facts, family, unit)),
             Group::Dacs => Some(format!("outputs = {}", outputs(unit))),
             Group::Usbs => usb(facts, family, unit),
         };
@@ -252,6 +253,12 @@ fn adc(facts: &Facts, family: &str, unit: &Unit) -> Option<String> {
 fn clock(unit: &Unit) -> String {
     let clock = if unit.kernel_clock.is_empty() { &unit.bus_clock } else { &unit.kernel_clock };
     format!("clock = \"{clock}\"")
+}
+
+/// Where a controller's clock is chosen, the hand-kept facts say what comes of the choice.
+fn can(facts: &Facts, family: &str, unit: &Unit) -> String {
+    let own = facts.family.get(family).and_then(|own| own.can.as_ref());
+    own.map_or_else(|| clock(unit), |name| format!("clock = \"{name}\""))
 }
 
 /// A bus moves its bytes by DMA in both directions.

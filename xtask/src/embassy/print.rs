@@ -248,9 +248,13 @@ fn entries(lines: &Lines, said: impl Fn(&Line) -> Vec<(String, String)>) -> Stri
     let mut text = String::new();
     for name in names {
         let variants = all.get(name).into_iter().flatten();
-        let is_one = all.get(name).is_some_and(|variants| variants.len() == 1);
+        let has_unit = |line: &&Line| line.facts.units.keys().any(|(_, own)| own == name);
+        let owners: Vec<&String> =
+            lines.lines.iter().filter(has_unit).map(|line| &line.name).collect();
         for (entry, members) in variants {
-            let of = if is_one {
+            // Nothing may be said of a line that has the unit and another name for it, or none.
+            let is_one = all.get(name).is_some_and(|variants| variants.len() == 1);
+            let of = if is_one && owners.iter().all(|line| members.contains(line)) {
                 String::new()
             } else {
                 format!(", lines = [{}]", quoted(members.iter().copied()))
@@ -267,9 +271,16 @@ fn rest(text: &mut String, lines: &Lines) -> Result<()> {
     let has =
         |group| lines.lines.iter().any(|line| line.facts.units.keys().any(|(of, _)| *of == group));
     if has(Group::Cans) {
+        let is_fd = |one: &&String| one.starts_with("FDCAN");
+        let mut names = lines.lines.iter().flat_map(|line| line.facts.units.keys());
+        // The HAL cuts the greatest divider of the registers, 512, to nine bits.
+        let (greatest, file) = match names.find_map(|(_, name)| Some(name).filter(is_fd)) {
+            Some(_) => (511, "fd/config.rs"),
+            None => (1_024, "util.rs"),
+        };
         writeln!(
             text,
-            "\n[cans]\ndividers = {{ range = [1, 1024], steps = [8, 25], source = \"{HAL}: src/can/util.rs\" }}\n{}\
+            "\n[cans]\ndividers = {{ range = [1, {greatest}], steps = [8, 25], source = \"{HAL}: src/can/{file}\" }}\n{}\
              source = \"{METADATA}\"",
             units(lines, Group::Cans)
         )?;

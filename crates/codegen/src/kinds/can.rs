@@ -17,6 +17,10 @@ pub const STANDARD_MAX: u32 = 0x7FF;
 /// Banks of filters that each bus of a bxCAN controller has, for two identifiers each.
 pub const BANKS: usize = 14;
 
+/// Filters of an FDCAN controller for identifiers of eleven bits and of 29, for two identifiers each.
+const STANDARD_FILTERS: usize = 28;
+const EXTENDED_FILTERS: usize = 8;
+
 /// Bytes of a frame.
 const FRAME_BYTES: u16 = 8;
 
@@ -118,10 +122,25 @@ impl<'a> Bus<'a> {
     /// The identifiers that filters of a bxCAN controller let through; none where they are more than the filters hold.
     #[must_use]
     pub fn wanted(&self) -> Option<Vec<u32>> {
+        let wanted = self.identifiers();
+        (wanted.len() <= 2 * BANKS).then_some(wanted)
+    }
+
+    /// The identifiers that filters of an FDCAN controller let through; none where they are more than the filters hold.
+    #[must_use]
+    pub fn wanted_in_memory(&self) -> Option<Vec<u32>> {
+        let wanted = self.identifiers();
+        let extended = wanted.iter().filter(|one| **one > STANDARD_MAX).count();
+        let standard = wanted.len() - extended;
+        (standard <= 2 * STANDARD_FILTERS && extended <= 2 * EXTENDED_FILTERS).then_some(wanted)
+    }
+
+    /// The identifiers of what comes in, each once.
+    fn identifiers(&self) -> Vec<u32> {
         let mut wanted: Vec<u32> = self.values.iter().map(|one| one.identifier).collect();
         wanted.sort_unstable();
         wanted.dedup();
-        (wanted.len() <= 2 * BANKS).then_some(wanted)
+        wanted
     }
 }
 

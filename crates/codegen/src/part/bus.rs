@@ -1,6 +1,6 @@
 //! A part on a register bus: `up_chip_t` and what it points to.
 
-use sensedsl_model::design::Device;
+use sensedsl_model::design::{Connection, ConnectionIndex, Device};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
 use sensedsl_model::words::Words;
@@ -15,6 +15,8 @@ use crate::print::snake;
 pub struct BusPlan {
     /// What the names of its tables begin with.
     pub prefix: String,
+    /// The connection that it goes over.
+    pub connection: ConnectionIndex,
     /// The 7-bit address; 0 on SPI, where a chip select takes its place.
     pub address: u8,
     /// How it is started.
@@ -104,11 +106,30 @@ pub struct CommandPlan {
     bytes: u16,
 }
 
-/// The part's table; none where it is on no register bus.
-pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
+/// The part's tables, one for each connection to a register bus that a value goes over.
+pub(super) fn plans(source: Source<'_>, prefix: &str) -> Vec<BusPlan> {
+    let connections = source.design.connections.iter().enumerate();
+    let own: Vec<(ConnectionIndex, &Connection)> = connections
+        .map(|(at, one)| (ConnectionIndex(at), one))
+        .filter(|(_, one)| one.part == source.index)
+        .filter(|(_, one)| matches!(one.kind, Kind::I2c(_) | Kind::Spi(_)))
+        .collect();
+    let is_one = own.len() < 2;
+    let plan = |(index, one): (ConnectionIndex, &Connection)| {
+        let name = one.name.as_deref().filter(|_| !is_one);
+        let prefix =
+            name.map_or_else(|| prefix.to_owned(), |name| format!("{prefix}_{}", snake(name)));
+        plan(source, index, prefix)
+    };
+    own.into_iter().filter_map(plan).collect()
+}
+
+fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Option<BusPlan> {
     let protocol = source.protocol;
-    let all: Vec<&Device> =
-        source.devices(|kind| matches!(kind, Kind::I2c(_) | Kind::Spi(_))).collect();
+    let all: Vec<&Device> = source
+        .devices(|kind| matches!(kind, Kind::I2c(_) | Kind::Spi(_)))
+        .filter(|device| device.connections.contains(&connection))
+        .collect();
     let address = all.first()?.kind.i2c().map_or(0, |i2c| i2c.address);
     let of = |direction| all.iter().copied().filter(move |one| one.direction == direction);
     let sensors: Vec<&Device> = of(Direction::Sensor).collect();
@@ -120,7 +141,8 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<BusPlan> {
         count,
     });
     let plan = BusPlan {
-        prefix: prefix.to_owned(),
+        prefix,
+        connection,
         address,
         init: init(&protocol.init),
         identity: protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol)),

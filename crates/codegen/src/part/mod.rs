@@ -37,8 +37,8 @@ pub struct PartPlan {
     pub prefix: String,
     /// For people.
     pub title: String,
-    /// What is read and written on a register bus.
-    pub bus: Option<BusPlan>,
+    /// What is read and written on register buses, one for each connection to one.
+    pub buses: Vec<BusPlan>,
     /// What comes over a serial port.
     pub message: Option<MessagePlan>,
     /// Values that a formula makes of an analog one.
@@ -86,7 +86,7 @@ impl PartPlan {
         let prefix = snake(&part.name.value);
         let plan = Self {
             title: title(part),
-            bus: bus::plan(source, &prefix),
+            buses: bus::plans(source, &prefix),
             message: message::plan(source, &prefix),
             formulas: simple::formulas(source),
             trains: simple::trains(source),
@@ -100,8 +100,8 @@ impl PartPlan {
     /// Whether there is nothing to print.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        let Self { bus, message, formulas, trains, bridges, filters, .. } = self;
-        let has_bytes = bus.is_some() || message.is_some();
+        let Self { buses, message, formulas, trains, bridges, filters, .. } = self;
+        let has_bytes = !buses.is_empty() || message.is_some();
         let has_values = formulas.is_empty() && trains.is_empty() && bridges.is_empty();
         !has_bytes && has_values && filters.is_empty()
     }

@@ -14,9 +14,8 @@ pub(crate) fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 11] {
     let word = |uses: fn(&Words) -> bool| {
         job.devices.iter().filter_map(|one| Words::of(one.device)).any(|words| uses(&words))
     };
-    let bus = |uses: fn(&BusPlan) -> bool| {
-        job.parts.iter().filter_map(|one| one.plan.bus.as_ref()).any(uses)
-    };
+    let bus =
+        |uses: fn(&BusPlan) -> bool| job.parts.iter().flat_map(|one| &one.plan.buses).any(uses);
     [
         ("reals", device(is_real)),
         ("codes", word(|words| words.code != Code::Integer)),

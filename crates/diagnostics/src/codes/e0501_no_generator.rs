@@ -9,9 +9,9 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0501",
     severity: Severity::Error,
     title: "this kind or part cannot be generated yet",
-    explanation: r#"The wiring of everything is solved, but firmware is generated for some kinds only, and not yet for chips,
-arrays with a wire for each element, values that are not plain numbers, and filters. Nothing was written, so that a
-firmware which reads only some of the devices, or reads them wrongly, never looks complete.
+    explanation: r#"The wiring of everything is solved, but the target has no code for this kind on the board's MCU, or not for
+what the part asks for: values without a coding, or the start of a part that is on two buses. Nothing was written, so
+that a firmware which reads only some of the devices, or reads them wrongly, never looks complete.
 
 Way out: `sensedsl generate --without firmware` writes everything else, the host applications among
 it; for firmware, leave the device or the part out of the file.

@@ -9,11 +9,14 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0504",
     severity: Severity::Error,
     title: "no firmware for this board",
-    explanation: r#"Firmware needs a target and a board that ChibiOS has a folder for. A table of your own says which MCU
-it describes by a first line such as `# mcu = STM32F407VGT6`.
+    explanation: r#"Firmware needs a target that serves the board's MCU. A table of your own says which MCU it describes by a
+first line such as `# mcu = STM32F407VGT6`. On ChibiOS the board also needs facts of its clocks, as built-in boards
+have them; Embassy needs none. On Embassy one timer must be left for the clock. Whatever a device needs that target or
+wiring do not have is told with its name: a unit, a pin, an interrupt, a DMA stream.
 
-Way out: say which MCU the table describes. `sensedsl generate --without firmware` writes everything
-else, the host applications among it.
+Way out: say which MCU the table describes; take the other target (`--target embassy`, `--target chibios`); or take
+another pin or unit for the device that is named. `sensedsl generate --without firmware` writes everything else, the
+host applications among it.
 "#,
 };
 

@@ -4,7 +4,7 @@ use sensedsl_model::design::PartIndex;
 use sensedsl_model::kind::Role;
 
 use super::{Bench, Chip};
-use crate::surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
+use crate::surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use crate::world::FaultKind;
 
 impl Surroundings for Bench {
@@ -102,8 +102,8 @@ impl Surroundings for Bench {
         byte
     }
 
-    fn pwm(&mut self, timer: u8, channel: u8, period_ns: u64, width_ns: u64, _: u64) {
-        self.waves.insert((timer, channel), (period_ns, width_ns));
+    fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, _: u64) {
+        self.waves.insert(output, (period_ns, width_ns));
     }
 
     fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {

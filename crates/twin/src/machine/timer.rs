@@ -4,6 +4,7 @@
 
 use super::capture::Inputs;
 use super::wires::{NEVER, Wires, merge, periods_in, periods_ns};
+use crate::surroundings::TimerOutput;
 
 /// Bits of SR and DIER.
 const UPDATE: u32 = 1;
@@ -72,7 +73,8 @@ pub(super) struct Timer {
     seen: u64,
     next: u64,
     pub inputs: Inputs,
-    waveforms: [(u64, u64); 4],
+    /// Of the channels and of their complements.
+    waveforms: [[(u64, u64); 2]; 4],
     /// Requests to the DMA that were not served yet: update and channels, a bit each.
     asking: u32,
 }
@@ -103,7 +105,7 @@ impl Timer {
             seen: 0,
             next: NEVER,
             inputs: Inputs::new(variant.number),
-            waveforms: [(0, 0); 4],
+            waveforms: [[(0, 0); 2]; 4],
             asking: 0,
         }
     }
@@ -393,20 +395,32 @@ impl Timer {
 
     fn tell_waveforms(&mut self, wires: &mut Wires) {
         for channel in 0..usize::from(self.variant.channels) {
-            let waveform = self.waveform(channel);
-            if waveform != self.waveforms[channel] {
-                self.waveforms[channel] = waveform;
-                let (number, one) = (self.variant.number, u8::try_from(channel + 1).unwrap_or(0));
-                let (period, width) = waveform;
-                wires.world(|world, now| world.pwm(number, one, period, width, now));
+            for is_complement in [false, true] {
+                let waveform = self.waveform(channel, is_complement);
+                if waveform != self.waveforms[channel][usize::from(is_complement)] {
+                    self.waveforms[channel][usize::from(is_complement)] = waveform;
+                    let timer = self.variant.number;
+                    let number = u8::try_from(channel + 1).unwrap_or(0);
+                    let output = TimerOutput { timer, channel: number, is_complement };
+                    let (period, width) = waveform;
+                    wires.world(|world, now| world.pwm(output, period, width, now));
+                }
             }
         }
     }
 
-    /// Period and width in nanoseconds of what a channel puts out.
-    fn waveform(&self, channel: usize) -> (u64, u64) {
+    /// Period and width in nanoseconds of what a channel or its complement puts out. A complement that is on alone goes
+    /// with the channel; beside it, against it (RM0090, table 97).
+    fn waveform(&self, channel: usize, is_complement: bool) -> (u64, u64) {
+        let has_complement = matches!(self.variant.number, 1 | 8) && channel < 3;
+        if is_complement && !has_complement {
+            return (0, 0);
+        }
         let mode = self.ccmr[channel / 2] >> (4 + 8 * (channel % 2)) & 7;
-        let is_on = self.ccer >> (4 * channel) & 1 == 1 && self.cr1 & 1 != 0;
+        let own = self.ccer >> (4 * channel) & 15;
+        let (bits, is_against) =
+            if is_complement { (own >> 2, own & 1 == 1) } else { (own, false) };
+        let is_on = bits & 1 == 1 && self.cr1 & 1 != 0;
         let main = !matches!(self.variant.number, 1 | 8) || self.bdtr >> 15 & 1 == 1;
         if !is_on || !main || !self.compares(channel) || !matches!(mode, 6 | 7) {
             return (0, 0);
@@ -415,7 +429,7 @@ impl Timer {
         // A counter that goes up and down takes twice as long.
         let both = if self.cr1 >> 5 & 3 == 0 { 1 } else { 2 };
         let ticks = u64::from(self.ccr[channel]).min(self.limit());
-        let is_inverted = (mode == 7) != (self.ccer >> (4 * channel + 1) & 1 == 1);
+        let is_inverted = (mode == 7) ^ (bits >> 1 & 1 == 1) ^ is_against;
         let high = if is_inverted { self.limit() - ticks } else { ticks };
         let ns = |ticks: u64| periods_ns(ticks * scale * both, self.hz);
         (ns(self.limit()), ns(high))

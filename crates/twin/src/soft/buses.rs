@@ -198,7 +198,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             | Kind::Dac(_)
             | Kind::Can(_) => continue,
         };
-        let Some(plan) = job.tables_of(one).and_then(|tables| tables.bus.as_ref()) else {
+        let Some(plan) = job.bus_of(one) else {
             continue;
         };
         let table: &'static ChipTable = kept(tables::chip(job, plan));

@@ -1,6 +1,7 @@
 //! The pins that one wire of a device may have, and what each of them claims.
 
 use sensedsl_board::remap::Blocks;
+use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_board::table::{Pin, Usage};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, RuleId};
@@ -61,7 +62,7 @@ impl Maker<'_, '_> {
                 (holder, self.builder.names.shared(wire, on))
             }
             None => {
-                let signal = Resource::Signal(board, usage.signal.name().to_owned());
+                let signal = Resource::Signal(board, claimed(usage).to_owned());
                 (Holder::Own, self.builder.names.own(signal))
             }
         };
@@ -127,6 +128,22 @@ impl Maker<'_, '_> {
 
     pub(super) fn violates(&self, role: Role, pin: &Pin, usage: Option<&Usage>) -> Vec<RuleId> {
         self.rules.violated_by(self.offer, role, pin, usage, self.channels())
+    }
+}
+
+/// The signal that a usage takes: a channel and its complement have one width.
+fn claimed(usage: &Usage) -> &str {
+    let name = usage.signal.name();
+    match usage.signal.function() {
+        Function::Timer { line: TimerLine::Inverted, .. } => name.strip_suffix('N').unwrap_or(name),
+        Function::Timer { .. }
+        | Function::Adc { .. }
+        | Function::Dac { .. }
+        | Function::I2c { .. }
+        | Function::Spi { .. }
+        | Function::Uart { .. }
+        | Function::Can { .. }
+        | Function::Other => name,
     }
 }
 

@@ -1,6 +1,7 @@
 //! `pwm`: a timer output; the outputs of one timer share its frequency.
 
 use sensedsl_board::profile::Timer;
+use sensedsl_board::signal::TimerLine;
 use sensedsl_board::silicon::Ability;
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::pwm::Pwm;
@@ -16,8 +17,15 @@ impl Served for Pwm {
 }
 
 fn takes(_: Option<&Ability>, timer: Option<&Timer>, channel: Channel<'_>) -> bool {
-    let driven = timer.is_none_or(|timer| {
-        timer.pwm.as_ref().is_some_and(|driver| driver.channels.contains(&channel.number))
-    });
-    driven && channel.line.is_output()
+    let driver = timer.map(|timer| timer.pwm.as_ref());
+    match channel.line {
+        TimerLine::Both | TimerLine::Output => driver.is_none_or(|driver| {
+            driver.is_some_and(|driver| driver.channels.contains(&channel.number))
+        }),
+        TimerLine::Inverted => {
+            let driver = driver.flatten();
+            driver.is_some_and(|driver| driver.complementary.contains(&channel.number))
+        }
+        TimerLine::Input => false,
+    }
 }

@@ -66,18 +66,23 @@ impl Maker<'_, '_> {
 
     fn timer(&mut self, using: &TimerUse, unit: &str, timer: Option<&Timer>) -> Vec<Made> {
         let ability = served(self.wanted.kind).ability(self.offer.board);
-        let on = |wanted: Option<u8>| {
+        let on = |role: Role, wanted: Option<u8>| {
+            // A complement is there for whoever names its pin.
+            let is_named = self.wanted.fixed(role).is_some();
             move |usage: &Usage| {
                 channel(usage).is_some_and(|channel| {
                     channel.unit.as_str() == unit
+                        && (is_named || channel.line != TimerLine::Inverted)
                         && (using.takes)(ability, timer, channel)
                         && wanted.is_none_or(|wanted| wanted == channel.number)
                 })
             }
         };
-        let wires = using.wires.iter();
+        let wires: Vec<_> =
+            using.wires.iter().map(|(role, number)| (*role, on(*role, *number))).collect();
         let mut roles = wires
-            .map(|(role, number)| self.role(*role, &Need::Usage(&on(*number)), None))
+            .iter()
+            .map(|(role, on)| self.role(*role, &Need::Usage(on), None))
             .collect::<Vec<_>>();
         self.push_trigger(&mut roles);
         let board = self.offer.index;
@@ -122,9 +127,8 @@ impl Channel<'_> {
     }
 }
 
-/// The timer's channel that a usage is; inverted outputs serve nothing.
+/// The timer's channel that a usage is, or is the complement of.
 pub(crate) fn channel(usage: &Usage) -> Option<Channel<'_>> {
     let Function::Timer { unit, channel, line } = usage.signal.function() else { return None };
-    let usable = *line != TimerLine::Inverted;
-    usable.then_some(Channel { unit, number: *channel, line: *line })
+    Some(Channel { unit, number: *channel, line: *line })
 }

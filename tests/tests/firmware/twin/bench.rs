@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use sensedsl_twin::machine::{LinkPort, Machine, Settings};
-use sensedsl_twin::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings};
+use sensedsl_twin::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
 };
@@ -12,6 +12,9 @@ use sensedsl_wire::{
 use crate::firmware::chibios::{build, write};
 
 pub(super) const MS: u64 = 1_000_000;
+
+/// Where the smallest design with pulses has its first.
+pub(super) const STEERING: TimerOutput = TimerOutput { timer: 9, channel: 1, is_complement: false };
 
 /// A level that changes every `half_ns`, first at `shift_ns`.
 #[derive(Clone, Copy)]
@@ -50,10 +53,12 @@ pub(super) struct World {
     pub spi_answers: VecDeque<u8>,
     pub spi_sent: Vec<u8>,
     pub to_uart: VecDeque<u8>,
-    pub to_can: VecDeque<CanFrame>,
-    pub from_can: Vec<CanFrame>,
+    /// By controller.
+    pub to_can: BTreeMap<u8, VecDeque<CanFrame>>,
+    /// With their controllers.
+    pub from_can: Vec<(u8, CanFrame)>,
     pub driven: BTreeMap<Pad, Option<bool>>,
-    pub waves: BTreeMap<(u8, u8), (u64, u64)>,
+    pub waves: BTreeMap<TimerOutput, (u64, u64)>,
     pub outputs: BTreeMap<u8, f64>,
     chip_selects: u32,
 }
@@ -126,16 +131,16 @@ impl Surroundings for World {
         self.to_uart.pop_front()
     }
 
-    fn can_in(&mut self, _: u8, _: u64) -> Option<CanFrame> {
-        self.to_can.pop_front()
+    fn can_in(&mut self, unit: u8, _: u64) -> Option<CanFrame> {
+        self.to_can.get_mut(&unit)?.pop_front()
     }
 
-    fn can_out(&mut self, _: u8, frame: CanFrame, _: u64) {
-        self.from_can.push(frame);
+    fn can_out(&mut self, unit: u8, frame: CanFrame, _: u64) {
+        self.from_can.push((unit, frame));
     }
 
-    fn pwm(&mut self, timer: u8, channel: u8, period_ns: u64, width_ns: u64, _: u64) {
-        self.waves.insert((timer, channel), (period_ns, width_ns));
+    fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, _: u64) {
+        self.waves.insert(output, (period_ns, width_ns));
     }
 
     fn dac(&mut self, channel: u8, millivolts: f64, _: u64) {

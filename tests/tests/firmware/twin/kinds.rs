@@ -9,7 +9,7 @@ use sensedsl_wire::Direction::{Actuator, Sensor};
 use sensedsl_wire::ScalarType::{Bool, Float32, Int16, Int32, Uint8, Uint16, Uint32};
 use sensedsl_wire::{Checksum, Scalar, Schema};
 
-use super::bench::{Bench, MS, Square, pad, schema, unsigned, values};
+use super::bench::{Bench, MS, STEERING, Square, pad, schema, unsigned, values};
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy;
 use crate::firmware::tools::root;
@@ -73,14 +73,14 @@ on_both! {
     "uart": messages_of_a_serial_port_are_taken,
 }
 
-fn items(
+pub(super) fn items(
     items: &[(u8, sensedsl_wire::Direction, &str, sensedsl_wire::ScalarType, Option<u16>)],
 ) -> Schema {
     schema(Checksum::Crc16, items)
 }
 
 /// A frame of the host, with its checksum.
-fn frame(values: &[u8]) -> Vec<u8> {
+pub(super) fn frame(values: &[u8]) -> Vec<u8> {
     let crc = values.iter().fold(0xFFFF_u16, |crc, byte| {
         (0..8).fold(crc ^ (u16::from(*byte) << 8), |crc, _| {
             (crc << 1) ^ if crc & 0x8000 == 0 { 0 } else { 0x1021 }
@@ -117,7 +117,8 @@ fn frames_of_a_can_bus_come_and_go(mut bench: Bench) {
         CanFrame { id, extended: false, remote: false, length: 8, data }
     };
     // A frame of another identifier is not for this board.
-    bench.world().to_can.extend([frame_of(0x121, 1), frame_of(0x120, 0x34)]);
+    let frames = [frame_of(0x121, 1), frame_of(0x120, 0x34)];
+    bench.world().to_can.entry(1).or_default().extend(frames);
     bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
     bench.run_until_ms(2_500);
     bench.assert_wires(&[("PD0", "CAN1_RX"), ("PD1", "CAN1_TX")]);
@@ -125,7 +126,7 @@ fn frames_of_a_can_bus_come_and_go(mut bench: Bench) {
     let speeds = values(&bench.reports(&schema), 1);
     assert_eq!(speeds.iter().map(|(_, value)| unsigned(value)).collect::<Vec<_>>(), [0x1234]);
     let sent = bench.world().from_can.clone();
-    let first = sent.first().unwrap();
+    let (_, first) = sent.first().unwrap();
     assert!(first.extended && first.id == 0x18FF_1234, "{first:?}");
     assert_eq!(first.data.get(..usize::from(first.length)), Some(&[0xFE, 0xDC][..]));
 }
@@ -238,7 +239,7 @@ fn pulses_have_the_widths_that_the_host_sets(mut bench: Bench) {
     // Embassy's timer has the finest tick at which 16 bits reach over the period, here 310 ns: a ten-thousandth of 1.5 ms.
     let near = |is: u64, wanted: u64| is.abs_diff(wanted) * 10_000 <= wanted;
     let steers = |bench: &Bench, width_ns: u64| {
-        let (period, width) = bench.world().waves[&(9, 1)];
+        let (period, width) = bench.world().waves[&STEERING];
         assert!(near(period, 20 * MS) && near(width, width_ns), "{period} {width}");
     };
     // Half of 1 to 2 ms, until the host says something.

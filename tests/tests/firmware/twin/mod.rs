@@ -4,6 +4,7 @@
 
 mod bench;
 mod both;
+mod buses;
 mod examples;
 mod faults;
 mod hosted;

@@ -19,7 +19,7 @@ use sensedsl_wire::{
     encode_report,
 };
 
-use super::bench::{MS, folder};
+use super::bench::{MS, STEERING, folder};
 use crate::firmware::chibios::{build, tree};
 use crate::firmware::embassy;
 use crate::firmware::tools::root;
@@ -186,7 +186,7 @@ pub(super) fn run_job(
         }
         board.run_until(ms * MS);
         for (at, name, width) in PULSES {
-            let found = board.waves().get(&(9, 1)).copied();
+            let found = board.waves().get(&STEERING).copied();
             let is_right = |(period_ns, width_ns): (u64, u64)| {
                 period_ns.abs_diff(20 * MS) < 1_000 && width_ns.abs_diff(width) < 1_000
             };

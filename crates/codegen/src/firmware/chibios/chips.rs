@@ -5,7 +5,6 @@
 use std::collections::BTreeMap;
 
 use askama::Template;
-use sensedsl_model::design::PartIndex;
 
 use super::context::Context;
 use super::section::Work;
@@ -49,13 +48,9 @@ pub(super) fn threads(
     on_bus: &[&JobConnection<'_>],
 ) -> Vec<Thread> {
     let mut cycles: BTreeMap<Cycle, Vec<Served>> = BTreeMap::new();
-    let mut known: Vec<PartIndex> = Vec::new();
     for one in on_bus {
+        // No value goes over a connection without a table.
         let Some(plan) = plan_of(context.job, one) else { continue };
-        if known.contains(&one.connection.part) {
-            continue;
-        }
-        known.push(one.connection.part);
         cycles.entry(one.cycle).or_default().push(Served {
             name: one.part.name.value.clone(),
             ident: plan.prefix.clone(),
@@ -82,14 +77,12 @@ pub(super) fn plan_of<'a>(
     job: &'a BoardJob<'_>,
     connection: &JobConnection<'_>,
 ) -> Option<&'a BusPlan> {
-    job.tables_of(connection)?.bus.as_ref()
+    job.bus_of(connection)
 }
 
-/// What is not made: a part's tables are for one address or one chip select.
+/// What is not made.
 pub(super) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
-    let kind = connection.connection.kind.name();
-    let all = job.connections(kind).filter(|one| one.connection.part == connection.connection.part);
-    (all.count() > 1).then_some("parts with two connections to buses")
+    job.lacks_on_buses(connection)
 }
 
 impl Thread {

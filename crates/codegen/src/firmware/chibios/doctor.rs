@@ -56,8 +56,8 @@ pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
     plan.inputs.sort_by(|a, b| a.line.cmp(&b.line));
     plan.inputs.dedup_by(|a, b| a.line == b.line);
     for part in context.job.parts.iter().filter(|one| one.part.chip.is_some()) {
-        let own = context.job.connections.iter().find(|one| one.connection.part == part.index);
-        let bus = part.plan.bus.as_ref().zip(own);
+        let own = context.job.connections.iter().filter(|one| one.connection.part == part.index);
+        let bus = own.filter_map(|own| Some((context.job.bus_of(own)?, own)));
         plan.chips
             .extend(bus.map(|(bus, own)| Chip { title: own.place(), prefix: bus.prefix.clone() }));
     }

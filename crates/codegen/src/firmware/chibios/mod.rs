@@ -19,6 +19,7 @@ mod gpio;
 mod i2c;
 mod icu;
 mod link;
+mod missed;
 mod names;
 mod parts;
 mod plan;

@@ -9,6 +9,7 @@ use super::context::{Context, PadPlan};
 use super::doctor::{self, DoctorPlan};
 use super::fallback::{self, FallBackPlan};
 use super::link::{self, ButtonPlan, LinkPlan};
+use super::missed;
 use super::parts::{self, PartsPlan};
 use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
 use super::settings::{self, SettingsPlan};
@@ -65,6 +66,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     pads.extend(sections.iter().flat_map(|section| section.pads.iter().cloned()));
     pads.sort();
     pads.dedup();
+    missed::tell(context, &pads, &sections, diagnostics);
     let work = sections.iter().flat_map(|section| &section.work);
     let tasks: Vec<TaskPlan> = work.map(|work| TaskPlan::new(context, work)).collect();
     let settings = settings::plan(context, &sections, &link);

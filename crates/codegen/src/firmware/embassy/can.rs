@@ -1,15 +1,21 @@
 //! CAN: a task for each bus, which takes frames as they come; the reporter sends what the host has set.
 
+use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::{KindName, Role};
+use sensedsl_timing::can_bit;
 
 use super::chip::{coding, list};
 use super::context::Context;
 use super::filter;
-use super::lack::{self, Made};
+use super::lack::{self, Lack, Made};
 use super::section::{Field, Keep, Section, Start, Watched};
-use crate::kinds::can::{Bus, STANDARD_MAX, Value, buses};
+use crate::kinds::can::{BANKS, Bus, STANDARD_MAX, Value, buses};
 use crate::print::snake;
+
+/// Controllers with banks of filters are alone, or two of these; the third of a chip has banks of its own.
+const FIRST: &str = "CAN1";
+const SECOND: &str = "CAN2";
 
 pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
     let mut section = Section::default();
@@ -36,50 +42,100 @@ fn identifier(identifier: u32) -> String {
 fn keep(parameter: &str, name: &str) -> Keep {
     Keep {
         name: parameter.to_owned(),
-        type_: "hal::can::CanTx<'static>".to_owned(),
+        type_: "rt::controller::Talk".to_owned(),
         from: format!("{name}_tx"),
     }
 }
 
 fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
     let (name, hal) = (snake(bus.unit), context.peripheral(bus.unit));
-    // As the pins spell the unit: `CAN`, where there is one.
-    let moved = context.generics(lack::unit(bus.first)?, &["_"]);
     let (rx, tx) = (lack::pad(bus.first, Role::Rx)?, lack::pad(bus.first, Role::Tx)?);
     let (rx, tx) = (&rx.pin.name, &tx.pin.name);
-    let handlers = ["TX", "RX0", "RX1", "SCE"];
-    for (signal, handler) in handlers.into_iter().zip(["Tx", "Rx0", "Rx1", "Sce"]) {
+    let has_banks = context.names.has_can_banks();
+    let handlers: &[(&str, &str)] = if has_banks {
+        &[("TX", "Tx"), ("RX0", "Rx0"), ("RX1", "Rx1"), ("SCE", "Sce")]
+    } else {
+        &[("IT0", "IT0"), ("IT1", "IT1")]
+    };
+    for (signal, handler) in handlers {
         let interrupt = context.interrupt(bus.unit, signal)?;
         section.bind(interrupt, format!("hal::can::{handler}InterruptHandler<{hal}>"));
     }
+    let maker = if has_banks { "Can" } else { "CanConfigurator" };
+    // As the pins spell the unit: `CAN`, where there is one.
+    let moved = context.generics(lack::unit(bus.first)?, &["_"]);
     let who: Vec<&str> = bus.wires.iter().map(|one| one.title.as_str()).collect();
     section.fields.push(Field {
         name: name.clone(),
         comment: format!("{} at {rx} (RX) and {tx} (TX): {}", bus.unit, who.join(", ")),
-        type_: "hal::can::Can<'static>".to_owned(),
-        make: format!("hal::can::Can::new{moved}(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
+        type_: format!("hal::can::{maker}<'static>"),
+        make: format!("hal::can::{maker}::new{moved}(p.{hal}, p.{rx}, p.{tx}, Irqs)"),
     });
-    section.runtime.insert("can.rs");
-    let upper = bus.unit.to_uppercase();
-    section.items.push(format!(
-        "static {upper}_BUS: StaticCell<hal::can::Can<'static>> = StaticCell::new();\n\
-         static {upper}_WAITING: StaticCell<rt::can::Waiting> = StaticCell::new();"
-    ));
-    section.starts.push(Start::Make(format!(
-        "let ({name}_tx, {name}_rx) = rt::can::start(\n        {upper}_BUS.init(wiring.{name}),\n        \
-         hal::pac::{hal},\n        {upper}_WAITING.init(rt::can::Waiting::new()),\n        {},\n        &[{}],\n    );",
-        bus.bitrate_hz,
-        filters(bus).join(", ")
-    )));
+    section.runtime.extend(["can.rs", if has_banks { "can_banks.rs" } else { "can_fd.rs" }]);
+    start(context, bus, &name, section)?;
     tables(bus, section);
     listen(context, bus, &name, section);
     say(bus, &name, section);
     Ok(())
 }
 
-/// The identifiers that the hardware lets through; where they are too many it lets all through, and the task looks.
-fn filters(bus: &Bus<'_>) -> Vec<String> {
-    bus.wanted().unwrap_or_default().into_iter().map(identifier).collect()
+/// What turns the bus on, and parts it into its halves.
+fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Made<()> {
+    let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
+    section
+        .items
+        .push(format!("static {upper}_KEPT: rt::controller::Kept = rt::controller::Kept::new();"));
+    let (banks, wanted) = if context.names.has_can_banks() {
+        (banks(context, bus, section)?, bus.wanted())
+    } else {
+        (String::new(), bus.wanted_in_memory())
+    };
+    // Where the identifiers are too many for the hardware it lets all through, and the task looks.
+    let wanted: Vec<String> = wanted.unwrap_or_default().into_iter().map(identifier).collect();
+    section.starts.push(Start::Make(format!(
+        "let ({name}_tx, {name}_rx) = rt::controller::start(\n        wiring.{name},\n        hal::pac::{hal},\n        \
+         {banks}&{upper}_KEPT,\n        {},\n        &[{}],\n    );",
+        bit(context, bus)?,
+        wanted.join(", ")
+    )));
+    Ok(())
+}
+
+/// Where the filters of a controller are: the second of two has those of the first, whose clock they need.
+fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<String> {
+    let own = |first: &str, number: usize| {
+        format!(
+            "rt::controller::Banks {{ registers: hal::pac::{first}, first: {number} }},\n        "
+        )
+    };
+    if bus.unit != SECOND {
+        return Ok(own(&context.peripheral(bus.unit), 0));
+    }
+    let first = context.peripheral(FIRST);
+    if context.profile.unit(FIRST).is_none() {
+        return Err(Lack::name(format!("{FIRST}, which has the filters of {SECOND},")));
+    }
+    let mut units = context.job.connections.iter().filter_map(|one| one.unit);
+    if !units.any(|unit| UnitName::new(unit) == UnitName::new(FIRST)) {
+        section.starts.push(Start::Make(format!("hal::rcc::enable_and_reset::<{first}>();")));
+    }
+    Ok(own(&first, BANKS))
+}
+
+/// What the bits of a bus are made of.
+fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Made<String> {
+    let hz = context.unit_hz(bus.unit);
+    let hz = hz.ok_or_else(|| Lack::name(format!("the clock of {}", bus.unit)))?;
+    let dividers = context.profile.can_dividers.as_ref();
+    let bit = dividers.and_then(|dividers| can_bit(dividers, hz, bus.bitrate_hz));
+    let bit = bit.ok_or_else(|| Lack::name(format!("dividers of {}", bus.unit)))?;
+    Ok(format!(
+        "rt::can::Bit {{ divider: {}, before: {}, behind: {}, jump: {} }}",
+        bit.divider,
+        bit.before,
+        bit.behind,
+        bit.jump()
+    ))
 }
 
 fn tables(bus: &Bus<'_>, section: &mut Section) {
@@ -110,13 +166,13 @@ fn tables(bus: &Bus<'_>, section: &mut Section) {
 
 fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) {
     let upper = bus.unit.to_uppercase();
-    let is_own = |part| bus.wires.iter().any(|one| one.connection.part == part);
-    let (filters, pass) = filter::of_parts(context, is_own, section);
+    let is_own = |index: usize| bus.wires.iter().any(|one| one.devices.contains(&index));
+    let (filters, pass) = filter::of_items(context, is_own, section);
     let constant = format!("{upper}_LISTEN");
     let sent: Vec<usize> =
         bus.frames.iter().flat_map(|frame| &frame.values).map(|one| one.index).collect();
     section.items.push(format!(
-        "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::can::Come) {{\n\
+        "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::controller::Come) {{\n\
          {filters}    let mut bus = rt::can::Bus {{\n        come,\n        schema: &SCHEMA,\n        \
          values: tables::{upper}_VALUES,\n        sent: &{sent:?},\n        \
          told_ms: &mut [None; tables::{upper}_VALUES.len()],\n        value: &mut [0; SCHEMA.value_bytes_max()],\n    }};\n    \

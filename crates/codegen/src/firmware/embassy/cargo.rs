@@ -104,7 +104,7 @@ pub(super) fn manifest(context: &Context<'_>) -> String {
         ),
     };
     let more = match context.names.hal {
-        Hal::Stm32 => "",
+        Hal::Stm32 => "embedded-can = \"=0.4.1\"\n",
         Hal::Rp => "fixed = \"=1.31.0\"\n",
     };
     MANIFEST

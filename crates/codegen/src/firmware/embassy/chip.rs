@@ -4,10 +4,11 @@ use sensedsl_model::protocol::{Crc, Formula};
 use sensedsl_model::words::Code;
 
 use super::context::Context;
+use super::lack::Made;
 use crate::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
 /// The table of a part on a register bus.
-pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
+pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Made<String> {
     let name = plan.prefix.to_uppercase();
     let mut text = format!("pub const {name}_CHIP: ChipTable = ChipTable {{\n");
     let mut line = |what: &str, value: String| {
@@ -30,9 +31,11 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
         line("calibration", list(blocks));
     }
     line("transfers", list(plan.transfers.iter().map(transfer)));
-    line("readings", list(plan.readings.iter().map(|one| reading(context, one))));
+    let readings = plan.readings.iter().map(|one| reading(context, one));
+    line("readings", list(readings.collect::<Made<Vec<String>>>()?.into_iter()));
     if !plan.commands.is_empty() {
-        line("commands", list(plan.commands.iter().map(|one| command(context, one))));
+        let commands = plan.commands.iter().map(|one| command(context, one));
+        line("commands", list(commands.collect::<Made<Vec<String>>>()?.into_iter()));
     }
     if let Some(one) = plan.formula {
         line("formula", format!("Some({})", formula(one)));
@@ -42,7 +45,7 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> String {
     line("cycle_ms", plan.cycle_ms.to_string());
     line("address", byte(plan.address));
     text.push_str("    ..ChipTable::NEW\n};");
-    text
+    Ok(text)
 }
 
 pub(super) fn list(entries: impl Iterator<Item = String>) -> String {
@@ -79,24 +82,24 @@ fn transfer(plan: &TransferPlan) -> String {
     )
 }
 
-fn reading(context: &Context<'_>, plan: &ReadingPlan) -> String {
+fn reading(context: &Context<'_>, plan: &ReadingPlan) -> Made<String> {
     let output = plan.output.map_or("None".to_owned(), |output| format!("Some({output})"));
     let value = plan.value.as_ref().map_or("Coding::NEW".to_owned(), coding);
-    format!(
+    Ok(format!(
         "Reading {{ item: {}, offset: {}, transfer: {}, output: {output}, value: {value} }}",
-        context.item(&plan.field),
+        context.item(&plan.field)?,
         plan.offset,
         plan.transfer
-    )
+    ))
 }
 
-fn command(context: &Context<'_>, plan: &CommandPlan) -> String {
-    format!(
+fn command(context: &Context<'_>, plan: &CommandPlan) -> Made<String> {
+    Ok(format!(
         "Command {{ prefix: {}, item: {}, value: {} }}",
         bytes(&plan.prefix),
-        context.item(&plan.field),
+        context.item(&plan.field)?,
         coding(&plan.value)
-    )
+    ))
 }
 
 /// The runtime's formula.

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::design::PartIndex;
 use sensedsl_model::kind::KindName;
 
 use super::context::{Context, late};
@@ -89,22 +88,16 @@ pub(super) fn tasks(
     section: &mut Section,
 ) -> Made<()> {
     for (cycle, served) in cycles(context, bus)? {
-        task(context, bus, hz, cycle, &served, &reach(&served)?, section);
+        task(context, bus, hz, cycle, &served, &reach(&served)?, section)?;
     }
     Ok(())
 }
 
 /// The parts of each cycle, in the design's order.
 fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Made<BTreeMap<Cycle, Vec<Served<'a>>>> {
-    let mut known: Vec<PartIndex> = Vec::new();
     let mut cycles: BTreeMap<Cycle, Vec<Served<'a>>> = BTreeMap::new();
     for wire in &bus.all {
-        if known.contains(&wire.connection.part) {
-            continue;
-        }
-        known.push(wire.connection.part);
-        let plan = context.job.tables_of(wire).and_then(|plan| plan.bus.clone());
-        let plan = plan.ok_or_else(|| Lack::table("registers"))?;
+        let plan = context.job.bus_of(wire).ok_or_else(|| Lack::table("registers"))?.clone();
         cycles.entry(wire.cycle).or_default().push(Served { plan, wire });
     }
     Ok(cycles)
@@ -118,7 +111,7 @@ fn task(
     served: &[Served<'_>],
     reach: &Reach,
     section: &mut Section,
-) {
+) -> Made<()> {
     let ident = cycle.ident(bus.unit.as_str());
     let constant = ident.to_uppercase();
     let bytes = served.iter().map(|one| one.plan.work_bytes + 4).max().unwrap_or(4);
@@ -133,11 +126,11 @@ fn task(
     );
     text.push_str(&reach.lines);
     for Served { plan, .. } in served {
-        section.tables.push(chip::table(context, plan));
+        section.tables.push(chip::table(context, plan)?);
         text.push_str(&state(plan));
     }
-    let is_own = |part: PartIndex| served.iter().any(|one| one.wire.connection.part == part);
-    let (filters, pass) = filter::of_parts(context, is_own, section);
+    let is_own = |index: usize| served.iter().any(|one| one.wire.devices.contains(&index));
+    let (filters, pass) = filter::of_items(context, is_own, section);
     text.push_str(&filters);
     text.push_str(&format!(
         "    let timeout = Duration::from_millis({});\n    loop {{\n        let mut idle_ms = {};\n        \
@@ -158,6 +151,7 @@ fn task(
     let device = served.first().map_or(0, |one| context.id_of(one.wire));
     section.watched.push(Watched::new(constant, cycle, device));
     section.runtime.insert("bus.rs");
+    Ok(())
 }
 
 /// What a task keeps of a part.

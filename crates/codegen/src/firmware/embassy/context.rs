@@ -11,6 +11,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
 use super::hal::Hal;
+use super::lack::{Lack, Made};
 use super::names::{Chip, Names};
 use super::{gaps, moved, rp};
 use crate::job::{BoardJob, Cycle, JobConnection, JobDevice};
@@ -107,8 +108,9 @@ impl<'a> Context<'a> {
     }
 
     /// The index of a device's item.
-    pub(super) fn item(&self, field: &str) -> usize {
-        self.job.devices.iter().position(|one| one.name() == field).unwrap_or_default()
+    pub(super) fn item(&self, field: &str) -> Made<usize> {
+        let found = self.job.devices.iter().position(|one| one.name() == field);
+        found.ok_or_else(|| Lack::wire(format!("a place for `{field}`")))
     }
 
     /// The board's crystals.

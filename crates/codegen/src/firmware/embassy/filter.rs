@@ -1,7 +1,5 @@
 //! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
 
-use sensedsl_model::design::PartIndex;
-
 use super::context::Context;
 use super::section::Section;
 use crate::part::{FilterPlan, Number};
@@ -24,17 +22,14 @@ pub(super) fn pass(
     format!("Some(&mut *{ident}_filter)")
 }
 
-/// The filters of all items of parts: what a task keeps, and an expression for that of the item `index`.
-pub(super) fn of_parts(
+/// The filters of items: what a task keeps, and an expression for that of the item `index`.
+pub(super) fn of_items(
     context: &Context<'_>,
-    is_own: impl Fn(PartIndex) -> bool,
+    is_own: impl Fn(usize) -> bool,
     section: &mut Section,
 ) -> (String, String) {
     let (mut state, mut arms) = (String::new(), String::new());
-    for (index, device) in context.job.devices.iter().enumerate() {
-        if !is_own(device.device.part) {
-            continue;
-        }
+    for index in (0..context.job.devices.len()).filter(|index| is_own(*index)) {
         let mut own = String::new();
         let pass = pass(context, index, section, &mut own);
         if !own.is_empty() {

@@ -5,50 +5,54 @@ use sensedsl_model::protocol::Format;
 
 use super::chip::{byte, bytes, coding, init, list};
 use super::context::Context;
+use super::lack::Made;
 use crate::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
 /// The tables of a device: its messages, how it is set up, and what it is sent.
-pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Vec<String> {
+pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Made<Vec<String>> {
     let name = plan.prefix.to_uppercase();
     let mut tables = Vec::new();
     if !plan.init.is_empty() {
         tables
             .push(format!("pub const {name}_INIT: &[InitStep] = {};", flat(&init(&plan.init), 1)));
     }
-    if !plan.fields.is_empty() {
+    let fields = plan.fields.iter().map(|one| field(context, one)).collect::<Made<Vec<_>>>()?;
+    if !fields.is_empty() {
         tables.push(format!(
             "pub const {name}_MESSAGE: MessageTable = MessageTable {{\n    start: {},\n    end: {},\n    \
              fields: {},\n    length: {},\n    bytes_max: {},\n    checksum: {},\n    checksum_from: {},\n}};",
             bytes(&plan.start),
             bytes(&plan.end),
-            list(plan.fields.iter().map(|one| field(context, one))),
+            list(fields.into_iter()),
             plan.length,
             plan.bytes_max,
             checksum(plan.checksum),
             plan.checksum_from
         ));
     }
-    tables.extend(plan.commands.iter().map(|one| compose(context, one)));
-    tables
+    for command in &plan.commands {
+        tables.push(compose(context, command)?);
+    }
+    Ok(tables)
 }
 
 /// What the table of a message that is sent is called.
-pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> String {
-    let device = context.job.devices.get(context.item(&plan.field));
-    format!("{}_COMPOSE", device.map_or("", |one| one.ident.as_str()).to_uppercase())
+pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> Made<String> {
+    let device = context.job.devices.get(context.item(&plan.field)?);
+    Ok(format!("{}_COMPOSE", device.map_or("", |one| one.ident.as_str()).to_uppercase()))
 }
 
-fn compose(context: &Context<'_>, plan: &ComposePlan) -> String {
-    format!(
+fn compose(context: &Context<'_>, plan: &ComposePlan) -> Made<String> {
+    Ok(format!(
         "pub const {}: Compose = Compose {{\n    start: {},\n    end: {},\n    value: {},\n    checksum: {},\n    \
          checksum_from: {},\n}};",
-        compose_name(context, plan),
+        compose_name(context, plan)?,
         bytes(&plan.start),
         bytes(&plan.end),
         coding(&plan.value),
         checksum(plan.checksum),
         plan.checksum_from
-    )
+    ))
 }
 
 /// The checksum in the runtime's words.
@@ -63,14 +67,14 @@ const fn checksum(checksum: MessageChecksum) -> &'static str {
     }
 }
 
-fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> String {
-    let item = context.item(&plan.field);
+fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> Made<String> {
+    let item = context.item(&plan.field)?;
     let text = match &plan.how {
         FieldCoding::Binary { byte, value } => {
-            return format!(
+            return Ok(format!(
                 "MessageField {{ item: {item}, byte: {byte}, value: {}, ..MessageField::NEW }}",
                 coding(value)
-            );
+            ));
         }
         FieldCoding::Text(text) => text,
     };
@@ -82,13 +86,13 @@ fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> String {
     let sentence = text.sentence.as_deref();
     let sentence = sentence
         .map_or("None".to_owned(), |one| format!("Some(b\"{}\")", one.as_bytes().escape_ascii()));
-    format!(
+    Ok(format!(
         "MessageField {{ item: {item}, format: FieldFormat::{format}, sentence: {sentence}, separator: {}, index: {}, \
          decimals: {}, ..MessageField::NEW }}",
         byte(text.separator.unwrap_or(0)),
         text.field,
         text.decimals
-    )
+    ))
 }
 
 /// The list with its indent reduced by `steps`.

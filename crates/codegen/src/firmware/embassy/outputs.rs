@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::signal::{Function, TimerLine};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::pwm::Pwm;
@@ -142,7 +143,10 @@ impl<'a> Output<'a> {
 fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mut Section) {
     let Some(first) = outputs.first() else { return };
     let (name, hal) = (snake(unit), context.peripheral(unit));
-    let slot = |slot: u8| match outputs.iter().find(|one| one.pulse.slot == slot) {
+    let own = |slot: u8| {
+        outputs.iter().find(move |one| one.pulse.slot == slot && !one.pulse.is_complement)
+    };
+    let slot = |slot: u8| match own(slot) {
         Some(one) => format!(
             "Some(hal::timer::simple_pwm::PwmPin::new(p.{}, OutputType::PushPull))",
             one.pin
@@ -162,6 +166,9 @@ fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mu
             first.pwm.frequency_hz
         ),
     });
+    for one in outputs.iter().filter(|one| one.pulse.is_complement) {
+        complement(context, unit, one, section);
+    }
     let plain = outputs.iter().filter(|one| !bridge::is_bridge(&one.wired));
     for Output { wired, at, pwm, pulse, .. } in plain {
         let (scalar, bytes) = element(wired, *at);
@@ -190,6 +197,21 @@ fn timer(context: &Context<'_>, unit: &str, outputs: &[Output<'_>], section: &mu
     section.runtime.insert("pwm.rs");
 }
 
+/// The pin of a channel's complement. The HAL has it in a driver that turns each channel on with its complement, which
+/// then goes against it; here it is alone, and is set as the channel would be.
+fn complement(context: &Context<'_>, unit: &str, one: &Output<'_>, section: &mut Section) {
+    let (hal, slot) = (context.peripheral(unit), one.pulse.slot);
+    let types = ["'static", &hal, &format!("hal::timer::Ch{slot}")].map(str::to_owned);
+    let types = context.generics(unit, &types.each_ref().map(String::as_str));
+    let type_ = format!("hal::timer::complementary_pwm::ComplementaryPwmPin{types}");
+    section.outputs.push(Field {
+        name: format!("{}_ch{slot}n", snake(unit)),
+        comment: one.wire.place(),
+        make: format!("{type_}::new(p.{}, OutputType::PushPull)", one.pin),
+        type_,
+    });
+}
+
 /// Keeps a timer from taking new levels over, or lets it.
 fn hold(hal: &str, is_held: bool) -> String {
     format!("hal::pac::{hal}.cr1().modify(|control| control.set_udis({is_held}));")
@@ -205,6 +227,8 @@ pub(super) struct Pulse {
     timer: String,
     /// The channel.
     pub(super) slot: u8,
+    /// It is the complement of the channel.
+    is_complement: bool,
     /// Of the pulses for 0 and for the greatest level, and from one to the next.
     min_us: u32,
     max_us: u32,
@@ -214,14 +238,18 @@ pub(super) struct Pulse {
 impl Pulse {
     pub(super) fn of(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Self> {
         let own = lack::kind(wire.connection.kind.pwm())?;
-        let unit = lack::unit(wire)?;
+        let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
         let period_us = 1_000_000 / own.frequency_hz.max(1);
         let whole = own.min_us.is_none() && own.max_us.is_none();
         Ok(Self {
             hal: context.names.hal,
             name: snake(unit),
             timer: context.peripheral(unit),
-            slot: lack::channel(lack::pad(wire, Role::Out)?)?,
+            slot: lack::channel(pad)?,
+            is_complement: matches!(
+                pad.usage.map(|usage| usage.signal.function()),
+                Some(Function::Timer { line: TimerLine::Inverted, .. })
+            ),
             // Shares of the whole period need no microseconds, which may be few.
             min_us: own.min_us.unwrap_or(0),
             max_us: if whole { 1 } else { own.max_us.unwrap_or(period_us) },
@@ -234,8 +262,22 @@ impl Pulse {
         let Self { name, slot, min_us, max_us, period_us, .. } = self;
         let times = format!("[{min_us}, {max_us}, {period_us}]");
         match self.hal {
-            Hal::Stm32 => format!("set_pulse(&mut outputs.{name}.ch{slot}(), {times}, {level});"),
+            Hal::Stm32 => format!(
+                "set_width(&mut outputs.{name}.ch{slot}(), {times}, {level}); {}",
+                self.turn_on()
+            ),
             Hal::Rp => format!("outputs.{name}.set({slot}, {times}, {level});"),
+        }
+    }
+
+    /// Turns the output on.
+    fn turn_on(&self) -> String {
+        let Self { name, timer, slot, .. } = self;
+        if self.is_complement {
+            let place = slot - 1;
+            format!("hal::pac::{timer}.ccer().modify(|on| on.set_ccne({place}, true));")
+        } else {
+            format!("outputs.{name}.ch{slot}().enable();")
         }
     }
 
@@ -249,8 +291,9 @@ impl Pulse {
             )
         };
         format!(
-            "{} outputs.{name}.ch{slot}().set_duty_cycle(0); outputs.{name}.ch{slot}().enable(); {}",
+            "{} outputs.{name}.ch{slot}().set_duty_cycle(0); {} {}",
             preload(false),
+            self.turn_on(),
             preload(true)
         )
     }

@@ -32,6 +32,8 @@ const STM32: &[(&str, &str)] = files![
     "runtime/embassy/",
     "again.rs",
     "can.rs",
+    "can_banks.rs",
+    "can_fd.rs",
     "exti.rs",
     "i2c.rs",
     "port_new.rs",
@@ -86,6 +88,7 @@ pub(super) fn module(own: &BTreeSet<&'static str>, always: &[&'static str]) -> S
     for name in names {
         // The units of a chip are of one sort, and the code around them does not know which.
         let sort = ["_new", "_old"].iter().find_map(|sort| name.strip_suffix(sort));
+        let sort = sort.or_else(|| name.starts_with("can_").then_some("controller"));
         if let Some(module) = sort {
             let _ = writeln!(modules, "#[path = \"{name}.rs\"]\npub mod {module};");
         } else {

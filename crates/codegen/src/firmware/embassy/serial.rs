@@ -67,7 +67,7 @@ fn port(
     let says = wire.pad(Role::Tx).is_some() && !(plan.init.is_empty() && plan.commands.is_empty());
     let said = says.then(|| format!("{}_SAID", wire.ident.to_uppercase()));
     let port = Port { wire, unit, uart, plan, said };
-    section.tables.extend(message::tables(context, plan));
+    section.tables.extend(message::tables(context, plan)?);
     section.runtime.insert("serial.rs");
     match context.names.hal {
         Hal::Stm32 => ports(context, section),
@@ -76,7 +76,7 @@ fn port(
         }
     }
     port.wiring(context, section)?;
-    port.say(context, section);
+    port.say(context, section)?;
     if !plan.fields.is_empty() || !plan.init.is_empty() {
         port.listen(context, section)?;
     }
@@ -194,8 +194,8 @@ impl Port<'_> {
     }
 
     /// What is sent, and the task that does it.
-    fn say(&self, context: &Context<'_>, section: &mut Section) {
-        let Some(said) = &self.said else { return };
+    fn say(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
+        let Some(said) = &self.said else { return Ok(()) };
         let ident = &self.wire.ident;
         let (type_, place) = self.half(context.names.hal, false);
         let port = if type_.contains("UartTx") { "port" } else { "port.split().0" };
@@ -213,13 +213,14 @@ impl Port<'_> {
         let prio = self.wire.cycle.prio;
         section.starts.push(Start::Task(prio, format!("{ident}_say({place})")));
         for command in &self.plan.commands {
-            let index = context.item(&command.field);
+            let index = context.item(&command.field)?;
             section.sets.entry(index).or_default().push(format!(
                 "rt::serial::send(&{said}, &tables::{}, &SCHEMA, {index}, value, &mut [0; {}], &BOARD);",
-                message::compose_name(context, command),
+                message::compose_name(context, command)?,
                 command.bytes
             ));
         }
+        Ok(())
     }
 
     /// The interrupt of the port, and the task that takes what it has heard.
@@ -238,14 +239,14 @@ impl Port<'_> {
             cycle.delay_ms,
             late(cycle)
         ));
-        let own = self.wire.connection.part;
-        let (filters, pass) = filter::of_parts(context, |part| part == own, section);
+        let is_own = |index: usize| self.wire.devices.contains(&index);
+        let (filters, pass) = filter::of_items(context, is_own, section);
         text.push_str(&filters);
         if !self.plan.init.is_empty() {
             text.push_str("    let mut start = sense_rt::MessageStart::NEW;\n");
         }
         if has_fields {
-            text.push_str(&self.device(context));
+            text.push_str(&self.device(context)?);
         }
         let constant = format!("{upper}_LISTEN");
         text.push_str(&format!(
@@ -292,9 +293,10 @@ impl Port<'_> {
     }
 
     /// What the task keeps of a device that says something.
-    fn device(&self, context: &Context<'_>) -> String {
+    fn device(&self, context: &Context<'_>) -> Made<String> {
         let (upper, prefix) = (self.upper(), self.plan.prefix.to_uppercase());
-        format!(
+        let own = self.plan.fields.iter().map(|one| context.item(&one.field));
+        Ok(format!(
             "    let mut stream: sense_rt::MessageStream<[u8; tables::{prefix}_MESSAGE.stream_bytes(&SCHEMA)]> =\n        \
              sense_rt::MessageStream::new(&tables::{prefix}_MESSAGE, &SCHEMA);\n    \
              let mut device = rt::serial::Device {{\n        heard: &{upper}_HEARD,\n        stream: &mut stream,\n        \
@@ -302,8 +304,8 @@ impl Port<'_> {
              const OWN: [usize; {}] = {:?};\n",
             serial::gap_ms(self.uart, self.plan),
             self.plan.fields.len(),
-            self.plan.fields.iter().map(|one| context.item(&one.field)).collect::<Vec<_>>()
-        )
+            own.collect::<Made<Vec<_>>>()?
+        ))
     }
 
     /// What the task does in a cycle. The first value of a cycle is told, for that is when it is due; faults are all

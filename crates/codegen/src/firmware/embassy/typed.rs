@@ -214,6 +214,8 @@ impl<'a> Lines<'a> {
         let Some(unit) = connection.unit else { return };
         for stream in &connection.streams {
             let Some(code) = self.stream(unit, kind, stream.request, stream.stream) else {
+                let (request, stream) = (stream.request, stream.stream);
+                self.unjudged.push(format!("{} by DMA {stream} ({request})", connection.title));
                 continue;
             };
             if !self.all.iter().any(|(known, _)| *known == code) {

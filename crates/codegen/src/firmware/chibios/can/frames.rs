@@ -88,9 +88,10 @@ fn filters(context: &Context<'_>, buses: &[Bus<'_>]) -> Vec<(usize, String, Stri
         };
         let Some(wanted) = bus.of.wanted() else { return Vec::new() };
         for (index, pair) in wanted.chunks(2).enumerate() {
-            let mut both = pair.iter().chain(pair.last()).map(|one| register(*one));
-            let (Some(one), Some(two)) = (both.next(), both.next()) else { continue };
-            filters.push((first + index, one, two));
+            // The last is its own other where their number is odd.
+            if let [one, .., two] | [one @ two] = pair {
+                filters.push((first + index, register(*one), register(*two)));
+            }
         }
     }
     filters

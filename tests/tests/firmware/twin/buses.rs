@@ -1,0 +1,146 @@
+//! Two controllers of a kind at once, and outputs that are complements, on both targets.
+
+use sensedsl_twin::machine::LinkPort;
+use sensedsl_twin::{CanFrame, TimerOutput};
+use sensedsl_wire::Direction::{Actuator, Sensor};
+use sensedsl_wire::ScalarType::{Int16, Uint16};
+
+use super::bench::{Bench, MS, unsigned, values};
+use super::kinds::{frame, items};
+use crate::firmware::chibios::tree;
+use crate::firmware::embassy;
+
+/// CAN2 has its filters in CAN1; the fan is at the complement of a channel, the pump at a channel of the same timer.
+const BOTH: &str = "
+board STM32F407G_DISC1 {
+    link { transport = uart; unit = USART3; }
+    sensor Speed returns uint16 { id = 1; type = can; unit = CAN1; bitrate = 500 kHz; frame = 0x120; byte = 2; }
+    actuator Torque accepts int16 { id = 2; type = can; unit = CAN1; bitrate = 500 kHz; frame = 0x18FF1234; }
+    sensor Heat returns uint16 { id = 3; type = can; unit = CAN2; bitrate = 250 kHz; frame = 0x18FF0121; byte = 2; }
+    actuator Valve accepts int16 { id = 4; type = can; unit = CAN2; bitrate = 250 kHz; frame = 0x122; }
+    actuator Fan accepts uint16 { id = 5; type = pwm; pin = PE8; frequency = 1 kHz; failsafe = 2500; }
+    actuator Pump accepts uint16 { id = 6; type = pwm; pin = PE11; frequency = 1 kHz; failsafe = 1000; }
+}
+";
+
+/// The second controller without the first, whose clock it needs nevertheless.
+const SECOND: &str = "
+board STM32F407G_DISC1 {
+    link { transport = uart; unit = USART3; }
+    sensor Speed returns uint16 { id = 1; type = can; unit = CAN2; bitrate = 500 kHz; frame = 0x120; byte = 2; }
+    actuator Torque accepts int16 { id = 2; type = can; unit = CAN2; bitrate = 500 kHz; frame = 0x18FF1234; }
+}
+";
+
+fn chibios(name: &str, text: &str) -> Option<Bench> {
+    let name = format!("twin_{name}");
+    Some(Bench::build(&tree()?, &name, text, "production", LinkPort::Serial(3)))
+}
+
+fn in_rust(name: &str, text: &str) -> Option<Bench> {
+    let program = embassy::program(&format!("twin_embassy_{name}"), text)?;
+    Some(Bench::of(&program, LinkPort::Serial(3)))
+}
+
+fn can(id: u32, extended: bool, value: u8) -> CanFrame {
+    let data = [9, 9, 0x12, value, 9, 9, 9, 9];
+    CanFrame { id, extended, remote: false, length: 8, data }
+}
+
+/// What a device has told.
+fn told(bench: &Bench, id: u8) -> Vec<u64> {
+    let schema = items(&[
+        (1, Sensor, "Speed", Uint16, None),
+        (2, Actuator, "Torque", Int16, None),
+        (3, Sensor, "Heat", Uint16, None),
+        (4, Actuator, "Valve", Int16, None),
+        (5, Actuator, "Fan", Uint16, None),
+        (6, Actuator, "Pump", Uint16, None),
+    ]);
+    values(&bench.reports(&schema), id).iter().map(|(_, value)| unsigned(value)).collect()
+}
+
+/// The frames that have left a controller: identifier and data.
+fn left(bench: &Bench, unit: u8) -> Vec<(u32, bool, Vec<u8>)> {
+    let world = bench.world();
+    let own = world.from_can.iter().filter(|(by, _)| *by == unit).map(|(_, frame)| frame);
+    let data = |frame: &CanFrame| frame.data[..usize::from(frame.length)].to_vec();
+    own.map(|frame| (frame.id, frame.extended, data(frame))).collect()
+}
+
+fn both_are_served(mut bench: Bench) {
+    bench.run_until_ms(300);
+    // The identifiers of one bus are nobody's on the other.
+    let of_one = [can(0x18FF_0121, true, 1), can(0x120, false, 0x34)];
+    let of_two = [can(0x120, false, 1), can(0x18FF_0121, true, 0x56)];
+    bench.world().to_can.entry(1).or_default().extend(of_one);
+    bench.world().to_can.entry(2).or_default().extend(of_two);
+    bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
+    bench.machine.link_write(&frame(&[4, 0x01, 0x02]));
+    bench.run_until_ms(2_500);
+    assert_eq!((told(&bench, 1), told(&bench, 3)), (vec![0x1234], vec![0x1256]));
+    assert_eq!(left(&bench, 1).first(), Some(&(0x18FF_1234, true, vec![0xFE, 0xDC])));
+    assert_eq!(left(&bench, 2).first(), Some(&(0x122, false, vec![1, 2])));
+    complements_have_the_widths_of_their_channels(bench);
+}
+
+/// Duty and polarity on the complement are those that the host sets, and its channel gives none.
+fn complements_have_the_widths_of_their_channels(mut bench: Bench) {
+    bench.assert_wires(&[("PE8", "TIM1_CH1N"), ("PE11", "TIM1_CH2")]);
+    let near = |is: u64, wanted: u64| is.abs_diff(wanted) * 1_000 <= wanted;
+    let gives = |bench: &Bench, channel, is_complement, width_ns: u64| {
+        let output = TimerOutput { timer: 1, channel, is_complement };
+        let (period, width) = bench.world().waves.get(&output).copied().unwrap_or_default();
+        assert!(near(width, width_ns), "{output:?}: {width} of {period}, and not {width_ns}");
+        assert!(width_ns == 0 || near(period, MS), "{output:?}: {period}");
+    };
+    gives(&bench, 1, true, MS / 4);
+    gives(&bench, 1, false, 0);
+    gives(&bench, 2, false, MS / 10);
+    gives(&bench, 2, true, 0);
+    bench.machine.link_write(&frame(&[5, 0x23, 0x28]));
+    bench.run_until_ms(2_600);
+    gives(&bench, 1, true, MS * 9 / 10);
+    gives(&bench, 1, false, 0);
+}
+
+fn the_second_is_served_alone(mut bench: Bench) {
+    bench.run_until_ms(300);
+    let frames = [can(0x121, false, 1), can(0x120, false, 0x34)];
+    bench.world().to_can.entry(2).or_default().extend(frames);
+    bench.machine.link_write(&frame(&[2, 0xFE, 0xDC]));
+    bench.run_until_ms(2_500);
+    let schema = items(&[(1, Sensor, "Speed", Uint16, None), (2, Actuator, "Torque", Int16, None)]);
+    let speeds = values(&bench.reports(&schema), 1);
+    assert_eq!(speeds.iter().map(|(_, value)| unsigned(value)).collect::<Vec<_>>(), [0x1234]);
+    assert_eq!(left(&bench, 2).first(), Some(&(0x18FF_1234, true, vec![0xFE, 0xDC])));
+    assert!(left(&bench, 1).is_empty());
+}
+
+#[test]
+fn both_controllers_and_a_complement_on_chibios() {
+    if let Some(bench) = chibios("buses", BOTH) {
+        both_are_served(bench);
+    }
+}
+
+#[test]
+fn both_controllers_and_a_complement_on_embassy() {
+    if let Some(bench) = in_rust("buses", BOTH) {
+        both_are_served(bench);
+    }
+}
+
+#[test]
+fn the_second_controller_alone_on_chibios() {
+    if let Some(bench) = chibios("second", SECOND) {
+        the_second_is_served_alone(bench);
+    }
+}
+
+#[test]
+fn the_second_controller_alone_on_embassy() {
+    if let Some(bench) = in_rust("second", SECOND) {
+        the_second_is_served_alone(bench);
+    }
+}
