@@ -11,6 +11,7 @@ use std::process::Command;
 use sensedsl_codegen::firmware::embassy::{TypeCheck, profile_of, type_check};
 use sensedsl_codegen::job::{BoardJob, JobConnection, jobs};
 use sensedsl_codegen::target;
+use sensedsl_model::kind::KindName;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_tests::{
