@@ -10,9 +10,9 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "no firmware for this board",
     explanation: r#"Firmware needs a target that serves the board's MCU. A table of your own says which MCU it describes by a
-first line such as `# mcu = STM32F407VGT6`. On ChibiOS the board also needs facts of its clocks, as built-in boards
-have them; Embassy needs none. On Embassy one timer must be left for the clock. Whatever a device needs that target or
-wiring do not have is told with its name: a unit, a pin, an interrupt, a DMA stream.
+first line such as `# mcu = STM32F407VGT6`. ChibiOS must have a board with the MCU in its tree; Embassy's HAL must
+know the MCU, and a timer must be left for its clock. What a single device needs and the target's profile or the
+wiring does not have is told with the device's name: a unit, a pin, an interrupt, a DMA stream.
 
 Way out: say which MCU the table describes; take the other target (`--target embassy`, `--target chibios`); or take
 another pin or unit for the device that is named. `sensedsl generate --without firmware` writes everything else, the

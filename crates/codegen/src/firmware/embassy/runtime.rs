@@ -29,7 +29,7 @@ const SHARED: &[(&str, &str)] = files![
 
 /// Those between it and `embassy-stm32`.
 const STM32: &[(&str, &str)] = files![
-    "runtime/embassy/",
+    "runtime/embassy/stm32/",
     "again.rs",
     "can.rs",
     "can_banks.rs",
