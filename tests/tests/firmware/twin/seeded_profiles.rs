@@ -170,7 +170,7 @@ const UNSEEN: &[(&str, &str)] = &[
     ("ChibiOS: clock of I2C", "the same, and 400 kHz divide both clocks."),
     (
         "ChibiOS: periods of the clock of fast I2C",
-        "the driver divides by itself, and makes 400 kHz of the 396 that we ask for.",
+        "the driver divides by itself: our 396 kHz become 400.",
     ),
 ];
 
