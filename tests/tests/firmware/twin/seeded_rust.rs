@@ -37,7 +37,7 @@ const SEEDS: &[Seed] = &[
     ("parity of a serial port", &[WIRING], "Parity::ParityNone", "Parity::ParityEven"),
     ("filter of a CAN frame", &[MAIN], "standard(0x120)", "standard(0x121)"),
     ("place in a CAN frame", &[TABLES], "item: 8, byte: 2", "item: 8, byte: 3"),
-    ("bit rate of a CAN bus", &[MAIN], "500000,", "250000,"),
+    ("bit rate of a CAN bus", &[MAIN], "divider: 6,", "divider: 12,"),
     ("divider of a timer that measures", &[WIRING], "hz(1000000)", "hz(500000)"),
     (
         "ticks of a measured pulse",
