@@ -50,7 +50,12 @@ const SEEDS: &[Seed] = &[
     ("level of a contact", &[MAIN], "bumper.is_low()", "bumper.is_high()"),
     ("frequency of pulses", &[WIRING], "hz(50)", "hz(60)"),
     ("shortest pulse", &[MAIN], "[1000, 2000, 20000]", "[1100, 2000, 20000]"),
-    ("failsafe", &[MAIN], "[1000, 2000, 20000], 5000);\n", "[1000, 2000, 20000], 0);\n"),
+    (
+        "failsafe",
+        &[MAIN],
+        "5000); outputs.tim9.ch1().enable();\n",
+        "0); outputs.tim9.ch1().enable();\n",
+    ),
 ];
 
 /// Those that nobody notices here, and why.
