@@ -332,6 +332,79 @@ fn a_part_on_two_buses_has_two_tables() {
     }
 }
 
+/// Controllers with a memory for messages: each has its two interrupts, a clock that its bit is made of, and what the
+/// firmware sets of that clock. Those with banks share them.
+#[test]
+fn controllers_of_all_sorts_are_started() {
+    let fd = "hal::can::IT0InterruptHandler<";
+    let cases: [(&str, &[&str], &str, &str, &str); 8] = [
+        ("STM32C092RCT6", &["FDCAN1"], "divider: 6, before: 13, behind: 2", "", fd),
+        ("STM32G0B1RET6", &["FDCAN1", "FDCAN2"], "divider: 8, before: 13, behind: 2", "", fd),
+        (
+            "STM32G474RET6",
+            &["FDCAN1", "FDCAN2", "FDCAN3"],
+            "divider: 17, before: 16, behind: 3",
+            "mux.fdcansel = mux::Fdcansel::PCLK1",
+            fd,
+        ),
+        (
+            "STM32H563ZIT6",
+            &["FDCAN1", "FDCAN2"],
+            "divider: 5, before: 16, behind: 3",
+            "mux.fdcan12sel = mux::Fdcansel::PLL1_Q",
+            fd,
+        ),
+        (
+            "STM32H743ZIT6",
+            &["FDCAN1", "FDCAN2"],
+            "divider: 5, before: 13, behind: 2",
+            "mux.fdcansel = mux::Fdcansel::PLL1_Q",
+            fd,
+        ),
+        (
+            "STM32U575ZIT6",
+            &["FDCAN1"],
+            "divider: 5, before: 13, behind: 2",
+            "mux.fdcan1sel = mux::Fdcansel::PLL1_Q",
+            fd,
+        ),
+        (
+            "STM32F105RCT6",
+            &["CAN1", "CAN2"],
+            "divider: 1, before: 13, behind: 2",
+            "registers: hal::pac::CAN1, first: 14",
+            "hal::can::Rx0InterruptHandler<",
+        ),
+        (
+            "STM32L496ZGT6",
+            &["CAN2"],
+            "divider: 10, before: 13, behind: 2",
+            "hal::rcc::enable_and_reset::<CAN1>();",
+            "hal::can::Rx0InterruptHandler<",
+        ),
+    ];
+    for (mcu, units, bit, also, handler) in cases {
+        let device = |(at, unit): (usize, &&str)| {
+            format!(
+                "sensor S{at} returns uint8 {{ type = can; unit = {unit}; bitrate = 500 kHz; frame = 1; }}\n"
+            )
+        };
+        let devices: String = units.iter().enumerate().map(device).collect();
+        let text = format!("board B on {mcu} {{ link {{ transport = uart; }}\n{devices}}}\n");
+        with_job(&text, Some("embassy"), |job| {
+            let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
+            let read =
+                |path: &str| String::from_utf8(files.get(path).unwrap().bytes.clone()).unwrap();
+            let (main, wiring) = (read("src/main.rs"), read("src/wiring.rs"));
+            assert_eq!(main.matches(bit).count(), units.len(), "{mcu}: {main}");
+            assert!(main.contains(also), "{mcu}: {main}");
+            for unit in units {
+                assert!(wiring.contains(&format!("{handler}{unit}>")), "{mcu}: {wiring}");
+            }
+        });
+    }
+}
+
 /// What else there is of several wires.
 const MORE: &str = "
 board NUCLEO_F429ZI {
