@@ -37,7 +37,7 @@ const SEEDS: &[Seed] = &[
     ("parity of a serial port", &[WIRING], "Parity::ParityNone", "Parity::ParityEven"),
     ("filter of a CAN frame", &[MAIN], "standard(0x120)", "standard(0x121)"),
     ("place in a CAN frame", &[TABLES], "item: 8, byte: 2", "item: 8, byte: 3"),
-    ("bit rate of a CAN bus", &[MAIN], "500000,", "250000,"),
+    ("bit rate of a CAN bus", &[MAIN], "divider: 6,", "divider: 12,"),
     ("divider of a timer that measures", &[WIRING], "hz(1000000)", "hz(500000)"),
     (
         "ticks of a measured pulse",
@@ -50,7 +50,12 @@ const SEEDS: &[Seed] = &[
     ("level of a contact", &[MAIN], "bumper.is_low()", "bumper.is_high()"),
     ("frequency of pulses", &[WIRING], "hz(50)", "hz(60)"),
     ("shortest pulse", &[MAIN], "[1000, 2000, 20000]", "[1100, 2000, 20000]"),
-    ("failsafe", &[MAIN], "[1000, 2000, 20000], 5000);\n", "[1000, 2000, 20000], 0);\n"),
+    (
+        "failsafe",
+        &[MAIN],
+        "5000); outputs.tim9.ch1().enable();\n",
+        "0); outputs.tim9.ch1().enable();\n",
+    ),
 ];
 
 /// Those that nobody notices here, and why.
