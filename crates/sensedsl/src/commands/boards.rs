@@ -73,6 +73,9 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         Transport::Usb => "USB",
     });
     let links: Vec<&str> = links.collect();
+    let systems = firmware(board);
+    let systems: Vec<&str> =
+        systems.iter().filter_map(|name| Some(name.rsplit_once('-')?.0)).collect();
     let or_dash = |text: &str| if text.is_empty() { "-" } else { text }.to_owned();
     [
         board.name.to_owned(),
@@ -82,11 +85,11 @@ fn row(board: &catalog::Entry) -> [String; 8] {
         pins.len().to_string(),
         free.to_string(),
         or_dash(&links.join(" ")),
-        or_dash(&firmware(board).join(" ")),
+        or_dash(&systems.join(" ")),
     ]
 }
 
-/// The systems that there is firmware for, the usual one first.
+/// The systems that there is firmware for, with their versions and the usual one first.
 pub(crate) fn firmware(board: &catalog::Entry) -> Vec<&'static str> {
     let facts = board.board().ok();
     let names = profile::names();

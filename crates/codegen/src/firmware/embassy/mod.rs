@@ -88,6 +88,6 @@ impl Target for Embassy {
     }
 
     fn build(&self, folder: &str) -> String {
-        format!("cargo build --release --manifest-path {folder}/Cargo.toml")
+        format!("cd {folder} && cargo build --release")
     }
 }
