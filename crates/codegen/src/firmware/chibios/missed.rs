@@ -5,20 +5,22 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0504_no_firmware_target::no_firmware_target;
 use sensedsl_model::kind::KindName;
+use sensedsl_timing::refusals_of;
 
 use super::context::{Context, PadPlan};
 use super::section::Section;
 use crate::job::JobConnection;
 
 /// Tells each connection with a pad that nothing sets up, or with a port that nothing starts. Where something else was
-/// told already, that is why.
+/// told already, a clock that cannot be made among it, that is why.
 pub(super) fn tell(
     context: &Context<'_>,
     pads: &[PadPlan],
     sections: &[Section],
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    if !diagnostics.is_empty() {
+    let job = context.job;
+    if !diagnostics.is_empty() || !refusals_of(job.design, job.board, job.wiring).is_empty() {
         return;
     }
     for one in &context.job.connections {

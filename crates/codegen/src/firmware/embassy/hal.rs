@@ -49,6 +49,14 @@ impl Hal {
         }
     }
 
+    /// What writes a program to a board without a debug probe, where its boot loader takes one over USB.
+    pub(super) const fn loader(self) -> Option<&'static str> {
+        match self {
+            Self::Stm32 => None,
+            Self::Rp => Some("picotool load -u -v -x -t elf"),
+        }
+    }
+
     /// The number of the least urgent interrupt that tasks can run in.
     pub(super) fn last_priority(self, target: &str) -> usize {
         match self {
