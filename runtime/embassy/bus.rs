@@ -1,6 +1,7 @@
 //! Parts on register buses: the runtime says what is to be sent and read, and a line does it.
 
-use embassy_time::{Duration, Instant, Timer};
+use embassy_time::{Duration, Instant, Timer, with_timeout};
+use embedded_hal_async::spi::SpiBus;
 use sense_rt::{Chip, Outcome, Sink, Step};
 
 use super::now_ms;
@@ -10,6 +11,29 @@ use super::shared::Tell;
 pub trait Line {
     /// Makes one transfer.
     async fn transfer(&mut self, address: u8, step: Step<'_>, timeout: Duration) -> Outcome;
+}
+
+/// A transfer of SPI, between which and others the caller chooses the part.
+pub async fn exchange(bus: &mut impl SpiBus, step: Step<'_>, timeout: Duration) -> Outcome {
+    let result = with_timeout(timeout, async {
+        match step {
+            Step::Write(bytes) => bus.write(bytes).await,
+            Step::WriteRead(select, bytes) => {
+                if !select.is_empty() {
+                    bus.write(select).await?;
+                }
+                bus.read(bytes).await
+            }
+            Step::Exchange(sent, received) => bus.transfer(received, sent).await,
+            Step::Wait(_) => Ok(()),
+        }
+    })
+    .await;
+    match result {
+        Ok(Ok(())) => Outcome::Fresh,
+        Ok(Err(_)) => Outcome::BusError,
+        Err(_) => Outcome::TimedOut,
+    }
 }
 
 /// A command as it was written last: the number of the host's value, and that of the chip's start.

@@ -4,7 +4,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::pipe::Pipe;
-use embassy_time::{Duration, Instant, with_deadline};
+use embassy_time::{Duration, Instant, Timer, with_deadline};
 use sense_rt::{Compose, InitStep, MessageStart, MessageStream, Outcome, Schema, Sink};
 
 use super::{now_ms, queue};
@@ -113,5 +113,17 @@ pub fn send<const BYTES: usize>(
     let message = message.get(..size).unwrap_or_default();
     if size == 0 || said.free_capacity() < size || !queue(said, message) {
         board.tell(None, index, Outcome::BusError, &mut []);
+    }
+}
+
+/// Sends what is queued, for ever: a character in the time that it takes. `put` waits for room in the port.
+pub async fn say<const BYTES: usize>(mut put: impl FnMut(&[u8]), said: &'static Said<BYTES>, baud: u32) -> ! {
+    // Twelve bits are the longest character.
+    let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
+    loop {
+        let mut bytes = [0];
+        said.read(&mut bytes).await;
+        put(&bytes);
+        Timer::after(character).await;
     }
 }

@@ -4,10 +4,10 @@ use embassy_rp::gpio::Output;
 use embassy_rp::spi::{Async, Config, Instance, Phase, Polarity, Spi};
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
-use embassy_time::{Duration, with_timeout};
+use embassy_time::Duration;
 use sense_rt::{Outcome, Step};
 
-use super::bus::Line;
+use super::bus::{Line, exchange};
 
 /// A bus that several tasks share.
 pub type SpiBus<T> = Mutex<CriticalSectionRawMutex, Spi<'static, T, Async>>;
@@ -38,25 +38,8 @@ impl<T: Instance> Line for SpiLine<T> {
         // The clock rests at the part's level before the part looks at it.
         bus.set_config(&self.config);
         self.select.set_low();
-        let result = with_timeout(timeout, async {
-            match step {
-                Step::Write(bytes) => bus.write(bytes).await,
-                Step::WriteRead(select, bytes) => {
-                    if !select.is_empty() {
-                        bus.write(select).await?;
-                    }
-                    bus.read(bytes).await
-                }
-                Step::Exchange(sent, received) => bus.transfer(received, sent).await,
-                Step::Wait(_) => Ok(()),
-            }
-        })
-        .await;
+        let outcome = exchange(&mut *bus, step, timeout).await;
         self.select.set_high();
-        match result {
-            Ok(Ok(())) => Outcome::Fresh,
-            Ok(Err(_)) => Outcome::BusError,
-            Err(_) => Outcome::TimedOut,
-        }
+        outcome
     }
 }

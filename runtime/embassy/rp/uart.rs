@@ -2,9 +2,8 @@
 
 use embassy_rp::pac::uart::Uart;
 use embassy_rp::uart::{Blocking, Config, DataBits, Parity, StopBits, UartTx};
-use embassy_time::{Duration, Timer};
 
-use super::serial::{Heard, Said};
+use super::serial::{self, Heard, Said};
 
 /// In the port's interrupt: takes the characters that have come. `mask` has the bits that are data.
 pub fn on_interrupt<const BYTES: usize>(heard: &Heard<BYTES>, port: Uart, mask: u8) {
@@ -38,15 +37,9 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8, is_inverted: b
     config
 }
 
-/// Sends what is queued, for ever: a character in the time that it takes.
+/// Sends what is queued, for ever.
 pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: &'static Said<BYTES>, baud: u32) -> ! {
-    // Twelve bits are the longest character.
-    let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
-    loop {
-        let mut bytes = [0];
-        said.read(&mut bytes).await;
-        // It waits for room in the port, and what it returns is always `Ok`: nothing is there that a device could be told of.
-        let _ = port.blocking_write(&bytes);
-        Timer::after(character).await;
-    }
+    // What it returns is always `Ok`: nothing is there that a device could be told of.
+    let put = |bytes: &[u8]| drop(port.blocking_write(bytes));
+    serial::say(put, said, baud).await
 }

@@ -7,10 +7,10 @@ use embassy_stm32::spi::{Config, MODE_0, MODE_1, MODE_2, MODE_3, Spi};
 use embassy_stm32::time::hz;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
-use embassy_time::{Duration, with_timeout};
+use embassy_time::Duration;
 use sense_rt::{Outcome, Step};
 
-use super::bus::Line;
+use super::bus::{Line, exchange};
 
 /// A bus that several tasks share.
 pub type SpiBus = Mutex<CriticalSectionRawMutex, Spi<'static, Async, Master>>;
@@ -43,25 +43,8 @@ impl Line for SpiLine {
             return Outcome::BusError;
         }
         self.select.set_low();
-        let result = with_timeout(timeout, async {
-            match step {
-                Step::Write(bytes) => bus.write(bytes).await,
-                Step::WriteRead(select, bytes) => {
-                    if !select.is_empty() {
-                        bus.write(select).await?;
-                    }
-                    bus.read(bytes).await
-                }
-                Step::Exchange(sent, received) => bus.transfer(received, sent).await,
-                Step::Wait(_) => Ok(()),
-            }
-        })
-        .await;
+        let outcome = exchange(&mut *bus, step, timeout).await;
         self.select.set_high();
-        match result {
-            Ok(Ok(())) => Outcome::Fresh,
-            Ok(Err(_)) => Outcome::BusError,
-            Err(_) => Outcome::TimedOut,
-        }
+        outcome
     }
 }

@@ -4,10 +4,9 @@ use embassy_stm32::gpio::Pull;
 use embassy_stm32::mode::Blocking;
 use embassy_stm32::pac::usart::Usart;
 use embassy_stm32::usart::{Config, DataBits, Parity, StopBits, UartTx};
-use embassy_time::{Duration, Timer};
 
 use super::port::take;
-use super::serial::{Heard, Said};
+use super::serial::{self, Heard, Said};
 
 /// In the port's interrupt: takes the character that has come. `mask` has the bits that are data.
 pub fn on_interrupt<const BYTES: usize>(heard: &Heard<BYTES>, port: Usart, mask: u8) {
@@ -27,7 +26,7 @@ pub fn listen(port: Usart) {
     port.cr1().modify(|register| register.set_rxneie(true));
 }
 
-/// How a port is set. `invert`: its wires rest low, where the port can do that.
+/// How a port is set.
 pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
     let mut config = Config::default();
     config.baudrate = baud;
@@ -39,15 +38,9 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8) -> Config {
     config
 }
 
-/// Sends what is queued, for ever: a character in the time that it takes.
+/// Sends what is queued, for ever.
 pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: &'static Said<BYTES>, baud: u32) -> ! {
-    // Twelve bits are the longest character.
-    let character = Duration::from_micros(u64::from(12_000_000 / baud.max(1)) + 1);
-    loop {
-        let mut bytes = [0];
-        said.read(&mut bytes).await;
-        // It waits for room in the port, and what it returns is always `Ok`: nothing is there that a device could be told of.
-        let _ = port.blocking_write(&bytes);
-        Timer::after(character).await;
-    }
+    // What it returns is always `Ok`: nothing is there that a device could be told of.
+    let put = |bytes: &[u8]| drop(port.blocking_write(bytes));
+    serial::say(put, said, baud).await
 }

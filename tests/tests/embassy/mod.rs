@@ -108,7 +108,7 @@ fn a_project_is_whole() {
     for (path, bytes) in tree(&root().join("crates/sense-rt/src")) {
         assert_eq!(project.get(&format!("sense-rt/src/{path}")), Some(&bytes), "{path}");
     }
-    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 12);
+    versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 13);
     let wiring = text_of("src/wiring.rs");
     assert!(wiring.contains("ir_front: p.PB0,"), "{wiring}");
     assert!(

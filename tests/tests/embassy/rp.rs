@@ -63,7 +63,7 @@ fn projects_are_whole() {
     for (board, triple) in BOARDS {
         let project = tree(&generated(&scratch, board, KINDS));
         let text_of = |path: &str| String::from_utf8_lossy(&project[path]).into_owned();
-        versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 12);
+        versions_are_those_of_the_lock_file(&text_of("Cargo.toml"), &text_of("Cargo.lock"), 13);
         let starts_with_boot2 = triple.starts_with("thumbv6m");
         let config = text_of(".cargo/config.toml");
         assert!(config.contains(&format!("target = \"{triple}\"")), "{config}");

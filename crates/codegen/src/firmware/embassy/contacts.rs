@@ -146,9 +146,7 @@ fn handler(interrupt: &str, statics: &[String], section: &mut Section) {
 
 /// The reporter takes what the interrupts have seen.
 fn poll(context: &Context<'_>, wired: &Wired<'_>, own: &Digital, section: &mut Section) {
-    let mut state = String::new();
-    let filter = filter::pass(context, wired.index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    let filter = filter::polled(context, wired.index, section);
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let size = value.scalar.size_bytes();
     section.states.push(format!(

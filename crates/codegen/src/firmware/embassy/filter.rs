@@ -22,6 +22,14 @@ pub(super) fn pass(
     format!("Some(&mut *{ident}_filter)")
 }
 
+/// [`pass`] for a device that the reporter polls: the state is the reporter's.
+pub(super) fn polled(context: &Context<'_>, index: usize, section: &mut Section) -> String {
+    let mut state = String::new();
+    let filter = pass(context, index, section, &mut state);
+    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    filter
+}
+
 /// The filters of items: what a task keeps, and an expression for that of the item `index`.
 pub(super) fn of_items(
     context: &Context<'_>,

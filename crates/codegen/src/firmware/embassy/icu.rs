@@ -163,17 +163,9 @@ fn run(icu: &Icu, channel: u8, upper: &str) -> String {
     }
 }
 
-/// The filter of a device whose state the reporter keeps.
-pub(super) fn filter(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> String {
-    let mut state = String::new();
-    let filter = filter::pass(context, wired.index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
-    filter
-}
-
 /// What the reporter does with what was captured.
 pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) {
-    let filter = filter(context, wired, section);
+    let filter = filter::polled(context, wired.index, section);
     let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
     let mode = match icu.mode {
         Mode::Width => "Width",
@@ -223,7 +215,7 @@ pub(super) fn poll(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section:
 }
 
 fn poll_train(context: &Context<'_>, wired: &Wired<'_>, plan: &TrainPlan, section: &mut Section) {
-    let filter = filter(context, wired, section);
+    let filter = filter::polled(context, wired.index, section);
     let seen = upper(wired.first);
     section.states.push(format!("let mut {}_trains = 0;", plan.ident));
     section.polls.push(format!(

@@ -95,34 +95,43 @@ fn digital(
     Ok(())
 }
 
-/// The reporter looks at counters so often that no wrap is lost.
+/// An encoder: its timers count in hardware, and the reporter looks at them.
 fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
-    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
-    let mut state = String::new();
-    let filter = filter::pass(context, wired.index, section, &mut state);
-    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
-    let mut counts = String::new();
-    for (at, wire) in wired.wires.iter().enumerate() {
+    let mut counts = Vec::new();
+    for wire in &wired.wires {
         counter(context, wire, section)?;
-        counts.push_str(&format!("{ident}_counters[{at}].step({}_qei.count());\n", wire.ident));
+        counts.push(format!("{}_qei.count()", wire.ident));
     }
-    section
-        .states
-        .push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
+    poll_counts(context, wired, &counts, section);
+    Ok(())
+}
+
+/// The reporter looks at counters of 16 bits so often that no wrap is lost. `counts`: an expression for each wire.
+pub(super) fn poll_counts(
+    context: &Context<'_>,
+    wired: &Wired<'_>,
+    counts: &[String],
+    section: &mut Section,
+) {
+    let filter = filter::polled(context, wired.index, section);
+    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
+    section.states.push(format!("let mut {ident}_counters = [Counter::NEW; {}];", counts.len()));
     section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
+    let steps = counts.iter().enumerate();
+    let steps = steps.map(|(at, count)| format!("{ident}_counters[{at}].step({count});\n"));
     section.polls.push(format!(
-        "let before = {ident}_counters.map(|counter| counter.total());\n{counts}\
+        "let before = {ident}_counters.map(|counter| counter.total());\n{}\
          let counts = {ident}_counters.map(|counter| counter.total());\n\
          if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
          for (at, count) in counts.into_iter().enumerate() {{\n        \
          store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
          BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
+        steps.collect::<String>(),
         value.size_bytes(),
         scalar(value.scalar),
         value.scalar.size_bytes(),
         wired.device.ident.to_uppercase()
     ));
-    Ok(())
 }
 
 /// The timer of two tracks, which the reporter keeps.

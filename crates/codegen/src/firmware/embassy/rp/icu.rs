@@ -3,8 +3,9 @@
 use sensedsl_model::kind::Role;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
-use super::super::context::{Context, Wired, scalar};
-use super::super::icu::{filter, poll};
+use super::super::context::{Context, Wired};
+use super::super::icu::poll;
+use super::super::inputs::poll_counts;
 use super::super::lack::{self, Lack, Made};
 use super::super::section::{Field, Keep, Section, Start};
 use crate::job::JobConnection;
@@ -89,9 +90,8 @@ fn count(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Sect
         Edge::Rising | Edge::Both => "RisingEdge",
         Edge::Falling => "FallingEdge",
     };
-    let mut looks = String::new();
-    let (ident, value) = (&wired.device.ident, wired.device.device.value.value);
-    for (at, wire) in wired.wires.iter().enumerate() {
+    let mut counts = Vec::new();
+    for wire in &wired.wires {
         let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
         let type_ = "rt::gate::Edges";
         section.fields.push(Field {
@@ -109,24 +109,8 @@ fn count(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Sect
             type_: type_.to_owned(),
             from: format!("wiring.{}", wire.ident),
         });
-        looks.push_str(&format!("{ident}_counters[{at}].step({}_slice.count());\n", wire.ident));
+        counts.push(format!("{}_slice.count()", wire.ident));
     }
-    let filter = filter(context, wired, section);
-    section
-        .states
-        .push(format!("let mut {ident}_counters = [Counter::NEW; {}];", wired.wires.len()));
-    section.states.push(format!("let mut {ident}_repeat = Repeat::NEW;"));
-    section.polls.push(format!(
-        "let before = {ident}_counters.map(|counter| counter.total());\n{looks}\
-         let counts = {ident}_counters.map(|counter| counter.total());\n\
-         if {ident}_repeat.is_due(counts != before, 1_000, now_ms()) {{\n    let mut value = [0; {}];\n    \
-         for (at, count) in counts.into_iter().enumerate() {{\n        \
-         store_count({}, i64::from(count), value.get_mut(at * {}..).unwrap_or_default());\n    }}\n    \
-         BOARD.tell({filter}, tables::{}, Outcome::Fresh, &mut value);\n}}",
-        value.size_bytes(),
-        scalar(value.scalar),
-        value.scalar.size_bytes(),
-        wired.device.ident.to_uppercase()
-    ));
+    poll_counts(context, wired, &counts, section);
     Ok(())
 }
