@@ -40,6 +40,8 @@ pub fn config(baud: u32, bits: u8, parity: Parity, stop_bits: u8, is_inverted: b
 /// Sends what is queued, for ever.
 pub async fn say<const BYTES: usize>(mut port: UartTx<'static, Blocking>, said: &'static Said<BYTES>, baud: u32) -> ! {
     // What it returns is always `Ok`: nothing is there that a device could be told of.
-    let put = |bytes: &[u8]| drop(port.blocking_write(bytes));
+    let put = |bytes: &[u8]| {
+        let _ = port.blocking_write(bytes);
+    };
     serial::say(put, said, baud).await
 }
