@@ -3,6 +3,7 @@
 //! What needs cargo and its registry runs with `SENSEDSL_THOROUGH=1`.
 
 mod rp;
+mod rp_runs;
 mod seeds;
 
 use std::path::{Path, PathBuf};

@@ -49,7 +49,7 @@ const PORTS: &str = r#" {
 "#;
 
 /// Generates a design for a board; returns the folder of its project.
-fn generated(scratch: &Scratch, board: &str, design: &str) -> PathBuf {
+pub(super) fn generated(scratch: &Scratch, board: &str, design: &str) -> PathBuf {
     let file = scratch.write(&format!("{board}.sense"), format!("board {board}{design}"));
     let (file, out) = (file.display().to_string(), scratch.join(board).display().to_string());
     let _ = sensedsl(["generate", &file, "-q", "-o", &out]).run().exits(0);

@@ -25,12 +25,9 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-/// Every part is reached by its address. On STM32 the registers stand beside it, which stop what does not end.
+/// Every part is reached by its address. The registers stand beside it, which stop what does not end.
 fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
-    let line = match context.names.hal {
-        Hal::Stm32 => format!("rt::i2c::I2cLine(bus, hal::pac::{})", context.peripheral(unit)),
-        Hal::Rp => "rt::i2c::I2cLine(bus)".to_owned(),
-    };
+    let line = format!("rt::i2c::I2cLine(bus, hal::pac::{})", context.peripheral(unit));
     let lines =
         served.iter().map(|one| format!("    let mut {}_line = {line};\n", one.plan.prefix));
     Reach { parameters: String::new(), arguments: String::new(), lines: lines.collect() }
