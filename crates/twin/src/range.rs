@@ -1,6 +1,7 @@
 //! Which numbers a device can report at all: what its type holds, and what its hardware can measure.
 
 use sensedsl_model::design::Device;
+use sensedsl_model::kind::digital::Edge;
 use sensedsl_model::kind::icu::Mode;
 use sensedsl_model::kind::{Kind, KindName};
 use sensedsl_model::words::Words;
@@ -26,6 +27,18 @@ pub fn is_counter(kind: &Kind, device: &Device) -> bool {
         | Kind::Dac(_)
         | Kind::Can(_) => false,
     }
+}
+
+/// The edges a second that a contact's debounce lets through; none where it lets all.
+#[must_use]
+pub fn edges_a_second_max(device: &Device) -> Option<f64> {
+    let Kind::Digital(digital) = &device.kind else { return None };
+    let levels_an_edge = match digital.edge? {
+        Edge::Rising | Edge::Falling => 2.0,
+        Edge::Both => 1.0,
+    };
+    let lasts_us = f64::from(digital.debounce_us);
+    (lasts_us > 0.0).then(|| 1e6 / (lasts_us * levels_an_edge))
 }
 
 /// The least and the greatest raw number; none for real ones without bounds.

@@ -14,6 +14,7 @@ pub const INFO: CodeInfo = CodeInfo {
 - outside of what the type holds: 300 for a `uint8`, -1 for a `uint16`;
 - outside of what the hardware can measure: 80 degrees at a probe whose curve ends at 60;
 - a count of edges that becomes less: `rate = 25` is 25 edges a second;
+- a count of edges that grows faster than `debounce` lets it: with 20 ms, levels that are shorter do not count;
 - four values for an array of three.
 
 Way out: write values within the range that the message tells, or give the device a wider type.
@@ -53,4 +54,13 @@ pub fn jumps(span: Span, name: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` counts edges, and a count cannot jump"))
         .here("jumps")
         .help("write for example `{ sine = 200, period = \"4 s\" }`, `{ rate = 25 }` or `steps`, which are joined by lines")
+}
+
+/// Edges come faster than a contact is debounced; both numbers are edges a second.
+#[must_use]
+pub fn too_fast(span: Span, name: &str, wanted: &str, most: &str) -> Diagnostic {
+    let what = format!("`{name}` cannot count {wanted} edges a second: `debounce` lets fewer than {most} through");
+    Diagnostic::new(CODE, span, what)
+        .here("too fast")
+        .help("let it grow more slowly, or shorten `debounce` of the device")
 }

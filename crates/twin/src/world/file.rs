@@ -14,7 +14,7 @@ use super::entry::{Entry, duration};
 use super::fault::{Fault, FaultKind};
 use super::{Shape, Signal, World};
 use crate::arith::scrambled;
-use crate::range::{is_counter, shown_range};
+use crate::range::{edges_a_second_max, is_counter, shown_range};
 use crate::truth::Scale;
 
 /// How long the board has no supply where a fault does not say it.
@@ -278,11 +278,17 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     if is_turning(device) && matches!(signal.shape, Shape::Square { .. }) {
         return Some(value::jumps(span, name));
     }
+    let scale = Scale::of(&device.shown);
+    let each = scale.shown(1.0) - scale.shown(0.0);
+    if let (Some(most), Some(wanted)) = (edges_a_second_max(device), signal.steepest())
+        && wanted / each >= most
+    {
+        return Some(value::too_fast(span, name, &short(wanted / each), &short(most)));
+    }
     let (least, greatest) = signal.bounds()?;
     let plain = Signal { noise: 0.0, ..signal.clone() };
     let (least, greatest) = plain.bounds().unwrap_or((least, greatest));
     let (low, high) = shown_range(device)?;
-    let scale = Scale::of(&device.shown);
     let slack = scale.shown_step(scale.raw(low)).max(scale.shown_step(scale.raw(high))) / 2.0
         + (high - low).abs() * 1e-9;
     let wrong =

@@ -104,6 +104,24 @@ impl Signal {
         }
     }
 
+    /// By how much it grows in a second where it grows most; none for what does not grow steadily.
+    #[must_use]
+    pub fn steepest(&self) -> Option<f64> {
+        let a_second = |from: f64, to: f64, ns: u64| (to - from) * SECOND_NS / number(ns.max(1));
+        match &self.shape {
+            Shape::Rate { a_second, .. } => Some(*a_second),
+            Shape::Ramp { from, to, over_ns } => Some(a_second(*from, *to, *over_ns)),
+            Shape::Points { points, .. } => points
+                .windows(2)
+                .filter_map(|pair| match pair {
+                    [one, next] => Some(a_second(one.1, next.1, next.0.saturating_sub(one.0))),
+                    _ => None,
+                })
+                .reduce(f64::max),
+            Shape::Constant(_) | Shape::Sine { .. } | Shape::Square { .. } => None,
+        }
+    }
+
     /// Whether it ever becomes less.
     #[must_use]
     pub fn falls(&self) -> bool {

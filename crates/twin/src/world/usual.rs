@@ -10,7 +10,7 @@ use sensedsl_wire::ScalarType;
 
 use super::signal::{Shape, Signal};
 use crate::arith::{nanoseconds, number};
-use crate::range::{is_counter, raw_range};
+use crate::range::{edges_a_second_max, is_counter, raw_range};
 use crate::truth::Scale;
 
 /// Raw numbers in a row are never further away from 0 than this without a reason.
@@ -29,9 +29,14 @@ fn shape(device: &Device, place: u64) -> Shape {
     let scale = Scale::of(&device.shown);
     if is_counter(&device.kind, device) {
         let (zero, each) = (scale.shown(0.0), scale.shown(1.0) - scale.shown(0.0));
-        return Shape::Rate { from: zero, a_second: each * (20.0 + 7.0 * pace) };
+        let edges = 20.0 + 7.0 * pace;
+        let edges = edges_a_second_max(device).map_or(edges, |most| edges.min(most / 2.0));
+        return Shape::Rate { from: zero, a_second: each * edges };
     }
-    let period_ns = nanoseconds((4.0 + 0.7 * pace) * 1e9);
+    // A level lasts for longer than a contact is taken to bounce.
+    let lasts_us = device.kind.digital().map_or(0, |own| own.debounce_us);
+    let lasts_s = f64::from(lasts_us) / 1e6;
+    let period_ns = nanoseconds((4.0 + 0.7 * pace + 8.0 * lasts_s) * 1e9);
     if device.value.value.scalar == ScalarType::Bool || is_one_bit(device) {
         let (first, second) = (scale.shown(0.0), scale.shown(1.0));
         return Shape::Square { first, second, period_ns: period_ns / 2 };

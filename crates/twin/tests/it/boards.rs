@@ -25,6 +25,26 @@ fn every_sensor_of_every_example_reports_what_the_world_does() {
     }
 }
 
+/// Contacts without a world move no faster than they are debounced.
+#[test]
+fn contacts_last_as_long_as_they_must() {
+    let contacts: String = (1..=11_u16)
+        .map(|id| {
+            let edge = ["edge = rising;", "edge = both;", ""][usize::from(id % 3)];
+            let scalar = if edge.is_empty() { "bool" } else { "uint32" };
+            let debounce = u32::from(id) * 30;
+            format!(
+                "sensor C{id} returns {scalar} {{ id = {id}; type = digital; {edge} debounce = {debounce} ms; delay = 50 ms; }}\n"
+            )
+        })
+        .collect();
+    let run = plainly(&format!("board STM32F407G_DISC1 {{ {contacts} }}"), "", 30);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    for one in &run.judged {
+        assert!(one.reports > 50 && one.excused < one.reports / 2, "{}: {one:?}", one.name);
+    }
+}
+
 #[test]
 fn a_run_is_the_same_to_the_byte() {
     let text = example("miniature_car");

@@ -10,6 +10,7 @@ const BOARD: &str = "board STM32F4DiscoveryBoard {
     sensor Pair returns uint16[2] { id = 5; type = analog; delay = 20; }
     sensor Button returns bool { id = 6; type = digital; delay = 20; }
     actuator Lamp accepts bool { id = 7; type = digital; }
+    sensor Rain returns uint32 { id = 8; type = digital; edge = falling; debounce = 20 ms; delay = 50; }
 }";
 
 /// The codes and places of what is wrong with a world.
@@ -53,6 +54,12 @@ fn every_mistake_is_told_with_its_place() {
     only(&format!("{d}Pair = [1, 2, 3]"), "E0542", "[1, 2, 3]");
     let falls = "{ sine = 5, offset = 9, period = \"1 s\" }";
     only(&format!("{d}Wheel = {falls}"), "E0542", falls);
+    for fast in
+        ["{ rate = 25 }", "{ ramp = [0, 100], over = \"2 s\" }", "{ steps = [[0, 0], [1, 60]] }"]
+    {
+        only(&format!("{d}Rain = {fast}"), "E0542", fast);
+    }
+    assert_eq!(said(&format!("{d}Rain = {{ rate = 24 }}")), []);
     only(
         &format!("{d}Light = {{ ramp = [0, 1], over = \"1 fortnight\" }}"),
         "E0543",
