@@ -182,9 +182,12 @@ fn page(done: &[Done]) -> String {
     let mut gaps: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for one in done {
         for gap in one.gaps().into_iter().chain(one.refused.clone()) {
-            gaps.entry(gap.replace('|', "/").replace(one.mcu, "the MCU"))
-                .or_default()
-                .push(one.board);
+            // A family's name may begin with the MCU's: "RP2040 and RP2350".
+            let its_own = format!("on {}", one.mcu);
+            let is_family = gap.contains(&format!("{its_own} and "));
+            let gap = gap.replace('|', "/");
+            let gap = if is_family { gap } else { gap.replace(one.mcu, "the MCU") };
+            gaps.entry(gap).or_default().push(one.board);
         }
     }
     if !gaps.is_empty() {
