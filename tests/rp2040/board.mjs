@@ -8,13 +8,15 @@
 //   spi            bytes that SPI answers, over and over
 //   levels         [time, pin, level]: what pins are driven to
 //   ports          [time, number, hex]: characters that come to a UART
-//   said           [time, hex]: what the host sends, over USB where the image has it, over UART0 else
+//   link           number of the UART that the host is at; over USB without it
+//   said           [time, hex]: what the host sends
 //   held           [from, to]: an I2C part keeps the bus in this time
 //   hung           from then on the core does nothing, until a reset
 // Standard output has one object:
 //   heard          [time, hex]: what the host receives
 //   pins           by pin: [time, level], a level of 2 and more for a pin that is not driven
 //   sent           hex of all that SPI sent
+//   written        by number of a UART: bytes that it sent to a device
 //   resets         times of the watchdog's resets
 //   instructions   how many were executed
 import fs from 'node:fs';
@@ -31,7 +33,7 @@ const TX_INTERRUPT = 1 << 5;
 
 const world = JSON.parse(fs.readFileSync(0, 'utf8'));
 const image = fs.readFileSync(world.image);
-const answer = { heard: [], pins: {}, sent: '', resets: [], instructions: 0 };
+const answer = { heard: [], pins: {}, sent: '', written: {}, resets: [], instructions: 0 };
 
 /// Where the emulator differs from the RP2040's data sheet.
 function mend(mcu, clock) {
@@ -70,7 +72,27 @@ function mend(mcu, clock) {
   };
   // 2.12, chip-level reset: why the chip started.
   mcu.peripherals[0x40064].readUint32 = (offset) => (offset === 8 ? 1 << 8 : 0);
+  keepBuffers(mcu.usbCtrl, mcu.usbDPRAMView);
   mcu.uart.forEach((uart) => sendInTime(mcu, uart, clock));
+}
+
+/// 4.1, USB: a buffer belongs to the controller until a packet is in it.
+function keepBuffers(usb, memory) {
+  const AVAILABLE = 1 << 10;
+  const updated = usb.DPRAMUpdated.bind(usb);
+  const finish = usb.finishRead.bind(usb);
+  const firstOut = 0x80 + 4;
+  // Endpoint 0 is the host's, which takes no time.
+  const isOut = (offset) => offset > firstOut && offset < 0x100 && offset % 8 === 4;
+  usb.DPRAMUpdated = (offset, value) => {
+    updated(offset, value);
+    if (isOut(offset) && (value & AVAILABLE) !== 0) memory.setUint32(offset, value, true);
+  };
+  usb.finishRead = (endpoint, bytes) => {
+    const offset = firstOut + 8 * endpoint;
+    memory.setUint32(offset, memory.getUint32(offset, true) & ~AVAILABLE, true);
+    finish(endpoint, bytes);
+  };
 }
 
 /// 4.2, UART: a queue of 32 characters, which interrupts as it becomes an eighth full, and the time of a character.
@@ -104,7 +126,7 @@ function sendInTime(mcu, uart, clock) {
   };
 }
 
-/// The host: both ways over USB, and over UART0. Returns what sends bytes.
+/// The host: both ways over USB, or over a UART. Returns what sends bytes.
 function connect(mcu, hear) {
   const usb = mcu.usbCtrl;
   const host = new USBCDC(usb);
@@ -127,9 +149,11 @@ function connect(mcu, hear) {
     usb.sendSetupPacket(new Uint8Array([0x21, 0x22, 3, 0, 0, 0, 0, 0]));
   };
   host.onSerialData = hear;
-  mcu.uart[0].onByte = (byte) => hear([byte]);
+  mcu.uart.forEach((uart, number) => {
+    uart.onByte = (byte) => (world.link === number ? hear([byte]) : (answer.written[number] ??= []).push(byte));
+  });
   return (bytes) => {
-    if (!host.initialized) return bytes.forEach((byte) => mcu.uart[0].feedByte(byte));
+    if (Number.isInteger(world.link)) return bytes.forEach((byte) => mcu.uart[world.link].feedByte(byte));
     waiting.push(...bytes);
     push();
   };

@@ -36,7 +36,8 @@ const DEVICES: &str = r"
     actuator Relay accepts bool { id = 14; type = digital; pin = GP22; }
 }
 ";
-const USB: &str = "";
+/// The other port is a device's.
+const USB: &str = "actuator Words accepts uint16 { id = 15; type = uart; unit = UART0; start = [0xAA]; length = 2; }";
 const UART: &str = "link { transport = uart; unit = UART0; checksum = crc16; }";
 
 const MS: u64 = 1_000;
@@ -45,6 +46,7 @@ const TRIGGER: &str = "3";
 
 /// A design, its image and its schema.
 struct Made {
+    has_words: bool,
     image: PathBuf,
     schema: Schema,
     _scratch: Scratch,
@@ -58,6 +60,8 @@ struct Run {
     /// By pin: times in microseconds, with levels.
     pins: BTreeMap<String, Vec<(u64, u64)>>,
     resets: Vec<u64>,
+    /// What devices at ports were sent, by number.
+    written: BTreeMap<String, Vec<u8>>,
 }
 
 fn is_possible() -> bool {
@@ -87,7 +91,7 @@ fn made(name: &str, link: &str) -> Made {
     let mut copy = Command::new("arm-none-eabi-objcopy");
     assert!(copy.args(["-O", "binary"]).args([&elf, &image]).status().unwrap().success());
     let schema = with_job(&format!("board {board}{design}"), None, |job| job.schema.clone());
-    Made { image, schema, _scratch: scratch }
+    Made { has_words: link == USB, image, schema, _scratch: scratch }
 }
 
 /// Every tenth of a second a pulse to each input that measures one, and two characters; contacts open and close.
@@ -110,7 +114,7 @@ fn world(made: &Made, until_us: u64) -> Value {
     json!({
         "image": made.image, "until": until_us, "analog": [1_000, 2_000, 3_000, 0],
         "chips": { "112": [0, 0, 0x12, 0x34] }, "spi": [0xFF, 0x34, 0x56],
-        "levels": levels, "ports": ports,
+        "levels": levels, "ports": ports, "link": (!made.has_words).then_some(0),
     })
 }
 
@@ -133,6 +137,7 @@ fn run(made: &Made, world: &Value) -> Run {
         health: Vec::new(),
         pins: serde_json::from_value(answer["pins"].clone()).unwrap(),
         resets: serde_json::from_value(answer["resets"].clone()).unwrap(),
+        written: serde_json::from_value(answer["written"].clone()).unwrap(),
     };
     let heard: Vec<(u64, String)> = serde_json::from_value(answer["heard"].clone()).unwrap();
     let mut decoder = Decoder::new(&made.schema, Direction::Sensor);
@@ -177,7 +182,8 @@ fn assert_agrees(made: &Made) {
         hex(&encode_report(&made.schema, Direction::Actuator, values).unwrap())
     };
     let lamps = vec![Scalar::Unsigned(1_000), Scalar::Unsigned(9_000)];
-    let all = [(12, unsigned(2_500)), (13, lamps), (14, vec![Scalar::Bool(true)])];
+    let mut all = vec![(12, unsigned(2_500)), (13, lamps), (14, vec![Scalar::Bool(true)])];
+    all.extend(made.has_words.then(|| (15, unsigned(0x4567))));
     let mut world = world(made, 3_000 * MS);
     world["said"] = json!([
         (600 * MS, hex(&encode_hello_request(&made.schema))),
@@ -187,7 +193,8 @@ fn assert_agrees(made: &Made) {
     let run = run(made, &world);
 
     let hash = made.schema.hash();
-    assert!(run.hellos.len() >= 2 && run.hellos.iter().all(|one| *one == hash), "{:?}", run.hellos);
+    assert!(run.hellos.len() == 2 && run.health.len() == 1, "{:?}", run.health);
+    assert!(run.hellos.iter().all(|one| *one == hash), "{:?}", run.hellos);
     let steady = [
         (1, unsigned(1_000)),
         (2, vec![Scalar::Unsigned(2_000), Scalar::Unsigned(3_000)]),
@@ -244,6 +251,9 @@ fn assert_agrees(made: &Made) {
             .iter()
             .any(|(at, level)| *level == 1 && (1_000 * MS..1_100 * MS).contains(at))
     );
+    if made.has_words {
+        assert_eq!(run.written["0"], [0xAA, 0x45, 0x67]);
+    }
     let triggers = run.widths(TRIGGER);
     assert!(
         triggers.len() > 1 && triggers.iter().all(|(_, us)| (10..=13).contains(us)),
