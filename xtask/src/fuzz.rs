@@ -40,7 +40,7 @@ const KEPT_MAX: usize = 120;
 /// A longer one is not kept, unless it has a name of its own.
 const KEPT_BYTES_MAX: u64 = 4096;
 /// A short run: the corpus, then the same inputs each time, as far as the time goes.
-const BRIEFLY: [&str; 3] = ["-runs=1000", "-seed=1", "-max_total_time=5"];
+const BRIEFLY: [&str; 3] = ["-runs=1000", "-seed=1", "-max_total_time=15"];
 /// Seconds for which a finding is made smaller.
 const MINIMISE_S: u64 = 60;
 
