@@ -10,15 +10,13 @@
 //   ports          [time, number, hex]: characters that come to a UART
 //   link           number of the UART that the host is at; over USB without it
 //   said           [time, hex]: what the host sends
-//   held           [from, to]: an I2C part keeps the bus in this time
+//   held           [from, to, goesOn]: an I2C part keeps the bus in this time; then transfers go on, or are lost for ever
 //   hung           from then on the core does nothing, until a reset
 // Standard output has one object:
 //   heard          [time, hex]: what the host receives
 //   pins           by pin: [time, level], a level of 2 and more for a pin that is not driven
-//   sent           hex of all that SPI sent
 //   written        by number of a UART: bytes that it sent to a device
 //   resets         times of the watchdog's resets
-//   instructions   how many were executed
 import fs from 'node:fs';
 import { RP2040, USBCDC } from 'rp2040js';
 
@@ -30,10 +28,11 @@ const CYCLE_NS = 8;
 const IDLE_NS = 1e6;
 const CHARACTER_NS = 86_806; // 10 bits at 115,200 baud
 const TX_INTERRUPT = 1 << 5;
+const CONNECTING = 2; // a state of the emulator's I2C units
 
 const world = JSON.parse(fs.readFileSync(0, 'utf8'));
 const image = fs.readFileSync(world.image);
-const answer = { heard: [], pins: {}, sent: '', written: {}, resets: [], instructions: 0 };
+const answer = { heard: [], pins: {}, written: {}, resets: [] };
 
 /// Where the emulator differs from the RP2040's data sheet.
 function mend(mcu, clock) {
@@ -163,11 +162,17 @@ function attach(mcu, clock, now) {
   mcu.adc.channelValues.splice(0, 4, ...world.analog);
   for (const bus of mcu.i2c) {
     let [chip, register, isFirst] = [undefined, 0, true];
-    const isHeld = () => (world.held ?? []).some(([from, to]) => from <= now() && now() < to);
+    const held = () => (world.held ?? []).find(([from, to]) => from <= now() && now() < to);
+    // The transfer goes on when the part lets go, unless the unit was reset.
+    const letGo = clock.createAlarm(() => {
+      if (bus.state === CONNECTING) bus.completeConnect(chip !== undefined);
+    });
     bus.onConnect = (address) => {
       chip = world.chips[address];
       isFirst = true;
-      if (!isHeld()) bus.completeConnect(chip !== undefined);
+      const [, until, goesOn] = held() ?? [];
+      if (until === undefined) bus.completeConnect(chip !== undefined);
+      else if (goesOn) letGo.schedule((until - now()) * 1000);
     };
     bus.onWriteByte = (byte) => {
       if (isFirst) register = byte;
@@ -178,10 +183,7 @@ function attach(mcu, clock, now) {
   }
   for (const bus of mcu.spi) {
     let count = 0;
-    bus.onTransmit = (byte) => {
-      answer.sent += byte.toString(16).padStart(2, '0');
-      bus.completeTransmit(world.spi[count++ % world.spi.length]);
-    };
+    bus.onTransmit = () => bus.completeTransmit(world.spi[count++ % world.spi.length]);
   }
   for (const pin of mcu.gpio) {
     pin.addListener((level) => (answer.pins[pin.index] ??= []).push([now(), level]));
@@ -233,7 +235,6 @@ while (board.now() < world.until) {
     board.clock.tick(Math.max(CYCLE_NS, Math.min(toEvent, toAlarm, IDLE_NS)));
   } else {
     board.clock.tick(core.executeInstruction() * CYCLE_NS);
-    answer.instructions++;
   }
   if (board.isReset) {
     world.hung = undefined;

@@ -176,7 +176,7 @@ fn unsigned(value: u64) -> Vec<Scalar> {
     vec![Scalar::Unsigned(value)]
 }
 
-/// Every value is the world's, and every output is what the host says, or its failsafe before.
+/// Every value is the world's, and every output is what the host says, or its failsafe before and while it is silent.
 fn assert_agrees(made: &Made) {
     let set = |values: &[(u8, Vec<Scalar>)]| {
         hex(&encode_report(&made.schema, Direction::Actuator, values).unwrap())
@@ -237,6 +237,12 @@ fn assert_agrees(made: &Made) {
     );
     let after = &after[2..20];
     assert!(after.iter().all(|(_, us)| us.abs_diff(5_000) <= 2), "{after:?}");
+    let silent: Vec<_> =
+        servo.iter().filter(|(at, _)| (1_800 * MS..2_800 * MS).contains(at)).collect();
+    assert!(
+        silent.len() > 40 && silent.iter().all(|(_, us)| us.abs_diff(10_000) <= 2),
+        "{silent:?}"
+    );
     for (pin, wanted) in [("20", 100_u64), ("21", 900)] {
         let widths = run.widths(pin);
         let set: Vec<_> =
@@ -276,14 +282,15 @@ fn values_agree_over_a_serial_port_and_faults_are_told() {
     }
     let made = made("embassy-rp-uart", UART);
     assert_agrees(&made);
-    a_bus_that_is_kept(&made);
+    a_bus_that_is_kept(&made, true);
+    a_bus_that_is_kept(&made, false);
     a_core_that_hangs(&made);
 }
 
-/// The others go on, health names the part, and it is read again afterwards.
-fn a_bus_that_is_kept(made: &Made) {
+/// The others go on, health names the part, and it is read again afterwards, whether what was under way ends or not.
+fn a_bus_that_is_kept(made: &Made, goes_on: bool) {
     let mut world = world(made, 4_000 * MS);
-    world["held"] = json!([(1_000 * MS, 2_000 * MS)]);
+    world["held"] = json!([(1_000 * MS, 2_000 * MS, goes_on)]);
     let ask = hex(&encode_health_request(&made.schema));
     world["said"] = json!([(1_900 * MS, &ask), (3_900 * MS, &ask)]);
     let run = run(made, &world);
@@ -293,7 +300,8 @@ fn a_bus_that_is_kept(made: &Made) {
     };
     assert!(during(1, 1_100, 1_900) >= 14, "{}", during(1, 1_100, 1_900));
     let after = during(3, 2_200, 4_000);
-    assert!(after >= 30, "{after}: {:?}", run.health);
+    assert!(after >= 30, "{goes_on}: {after}: {:?}", run.health);
+    assert!(run.values[&3].iter().all(|(_, one)| *one == unsigned(0x1234)), "{:?}", run.values[&3]);
     let [first, last] = &run.health[..] else { panic!("{:?}", run.health) };
     let of = |health: &Health| health.devices.iter().find(|one| one.id == 3).copied().unwrap();
     assert!(of(first).causes.timed_out > 3, "{first:?}");

@@ -183,8 +183,7 @@ fn page(done: &[Done]) -> String {
     for one in done {
         for gap in one.gaps().into_iter().chain(one.refused.clone()) {
             // A family's name may begin with the MCU's: "RP2040 and RP2350".
-            let its_own = format!("on {}", one.mcu);
-            let is_family = gap.contains(&format!("{its_own} and "));
+            let is_family = gap.contains(&format!("on {} and ", one.mcu));
             let gap = gap.replace('|', "/");
             let gap = if is_family { gap } else { gap.replace(one.mcu, "the MCU") };
             gaps.entry(gap).or_default().push(one.board);
