@@ -1,25 +1,17 @@
-//! The judge: every value that a board reports against what the world did.
-//!
-//! A value that arrives at some time was measured a little earlier, and between measuring and arriving it is rounded,
-//! coded and filtered. So it must lie within what the world was in a span of time, give or take what rounding can do.
-//! Both are known for each device from its kind, its cycle and its filters. What is out of it, or does not come at all,
-//! is a disagreement, and the worst of each device is kept.
+//! The judge of one sensor: its values against the world, and its silences.
 
 use sensedsl_codegen::job::{BoardJob, JobDevice};
-use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Kind;
-use sensedsl_model::kind::icu::{Icu, Mode};
-use sensedsl_model::protocol::Format;
-use sensedsl_wire::{Direction, Scalar, ScalarType};
+use sensedsl_model::kind::icu::Mode;
+use sensedsl_wire::Scalar;
 
+use super::age::{link_ns, measured_ns};
+use super::tolerance::tolerance;
+use super::{Judged, MS, SECOND, Wrong};
 use crate::bench::Bench;
-use crate::parts::formula;
 use crate::range::{is_counter, raw_range};
 use crate::truth::{Subject, real};
-use crate::world::Signal;
 
-const MS: u64 = 1_000_000;
-const SECOND: u64 = 1_000 * MS;
 /// What a value waits for beside its device: two cycles of the reporter and its way over a link.
 const SLACK_NS: u64 = 40 * MS;
 /// How long a board may take to start before it must report.
@@ -30,50 +22,10 @@ const RECOVERY_NS: u64 = 1_500 * MS;
 const SETTLED: u64 = 8;
 const UNSETTLED: f64 = 0.000_34;
 
-/// A value that disagrees, in the device's own unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wrong {
-    /// When it arrived.
-    pub at_ns: u64,
-    /// Of which element.
-    pub element: usize,
-    /// What it should have been: from, to; none where nothing came at all.
-    pub expected: Option<(f64, f64)>,
-    /// What it was; of what did not come for how long, in seconds.
-    pub got: f64,
-    /// How far it is off, in tolerances.
-    pub off: f64,
-}
-
-/// What was found out about a device.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Judged {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub quantity: String,
-    /// Values that were compared.
-    pub reports: u64,
-    /// Values during and right after a fault that concerns it; they are not compared.
-    pub excused: u64,
-    /// Values that disagree, and silences.
-    pub wrong: u64,
-    /// The worst of them.
-    pub worst: Option<Wrong>,
-    /// How old a value may be.
-    pub age_ns: u64,
-}
-
-/// Compares reports with the world.
 #[derive(Clone, Debug)]
-pub struct Judge {
-    devices: Vec<Accused>,
-}
-
-#[derive(Clone, Debug)]
-struct Accused {
-    subject: Subject,
-    judged: Judged,
+pub(super) struct SensorJudge {
+    pub(super) subject: Subject,
+    pub(super) judged: Judged,
     /// In raw numbers.
     tolerance: f64,
     /// No longer silence is possible; none where silence says nothing.
@@ -90,36 +42,13 @@ struct Accused {
     waits_from_ns: Option<u64>,
 }
 
-impl Judge {
-    /// The judge of a board on its bench.
-    #[must_use]
-    pub fn new(job: &BoardJob<'_>, bench: &Bench) -> Self {
-        let find = |subject: &Subject| job.devices.iter().find(|one| one.index == subject.device);
-        let accused = |subject: &Subject| Some(Accused::new(job, bench, find(subject)?, subject));
-        Self { devices: bench.subjects().iter().filter_map(accused).collect() }
-    }
-
-    /// A report has arrived.
-    pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
-        for (id, elements) in values {
-            if let Some(accused) = self.devices.iter_mut().find(|one| one.subject.id == *id) {
-                accused.take(now_ns, elements);
-            }
-        }
-    }
-
-    /// The run is over.
-    #[must_use]
-    pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
-        for accused in &mut self.devices {
-            accused.silence(now_ns);
-        }
-        self.devices.into_iter().map(|one| one.judged).collect()
-    }
-}
-
-impl Accused {
-    fn new(job: &BoardJob<'_>, bench: &Bench, one: &JobDevice<'_>, subject: &Subject) -> Self {
+impl SensorJudge {
+    pub(super) fn new(
+        job: &BoardJob<'_>,
+        bench: &Bench,
+        one: &JobDevice<'_>,
+        subject: &Subject,
+    ) -> Self {
         let device = one.device;
         let filter = &device.filter;
         let period_ns = bench.period_ns(device.part).unwrap_or(0);
@@ -161,7 +90,7 @@ impl Accused {
         }
     }
 
-    fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
+    pub(super) fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
         self.silence(now_ns);
         self.last_ns = Some(now_ns);
         if self.is_excused(now_ns) {
@@ -272,7 +201,7 @@ impl Accused {
     }
 
     /// Whether nothing came for too long.
-    fn silence(&mut self, now_ns: u64) {
+    pub(super) fn silence(&mut self, now_ns: u64) {
         let Some(gap_ns) = self.gap_ns else { return };
         let since_ns = self.last_ns.unwrap_or(0);
         let most_ns = gap_ns + if self.last_ns.is_none() { START_NS } else { 0 };
@@ -285,89 +214,4 @@ impl Accused {
             self.note(Some(Wrong { at_ns: now_ns, element: 0, expected: None, got, off }));
         }
     }
-}
-
-/// How long the longest frame is on a serial link.
-fn link_ns(job: &BoardJob<'_>) -> u64 {
-    if job.board.link.transport != Transport::Uart {
-        return 0;
-    }
-    let bytes = u64::try_from(job.schema.frame_bytes_max(Direction::Sensor)).unwrap_or(0);
-    // A report waits for one that is on the line.
-    2 * bytes * 10 * SECOND / u64::from(job.board.link.baud.max(1))
-}
-
-/// How old a value can be when it is read.
-fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
-    let device = one.device;
-    let delay_ns = MS * u64::from(device.delay_ms);
-    match &device.kind {
-        Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
-        Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
-        Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
-        Kind::Digital(own) => delay_ns.min(50 * MS) + 1_000 * u64::from(own.debounce_us),
-        Kind::Uart(_) | Kind::Can(_) => period_ns + delay_ns.min(SECOND),
-        Kind::Encoder(_) => 20 * MS,
-        Kind::Icu(icu) => pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some()),
-        Kind::Pwm(_) | Kind::Dac(_) => 0,
-    }
-}
-
-/// How old the last pulse can be.
-fn pulses_ns(icu: &Icu, subject: &Subject) -> u64 {
-    let bounds = subject.signals.iter().filter_map(Signal::bounds);
-    let ends =
-        bounds.flat_map(|(least, greatest)| [least, greatest]).map(|end| subject.scale.raw(end));
-    let (least, greatest) = ends.fold((f64::MAX, 0.0_f64), |(l, g), one| (l.min(one), g.max(one)));
-    let ticks_ns =
-        |ticks: f64| crate::arith::nanoseconds(ticks * 1e9 / f64::from(icu.tick_hz.max(1)));
-    match icu.mode {
-        Mode::Count => 20 * MS,
-        Mode::Width => 45 * MS + 2 * ticks_ns(greatest) + 1_000 * u64::from(icu.wait_us),
-        Mode::Period => 2 * ticks_ns(greatest),
-        Mode::Frequency if least > 2.0 => crate::arith::nanoseconds(2e9 / least),
-        Mode::Frequency => 1_200 * MS,
-        Mode::Duty => 30 * MS,
-        Mode::Ppm => 2 * 40 * MS + 8 * ticks_ns(greatest),
-    }
-}
-
-/// By how much rounding and coding can move a raw number.
-fn tolerance(job: &BoardJob<'_>, one: &JobDevice<'_>, subject: &Subject) -> f64 {
-    let device = one.device;
-    let chip = job.design.part(device.part).and_then(|part| part.chip.as_ref());
-    let formula = chip.and_then(|chip| Some((chip.formula?, &chip.parameters)));
-    if let (Some(output), Some((formula, parameters))) = (device.coding.output, formula) {
-        let bounds = subject.signals.iter().filter_map(Signal::bounds);
-        let ends = bounds.flat_map(|(least, greatest)| [least, greatest]);
-        let steps =
-            ends.map(|end| formula::step(formula, parameters, output, subject.scale.raw(end)));
-        return steps.fold(1.5, |most, step| f64::max(most, 2.0 * step + 1.0));
-    }
-    if let Some(text) = &device.coding.text {
-        return if text.format == Format::Degrees { 3.0 } else { 0.51 };
-    }
-    let tick = |icu: &Icu| f64::from(icu.tick_hz) / 1e6;
-    match &device.kind {
-        Kind::Analog(_) => 1.6,
-        Kind::Icu(icu) => match icu.mode {
-            Mode::Count => 2.0,
-            Mode::Width | Mode::Period => 2.0 + 3.0 * tick(icu),
-            Mode::Frequency => frequency_step(icu, subject),
-            Mode::Duty => 8.0,
-            Mode::Ppm => 2.0 + 3.0 * tick(icu),
-        },
-        Kind::Encoder(_) => 3.0,
-        Kind::Digital(_) if subject.scalar != ScalarType::Bool => 2.0,
-        Kind::Digital(_) => 0.0,
-        Kind::I2c(_) | Kind::Spi(_) | Kind::Uart(_) | Kind::Can(_) => 0.51,
-        Kind::Pwm(_) | Kind::Dac(_) => 0.0,
-    }
-}
-
-/// What one tick, and a microsecond of the edges, make of the highest frequency.
-fn frequency_step(icu: &Icu, subject: &Subject) -> f64 {
-    let bounds = subject.signals.iter().filter_map(Signal::bounds);
-    let most = bounds.map(|(_, greatest)| subject.scale.raw(greatest)).fold(1.0, f64::max);
-    1.0 + most * most * (2.0 / f64::from(icu.tick_hz.max(1)) + 4e-6)
 }

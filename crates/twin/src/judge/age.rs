@@ -1,0 +1,56 @@
+//! How old a value can be when it arrives.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::{Icu, Mode};
+use sensedsl_wire::Direction;
+
+use super::{MS, SECOND};
+use crate::truth::Subject;
+use crate::world::Signal;
+
+/// How long the longest frame is on a serial link.
+pub(super) fn link_ns(job: &BoardJob<'_>) -> u64 {
+    if job.board.link.transport != Transport::Uart {
+        return 0;
+    }
+    let bytes = u64::try_from(job.schema.frame_bytes_max(Direction::Sensor)).unwrap_or(0);
+    // A report waits for one that is on the line.
+    2 * bytes * 10 * SECOND / u64::from(job.board.link.baud.max(1))
+}
+
+/// How old a value can be when it is read.
+pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64) -> u64 {
+    let device = one.device;
+    let delay_ns = MS * u64::from(device.delay_ms);
+    match &device.kind {
+        Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
+        Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
+        Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
+        Kind::Digital(own) => delay_ns.min(50 * MS) + 1_000 * u64::from(own.debounce_us),
+        Kind::Uart(_) | Kind::Can(_) => period_ns + delay_ns.min(SECOND),
+        Kind::Encoder(_) => 20 * MS,
+        Kind::Icu(icu) => pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some()),
+        Kind::Pwm(_) | Kind::Dac(_) => 0,
+    }
+}
+
+/// How old the last pulse can be.
+fn pulses_ns(icu: &Icu, subject: &Subject) -> u64 {
+    let bounds = subject.signals.iter().filter_map(Signal::bounds);
+    let ends =
+        bounds.flat_map(|(least, greatest)| [least, greatest]).map(|end| subject.scale.raw(end));
+    let (least, greatest) = ends.fold((f64::MAX, 0.0_f64), |(l, g), one| (l.min(one), g.max(one)));
+    let ticks_ns =
+        |ticks: f64| crate::arith::nanoseconds(ticks * 1e9 / f64::from(icu.tick_hz.max(1)));
+    match icu.mode {
+        Mode::Count => 20 * MS,
+        Mode::Width => 45 * MS + 2 * ticks_ns(greatest) + 1_000 * u64::from(icu.wait_us),
+        Mode::Period => 2 * ticks_ns(greatest),
+        Mode::Frequency if least > 2.0 => crate::arith::nanoseconds(2e9 / least),
+        Mode::Frequency => 1_200 * MS,
+        Mode::Duty => 30 * MS,
+        Mode::Ppm => 2 * 40 * MS + 8 * ticks_ns(greatest),
+    }
+}
