@@ -140,6 +140,15 @@ impl Subject {
         self.scale.raw(self.shown(element, now_ns))
     }
 
+    /// The least and the greatest raw number of an element in a span of time.
+    #[must_use]
+    pub fn raw_range(&self, element: usize, from_ns: u64, to_ns: u64) -> (f64, f64) {
+        let range = self.signals.get(element).map(|signal| signal.range(from_ns, to_ns));
+        let (one, other) = range.unwrap_or((0.0, 0.0));
+        let (one, other) = (self.scale.raw(one), self.scale.raw(other));
+        (one.min(other), one.max(other))
+    }
+
     /// The same as a whole number.
     #[must_use]
     pub fn whole(&self, element: usize, now_ns: u64) -> i64 {

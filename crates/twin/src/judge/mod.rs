@@ -3,35 +3,71 @@
 //! A value that arrives at some time was measured a little earlier, and between measuring and arriving it is rounded,
 //! coded and filtered. So it must lie within what the world was in a span of time, give or take what rounding can do.
 //! Both are known for each device from its kind, its cycle and its filters. What is out of it, or does not come at all,
-//! is a disagreement, and the worst of each device is kept.
+//! is a disagreement, and the worst of each device is kept. So is a device that reports faster or more slowly than the
+//! file says, and what the board itself counts of a device with which nothing is wrong.
 
 mod age;
+mod health;
+mod pace;
 mod sensor;
+mod silence;
 mod tolerance;
+mod words;
 
 use sensedsl_codegen::job::BoardJob;
-use sensedsl_wire::Scalar;
+use sensedsl_wire::{Direction, Health, Scalar};
 
 use crate::bench::Bench;
 use crate::truth::Subject;
+use health::OtherJudge;
 use sensor::SensorJudge;
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1_000 * MS;
 
-/// A value that disagrees, in the device's own unit.
+/// Something that disagrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
-    /// When it arrived.
+    /// When it was noticed.
     pub at_ns: u64,
-    /// Of which element.
-    pub element: usize,
-    /// What it should have been: from, to; none where nothing came at all.
-    pub expected: Option<(f64, f64)>,
-    /// What it was; of what did not come for how long, in seconds.
-    pub got: f64,
+    /// What.
+    pub finding: Finding,
     /// How far it is off, in tolerances.
     pub off: f64,
+}
+
+/// What disagrees, in the device's own unit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// A value is not what the world was.
+    Value {
+        /// Of which element.
+        element: usize,
+        /// What it should have been: from, to.
+        expected: (f64, f64),
+        /// What it was.
+        got: f64,
+    },
+    /// Nothing came for so many seconds.
+    Silence(f64),
+    /// Reports come too fast or too slowly: nanoseconds from one to the next on average.
+    Pace {
+        /// What it should have been: from, to.
+        expected_ns: (u64, u64),
+        /// What it was.
+        got_ns: u64,
+    },
+    /// A value that is `invalid` was reported.
+    Invalid(f64),
+    /// A value was reported that differs from the one before it by less than `change`.
+    Unchanged {
+        /// The value.
+        got: f64,
+        /// The one before it.
+        before: f64,
+    },
+    /// What the board says of the device, though nothing in the world is wrong with it.
+    Health(String),
 }
 
 /// What was found out about a device.
@@ -51,12 +87,41 @@ pub struct Judged {
     pub worst: Option<Wrong>,
     /// How old a value may be.
     pub age_ns: u64,
+    /// From one report to the next, on average; none where too few came.
+    pub every_ns: Option<u64>,
 }
 
 /// Compares reports with the world.
 #[derive(Clone, Debug)]
 pub struct Judge {
     devices: Vec<SensorJudge>,
+    /// The actuators, of which only their health is known here.
+    others: Vec<OtherJudge>,
+}
+
+impl Judged {
+    fn new(name: String, quantity: Option<String>) -> Self {
+        let quantity = quantity.unwrap_or_default();
+        Self {
+            name,
+            quantity,
+            reports: 0,
+            excused: 0,
+            wrong: 0,
+            worst: None,
+            age_ns: 0,
+            every_ns: None,
+        }
+    }
+
+    /// Counts what disagrees, and keeps the worst.
+    fn note(&mut self, wrong: Option<Wrong>) {
+        let Some(wrong) = wrong else { return };
+        self.wrong += 1;
+        if self.worst.as_ref().is_none_or(|worst| worst.off < wrong.off) {
+            self.worst = Some(wrong);
+        }
+    }
 }
 
 impl Judge {
@@ -66,7 +131,9 @@ impl Judge {
         let find = |subject: &Subject| job.devices.iter().find(|one| one.index == subject.device);
         let sensor =
             |subject: &Subject| Some(SensorJudge::new(job, bench, find(subject)?, subject));
-        Self { devices: bench.subjects().iter().filter_map(sensor).collect() }
+        let devices = bench.subjects().iter().filter_map(sensor).collect();
+        let others = job.devices.iter().filter(|one| one.device.direction == Direction::Actuator);
+        Self { devices, others: others.map(|one| OtherJudge::new(job, bench, one)).collect() }
     }
 
     /// A report has arrived.
@@ -78,12 +145,33 @@ impl Judge {
         }
     }
 
+    /// The board has said how it and its devices are.
+    pub fn health(&mut self, now_ns: u64, health: &Health) {
+        for row in &health.devices {
+            if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == row.id) {
+                sensor.health(now_ns, row);
+            }
+            if let Some(other) = self.others.iter_mut().find(|one| one.id == row.id) {
+                other.health(now_ns, row);
+            }
+        }
+    }
+
+    /// The board was asked how it is, and did not say it.
+    pub fn no_health(&mut self, now_ns: u64, board: &str) {
+        let mut judged = Judged::new(board.to_owned(), None);
+        judged.note(Some(health::wrong(now_ns, "nothing, though it was asked".to_owned())));
+        self.others.push(OtherJudge { id: 0, judged, is_well: false });
+    }
+
     /// The run is over.
     #[must_use]
     pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
         for sensor in &mut self.devices {
-            sensor.silence(now_ns);
+            sensor.finish(now_ns);
         }
-        self.devices.into_iter().map(|one| one.judged).collect()
+        let others = self.others.into_iter().map(|one| one.judged);
+        let sensors = self.devices.into_iter().map(|one| one.judged);
+        sensors.chain(others.filter(|one| one.wrong > 0)).collect()
     }
 }

@@ -3,11 +3,14 @@
 use sensedsl_codegen::job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
-use sensedsl_wire::Scalar;
+use sensedsl_wire::{DeviceHealth, Scalar};
 
 use super::age::{link_ns, measured_ns};
+use super::health::{Expected, wrong};
+use super::pace::{Pace, Paced};
+use super::silence::Reasons;
 use super::tolerance::tolerance;
-use super::{Judged, MS, SECOND, Wrong};
+use super::{Finding, Judged, MS, SECOND, Wrong};
 use crate::bench::Bench;
 use crate::range::{is_counter, raw_range};
 use crate::truth::{Subject, real};
@@ -28,8 +31,16 @@ pub(super) struct SensorJudge {
     pub(super) judged: Judged,
     /// In raw numbers.
     tolerance: f64,
-    /// No longer silence is possible; none where silence says nothing.
-    gap_ns: Option<u64>,
+    /// How often it ought to report; none where the world gives it nothing to measure.
+    pace: Option<Pace>,
+    paced: Paced,
+    reasons: Reasons,
+    /// Until when a board may not be up yet.
+    start_ns: u64,
+    /// Messages that may have been heard from the middle on.
+    halves: u16,
+    /// What was reported last, where it says something about what comes next.
+    last: Vec<f64>,
     bounds: Option<(f64, f64)>,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
@@ -60,25 +71,20 @@ impl SensorJudge {
         if let Some((least, greatest)) = raw_range(device).filter(|_| filter.smooth_ms > 0) {
             tolerance += 1.0 + UNSETTLED * (greatest - least).min(1e6);
         }
-        let is_told_always = filter.change.is_none() && filter.invalid.is_empty();
-        let silent_ns = 3 * delay_ns.max(period_ns).max(SECOND) + age_ns;
-        let has_pulses = device.kind.icu().is_none_or(|icu| icu.mode == Mode::Count);
-        let gap_ns = (is_told_always && has_pulses).then_some(silent_ns);
-        let quantity = device.shown.quantity.clone().unwrap_or_default();
-        let judged = Judged {
-            name: subject.name.clone(),
-            quantity,
-            reports: 0,
-            excused: 0,
-            wrong: 0,
-            worst: None,
-            age_ns,
-        };
+        let icu = device.kind.icu().filter(|icu| icu.mode != Mode::Count);
+        let reasons = Reasons { filter: filter.clone(), icu: icu.cloned(), tolerance, age_ns };
+        let quantity = device.shown.quantity.clone();
+        let judged = Judged { age_ns, ..Judged::new(subject.name.clone(), quantity) };
         let is_encoder = matches!(device.kind, Kind::Encoder(_));
         Self {
             judged,
             tolerance,
-            gap_ns,
+            pace: Pace::of(job, bench, one, subject),
+            paced: Paced::default(),
+            reasons,
+            start_ns: START_NS + MS * u64::from(one.cycle.start_ms),
+            halves: u16::from(matches!(device.kind, Kind::Uart(_))),
+            last: Vec::new(),
             bounds: raw_range(device),
             excuses: bench.excused(job, one.index),
             is_anywhere: is_encoder,
@@ -92,22 +98,26 @@ impl SensorJudge {
 
     pub(super) fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
         self.silence(now_ns);
-        self.last_ns = Some(now_ns);
+        let before_ns = self.last_ns.replace(now_ns).unwrap_or(0);
+        let raw: Vec<f64> = elements.iter().map(|one| real(*one)).collect();
         if self.is_excused(now_ns) {
             self.judged.excused += 1;
             // A board that has started again counts anew.
             self.bases.iter_mut().for_each(|base| *base = None);
             self.waits_from_ns = Some(now_ns);
+            self.paced.interrupt();
+            self.last = raw;
             return;
         }
         self.judged.reports += 1;
-        let mut worst: Option<Wrong> = None;
-        for (element, scalar) in elements.iter().enumerate() {
-            let got = real(*scalar);
+        let is_mute = self.reasons.is_mute(&self.subject, (before_ns, now_ns));
+        self.paced.take(now_ns, !is_mute);
+        let mut worst = self.unfiltered(now_ns, before_ns, &raw);
+        for (element, got) in raw.iter().enumerate() {
             let wrong = if self.is_relative {
-                self.compare_count(now_ns, element, got)
+                self.compare_count(now_ns, element, *got)
             } else {
-                self.compare(now_ns, element, got)
+                self.compare(now_ns, element, *got)
             };
             let is_worse = |wrong: &Wrong| worst.as_ref().is_none_or(|worst| worst.off < wrong.off);
             if let Some(wrong) = wrong.filter(is_worse) {
@@ -115,15 +125,32 @@ impl SensorJudge {
             }
         }
         self.waits_from_ns = None;
-        self.note(worst);
+        self.last = raw;
+        self.judged.note(worst);
     }
 
-    fn note(&mut self, wrong: Option<Wrong>) {
-        let Some(wrong) = wrong else { return };
-        self.judged.wrong += 1;
-        if self.judged.worst.as_ref().is_none_or(|worst| worst.off < wrong.off) {
-            self.judged.worst = Some(wrong);
+    /// Whether a value should not have been reported at all.
+    fn unfiltered(&self, now_ns: u64, before_ns: u64, raw: &[f64]) -> Option<Wrong> {
+        let filter = &self.reasons.filter;
+        let is_raw = filter.median < 2 && filter.smooth_ms == 0;
+        let is_invalid =
+            |raw: &&f64| filter.invalid.iter().any(|(low, high)| (*low..=*high).contains(*raw));
+        let wrong = |finding| Some(Wrong { at_ns: now_ns, finding, off: 100.0 });
+        if let Some(raw) = raw.iter().find(is_invalid).filter(|_| is_raw) {
+            return wrong(Finding::Invalid(self.subject.scale.shown(*raw)));
         }
+        let change = filter.change?;
+        let is_heartbeat =
+            filter.heartbeat_ms > 0 && now_ns - before_ns > MS * u64::from(filter.heartbeat_ms) / 2;
+        // Who hears a board first hears what there is.
+        let is_known = self.last.len() == raw.len() && before_ns > self.start_ns;
+        let is_near = |(one, other): (&f64, &f64)| (one - other).abs() < change * (1.0 - 1e-9);
+        if !is_known || is_heartbeat || !raw.iter().zip(&self.last).all(is_near) {
+            return None;
+        }
+        let (got, before) = (*raw.first()?, *self.last.first()?);
+        let [got, before] = [got, before].map(|raw| self.subject.scale.shown(raw));
+        wrong(Finding::Unchanged { got, before })
     }
 
     /// The raw numbers that an element can have had when what arrives now was measured.
@@ -180,8 +207,9 @@ impl SensorJudge {
         (got, off): (f64, f64),
     ) -> Wrong {
         let [one, other, got] = [least, greatest, got].map(|raw| self.subject.scale.shown(raw));
-        let expected = Some((one.min(other), one.max(other)));
-        Wrong { at_ns, element, expected, got, off: off / self.tolerance.max(0.5) }
+        let expected = (one.min(other), one.max(other));
+        let finding = Finding::Value { element, expected, got };
+        Wrong { at_ns, finding, off: off / self.tolerance.max(0.5) }
     }
 
     /// By how much a count may be off because the board was not up: less or more.
@@ -201,17 +229,52 @@ impl SensorJudge {
     }
 
     /// Whether nothing came for too long.
-    pub(super) fn silence(&mut self, now_ns: u64) {
-        let Some(gap_ns) = self.gap_ns else { return };
-        let since_ns = self.last_ns.unwrap_or(0);
-        let most_ns = gap_ns + if self.last_ns.is_none() { START_NS } else { 0 };
-        let silent_ns = now_ns - since_ns;
-        let is_explained =
-            |&(at, until): &(u64, u64)| at <= now_ns && until + RECOVERY_NS + gap_ns >= since_ns;
-        if silent_ns > most_ns && !self.excuses.iter().any(is_explained) {
-            let off = crate::arith::number(silent_ns) / crate::arith::number(most_ns);
-            let got = crate::bench::seconds(silent_ns);
-            self.note(Some(Wrong { at_ns: now_ns, element: 0, expected: None, got, off }));
+    fn silence(&mut self, now_ns: u64) {
+        let Some(pace) = self.pace else { return };
+        let gap_ns = pace.gap_ns() + self.judged.age_ns;
+        let from_ns = self.last_ns.unwrap_or(self.start_ns);
+        if now_ns <= from_ns.saturating_add(gap_ns) {
+            return;
         }
+        let excuses = &self.excuses;
+        let faults = |from_ns: u64, to_ns: u64| {
+            excuses.iter().any(|&(at, until)| at <= to_ns && until + RECOVERY_NS >= from_ns)
+        };
+        let span = (from_ns, now_ns);
+        let since_ns =
+            self.reasons.unexplained_since(&self.subject, span, gap_ns, &self.last, &faults);
+        let silent_ns = now_ns - since_ns;
+        if silent_ns > gap_ns {
+            let off = 10.0 * crate::arith::number(silent_ns) / crate::arith::number(gap_ns);
+            let since_ns = if since_ns == self.start_ns { 0 } else { since_ns };
+            let finding = Finding::Silence(crate::bench::seconds(now_ns - since_ns));
+            self.judged.note(Some(Wrong { at_ns: now_ns, finding, off }));
+        }
+    }
+
+    /// The board has said how the device is.
+    pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
+        let reasons = &self.reasons;
+        let is_over = |&(at, until): &(u64, u64)| now_ns < at || until + 2 * RECOVERY_NS < now_ns;
+        let gap_ns = self.pace.map(|pace| pace.gap_ns() + self.judged.age_ns);
+        let is_mute = reasons.is_mute(&self.subject, (self.start_ns, now_ns));
+        let is_up = |gap_ns: &u64| now_ns > self.start_ns + gap_ns;
+        let expected = Expected {
+            is_well: self.excuses.iter().all(is_over),
+            was_well: self.excuses.is_empty(),
+            may_be_invalid: reasons.may_be_invalid(&self.subject, 0, now_ns),
+            age_ns: gap_ns.filter(is_up).filter(|_| !is_mute),
+            halves: self.halves,
+        };
+        self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
+    }
+
+    /// The run is over.
+    pub(super) fn finish(&mut self, now_ns: u64) {
+        self.silence(now_ns);
+        self.judged.every_ns = self.paced.mean_ns();
+        let may_be_slow = self.reasons.filter.change.is_some();
+        let differs = self.pace.and_then(|pace| self.paced.differs(now_ns, &pace, may_be_slow));
+        self.judged.note(differs);
     }
 }

@@ -18,7 +18,7 @@ const PULSES_NS: u64 = 20_000_000;
 /// Between the longest pulse and the next one.
 const REST_NS: u64 = 5_000_000;
 /// The period whose active part is measured.
-const DUTY_NS: u64 = 10_000_000;
+pub(crate) const DUTY_NS: u64 = 10_000_000;
 /// From a trigger's end to the echo.
 const ECHO_NS: u64 = 450_000;
 /// The pulse between two channels of a train.
@@ -255,6 +255,12 @@ impl Line {
     }
 }
 
+/// From one train of so many channels to the next.
+pub(crate) fn frame_ns(channels: usize) -> u64 {
+    let count = u64::try_from(channels).unwrap_or(0);
+    PULSES_NS.max(count * CHANNEL_NS + TRAIN_REST_NS)
+}
+
 /// The mark of a train that a moment is in or behind.
 fn train(
     subjects: &[Subject],
@@ -263,8 +269,7 @@ fn train(
     now_ns: u64,
 ) -> (u64, u64, Option<u64>) {
     let channels = subjects.get(subject).map_or(0, |one| one.signals.len());
-    let count = u64::try_from(channels).unwrap_or(0);
-    let frame_ns = PULSES_NS.max(count * CHANNEL_NS + TRAIN_REST_NS);
+    let frame_ns = frame_ns(channels);
     let frame = now_ns / frame_ns * frame_ns;
     let (mut mark, mut next) = (frame, None);
     for channel in 0..channels {
@@ -311,7 +316,7 @@ fn track(is_second: bool, position: f64) -> bool {
     if is_second { phase >= 2.0 } else { (1.0..3.0).contains(&phase) }
 }
 
-fn distance(unit: Unit, raw: f64) -> Option<u64> {
+pub(crate) fn distance(unit: Unit, raw: f64) -> Option<u64> {
     let length = match unit {
         Unit::Ticks(tick_ns) => raw * tick_ns,
         Unit::Hertz if raw > 0.0 => 1e9 / raw,

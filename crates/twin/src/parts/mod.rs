@@ -4,5 +4,6 @@ pub(crate) mod can;
 pub(crate) mod formula;
 pub(crate) mod line;
 pub(crate) mod message;
+pub(crate) mod pulses;
 pub(crate) mod registers;
 pub(crate) mod words;

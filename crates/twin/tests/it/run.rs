@@ -8,7 +8,7 @@ use sensedsl_twin::bench::Bench;
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene, World};
-use sensedsl_wire::{Decoder, Direction, Event, Scalar};
+use sensedsl_wire::{Decoder, Direction, Event, Scalar, encode_health_request};
 
 struct NoFiles;
 
@@ -78,31 +78,60 @@ pub(crate) fn simulate(
     text: &str,
     world: &str,
     seconds: u64,
+    tamper: impl FnMut(u64, &mut Values),
+) -> Run {
+    with_job(text, |job| run(job, job, world, seconds, tamper))
+}
+
+/// Runs the board of a text that has a mistake, in the world and before the judge of the right one.
+pub(crate) fn mistaken(right: &str, wrong: &str, world: &str, seconds: u64) -> Run {
+    with_job(right, |right| with_job(wrong, |wrong| run(right, wrong, world, seconds, |_, _| {})))
+}
+
+fn run(
+    job: &BoardJob<'_>,
+    board: &BoardJob<'_>,
+    world: &str,
+    seconds: u64,
     mut tamper: impl FnMut(u64, &mut Values),
 ) -> Run {
-    with_job(text, |job| {
+    {
+        assert_eq!(job.schema.hash(), board.schema.hash());
         let (world, said) = read(job, world, 7);
         assert!(said.is_empty(), "{said:#?}");
         let bench = Bench::new(job, &world, 7);
         let mut judge = Judge::new(job, &bench);
-        let mut board = SoftBoard::new(job, bench);
+        let mut board = SoftBoard::new(board, bench);
         let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
         let (mut all, mut reports) = (Vec::new(), Vec::new());
-        for ms in 1..=seconds * 1_000 {
+        let (end_ms, mut health) = (seconds * 1_000, None);
+        for ms in 1..=end_ms + 100 {
+            if ms == end_ms {
+                board.link_write(&encode_health_request(&job.schema));
+            }
             board.run_until(ms * 1_000_000);
             let bytes = board.link_read();
             all.extend_from_slice(&bytes);
-            decoder.feed(&bytes, |event| {
-                if let Event::Report(_, mut values) = event {
+            decoder.feed(&bytes, |event| match event {
+                Event::Report(_, mut values) => {
                     tamper(ms * 1_000_000, &mut values);
                     judge.take(ms * 1_000_000, &values);
                     reports.push((ms * 1_000_000, values));
                 }
+                Event::Health(said) => health = Some(said),
+                Event::Hello(_)
+                | Event::OtherHealth(_)
+                | Event::HelloRequest
+                | Event::HealthRequest => {}
             });
+        }
+        match &health {
+            Some(health) => judge.health(board.now_ns(), health),
+            None => judge.no_health(board.now_ns(), "the board"),
         }
         let judged = judge.finish(board.now_ns());
         Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes() }
-    })
+    }
 }
 
 /// The same without tampering.

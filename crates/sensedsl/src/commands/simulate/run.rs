@@ -8,6 +8,7 @@ use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::{
     e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
 };
+use sensedsl_model::design::Transport;
 use sensedsl_twin::bench::{Bench, seconds};
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_wire::{
@@ -46,6 +47,8 @@ pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -
     };
     if args.health {
         session.health()?;
+    } else if args.judge && status == Status::Done && session.has_link() {
+        let _ = session.ask_health()?;
     }
     if let Some(path) = &args.frames {
         write_whole(path, &session.frames)?;
@@ -243,15 +246,28 @@ impl<'a> Session<'a> {
         )
     }
 
-    /// Asks the board how it is, and prints the answer.
-    fn health(&mut self) -> Result<()> {
+    fn has_link(&self) -> bool {
+        self.scenery.job.board.link.transport != Transport::None
+    }
+
+    /// Asks the board how it is; the judge hears the answer as well.
+    fn ask_health(&mut self) -> Result<Option<Health>> {
         self.last = None;
         self.board.link_write(&encode_health_request(&self.scenery.job.schema));
         let end_ns = self.now_ns + HEALTH_NS;
         while self.last.is_none() && self.now_ns < end_ns {
             self.step(None)?;
         }
-        let Some(health) = &self.last else { bail!("the board did not say how it is") };
+        match &self.last {
+            Some(health) => self.judge.health(self.now_ns, health),
+            None => self.judge.no_health(self.now_ns, &self.scenery.job.board.name.value),
+        }
+        Ok(self.last.clone())
+    }
+
+    /// Asks the board how it is, and prints the answer.
+    fn health(&mut self) -> Result<()> {
+        let Some(health) = self.ask_health()? else { bail!("the board did not say how it is") };
         let text = format!(
             "up for {} ms, {} reports sent, {} not\n",
             health.uptime_ms, health.reports_sent, health.reports_refused
@@ -285,17 +301,18 @@ impl<'a> Session<'a> {
     fn verdict(self) -> Result<Status> {
         let Self { scenery, board, judge, now_ns, reports, is_wrong, .. } = self;
         let judged = judge.finish(now_ns);
-        let rows: Vec<[String; 5]> = judged.iter().map(cells).collect();
+        let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
         let heads = [
             ("Device", false),
             ("Reports", true),
             ("Excused", true),
             ("Wrong", true),
+            ("Every", true),
             ("May be old", true),
         ];
         let mut text = table(heads, &rows);
         for one in judged.iter().filter(|one| one.wrong > 0) {
-            text.push_str(&format!("  {}: {}\n", one.name, words(one)));
+            text.push_str(&format!("  {}: {}\n", one.name, one.words()));
         }
         scenery.terminal.result(&text)?;
         let all: u64 = judged.iter().map(|one| one.reports).sum();
@@ -304,7 +321,7 @@ impl<'a> Session<'a> {
         let worst = judged.iter().filter(|one| one.wrong > 0);
         let worst = worst.max_by(|one, other| off(one).total_cmp(&off(other)));
         if let Some(worst) = worst {
-            let what = words(worst);
+            let what = worst.words();
             scenery.say(judged_wrong::disagrees(scenery.at, &worst.name, &what, wrong, all))?;
             return Ok(Status::Wrong);
         }
@@ -338,32 +355,12 @@ fn status(of: HealthStatus) -> &'static str {
     }
 }
 
-fn cells(one: &Judged) -> [String; 5] {
+fn cells(one: &Judged) -> [String; 6] {
     let age = format!("{} ms", one.age_ns / MS);
+    let every = one.every_ns.map_or_else(|| "-".to_owned(), |every| format!("{} ms", every / MS));
     let counts = [one.reports, one.excused, one.wrong].map(|count| count.to_string());
     let [reports, excused, wrong] = counts;
-    [one.name.clone(), reports, excused, wrong, age]
-}
-
-/// The worst disagreement of a device.
-fn words(one: &Judged) -> String {
-    let Some(worst) = &one.worst else { return String::new() };
-    let at = format!("{:.3} s", seconds(worst.at_ns));
-    let unit = if one.quantity.is_empty() { "" } else { " " };
-    let quantity = &one.quantity;
-    match worst.expected {
-        None => format!("nothing for {:.1} s until {at}", worst.got),
-        Some((from, to)) => {
-            let [from, to, got] = [from, to, worst.got].map(short);
-            format!("at {at} it was {got}{unit}{quantity} and not {from} to {to}")
-        }
-    }
-}
-
-/// A number with four digits behind the point at most.
-fn short(number: f64) -> String {
-    let text = format!("{number:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    [one.name.clone(), reports, excused, wrong, every, age]
 }
 
 /// Set by the first Ctrl-C; the second one ends the program.

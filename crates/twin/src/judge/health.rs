@@ -1,0 +1,114 @@
+//! What a board says of its devices, against the faults of the world.
+//!
+//! A device with which nothing is wrong must not fail, and nothing may be counted against it.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_wire::{Causes, DeviceHealth, NEVER_MS, Status};
+
+use super::{Finding, Judged, MS, Wrong};
+use crate::bench::Bench;
+
+/// What the world has to say of a device when the board is asked for its health.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Expected {
+    /// Nothing of the world keeps it from answering now.
+    pub(super) is_well: bool,
+    /// Nothing ever has.
+    pub(super) was_well: bool,
+    /// What it measures may be, or have been, `invalid`.
+    pub(super) may_be_invalid: bool,
+    /// How old its value may be; none where it need not have one.
+    pub(super) age_ns: Option<u64>,
+    /// Messages that may have been heard from the middle on.
+    pub(super) halves: u16,
+}
+
+impl Expected {
+    /// What disagrees, in words.
+    pub(super) fn differs(&self, row: &DeviceHealth) -> Option<String> {
+        let counted = if self.was_well { self.counted(row.causes) } else { None };
+        let with = |what: &str| {
+            counted.as_ref().map_or_else(|| what.to_owned(), |all| format!("{what}, {all}"))
+        };
+        let is_due = self.is_well && self.age_ns.is_some();
+        match row.status {
+            Status::Failed if self.is_well => return Some(with("failed")),
+            Status::NeverRead if is_due => return Some(with("never read")),
+            Status::Stale if is_due => return Some(with("stale")),
+            Status::Invalid if self.is_well && !self.may_be_invalid => {
+                return Some(with("invalid"));
+            }
+            Status::Failed
+            | Status::NeverRead
+            | Status::Stale
+            | Status::Invalid
+            | Status::Good
+            | Status::Other(_) => {}
+        }
+        if let Some(age_ns) = self.age_ns.filter(|_| self.is_well)
+            && row.age_ms != NEVER_MS
+            && MS * u64::from(row.age_ms) > age_ns
+        {
+            return Some(format!(
+                "its value is {} ms old, and not {} at most",
+                row.age_ms,
+                age_ns / MS
+            ));
+        }
+        counted
+    }
+
+    /// The faults that nothing explains.
+    fn counted(&self, causes: Causes) -> Option<String> {
+        let checksums = causes.wrong_checksum.saturating_sub(self.halves);
+        let invalid = if self.may_be_invalid { 0 } else { causes.invalid };
+        let all = [
+            (causes.not_acknowledged, "not acknowledged"),
+            (causes.bus_error.saturating_sub(self.halves), "with an error of the bus"),
+            (causes.arbitration_lost, "lost to another master"),
+            (causes.timed_out, "not in time"),
+            (checksums, "with a wrong checksum"),
+            (invalid, "not a measurement"),
+        ];
+        let all = all.iter().filter(|(count, _)| *count > 0);
+        let all: Vec<String> =
+            all.map(|(count, what)| format!("{count} {} {what}", times(*count))).collect();
+        (!all.is_empty()).then(|| all.join(", "))
+    }
+}
+
+const fn times(count: u16) -> &'static str {
+    if count == 1 { "reading" } else { "readings" }
+}
+
+/// A finding of what the board said.
+pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
+    Wrong { at_ns, finding: Finding::Health(what), off: 1_000.0 }
+}
+
+/// A device that reports nothing: its bus may still tell of faults.
+#[derive(Clone, Debug)]
+pub(super) struct OtherJudge {
+    pub(super) id: u8,
+    pub(super) judged: Judged,
+    pub(super) is_well: bool,
+}
+
+impl OtherJudge {
+    pub(super) fn new(job: &BoardJob<'_>, bench: &Bench, one: &JobDevice<'_>) -> Self {
+        let judged = Judged::new(one.name().to_owned(), one.device.shown.quantity.clone());
+        let is_well = bench.excused(job, one.index).is_empty();
+        Self { id: one.device.id.value, judged, is_well }
+    }
+
+    pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
+        let expected = Expected {
+            is_well: self.is_well,
+            was_well: self.is_well,
+            may_be_invalid: false,
+            age_ns: None,
+            halves: 0,
+        };
+        self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
+    }
+}

@@ -1,0 +1,155 @@
+//! How often a device ought to report, and how often it does.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::Mode;
+
+use super::{Finding, MS, SECOND, Wrong};
+use crate::arith::number;
+use crate::bench::Bench;
+use crate::parts::pulses;
+use crate::range::is_counter;
+use crate::truth::Subject;
+
+/// How often a board looks for what is to be reported, unless its link says how often.
+const REPORTER_NS: u64 = 10 * MS;
+/// How often a count that stands still is reported again.
+const REPEAT_NS: u64 = SECOND;
+/// What a measurement takes beside its waiting.
+const MEASURING_NS: u64 = 3 * MS;
+/// So many times make a pace.
+const TIMES_MIN: u64 = 3;
+/// What a pace may be off, in per cent.
+const PERCENT: u64 = 10;
+/// What comes so early is what waited for the host.
+const EARLY_NS: u64 = 500 * MS;
+
+/// From one report to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pace {
+    /// No faster than that on average.
+    pub(super) least_ns: u64,
+    /// No slower on average, while there is something to report.
+    pub(super) most_ns: u64,
+    /// By how much two may be closer or further apart than that.
+    pub(super) jitter_ns: u64,
+}
+
+impl Pace {
+    /// The one of a sensor. None where the world sends nothing that could be measured.
+    pub(super) fn of(
+        job: &BoardJob<'_>,
+        bench: &Bench,
+        one: &JobDevice<'_>,
+        subject: &Subject,
+    ) -> Option<Self> {
+        let device = one.device;
+        let rate_hz = job.board.link.rate_hz;
+        let reporter_ns = rate_hz.map_or(REPORTER_NS, |rate| SECOND / u64::from(rate.max(1)));
+        let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
+        let (least_ns, most_ns, own_ns) = match &device.kind {
+            _ if is_counter(&device.kind, device) && device.kind.digital().is_none() => {
+                (0, REPEAT_NS, 0)
+            }
+            Kind::Encoder(_) => (0, REPEAT_NS, 0),
+            Kind::Digital(own) if own.edge.is_some() => (0, cycle_ns, 0),
+            Kind::Digital(_) | Kind::Analog(_) => (cycle_ns, cycle_ns, 0),
+            Kind::I2c(_) | Kind::Spi(_) => {
+                let (least_ns, most_ns) = of_chip(job, one, cycle_ns);
+                (least_ns, most_ns, 0)
+            }
+            Kind::Uart(_) | Kind::Can(_) => {
+                let period_ns = bench.period_ns(device.part)?;
+                (cycle_ns.max(period_ns), cycle_ns.max(period_ns), 2 * period_ns + cycle_ns)
+            }
+            Kind::Icu(icu) => {
+                let (shortest_ns, longest_ns) = pulses::apart(icu, subject, 0, u64::MAX / 2)?;
+                let is_asked = icu.mode == Mode::Width && icu.pulse_us.is_some();
+                let count = u64::try_from(subject.signals.len()).unwrap_or(1);
+                let waits_ns = count * 1_000 * u64::from(icu.wait_us).max(1_000);
+                let asked_ns = if is_asked { cycle_ns.max(waits_ns) } else { 0 };
+                (shortest_ns.max(asked_ns), longest_ns.max(asked_ns), 2 * longest_ns)
+            }
+            Kind::Pwm(_) | Kind::Dac(_) => return None,
+        };
+        let most_ns = most_ns.max(reporter_ns);
+        Some(Self { least_ns: least_ns.min(most_ns), most_ns, jitter_ns: 2 * reporter_ns + own_ns })
+    }
+
+    /// The longest silence that means nothing.
+    pub(super) const fn gap_ns(&self) -> u64 {
+        3 * self.most_ns + self.jitter_ns
+    }
+}
+
+/// A chip measures one thing after the other, and misses whole cycles where that takes longer than one.
+fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64) {
+    let of_part = job.devices.iter().filter(|of| of.device.part == one.device.part);
+    let mut asked: Vec<(&[u8], u64)> = Vec::new();
+    for of in of_part {
+        let (trigger, wait_us) = match &of.device.kind {
+            Kind::I2c(own) => (&own.trigger, own.wait_us),
+            Kind::Spi(own) => (&own.trigger, own.wait_us),
+            _ => continue,
+        };
+        let wait_ns = 1_000 * u64::from(wait_us);
+        if !trigger.is_empty() && !asked.contains(&(trigger, wait_ns)) {
+            asked.push((trigger, wait_ns));
+        }
+    }
+    let waits_ns: u64 = asked.iter().map(|(_, wait_ns)| wait_ns).sum();
+    let longest_ns = asked.iter().map(|(_, wait_ns)| *wait_ns).max().unwrap_or(0);
+    let count = u64::try_from(asked.len()).unwrap_or(0);
+    let measuring_ns = waits_ns + (count + 1) * MEASURING_NS;
+    let cycles = measuring_ns.div_ceil(cycle_ns).max(1);
+    let most_ns = if waits_ns == 0 { cycle_ns } else { cycles * cycle_ns };
+    (cycle_ns.max(longest_ns), most_ns.max(cycle_ns))
+}
+
+/// How far apart reports were so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Paced {
+    sum_ns: u64,
+    times: u64,
+    /// The first and the last report of the times that count.
+    last_ns: Option<u64>,
+}
+
+impl Paced {
+    /// A report has come; what lies between it and the one before counts unless something explains its length.
+    pub(super) fn take(&mut self, now_ns: u64, counts: bool) {
+        if let Some(last_ns) = self.last_ns.filter(|last_ns| counts && *last_ns >= EARLY_NS) {
+            self.sum_ns += now_ns - last_ns;
+            self.times += 1;
+        }
+        self.last_ns = Some(now_ns);
+    }
+
+    /// What comes next says nothing about its distance from what came before.
+    pub(super) fn interrupt(&mut self) {
+        self.last_ns = None;
+    }
+
+    /// From one report to the next on average.
+    pub(super) fn mean_ns(&self) -> Option<u64> {
+        (self.times >= TIMES_MIN).then(|| self.sum_ns / self.times.max(1))
+    }
+
+    /// Whether that is another pace.
+    pub(super) fn differs(&self, now_ns: u64, pace: &Pace, may_be_slow: bool) -> Option<Wrong> {
+        let got_ns = self.mean_ns()?;
+        let jitter_ns = pace.jitter_ns / self.times.max(1);
+        let slowest_ns = pace.most_ns + pace.most_ns * PERCENT / 100 + jitter_ns;
+        let fastest_ns = pace.least_ns - pace.least_ns * PERCENT / 100;
+        let is_slow = got_ns > slowest_ns && !may_be_slow;
+        let is_fast = got_ns + jitter_ns < fastest_ns;
+        let ratio =
+            number(got_ns.max(1)) / number(if is_slow { pace.most_ns } else { pace.least_ns });
+        let expected_ns = (pace.least_ns, pace.most_ns);
+        (is_slow || is_fast).then(|| Wrong {
+            at_ns: now_ns,
+            finding: Finding::Pace { expected_ns, got_ns },
+            off: 10.0 * ratio.max(1.0 / ratio),
+        })
+    }
+}

@@ -1,0 +1,59 @@
+//! What disagrees, in words.
+
+use super::{Finding, Judged, MS};
+use crate::bench::seconds;
+
+impl Judged {
+    /// The worst disagreement of the device; empty where there is none.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let Some(worst) = &self.worst else { return String::new() };
+        let at = format!("{:.3} s", seconds(worst.at_ns));
+        let unit = if self.quantity.is_empty() { "" } else { " " };
+        let shown = |number: f64| format!("{}{unit}{}", short(number), self.quantity);
+        match &worst.finding {
+            Finding::Value { expected: (from, to), got, .. } => {
+                format!("at {at} it was {} and not {} to {}", shown(*got), short(*from), short(*to))
+            }
+            Finding::Silence(silent) => format!("nothing for {silent:.1} s until {at}"),
+            Finding::Pace { expected_ns, got_ns } => {
+                format!("it reports every {} and not every {}", time(*got_ns), span(*expected_ns))
+            }
+            Finding::Invalid(got) => {
+                format!("at {at} it reported {}, which is `invalid`", shown(*got))
+            }
+            Finding::Unchanged { got, before } => format!(
+                "at {at} it reported {} after {}, which is less than `change`",
+                shown(*got),
+                shown(*before)
+            ),
+            Finding::Health(what) => format!("the board says of it at {at}: {what}"),
+        }
+    }
+}
+
+fn span((least_ns, most_ns): (u64, u64)) -> String {
+    if least_ns == most_ns || least_ns == 0 {
+        time(most_ns)
+    } else {
+        format!("{} to {}", time(least_ns), time(most_ns))
+    }
+}
+
+fn time(ns: u64) -> String {
+    if ns >= 10_000 * MS {
+        return format!("{} s", short(seconds(ns)));
+    }
+    let ms = crate::arith::number(ns) / crate::arith::number(MS);
+    if ms < 100.0 {
+        format!("{} ms", short((ms * 10.0).round() / 10.0))
+    } else {
+        format!("{ms:.0} ms")
+    }
+}
+
+/// A number with four digits behind the point at most.
+fn short(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
