@@ -7,8 +7,10 @@ use sensedsl_diagnostics::codes::{
 
 use sensedsl_wire::Direction;
 
+use crate::bounds;
 use crate::design::{Design, Device};
 use crate::kind::Kind;
+use crate::reach;
 
 /// Bits of one conversion of the ADCs there are profiles for; wider ones are scaled by the driver.
 const ADC_BITS: u32 = 12;
@@ -24,6 +26,8 @@ pub(crate) fn run(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(narrow(device));
         diagnostics.extend(impossible_length(device));
     }
+    bounds::check(design, diagnostics);
+    reach::check(design, diagnostics);
 }
 
 /// Cycle time and priority of what the hardware measures by itself.

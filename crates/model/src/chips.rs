@@ -14,6 +14,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::ValueType;
 
+use crate::bounds::Bounds;
 use crate::coding::{self, CODING, FILTER, PROTOCOL};
 use crate::design::{
     BoardIndex, Connection, ConnectionIndex, Device, DeviceIndex, Part, PartIndex, Spanned,
@@ -159,6 +160,7 @@ fn values_and_sockets(
 pub(crate) fn check_driver(driver: &Driver, known: Known<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let Some((given, sockets)) = values_and_sockets(driver, known, diagnostics) else { return };
     protocol(driver.file, driver, &[], known, diagnostics);
+    Bounds::of_driver(driver, known, diagnostics);
     let kinds: Vec<KindName> = sockets.iter().map(|socket| socket.kind).collect();
     let blocks = driver.node.connections().flat_map(|one| one.properties().collect::<Vec<_>>());
     let of_part = driver.node.properties().map(|one| (one, true));
@@ -484,8 +486,9 @@ impl Whole<'_> {
         }
         let (name, block) = (self.name, self.block);
         let driver = Some(self.driver.name.value.clone());
+        let bounds = Bounds::of(Some(self.driver), self.known);
         let chip = Some(self.protocol);
-        let part = Part { name, block, board, driver, allows, chip };
+        let part = Part { name, block, board, driver, allows, chip, bounds };
         Some(ReadPart { part, devices, connections })
     }
 }

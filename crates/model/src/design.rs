@@ -9,6 +9,7 @@ use sensedsl_board::table::Table;
 use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
+use crate::bounds::Bounds;
 use crate::kind::{Kind, Role};
 use crate::protocol::{Coding, Filter, Protocol};
 use crate::volts::{shown_mv, shown_ohm};
@@ -186,6 +187,8 @@ pub struct Part {
     pub allows: Vec<Allow>,
     /// How it is started and identified, where it is a chip.
     pub chip: Option<Protocol>,
+    /// What its document bounds.
+    pub bounds: Bounds,
 }
 
 /// A sensor or an actuator.
@@ -323,6 +326,8 @@ pub struct Presentation {
     pub min: Option<f64>,
     /// Greatest value to expect, scaled.
     pub max: Option<f64>,
+    /// Where these two are stated.
+    pub bounds: [Option<Span>; 2],
     /// Points between which `scale * raw + offset` is interpolated; empty for none.
     pub curve: Vec<(f64, f64)>,
 }

@@ -8,6 +8,7 @@ use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_wire::{Direction, ValueType};
 
+use crate::bounds::Bounds;
 use crate::chips;
 use crate::coding::{self, CODING, FILTER};
 use crate::constants::Constants;
@@ -121,7 +122,8 @@ pub(crate) fn read(
         filter: own.filter,
         connections: (0..connections.len()).map(ConnectionIndex).collect(),
     };
-    let part = Part { name, block, board, driver, allows, chip: None };
+    let bounds = Bounds::of(driver.as_deref().and_then(|name| known.drivers.look_up(name)), known);
+    let part = Part { name, block, board, driver, allows, chip: None, bounds };
     Some(ReadPart { part, devices: vec![device], connections })
 }
 
@@ -357,25 +359,43 @@ pub(crate) fn is_about_part(name: &str) -> bool {
 }
 
 /// What a driver can say of its part.
-pub(crate) const ABOUT_PART: &[&str] =
-    &["part", "about", "aliases", "sheet", "checked", "supply", "connector", "note", "addresses"];
+pub(crate) const ABOUT_PART: &[&str] = &[
+    "part",
+    "about",
+    "aliases",
+    "sheet",
+    "checked",
+    "supply",
+    "connector",
+    "note",
+    "addresses",
+    "speed_max",
+    "clock_max",
+];
 
 fn presentation(fields: &mut Fields<'_>) -> Presentation {
+    let (min, max) = (unless_taken(fields, "min"), unless_taken(fields, "max"));
+    if let (Some(min), Some(max)) = (min, max)
+        && min.value >= max.value
+    {
+        fields.contradiction(min.span, "max", "`min` is not below `max`");
+    }
     Presentation {
         label: fields.text("label").map(|text| text.value),
         quantity: fields.text("quantity").map(|text| text.value),
         scale: fields.number("scale").map(|number| number.value),
         offset: fields.number("offset").map(|number| number.value),
-        min: unless_taken(fields, "min"),
-        max: unless_taken(fields, "max"),
+        min: min.map(|one| one.value),
+        max: max.map(|one| one.value),
+        bounds: [min.map(|one| one.span), max.map(|one| one.span)],
         curve: coding::curve(fields),
     }
 }
 
 /// `min` and `max` of a pwm device are pulses, which its kind has read already.
-fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<f64> {
+fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<Spanned<f64>> {
     let free = fields.rest().iter().any(|field| field.name == name);
-    if free { fields.number(name).map(|number| number.value) } else { None }
+    if free { fields.number(name) } else { None }
 }
 
 /// Reports what no part of the device has read.

@@ -10,16 +10,17 @@ use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 use sensedsl_wire::{Direction, ValueType};
 
+use crate::bounds::Bounds;
 use crate::chips;
 use crate::constants::Constants;
 use crate::design::{Level, Presentation};
 use crate::devices::{self, Known};
 use crate::drivers::{Driver, Drivers};
-use crate::fields::{Fields, name_or_text, plain_integer, span};
+use crate::fields::{Fields, name_or_text, span};
 use crate::kind::{Kind, KindName, Role};
 use crate::parts::ReadPart;
 use crate::protocol::{Coding, Filter, Protocol};
-use crate::value::{Dimension, Measure, Value};
+use crate::reach;
 
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
 
@@ -44,6 +45,8 @@ pub struct PartFacts {
     pub checked: Option<String>,
     /// The least and the greatest supply, in millivolts.
     pub supply_mv: Option<(u32, u32)>,
+    /// The greatest clock of its bus, where the driver says it.
+    pub clock_max_hz: Option<u32>,
     /// Whether its bus or its wire needs resistors to the supply.
     pub needs_pull_up: bool,
     /// The addresses that it can have.
@@ -119,14 +122,8 @@ impl ValueFacts {
         if computed || self.coding.bcd {
             return None;
         }
-        if self.coding.drive.is_some() {
-            return Some((-FULL, FULL));
-        }
-        if self.kind.analog().is_some() {
-            return Some((0.0, CONVERTED_MAX));
-        }
-        if self.kind.pwm().is_some() {
-            return Some((0.0, FULL));
+        if let Some(fixed) = reach::fixed(&self.kind, &self.coding) {
+            return Some(fixed);
         }
         let (least, most) = self.value.scalar.integer_range()?;
         let bits = self.coding.bits.map(|(high, low)| high - low + 1);
@@ -148,11 +145,6 @@ impl ValueFacts {
         }
     }
 }
-
-/// What outputs that are driven take at most.
-const FULL: f64 = 10_000.0;
-/// What a converter gives at its reference voltage.
-const CONVERTED_MAX: f64 = 4_095.0;
 
 /// All parts of the library, field by field, in the order of its files.
 #[must_use]
@@ -226,10 +218,9 @@ impl Library {
         let mut text = |name: &str| fields.text(name).map(|text| text.value);
         let (part, about) = (text("part"), text("about"));
         let (sheet, checked) = (text("sheet"), text("checked"));
-        let supply_mv = supply(&mut fields);
         let [aliases, connector, notes] =
             ["aliases", "connector", "note"].map(|name| texts(&mut fields, name));
-        let addresses = addresses(&mut fields);
+        let Bounds { addresses, clock_max_hz, supply_mv } = Bounds::read(&mut fields);
         let address = fields.peek_integer("address").and_then(|one| u8::try_from(one).ok());
         let pull = fields.peek_name("pull");
         drop(fields);
@@ -248,6 +239,7 @@ impl Library {
             sheet,
             checked,
             supply_mv,
+            clock_max_hz,
             needs_pull_up: is_outside && pull.as_deref() == Some("up"),
             addresses,
             address,
@@ -350,30 +342,6 @@ fn connections(read: &ReadPart) -> Vec<ConnectionFacts> {
     connections.collect()
 }
 
-/// A voltage, or a range of them.
-fn supply(fields: &mut Fields<'_>) -> Option<(u32, u32)> {
-    let field = fields.take("supply")?;
-    let mv = |value: &Value| {
-        let number = value.number()?;
-        let is_volts = number.measure == Measure::Bare || number.dimension() == Dimension::VOLTAGE;
-        let mv = (number.in_base_units() * 1e3).round();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "compared with a range just before"
-        )]
-        (is_volts && (0.0..=1e9).contains(&mv)).then_some(mv as u32)
-    };
-    let found = match field.value.range() {
-        Some([first, last]) => mv(&first.value).zip(mv(&last.value)),
-        None => mv(&field.value).map(|one| (one, one)),
-    };
-    if found.is_none() {
-        fields.wrong(&field, "a voltage such as 5 V, or a range such as 2.4 V..3.6 V");
-    }
-    found
-}
-
 /// A text, or a list of them.
 fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
     let Some(field) = fields.take(name) else { return Vec::new() };
@@ -383,17 +351,6 @@ fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
     };
     if found.is_none() {
         fields.wrong(&field, "a text, or a list of texts");
-    }
-    found.unwrap_or_default()
-}
-
-fn addresses(fields: &mut Fields<'_>) -> Vec<u8> {
-    let Some(field) = fields.take("addresses") else { return Vec::new() };
-    let one = |value: &Value| u8::try_from(plain_integer(value)?).ok();
-    let found: Option<Vec<u8>> =
-        field.value.list().and_then(|list| list.iter().map(|item| one(&item.value)).collect());
-    if found.is_none() {
-        fields.wrong(&field, "a list of addresses such as [0x68, 0x69]");
     }
     found.unwrap_or_default()
 }

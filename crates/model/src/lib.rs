@@ -5,6 +5,7 @@
 //! no I/O of its own; files are read through [`Files`].
 
 mod boards;
+pub mod bounds;
 mod checks;
 mod chips;
 mod coding;
@@ -26,6 +27,7 @@ mod parts;
 pub mod pins;
 mod placement;
 pub mod protocol;
+pub mod reach;
 mod resolve;
 mod rules;
 mod sound;

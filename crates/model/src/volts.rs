@@ -17,6 +17,25 @@ pub fn shown_ohm(ohm: u32) -> String {
     format!("{} kOhm", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// The resistor to ground that is proposed, in ohms.
+const LOWER_OHM: u32 = 10_000;
+/// Steps of the E12 series, in tenths.
+const E12: [u32; 12] = [10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82];
+
+/// Resistors of the E12 series, from the device to the pin and from there to ground, in ohms, that
+/// leave at most `most_mv` of `mv`.
+#[must_use]
+pub fn divider(mv: u32, most_mv: u32) -> [u32; 2] {
+    let enough = |upper: &u64| {
+        let (mv, lower) = (u64::from(mv), u64::from(LOWER_OHM));
+        mv * lower <= u64::from(most_mv) * (upper + lower)
+    };
+    let decades = (2..8).map(|power| 10_u64.pow(power));
+    let mut all = decades.flat_map(|decade| E12.map(|step| u64::from(step) * decade / 10));
+    let upper = all.find(enough).and_then(|upper| u32::try_from(upper).ok());
+    [upper.unwrap_or(u32::MAX), LOWER_OHM]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,5 +51,18 @@ mod tests {
             [820, 10_000, 5_600, 1].map(shown_ohm),
             ["820 Ohm", "10 kOhm", "5.6 kOhm", "1 Ohm"]
         );
+    }
+
+    #[test]
+    fn a_divider_leaves_no_more_than_the_supply() {
+        let told = |mv, most| divider(mv, most).map(shown_ohm).join(", ");
+        assert_eq!(told(5_000, 3_300), "5.6 kOhm, 10 kOhm");
+        assert_eq!(told(12_600, 3_300), "33 kOhm, 10 kOhm");
+        assert_eq!(told(3_400, 3_300), "330 Ohm, 10 kOhm");
+        for mv in (3_301..60_000).step_by(37) {
+            let [upper, lower] = divider(mv, 3_300).map(u64::from);
+            let left = u64::from(mv) * lower / (upper + lower);
+            assert!(left <= 3_300 && left > 2_400, "{mv}: {left}");
+        }
     }
 }

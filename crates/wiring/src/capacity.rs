@@ -4,6 +4,7 @@
 //! of one kind alone are added until there is no wiring.
 
 use sensedsl_diagnostics::Span;
+use sensedsl_model::bounds::Bounds;
 use sensedsl_model::design::{
     BoardIndex, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
     Placement, Presentation, Spanned,
@@ -204,6 +205,7 @@ fn add(
         driver: None,
         allows: Vec::new(),
         chip: None,
+        bounds: Bounds::default(),
     });
 }
 

@@ -19,12 +19,12 @@ use sensedsl_diagnostics::{Diagnostic, visible};
 use sensedsl_model::design::{Board, BoardIndex, Connection, Design, Level, Spanned, WishFor};
 use sensedsl_model::kind::{Role, Sharing};
 use sensedsl_model::pins::PinRef;
-use sensedsl_model::volts::{shown_mv, shown_ohm};
+use sensedsl_model::volts::{divider, shown_mv, shown_ohm};
 
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
-use crate::levels::{Stands, divider, stands, supply_mv};
+use crate::levels::{Stands, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 

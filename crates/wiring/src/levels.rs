@@ -1,19 +1,12 @@
-//! Voltages: whether a pin tolerates what a device puts on it, and which resistors help where it
-//! does not.
+//! Voltages: whether a pin tolerates what a device puts on it.
 
 use sensedsl_board::silicon::{self, Volts};
 use sensedsl_board::table::Pin;
 use sensedsl_model::design::Board;
 use sensedsl_model::kind::Kind;
-#[cfg(test)]
-use sensedsl_model::volts::shown_ohm;
 
 /// Up to this every pin of an MCU that nothing is known of stands a level, in millivolts.
 const UNKNOWN_MAX_MV: u32 = 3_600;
-/// The resistor to ground that is proposed, in ohms.
-const LOWER_OHM: u32 = 10_000;
-/// Steps of the E12 series, in tenths.
-const E12: [u32; 12] = [10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82];
 
 /// Whether a pin tolerates a voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,35 +57,4 @@ fn stated_mv(pin: &Pin) -> Option<u32> {
     let volts: f64 = said.trim_end_matches(['V', 'v']).trim().parse().ok()?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
     (0.0..1_000.0).contains(&volts).then(|| (volts * 1_000.0).round() as u32)
-}
-
-/// Resistors of the E12 series, from the device to the pin and from there to ground, in ohms, that
-/// leave at most `most_mv` of `mv`.
-pub(crate) fn divider(mv: u32, most_mv: u32) -> [u32; 2] {
-    let enough = |upper: &u64| {
-        let (mv, lower) = (u64::from(mv), u64::from(LOWER_OHM));
-        mv * lower <= u64::from(most_mv) * (upper + lower)
-    };
-    let decades = (2..8).map(|power| 10_u64.pow(power));
-    let mut all = decades.flat_map(|decade| E12.map(|step| u64::from(step) * decade / 10));
-    let upper = all.find(enough).and_then(|upper| u32::try_from(upper).ok());
-    [upper.unwrap_or(u32::MAX), LOWER_OHM]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_divider_leaves_no_more_than_the_supply() {
-        let told = |mv, most| divider(mv, most).map(shown_ohm).join(", ");
-        assert_eq!(told(5_000, 3_300), "5.6 kOhm, 10 kOhm");
-        assert_eq!(told(12_600, 3_300), "33 kOhm, 10 kOhm");
-        assert_eq!(told(3_400, 3_300), "330 Ohm, 10 kOhm");
-        for mv in (3_301..60_000).step_by(37) {
-            let [upper, lower] = divider(mv, 3_300).map(u64::from);
-            let left = u64::from(mv) * lower / (upper + lower);
-            assert!(left <= 3_300 && left > 2_400, "{mv}: {left}");
-        }
-    }
 }

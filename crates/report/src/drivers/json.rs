@@ -24,6 +24,7 @@ pub fn value(part: &PartFacts) -> Value {
         "sheet": part.sheet,
         "checked": part.checked,
         "supply_mv": part.supply_mv.map(|(least, most)| [least, most]),
+        "clock_max_hz": part.clock_max_hz,
         "needs_pull_up": part.needs_pull_up,
         "addresses": part.addresses,
         "address": part.address,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use sensedsl_model::bounds::shown_hz;
 use sensedsl_model::facts::{PartFacts, ValueFacts, example};
 use sensedsl_wire::Direction;
 
@@ -85,6 +86,7 @@ fn wiring(out: &mut String, part: &PartFacts) {
         words::supply(part).map(|text| format!("**Supply**: {text}.")),
         words::levels(part).map(|text| format!("**Signals**: {text}.")),
         part.needs_pull_up.then(|| format!("**Pull-up**: {pull}")),
+        part.clock_max_hz.map(|hz| format!("**Clock**: {} at most.", shown_hz(hz))),
         words::addresses(part).map(|text| format!("**Address**: {text}.")),
         (!part.connector.is_empty())
             .then(|| format!("**Connector**, in the order of the usual module: {connector}.")),

@@ -1,0 +1,29 @@
+//! E0235: a voltage to expect that an analog input cannot measure.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0235",
+    severity: Severity::Error,
+    title: "a voltage over the supply on an analog input",
+    explanation: r#"An analog input measures from 0 V to the supply of the MCU (3.3 V, or 5 V on Arduino boards). `max` says
+that the device goes higher, and nothing in the file divides it: the value would stay at its end,
+and the pin might be destroyed.
+
+Way out: two resistors, which the file must then state: `level = 12.6 V; divider = [33 kOhm, 10 kOhm];` (from the
+device to the pin, and from there to ground). The shown value is multiplied by what they divide.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The device, the voltage to expect, what the input measures up to, and the resistors that help.
+#[must_use]
+pub fn analog_over_supply(span: Span, device: &str, max: &str, supply: &str, help: &str) -> Diagnostic {
+    let message = format!("{device} goes up to {max}, but its input measures {supply} at most");
+    Diagnostic::new(CODE, span, message).here("over the supply, and not divided").help(help)
+}

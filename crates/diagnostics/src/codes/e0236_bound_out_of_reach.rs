@@ -1,0 +1,35 @@
+//! E0236: a bound that the value never reaches.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0236",
+    severity: Severity::Error,
+    title: "a bound that the value cannot reach",
+    explanation: r#"`min` and `max` bound the shown value, after `scale`, `offset` and `curve`. What the type holds and what the
+part gives or takes end before this bound, so one of the lines is wrong: mostly `scale` is missing,
+or the bound is in another unit than the one that is shown.
+
+Way out: write the bound in the unit that is shown, within the range that the message names; give
+`scale`; or take a wider type.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The property, its value, the device and its range.
+#[must_use]
+pub fn bound_out_of_reach(
+    span: Span,
+    (property, bound): (&str, &str),
+    device: &str,
+    range: &str,
+    help: &str,
+) -> Diagnostic {
+    let message = format!("`{property}` of {device} is {bound}, but its value goes from {range}");
+    Diagnostic::new(CODE, span, message).here("out of reach").help(help)
+}

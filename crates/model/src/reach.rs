@@ -1,0 +1,204 @@
+//! How far a value goes: what the part gives or takes, what the type holds, and both as a host shows
+//! them. A device in, its range out, and reports of what lies beyond it.
+
+use sensedsl_board::silicon;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::codes::{
+    e0235_analog_over_supply, e0236_bound_out_of_reach, w0611_narrow_command,
+};
+use sensedsl_wire::{Direction, ScalarType, ValueType};
+
+use crate::design::{Board, Design, Device, Presentation};
+use crate::kind::Kind;
+use crate::kind::icu::Mode;
+use crate::protocol::Coding;
+use crate::volts::{divider, shown_mv, shown_ohm};
+
+/// What outputs that are driven take at most.
+const FULL: f64 = 10_000.0;
+/// What a converter gives or takes at its reference voltage.
+const CONVERTED_MAX: f64 = 4_095.0;
+/// The greatest supply of an MCU of which nothing is known, in millivolts.
+const SUPPLY_MAX_MV: u32 = 5_000;
+
+/// The range that a kind or a bridge has whatever the type.
+pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
+    if coding.drive.is_some() {
+        return Some((-FULL, FULL));
+    }
+    match kind {
+        Kind::Analog(_) | Kind::Dac(_) => Some((0.0, CONVERTED_MAX)),
+        Kind::Pwm(_) => Some((0.0, FULL)),
+        Kind::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, FULL)),
+        _ => None,
+    }
+}
+
+/// The least and the greatest raw value that a part gives or takes; none where it is not known.
+fn of_part(kind: &Kind, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
+    if coding.output.is_some() || coding.text.is_some() || coding.bcd {
+        return None;
+    }
+    if let Some(range) = fixed(kind, coding) {
+        return Some(range);
+    }
+    let scalar = coding.of.unwrap_or(value).scalar;
+    let (least, _) = scalar.integer_range()?;
+    let bits = coding.bits.map(|(high, low)| high - low + 1).or(coding.packed_bits);
+    match bits {
+        None => of_type(scalar),
+        Some(bits) if coding.signed.unwrap_or(least < 0) => {
+            let half = 2_f64.powi(i32::from(bits) - 1);
+            Some((-half, half - 1.0))
+        }
+        Some(bits) => Some((0.0, 2_f64.powi(i32::from(bits)) - 1.0)),
+    }
+}
+
+/// The least and the greatest number that a type holds; none of a fraction, which holds any.
+fn of_type(scalar: ScalarType) -> Option<(f64, f64)> {
+    let (least, most) = scalar.integer_range()?;
+    #[expect(clippy::cast_precision_loss, reason = "the ends of 64 bits are as near as a number gets")]
+    Some((least as f64, most as f64))
+}
+
+/// The least and the greatest raw value of a device: those of its part that its type holds.
+#[must_use]
+pub fn raw(device: &Device) -> Option<(f64, f64)> {
+    let value = device.value.value;
+    let (part, held) = (of_part(&device.kind, &device.coding, value), of_type(value.scalar));
+    match (part, held) {
+        (Some(part), Some(held)) => Some((part.0.max(held.0), part.1.min(held.1))),
+        (one, other) => one.or(other),
+    }
+}
+
+/// The least and the greatest value as a host shows it.
+#[must_use]
+pub fn shown(device: &Device) -> Option<(f64, f64)> {
+    let (least, most) = raw(device)?;
+    let (one, other) = (device.shown.of_raw(least), device.shown.of_raw(most));
+    let curve = device.shown.curve.iter().map(|point| point.1);
+    let all = curve.chain([one, other]);
+    let (low, high) = all.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+    Some((low, high))
+}
+
+impl Presentation {
+    /// What a host shows for a raw value.
+    #[must_use]
+    pub fn of_raw(&self, raw: f64) -> f64 {
+        let x = self.scale.unwrap_or(1.0) * raw + self.offset.unwrap_or(0.0);
+        let (Some(first), Some(last)) = (self.curve.first(), self.curve.last()) else { return x };
+        let pairs = self.curve.iter().zip(self.curve.iter().skip(1));
+        for (from, to) in pairs {
+            if x >= from.0 && x <= to.0 {
+                return from.1 + (to.1 - from.1) * (x - from.0) / (to.0 - from.0);
+            }
+        }
+        if x < first.0 { first.1 } else { last.1 }
+    }
+}
+
+/// Reports types that cannot hold the range of an actuator, and bounds that are never reached.
+pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
+    for device in &design.devices {
+        diagnostics.extend(narrow(device));
+        diagnostics.extend(over_supply(design, device).or_else(|| beyond(device)));
+    }
+}
+
+fn narrow(device: &Device) -> Option<Diagnostic> {
+    if device.direction == Direction::Sensor {
+        return None;
+    }
+    let value = device.value.value;
+    let held = of_type(value.scalar)?;
+    let takes = of_part(&device.kind, &device.coding, value)?;
+    if (held.0 <= takes.0 && held.1 >= takes.1) || value.scalar == ScalarType::Bool {
+        return None;
+    }
+    let of = device.coding.of.filter(|of| of_type(of.scalar).is_none_or(|of| of.1 >= takes.1));
+    let wider = match of.filter(|of| of.scalar != value.scalar) {
+        Some(of) => of.scalar.name(),
+        None if takes.0 < 0.0 => "int16",
+        None => "uint16",
+    };
+    let (found, name) = (value.scalar.name(), &device.name.value);
+    let words = |(least, most): (f64, f64)| format!("{least} to {most}");
+    let narrow = w0611_narrow_command::narrow_command;
+    Some(narrow(device.value.span, (found, &words(held)), (name, &words(takes)), wider))
+}
+
+/// A voltage that an analog input is to measure, over the supply and without resistors that divide it.
+fn over_supply(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let (max, at) = (device.shown.max?, *device.shown.bounds.last()?);
+    let wires = design.main_connection(device).filter(|_| device.kind.analog().is_some())?;
+    let factor = match device.shown.quantity.as_deref() {
+        Some("V") => 1e3,
+        Some("mV") => 1.0,
+        Some(_) | None => return None,
+    };
+    if wires.level.is_some_and(|level| level.divider.is_some()) {
+        return None;
+    }
+    let boards = design.boards.iter().zip(0..).filter(|(_, at)| wires.board.is_none_or(|own| own.0 == *at));
+    let supply_mv = boards.map(|(board, _)| supply_mv(board)).max()?;
+    // A factor of one's own says that there are resistors, as far as it goes.
+    let is_scaled = device.shown.scale.is_some() || !device.shown.curve.is_empty();
+    let is_reached = is_scaled && shown(device).is_some_and(|(_, most)| most >= max);
+    if max * factor <= f64::from(supply_mv) || is_reached {
+        return None;
+    }
+    let (level, supply) = (format!("{} V", max * factor / 1e3), shown_mv(supply_mv));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let [upper, lower] = divider((max * factor).ceil() as u32, supply_mv).map(shown_ohm);
+    let help = format!(
+        "divide it by two resistors, and say so: `level = {level}; divider = [{upper}, {lower}]; scale = {} / 4095;`",
+        f64::from(supply_mv) / 1e3
+    );
+    let over = e0235_analog_over_supply::analog_over_supply;
+    Some(over(at?, &device.name.value, &level, &supply, &help))
+}
+
+fn supply_mv(board: &Board) -> u32 {
+    let volts = board.mcu.as_deref().and_then(silicon::volts);
+    volts.map_or(SUPPLY_MAX_MV, |volts| volts.supply_mv)
+}
+
+/// A bound of the shown value that it never reaches.
+fn beyond(device: &Device) -> Option<Diagnostic> {
+    let (least, most) = shown(device)?;
+    // One step of the value is no mistake: 100 / 4096 ends a step below 100.
+    let (first, last) = raw(device)?;
+    let step = (most - least) / (last - first).max(1.0);
+    let bounds = [("min", device.shown.min), ("max", device.shown.max)];
+    for ((property, bound), at) in bounds.into_iter().zip(device.shown.bounds) {
+        // A type that is narrower than the driver's bounds is warned of by itself.
+        let own = at.filter(|at| at.file == device.name.span.file);
+        let (Some(bound), Some(at)) = (bound, own) else { continue };
+        if bound >= least - step * 1.001 && bound <= most + step * 1.001 {
+            continue;
+        }
+        let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}"));
+        let unit = unit.unwrap_or_default();
+        let range = format!("{}{unit} to {}{unit}", rounded(least), rounded(most));
+        let is_raw = device.shown.scale.is_none() && device.shown.curve.is_empty();
+        let help = if is_raw {
+            "give `scale` where the value is shown in another unit, take a wider type, or change the bound"
+        } else {
+            "write the bound in the unit that is shown, or correct `scale` and `offset`"
+        };
+        let (name, bound) = (&device.name.value, format!("{bound}{unit}"));
+        let beyond = e0236_bound_out_of_reach::bound_out_of_reach;
+        return Some(beyond(at, (property, &bound), name, &range, help));
+    }
+    None
+}
+
+/// A number for people, with six digits that count.
+#[must_use]
+pub fn rounded(number: f64) -> String {
+    let text = format!("{number:.6e}");
+    text.parse::<f64>().map_or(text, |number| format!("{number}"))
+}
