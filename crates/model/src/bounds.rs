@@ -47,9 +47,10 @@ impl Bounds {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let at = span(driver.file, driver.node.range());
-        let own = driver.node.properties().filter(|one| {
-            one.name().is_some_and(|name| BOUNDS.contains(&name.text()))
-        });
+        let own = driver
+            .node
+            .properties()
+            .filter(|one| one.name().is_some_and(|name| BOUNDS.contains(&name.text())));
         let said = (known.constants, diagnostics);
         Self::read(&mut Fields::new(own, driver.file, "a driver", at, said))
     }
@@ -128,7 +129,9 @@ fn foreign_address(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<
     let is_eight_bit = address % 2 == 0 && bounds.addresses.contains(&(address >> 1));
     let help = if is_eight_bit {
         let meant = address >> 1;
-        format!("0x{address:02X} is the 8-bit form of 0x{meant:02X}: write `address = 0x{meant:02X};`")
+        format!(
+            "0x{address:02X} is the 8-bit form of 0x{meant:02X}: write `address = 0x{meant:02X};`"
+        )
     } else if bounds.addresses.len() == 1 {
         format!("write `address = 0x{first:02X};`")
     } else {

@@ -58,7 +58,10 @@ fn of_part(kind: &Kind, coding: &Coding, value: ValueType) -> Option<(f64, f64)>
 /// The least and the greatest number that a type holds; none of a fraction, which holds any.
 fn of_type(scalar: ScalarType) -> Option<(f64, f64)> {
     let (least, most) = scalar.integer_range()?;
-    #[expect(clippy::cast_precision_loss, reason = "the ends of 64 bits are as near as a number gets")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "the ends of 64 bits are as near as a number gets"
+    )]
     Some((least as f64, most as f64))
 }
 
@@ -142,7 +145,8 @@ fn over_supply(design: &Design, device: &Device) -> Option<Diagnostic> {
     if wires.level.is_some_and(|level| level.divider.is_some()) {
         return None;
     }
-    let boards = design.boards.iter().zip(0..).filter(|(_, at)| wires.board.is_none_or(|own| own.0 == *at));
+    let boards =
+        design.boards.iter().zip(0..).filter(|(_, at)| wires.board.is_none_or(|own| own.0 == *at));
     let supply_mv = boards.map(|(board, _)| supply_mv(board)).max()?;
     // A factor of one's own says that there are resistors, as far as it goes.
     let is_scaled = device.shown.scale.is_some() || !device.shown.curve.is_empty();
