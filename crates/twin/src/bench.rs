@@ -12,6 +12,7 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use crate::arith::{chance, number};
+use crate::commands::outputs::{Outputs, Recorder};
 use crate::parts::line::{Edges, Line};
 use crate::parts::registers::{Reading, Registers};
 use crate::parts::{can, formula, message};
@@ -40,6 +41,7 @@ pub struct Bench {
     talked_to: BTreeMap<u8, usize>,
     /// By timer and channel: period and width of its pulses.
     waves: BTreeMap<TimerOutput, (u64, u64)>,
+    recorder: Recorder,
     faults: Vec<Fault>,
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
@@ -93,6 +95,7 @@ impl Bench {
             senders: BTreeMap::new(),
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
+            recorder: Recorder::default(),
             faults: world.faults.clone(),
             broken: Vec::new(),
             seed,
@@ -137,6 +140,16 @@ impl Bench {
     #[must_use]
     pub fn waves(&self) -> &BTreeMap<TimerOutput, (u64, u64)> {
         &self.waves
+    }
+
+    /// What the board puts out.
+    #[must_use]
+    pub const fn outputs(&self) -> &Outputs {
+        self.recorder.outputs()
+    }
+
+    pub(crate) const fn recorder(&mut self) -> &mut Recorder {
+        &mut self.recorder
     }
 
     /// Whether the board has no supply.
@@ -233,6 +246,7 @@ impl Bench {
         level: Option<bool>,
         now_ns: u64,
     ) {
+        self.recorder.level(connection, role, level);
         if role == Role::Cs
             && let Some(chip) = self.chips.iter_mut().find(|one| one.connection == connection)
         {
@@ -243,6 +257,7 @@ impl Bench {
                 (true, true) | (false, false) => {}
             }
             chip.is_selected = is_selected;
+            self.recorder.select(connection, is_selected, now_ns);
         }
         if role == Role::Trigger
             && level == Some(false)
@@ -286,6 +301,7 @@ impl Bench {
                 self.pads.entry(named).or_insert((index, pad.role));
             }
         }
+        self.recorder.connect(index, one);
         let part = one.connection.part;
         let unit = one.unit.and_then(number_of);
         let mut wired = Wired { part, line: None, analog: None };

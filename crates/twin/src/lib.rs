@@ -11,6 +11,7 @@
 
 mod arith;
 pub mod bench;
+pub mod commands;
 #[cfg(feature = "machine")]
 pub mod emulated;
 pub mod judge;

@@ -56,6 +56,7 @@ impl Surroundings for Bench {
                 return I2cReply::Nack;
             }
             chip.registers.start(read, &self.subjects, now_ns);
+            self.recorder.addressed(unit, (!read).then_some(chip.connection), now_ns);
             self.talked_to.insert(unit, place);
             return I2cReply::Ack;
         }
@@ -63,11 +64,13 @@ impl Surroundings for Bench {
         match (event, talked_to) {
             (I2cEvent::Write(byte), Some(chip)) => {
                 chip.registers.write(byte);
+                self.recorder.taken(unit, byte);
                 I2cReply::Ack
             }
             (I2cEvent::Read { .. }, Some(chip)) => I2cReply::Byte(chip.registers.read()),
             (I2cEvent::Stop, Some(chip)) => {
                 chip.registers.stop(now_ns);
+                self.recorder.addressed(unit, None, now_ns);
                 self.talked_to.remove(&unit);
                 I2cReply::Ack
             }
@@ -84,8 +87,9 @@ impl Surroundings for Bench {
         if part.is_none_or(|part| self.has(FaultKind::Torn, part, now_ns)) {
             return 0xFF;
         }
-        let chip = self.chips.get_mut(place);
-        chip.map_or(0xFF, |chip| chip.registers.exchange(out, &self.subjects))
+        let Some(chip) = self.chips.get_mut(place) else { return 0xFF };
+        self.recorder.shifted(chip.connection, out);
+        chip.registers.exchange(out, &self.subjects)
     }
 
     fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
@@ -104,6 +108,19 @@ impl Surroundings for Bench {
 
     fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, _: u64) {
         self.waves.insert(output, (period_ns, width_ns));
+        self.recorder.timer(output, period_ns, width_ns);
+    }
+
+    fn dac(&mut self, channel: u8, millivolts: f64, _: u64) {
+        self.recorder.converter(channel, millivolts);
+    }
+
+    fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
+        self.recorder.sent(unit, byte, now_ns);
+    }
+
+    fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
+        self.recorder.frame(unit, frame, now_ns);
     }
 
     fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {

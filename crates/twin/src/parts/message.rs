@@ -100,7 +100,7 @@ impl Talker {
     fn compose(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
         let is_text = self.fields.iter().any(|field| field.text.is_some());
         if !is_text {
-            return self.framed(&self.binary(subjects, now_ns));
+            return framed(&self.uart, &self.binary(subjects, now_ns));
         }
         let mut sentences: Vec<Option<&str>> = Vec::new();
         for text in self.fields.iter().filter_map(|field| field.text.as_ref()) {
@@ -109,7 +109,7 @@ impl Talker {
             }
         }
         let bodies = sentences.iter().map(|sentence| self.text(*sentence, subjects, now_ns));
-        bodies.flat_map(|body| self.framed(body.as_bytes())).collect()
+        bodies.flat_map(|body| framed(&self.uart, body.as_bytes())).collect()
     }
 
     fn binary(&self, subjects: &[Subject], now_ns: u64) -> Vec<u8> {
@@ -168,26 +168,25 @@ impl Talker {
             Some(sentence) => format!("GP{sentence}{separator}{}", columns.join(&separator)),
         }
     }
+}
 
-    /// With start, checksum and end.
-    fn framed(&self, body: &[u8]) -> Vec<u8> {
-        let uart = &self.uart;
-        let mut all = [&uart.start, body].concat();
-        let summed = all.get(usize::from(uart.checksum_from)..).unwrap_or_default();
-        let sum = summed.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
-        let xor = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum ^ byte);
-        let checksum = match uart.checksum {
-            MessageChecksum::None => Vec::new(),
-            MessageChecksum::Sum8 => vec![sum.to_be_bytes()[1]],
-            MessageChecksum::Xor8 => vec![xor(summed)],
-            MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
-            MessageChecksum::Crc8DvbS2 => vec![crc8(summed, 0xD5, 0)],
-            MessageChecksum::Nmea => format!("*{:02X}", xor(body)).into_bytes(),
-        };
-        all.extend(checksum);
-        all.extend(&uart.end);
-        all
-    }
+/// A message: its body with start, checksum and end.
+pub(crate) fn framed(uart: &Uart, body: &[u8]) -> Vec<u8> {
+    let mut all = [&uart.start, body].concat();
+    let summed = all.get(usize::from(uart.checksum_from)..).unwrap_or_default();
+    let sum = summed.iter().fold(0_u16, |sum, byte| sum.wrapping_add(u16::from(*byte)));
+    let xor = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum ^ byte);
+    let checksum = match uart.checksum {
+        MessageChecksum::None => Vec::new(),
+        MessageChecksum::Sum8 => vec![sum.to_be_bytes()[1]],
+        MessageChecksum::Xor8 => vec![xor(summed)],
+        MessageChecksum::Ibus => (0xFFFF - sum).to_le_bytes().to_vec(),
+        MessageChecksum::Crc8DvbS2 => vec![crc8(summed, 0xD5, 0)],
+        MessageChecksum::Nmea => format!("*{:02X}", xor(body)).into_bytes(),
+    };
+    all.extend(checksum);
+    all.extend(&uart.end);
+    all
 }
 
 /// A number as a text has it; for degrees, the next column as well.

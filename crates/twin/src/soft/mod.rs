@@ -6,6 +6,7 @@
 //! proves wire, tables and coding of values, and nothing of registers, pads, interrupts, clocks, DMA or stacks.
 
 mod buses;
+mod outputs;
 mod sensors;
 mod tables;
 
@@ -22,6 +23,7 @@ use sensedsl_wire::Direction;
 
 use crate::bench::Bench;
 use buses::{Bus, Port, Stations};
+use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
 use tables::kept;
 
@@ -65,6 +67,7 @@ struct Shape {
     captures: Vec<Captures>,
     contacts: Vec<Contacts>,
     encoders: Vec<Encoders>,
+    outputs: Outputs,
 }
 
 /// What a start begins anew.
@@ -78,6 +81,9 @@ struct State {
     captures: Vec<Captures>,
     contacts: Vec<Contacts>,
     encoders: Vec<Encoders>,
+    outputs: Outputs,
+    /// What actuators are set to in this millisecond, by the host or because of its silence.
+    owed: Vec<(usize, Vec<u8>)>,
     began_ms: u64,
 }
 
@@ -137,9 +143,21 @@ impl Channel for Link {
 struct Side<'a> {
     core: &'a mut Core,
     buses: &'a mut Vec<Bus>,
+    outputs: &'a Outputs,
+    owed: &'a mut Vec<(usize, Vec<u8>)>,
     received: &'a mut Vec<(u64, usize, Vec<u8>)>,
     now_ms: u64,
     starts: u32,
+}
+
+impl Side<'_> {
+    fn put(&mut self, index: usize, value: &[u8]) {
+        self.core.store.put(index, value);
+        for bus in self.buses.iter_mut() {
+            bus.set(index, value);
+        }
+        self.owed.push((index, value.to_vec()));
+    }
 }
 
 impl Host for Side<'_> {
@@ -148,11 +166,14 @@ impl Host for Side<'_> {
     }
 
     fn apply(&mut self, index: usize, value: &[u8]) {
-        self.core.store.put(index, value);
-        for bus in self.buses.iter_mut() {
-            bus.set(index, value);
-        }
+        self.put(index, value);
         self.received.push((self.now_ms, index, value.to_vec()));
+    }
+
+    fn failsafe(&mut self) {
+        for (index, value) in self.outputs.safe() {
+            self.put(index, value);
+        }
     }
 
     fn describe(&mut self, board: &mut BoardHealth) {
@@ -221,6 +242,9 @@ impl SoftBoard {
             self.starts += 1;
         }
         let since_ms = self.now_ms - self.state.began_ms - 1;
+        if since_ms == 0 {
+            self.state.outputs.start(&mut self.bench, now_ns);
+        }
         self.serve(since_ms, now_ns);
         self.report(since_ms);
         self.carry(now_ns);
@@ -247,9 +271,12 @@ impl SoftBoard {
             return;
         }
         let (received, starts, now_ms) = (&mut self.received, self.starts, self.now_ms);
-        let State { core, buses, reporter, .. } = &mut self.state;
-        let mut side = Side { core, buses, received, now_ms, starts };
+        let State { core, buses, reporter, outputs, owed, .. } = &mut self.state;
+        let mut side = Side { core, buses, outputs, owed, received, now_ms, starts };
         reporter.cycle(since_ms * 1_000, &mut self.link, &mut side);
+        for (index, value) in std::mem::take(owed) {
+            outputs.set(index, &value, &mut self.bench, now_ms * MS_NS);
+        }
     }
 
     /// What the line carries in a millisecond.
@@ -303,6 +330,7 @@ impl Shape {
             captures: sensors::captures(job),
             contacts: sensors::contacts(job),
             encoders: sensors::encoders(job),
+            outputs: Outputs::new(job, schema),
             cycles_ms: cycles_ms.leak(),
         }
     }
@@ -327,6 +355,8 @@ impl State {
             captures: shape.captures.clone(),
             contacts: shape.contacts.clone(),
             encoders: shape.encoders.clone(),
+            outputs: shape.outputs.clone(),
+            owed: Vec::new(),
             began_ms: now_ms,
         }
     }

@@ -4,13 +4,13 @@
 //! back.
 
 use sense_rt::{
-    Calibration, ChipTable, Code, Coding, Command, Crc, FieldFormat, FilterTable, Formula,
+    Calibration, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat, FilterTable, Formula,
     Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable, Number, Range, Reading,
     Scalar, Schema, Transfer, WIDE,
 };
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_codegen::part::{
-    self, BusPlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan, ValuePlan,
+    self, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan, ValuePlan,
 };
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;
@@ -126,7 +126,7 @@ fn init(steps: &[InitPlan]) -> &'static [InitStep] {
     all(steps.iter().map(|one| InitStep { bytes: bytes(&one.bytes), pause_ms: one.pause_ms }))
 }
 
-fn coding(plan: &ValuePlan) -> Coding {
+pub(super) fn coding(plan: &ValuePlan) -> Coding {
     Coding {
         elements: all(plan.elements.iter().copied()),
         words: plan.words,
@@ -188,15 +188,44 @@ pub(super) fn message(job: &BoardJob<'_>, plan: &MessagePlan) -> MessageTable {
         fields: all(plan.fields.iter().map(|one| field(job, one))),
         length: plan.length,
         bytes_max: plan.bytes_max,
-        checksum: match plan.checksum {
-            uart::MessageChecksum::None => MessageChecksum::None,
-            uart::MessageChecksum::Sum8 => MessageChecksum::Sum8,
-            uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
-            uart::MessageChecksum::Ibus => MessageChecksum::Ibus,
-            uart::MessageChecksum::Crc8DvbS2 => MessageChecksum::Crc8DvbS2,
-            uart::MessageChecksum::Nmea => MessageChecksum::Nmea,
-        },
+        checksum: checksum(plan.checksum),
         checksum_from: plan.checksum_from,
+    }
+}
+
+/// A message that is sent to a serial part.
+pub(super) fn compose(plan: &ComposePlan) -> Compose {
+    Compose {
+        start: bytes(&plan.start),
+        end: bytes(&plan.end),
+        value: coding(&plan.value),
+        checksum: checksum(plan.checksum),
+        checksum_from: plan.checksum_from,
+    }
+}
+
+const fn checksum(of: uart::MessageChecksum) -> MessageChecksum {
+    match of {
+        uart::MessageChecksum::None => MessageChecksum::None,
+        uart::MessageChecksum::Sum8 => MessageChecksum::Sum8,
+        uart::MessageChecksum::Xor8 => MessageChecksum::Xor8,
+        uart::MessageChecksum::Ibus => MessageChecksum::Ibus,
+        uart::MessageChecksum::Crc8DvbS2 => MessageChecksum::Crc8DvbS2,
+        uart::MessageChecksum::Nmea => MessageChecksum::Nmea,
+    }
+}
+
+/// A number as the type has it, most significant byte first; the model has seen to it that the type holds it.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
+pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
+    match scalar {
+        Scalar::Float32 => (number as f32).to_be_bytes().to_vec(),
+        Scalar::Float64 => number.to_be_bytes().to_vec(),
+        _ => {
+            let whole = if number < 0.0 { (number as i64).cast_unsigned() } else { number as u64 };
+            let from = 8 - scalar.bytes().min(8);
+            whole.to_be_bytes().get(from..).unwrap_or_default().to_vec()
+        }
     }
 }
 

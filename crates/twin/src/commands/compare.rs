@@ -1,0 +1,117 @@
+//! What came out of a board against what must come out.
+
+use sensedsl_model::design::ConnectionIndex;
+
+use super::expect::{Expected, Sent, What};
+use super::outputs::Outputs;
+
+/// How many bytes of a transfer are shown.
+const SHOWN: usize = 24;
+
+/// What is there in place of what must be; none where it is as it must be. Transfers, messages and frames count since
+/// a time.
+pub(super) fn differs(one: &Expected, outputs: &Outputs, since_ns: u64) -> Option<String> {
+    match &one.what {
+        What::Level(role, high) => {
+            let found = outputs.level(one.at, *role);
+            (found != Some(*high)).then(|| found.map_or("not driven", level).to_owned())
+        }
+        What::Pulses(wanted) => {
+            let found = outputs.pulses(one.at);
+            (!is_same(*wanted, found)).then(|| pulses(found))
+        }
+        What::Millivolts(wanted) => {
+            let found = outputs.millivolts(one.at).unwrap_or(0.0);
+            ((found - wanted).abs() > 0.5).then(|| format!("{found:.0} mV"))
+        }
+        What::Write(bytes, begins) => {
+            let found = last_write(one.at, outputs, since_ns, bytes, *begins);
+            (found.as_deref() != Some(bytes)).then(|| found.map_or("nothing".into(), |one| hex(&one)))
+        }
+        What::Message(unit, bytes) => {
+            let found = outputs.bytes(*unit, since_ns);
+            let is_there = found.windows(bytes.len().max(1)).any(|part| part == bytes);
+            let last = found.len().saturating_sub(bytes.len());
+            (!is_there).then(|| hex(found.get(last..).unwrap_or_default()))
+        }
+        What::Frame(sent) => frame(sent, outputs, since_ns),
+    }
+}
+
+/// The last transfer of that sort: with its beginning and length, else any.
+fn last_write(
+    at: ConnectionIndex,
+    outputs: &Outputs,
+    since_ns: u64,
+    bytes: &[u8],
+    begins: usize,
+) -> Option<Vec<u8>> {
+    let is_alike =
+        |one: &&[u8]| one.len() == bytes.len() && one.get(..begins) == bytes.get(..begins);
+    let alike = outputs.writes(at, since_ns).filter(is_alike).last();
+    alike.or_else(|| outputs.writes(at, since_ns).last()).map(<[u8]>::to_vec)
+}
+
+/// A timer counts whole ticks of its clock, and has 65,536 of them at most.
+fn is_same(wanted: Option<(u64, u64)>, found: Option<(u64, u64)>) -> bool {
+    let (period_ns, width_ns) = wanted.unwrap_or((0, 0));
+    let (found_period_ns, found_width_ns) = found.unwrap_or((0, 0));
+    if width_ns == 0 {
+        return found_width_ns == 0;
+    }
+    width_ns.abs_diff(found_width_ns) <= period_ns / 20_000 + 30
+        && period_ns.abs_diff(found_period_ns) <= period_ns / 2_000 + 30
+}
+
+fn frame(sent: &Sent, outputs: &Outputs, since_ns: u64) -> Option<String> {
+    let own = outputs.frames(sent.unit, since_ns).filter(|frame| {
+        (frame.id, frame.extended, frame.remote) == (sent.identifier, sent.is_extended, false)
+    });
+    let Some(found) = own.last() else {
+        let other = outputs.frames(sent.unit, since_ns).last();
+        return Some(other.map_or("nothing".into(), |one| {
+            let data = one.data.get(..usize::from(one.length)).unwrap_or_default();
+            format!("{} in frame 0x{:X}", hex(data), one.id)
+        }));
+    };
+    let data = found.data.get(..usize::from(found.length)).unwrap_or_default();
+    let own = data.get(sent.byte..sent.byte + sent.bytes.len());
+    let is_right = found.length == sent.length && own == Some(sent.bytes.as_slice());
+    (!is_right).then(|| format!("{} in {} bytes", hex(own.unwrap_or_default()), found.length))
+}
+
+/// What must be there, for people.
+pub(super) fn shown(one: &Expected) -> String {
+    match &one.what {
+        What::Level(_, high) => level(*high).to_owned(),
+        What::Pulses(wanted) => pulses(*wanted),
+        What::Millivolts(wanted) => format!("{wanted:.0} mV"),
+        What::Write(bytes, _) | What::Message(_, bytes) => hex(bytes),
+        What::Frame(sent) => {
+            let Sent { bytes, identifier, length, .. } = sent;
+            format!("{} in {length} bytes of frame 0x{identifier:X}", hex(bytes))
+        }
+    }
+}
+
+fn level(is_high: bool) -> &'static str {
+    if is_high { "high" } else { "low" }
+}
+
+fn pulses(found: Option<(u64, u64)>) -> String {
+    match found {
+        None | Some((_, 0)) => "no pulses".to_owned(),
+        Some((period_ns, width_ns)) => {
+            let [period, width] = [period_ns, width_ns].map(|ns| crate::arith::number(ns) / 1e3);
+            format!("pulses of {width:.2} us each {period:.2} us")
+        }
+    }
+}
+
+fn hex(bytes: &[u8]) -> String {
+    let all: Vec<String> = bytes.iter().take(SHOWN).map(|byte| format!("{byte:02X}")).collect();
+    if bytes.is_empty() {
+        return "nothing".to_owned();
+    }
+    format!("{}{}", all.join(" "), if bytes.len() > SHOWN { " …" } else { "" })
+}

@@ -1,0 +1,260 @@
+//! What must come out of a board, by an own reading of its design: nothing here is shared with the generators, with
+//! their tables or with the runtimes.
+//!
+//! In: a device and the raw values that it has been set to. Out: what each of its wires must carry.
+
+use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::digital::Digital;
+use sensedsl_model::kind::pwm::Pwm;
+use sensedsl_model::kind::{Kind, Role};
+use sensedsl_model::protocol::Drive;
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use crate::bench::number_of;
+use crate::parts::{message, words};
+
+/// The value of the longest pulse.
+pub(super) const FULL_LEVEL: f64 = 10_000.0;
+/// The code of a converter's reference.
+pub(super) const FULL_CODE: f64 = 4_095.0;
+const REFERENCE_MV: f64 = 3_300.0;
+/// The greatest identifier of eleven bits.
+const STANDARD_MAX: u32 = 0x7FF;
+
+/// What one wire must carry.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Expected {
+    pub(super) element: usize,
+    /// For people: `Left.in1 at PB4`.
+    pub(super) wire: String,
+    pub(super) at: ConnectionIndex,
+    pub(super) what: What,
+}
+
+/// What that is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum What {
+    Level(Role, bool),
+    /// Period and width in nanoseconds; none where there must be no pulses.
+    Pulses(Option<(u64, u64)>),
+    Millivolts(f64),
+    /// A transfer to a chip; so many bytes of it say what it is for.
+    Write(Vec<u8>, usize),
+    /// A message of a serial port.
+    Message(u8, Vec<u8>),
+    Frame(Sent),
+}
+
+/// A value in a frame of CAN.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sent {
+    pub(super) unit: u8,
+    pub(super) identifier: u32,
+    pub(super) is_extended: bool,
+    pub(super) length: u8,
+    pub(super) byte: usize,
+    pub(super) bytes: Vec<u8>,
+}
+
+/// A device's wires with their places in the wiring.
+pub(super) fn wires<'j, 'a>(
+    job: &'j BoardJob<'a>,
+    one: &JobDevice<'a>,
+) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
+    let own = one.device.connections.iter();
+    let found = |index: &ConnectionIndex| {
+        let place = job.wiring.connections.iter().position(|wired| wired.connection == *index)?;
+        Some((*index, job.connections.get(place)?))
+    };
+    own.filter_map(found).collect()
+}
+
+/// The levels that no value ever changes, such as that of a standby input.
+pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
+    let places = job.wiring.connections.iter().map(|wiring| wiring.connection);
+    let all = places.zip(&job.connections).filter(|(_, one)| one.devices.is_empty());
+    let constant = |(at, one): (ConnectionIndex, &JobConnection<'_>)| {
+        let Kind::Digital(own) = &one.connection.kind else { return None };
+        let is_driven = one.connection.direction == Direction::Actuator;
+        is_driven.then(|| level(at, one, 0, own, own.initial))
+    };
+    all.filter_map(constant).collect()
+}
+
+/// What a device must put out when its raw values are these.
+pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<Expected> {
+    let wires = wires(job, one);
+    let value = |element: usize| raw.get(element).copied().unwrap_or(0.0);
+    if let Some(drive) = one.device.coding.drive {
+        return bridge(drive, &wires, value(0));
+    }
+    let each = |(at, wire): &(ConnectionIndex, &JobConnection<'_>)| {
+        let element = usize::from(wire.element());
+        match &wire.connection.kind {
+            Kind::Digital(own) => Some(level(*at, wire, element, own, value(element) != 0.0)),
+            Kind::Pwm(own) => Some(pulses(*at, wire, element, own, value(element))),
+            Kind::Dac(_) => {
+                let code = value(element).round().clamp(0.0, FULL_CODE);
+                // A converter of twelve bits divides its reference by 4096.
+                let what = What::Millivolts(code / (FULL_CODE + 1.0) * REFERENCE_MV);
+                Some(expected(*at, wire, element, what))
+            }
+            Kind::I2c(_) | Kind::Spi(_) => write(job, (*at, wire), one, raw),
+            Kind::Uart(own) => {
+                let body = words::bytes(&Words::of(one.device)?, raw);
+                let unit = wire.unit.and_then(number_of)?;
+                let what = What::Message(unit, message::framed(own, &body));
+                Some(expected(*at, wire, 0, what))
+            }
+            Kind::Can(_) => frame(job, (*at, wire), one, raw),
+            Kind::Analog(_) | Kind::Icu(_) | Kind::Encoder(_) => None,
+        }
+    };
+    wires.iter().filter_map(each).collect()
+}
+
+/// What a device must put out before the host has set it; nothing where that is not said.
+pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Vec<Expected> {
+    let wires = wires(job, one);
+    let safe = start(one);
+    if let Some(safe) = safe {
+        return told(job, one, &vec![safe; one.device.value.value.count()]);
+    }
+    let each = |(at, wire): &(ConnectionIndex, &JobConnection<'_>)| {
+        let element = usize::from(wire.element());
+        match &wire.connection.kind {
+            Kind::Digital(own) => Some(level(*at, wire, element, own, own.initial)),
+            Kind::Pwm(_) => Some(expected(*at, wire, element, What::Pulses(None))),
+            Kind::Dac(_) => Some(expected(*at, wire, element, What::Millivolts(0.0))),
+            Kind::I2c(_)
+            | Kind::Spi(_)
+            | Kind::Uart(_)
+            | Kind::Can(_)
+            | Kind::Analog(_)
+            | Kind::Icu(_)
+            | Kind::Encoder(_) => None,
+        }
+    };
+    wires.iter().filter_map(each).collect()
+}
+
+/// The raw value that pulses and voltages begin with, where it is not nothing.
+fn start(one: &JobDevice<'_>) -> Option<f64> {
+    match &one.device.kind {
+        Kind::Pwm(own) => own.failsafe,
+        Kind::Dac(own) => own.failsafe,
+        _ => None,
+    }
+}
+
+/// The raw value that a device takes when the host is silent; none where it keeps the last.
+pub(super) fn failsafe(one: &JobDevice<'_>) -> Option<f64> {
+    one.device.coding.failsafe.or_else(|| start(one))
+}
+
+fn expected(at: ConnectionIndex, wire: &JobConnection<'_>, element: usize, what: What) -> Expected {
+    let pins: Vec<String> = wire.pads.iter().map(|pad| pad.pin.name.to_string()).collect();
+    let wire = format!("{} at {}", wire.title, pins.join(", "));
+    Expected { element, wire, at, what }
+}
+
+fn level(
+    at: ConnectionIndex,
+    wire: &JobConnection<'_>,
+    element: usize,
+    own: &Digital,
+    is_on: bool,
+) -> Expected {
+    expected(at, wire, element, What::Level(Role::Out, is_on != own.active_low))
+}
+
+fn pulses(
+    at: ConnectionIndex,
+    wire: &JobConnection<'_>,
+    element: usize,
+    own: &Pwm,
+    raw: f64,
+) -> Expected {
+    let period_ns = 1e9 / f64::from(own.frequency_hz.max(1));
+    let least_ns = own.min_us.map_or(0.0, |us| 1e3 * f64::from(us));
+    let most_ns = own.max_us.map_or(period_ns, |us| 1e3 * f64::from(us));
+    let share = raw.round().clamp(0.0, FULL_LEVEL) / FULL_LEVEL;
+    let width_ns = least_ns + (most_ns - least_ns) * share;
+    let [period_ns, width_ns] = [period_ns, width_ns].map(crate::arith::nanoseconds);
+    expected(at, wire, element, What::Pulses(Some((period_ns, width_ns))))
+}
+
+/// A motor's bridge: strength and two directions, or a strength for each direction.
+fn bridge(
+    drive: Drive,
+    wires: &[(ConnectionIndex, &JobConnection<'_>)],
+    raw: f64,
+) -> Vec<Expected> {
+    let raw = raw.round();
+    let (forward, backward) = (raw.max(0.0), (-raw).max(0.0));
+    let inputs = match drive {
+        Drive::DirectionPins => vec![raw.abs(), forward, backward],
+        Drive::TwoPwm => vec![forward, backward],
+    };
+    let all = wires.iter().zip(inputs);
+    let each = |((at, wire), input): (&(ConnectionIndex, &JobConnection<'_>), f64)| {
+        match &wire.connection.kind {
+            Kind::Digital(own) => Some(level(*at, wire, 0, own, input != 0.0)),
+            Kind::Pwm(own) => Some(pulses(*at, wire, 0, own, input)),
+            _ => None,
+        }
+    };
+    all.filter_map(each).collect()
+}
+
+/// A value in registers: their number, then its bytes.
+fn write(
+    job: &BoardJob<'_>,
+    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    one: &JobDevice<'_>,
+    raw: &[f64],
+) -> Option<Expected> {
+    let number = match &one.device.kind {
+        Kind::I2c(own) => own.register,
+        Kind::Spi(own) => own.register,
+        _ => return None,
+    };
+    let chip = job.design.part(one.device.part)?.chip.as_ref();
+    let is_wide = chip.is_some_and(|chip| chip.register_bytes == 2);
+    let mut bytes: Vec<u8> = match number {
+        None => Vec::new(),
+        Some(number) if is_wide => number.to_be_bytes().to_vec(),
+        Some(number) => number.to_le_bytes().into_iter().take(1).collect(),
+    };
+    let begins = bytes.len();
+    bytes.extend(words::bytes(&Words::of(one.device)?, raw));
+    Some(expected(at, wire, 0, What::Write(bytes, begins)))
+}
+
+/// A value in a frame, which is as long as the values in it ask for.
+fn frame(
+    job: &BoardJob<'_>,
+    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    one: &JobDevice<'_>,
+    raw: &[f64],
+) -> Option<Expected> {
+    let own = one.device.kind.can()?;
+    let ends = job.devices.iter().filter(|other| {
+        other.device.direction == Direction::Actuator && other.unit == one.unit
+    });
+    let ends = ends.filter_map(|other| {
+        let can = other.device.kind.can().filter(|can| can.frame_id == own.frame_id)?;
+        Some(u16::from(can.byte) + Words::of(other.device)?.wire_bytes())
+    });
+    let sent = Sent {
+        unit: wire.unit.and_then(number_of).unwrap_or(0),
+        identifier: own.frame_id,
+        is_extended: own.frame_id > STANDARD_MAX,
+        length: u8::try_from(ends.max()?).ok()?,
+        byte: usize::from(own.byte),
+        bytes: words::bytes(&Words::of(one.device)?, raw),
+    };
+    Some(expected(at, wire, 0, What::Frame(sent)))
+}

@@ -1,0 +1,227 @@
+//! The judge of actuators: a host that sets each of them to a script of values, falls silent and speaks again, and
+//! compares what comes out of the board with an own reading of the design.
+//!
+//! In: a board's job, what the world wants commanded, and how long the run lasts. Out, each millisecond: what the host
+//! sends; at the end what was found out about each actuator, and about levels that never change.
+
+mod compare;
+mod expect;
+pub mod outputs;
+mod script;
+mod tried;
+
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_model::design::DeviceIndex;
+use sensedsl_wire::{Direction, Scalar, encode_hello_request, encode_report};
+
+use crate::bench::Bench;
+use expect::Expected;
+use outputs::Outputs;
+use tried::Actor;
+pub use tried::{Amiss, Tried};
+
+const MS: u64 = 1_000_000;
+/// When outputs are looked at that nobody has set yet, at the latest.
+const UNTOLD_NS: u64 = 450 * MS;
+/// A silence that is shorter has outputs fall back before anybody can look.
+const SILENCE_MIN_NS: u64 = 100 * MS;
+/// From the first command of an actuator to that of the next.
+const APART_NS: u64 = 7 * MS;
+
+/// What a world has the host set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Which actuator.
+    pub device: DeviceIndex,
+    /// When.
+    pub at_ns: u64,
+    /// To what, as it is on the wire: an element each.
+    pub value: Vec<Scalar>,
+}
+
+/// What the host does now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// It only asks who the board is.
+    Listening,
+    /// It sets actuators.
+    Speaking,
+    /// It is silent, and actuators hold their values or have not fallen back for long.
+    Holding,
+    /// It is still silent, and actuators have fallen back.
+    FallenBack,
+    /// It speaks again.
+    SpeakingAgain,
+    Over,
+}
+
+/// The host and the judge of what its commands do.
+pub struct Commands<'a> {
+    job: &'a BoardJob<'a>,
+    actors: Vec<Actor>,
+    constants: Vec<(Expected, Tried)>,
+    /// None where no actuator falls back.
+    silence_ns: Option<u64>,
+    end_ns: u64,
+    phase: Phase,
+    /// When the outputs are looked at next that concern all actuators.
+    look_ns: Option<u64>,
+    sent_ns: u64,
+    is_silence_tried: bool,
+}
+
+impl<'a> Commands<'a> {
+    /// A host of a board that runs so long.
+    #[must_use]
+    pub fn new(job: &'a BoardJob<'a>, bench: &Bench, commands: &[Command], end_ns: u64) -> Self {
+        let usual = script::usual(job).into_iter().enumerate();
+        let mut actors = Vec::new();
+        for (place, (index, values)) in usual {
+            let Some(one) = job.devices.get(index) else { continue };
+            let own: Vec<&Command> =
+                commands.iter().filter(|command| command.device == one.index).collect();
+            let mut actor = Actor::new(job, bench, index, values);
+            actor.due_ns = APART_NS * u64::try_from(place).unwrap_or(0);
+            if !own.is_empty() {
+                actor.follow(&own);
+            }
+            actors.push(actor);
+        }
+        let constants = expect::constants(job).into_iter();
+        let constants = constants.map(|one| (Tried::of(one.wire.clone()), one));
+        let silence = job.board.link.silence_ms.filter(|_| job.has_actuators());
+        let silence_ns = silence.map(|ms| MS * u64::from(ms));
+        let is_soon = |ns: &u64| *ns >= SILENCE_MIN_NS;
+        let untold_ns = silence_ns.map_or(UNTOLD_NS, |ns| UNTOLD_NS.min(ns / 2));
+        let look_ns = silence_ns.is_none_or(|ns| is_soon(&ns)).then_some(untold_ns);
+        Self {
+            job,
+            actors,
+            constants: constants.map(|(tried, one)| (one, tried)).collect(),
+            silence_ns,
+            end_ns,
+            phase: Phase::Listening,
+            look_ns,
+            sent_ns: 0,
+            is_silence_tried: false,
+        }
+    }
+
+    /// What the host sends in this millisecond.
+    pub fn host(&mut self, now_ns: u64, is_known: bool) -> Vec<u8> {
+        match self.phase {
+            Phase::Listening if is_known && self.look_ns.is_none_or(|look| look < now_ns) => {
+                self.begin(now_ns);
+                self.speak(now_ns)
+            }
+            Phase::Speaking | Phase::SpeakingAgain => {
+                if self.actors.iter().all(|one| one.is_done(now_ns)) {
+                    self.fall_silent(now_ns);
+                    return Vec::new();
+                }
+                self.speak(now_ns)
+            }
+            Phase::Listening | Phase::Holding | Phase::FallenBack | Phase::Over => Vec::new(),
+        }
+    }
+
+    /// Whether the outputs have to be looked at now.
+    #[must_use]
+    pub fn looks(&self, now_ns: u64) -> bool {
+        self.look_ns.is_some_and(|look| look <= now_ns)
+            || self.actors.iter().any(|one| one.is_due(now_ns))
+    }
+
+    /// Looks at the outputs.
+    pub fn look(&mut self, now_ns: u64, outputs: &Outputs) {
+        for actor in &mut self.actors {
+            actor.look(self.job, now_ns, outputs);
+        }
+        for (expected, tried) in &mut self.constants {
+            tried.compare(std::slice::from_ref(expected), outputs, (0, now_ns), "at all times");
+        }
+        if self.look_ns.is_none_or(|look| look > now_ns) {
+            return;
+        }
+        self.look_ns = None;
+        match self.phase {
+            Phase::Listening => {
+                for actor in &mut self.actors {
+                    actor.look_untold(self.job, now_ns, outputs);
+                }
+            }
+            Phase::Holding => {
+                for actor in &mut self.actors {
+                    actor.look_held(self.job, now_ns, outputs);
+                }
+                self.phase = Phase::FallenBack;
+                let settles_ns = self.settles_ns();
+                self.look_ns = self.silence_ns.map(|ns| self.sent_ns + ns + settles_ns);
+            }
+            Phase::FallenBack => {
+                let silence_ns = self.silence_ns.unwrap_or(0);
+                for actor in &mut self.actors {
+                    actor.look_silent(self.job, (self.sent_ns, now_ns, silence_ns), outputs);
+                }
+                self.actors.iter_mut().for_each(|one| one.again(now_ns));
+                self.phase = Phase::SpeakingAgain;
+            }
+            Phase::Speaking | Phase::SpeakingAgain | Phase::Over => {}
+        }
+    }
+
+    /// The run is over.
+    #[must_use]
+    pub fn finish(self) -> Vec<Tried> {
+        let is_silence_left = self.silence_ns.is_some() && !self.is_silence_tried;
+        let actors = self.actors.into_iter().map(|actor| actor.finish(is_silence_left));
+        actors.chain(self.constants.into_iter().map(|(_, tried)| tried)).collect()
+    }
+
+    /// The greatest time that an actuator takes to do what it is told.
+    fn settles_ns(&self) -> u64 {
+        self.actors.iter().map(|one| one.settle_ns).max().unwrap_or(0)
+    }
+
+    /// What a silence takes of the run, with speaking again behind it; none where it is too long for the run.
+    fn silence_takes_ns(&self, left_ns: u64) -> Option<u64> {
+        let takes_ns = self.silence_ns? + 2 * self.settles_ns() + 100 * MS;
+        (takes_ns <= left_ns / 2).then_some(takes_ns)
+    }
+
+    /// The board is there: how many values of each script there is time for.
+    fn begin(&mut self, now_ns: u64) {
+        self.phase = Phase::Speaking;
+        let left_ns = self.end_ns.saturating_sub(now_ns);
+        let silence_ns = self.silence_takes_ns(left_ns);
+        self.is_silence_tried = silence_ns.is_some();
+        let left_ns = left_ns.saturating_sub(silence_ns.unwrap_or(0));
+        self.actors.iter_mut().for_each(|one| one.begin(now_ns, left_ns));
+    }
+
+    fn speak(&mut self, now_ns: u64) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for actor in &mut self.actors {
+            if let Some(value) = actor.next(now_ns) {
+                let values = [(actor.id, value)];
+                let frame = encode_report(&self.job.schema, Direction::Actuator, &values);
+                bytes.extend(frame.unwrap_or_default());
+            }
+        }
+        let keeps_ns = self.silence_ns.map_or(u64::MAX, |ns| (ns / 3).min(100 * MS));
+        if bytes.is_empty() && now_ns - self.sent_ns >= keeps_ns {
+            bytes = encode_hello_request(&self.job.schema);
+        }
+        if !bytes.is_empty() {
+            self.sent_ns = now_ns;
+        }
+        bytes
+    }
+
+    fn fall_silent(&mut self, now_ns: u64) {
+        let is_over = self.phase == Phase::SpeakingAgain || !self.is_silence_tried;
+        self.phase = if is_over { Phase::Over } else { Phase::Holding };
+        let held_ns = self.silence_ns.map(|ns| (self.sent_ns + ns / 10 * 7).max(now_ns));
+        self.look_ns = held_ns.filter(|_| !is_over);
+    }
+}

@@ -1,0 +1,181 @@
+//! What a board puts out: levels, pulses, voltages, bytes on buses, frames. The bench writes it down as it happens.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use sensedsl_board::signal::{Function, TimerLine};
+use sensedsl_codegen::job::JobConnection;
+use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::{Kind, Role};
+
+use crate::bench::number_of;
+use crate::surroundings::{CanFrame, TimerOutput};
+
+/// Transfers, bytes and frames that are kept of each wire: more than a step of a script makes.
+const KEPT: usize = 4_096;
+
+/// What each wire carries now, and what was sent over buses lately.
+#[derive(Clone, Debug, Default)]
+pub struct Outputs {
+    levels: BTreeMap<(ConnectionIndex, Role), bool>,
+    pulses: BTreeMap<ConnectionIndex, (u64, u64)>,
+    millivolts: BTreeMap<ConnectionIndex, f64>,
+    writes: BTreeMap<ConnectionIndex, VecDeque<(u64, Vec<u8>)>>,
+    bytes: BTreeMap<u8, VecDeque<(u64, u8)>>,
+    frames: BTreeMap<u8, VecDeque<(u64, CanFrame)>>,
+}
+
+fn keep<T>(log: &mut VecDeque<T>, one: T) {
+    if log.len() >= KEPT {
+        log.pop_front();
+    }
+    log.push_back(one);
+}
+
+impl Outputs {
+    /// The level that the board gives a wire; none where it drives it no more, or never has.
+    #[must_use]
+    pub fn level(&self, at: ConnectionIndex, role: Role) -> Option<bool> {
+        self.levels.get(&(at, role)).copied()
+    }
+
+    /// Period and width of the pulses on a wire, in nanoseconds.
+    #[must_use]
+    pub fn pulses(&self, at: ConnectionIndex) -> Option<(u64, u64)> {
+        self.pulses.get(&at).copied()
+    }
+
+    /// The voltage of a DAC's output.
+    #[must_use]
+    pub fn millivolts(&self, at: ConnectionIndex) -> Option<f64> {
+        self.millivolts.get(&at).copied()
+    }
+
+    /// What was written to a chip since a time, a transfer each.
+    pub fn writes(&self, at: ConnectionIndex, since_ns: u64) -> impl Iterator<Item = &[u8]> {
+        let all = self.writes.get(&at).into_iter().flatten();
+        all.filter(move |(when, _)| *when >= since_ns).map(|(_, bytes)| bytes.as_slice())
+    }
+
+    /// What a serial port has sent since a time.
+    #[must_use]
+    pub fn bytes(&self, unit: u8, since_ns: u64) -> Vec<u8> {
+        let all = self.bytes.get(&unit).into_iter().flatten();
+        all.filter(|(when, _)| *when >= since_ns).map(|(_, byte)| *byte).collect()
+    }
+
+    /// The frames that a CAN bus has got since a time.
+    pub fn frames(&self, unit: u8, since_ns: u64) -> impl Iterator<Item = &CanFrame> {
+        let all = self.frames.get(&unit).into_iter().flatten();
+        all.filter(move |(when, _)| *when >= since_ns).map(|(_, frame)| frame)
+    }
+}
+
+/// The outputs with what leads to them: which wire a timer's channel is on, and transfers that are not over.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Recorder {
+    outputs: Outputs,
+    channels: BTreeMap<TimerOutput, ConnectionIndex>,
+    converters: BTreeMap<u8, ConnectionIndex>,
+    /// By I2C unit.
+    open: BTreeMap<u8, (ConnectionIndex, Vec<u8>)>,
+    /// By chip on SPI.
+    selected: BTreeMap<ConnectionIndex, Vec<u8>>,
+}
+
+impl Recorder {
+    /// A connection of the board.
+    pub(crate) fn connect(&mut self, index: ConnectionIndex, one: &JobConnection<'_>) {
+        let is_output = matches!(one.connection.kind, Kind::Pwm(_) | Kind::Dac(_));
+        let signal = one.pad(Role::Out).and_then(|pad| pad.usage).map(|usage| &usage.signal);
+        match signal.filter(|_| is_output).map(|signal| signal.function()) {
+            Some(Function::Timer { unit, channel, line }) => {
+                let Some(timer) = number_of(unit.as_str()) else { return };
+                let is_complement = *line == TimerLine::Inverted;
+                let output = TimerOutput { timer, channel: *channel, is_complement };
+                self.channels.insert(output, index);
+            }
+            Some(Function::Dac { channel, .. }) => {
+                self.converters.insert(*channel, index);
+            }
+            Some(_) | None => {}
+        }
+    }
+
+    pub(crate) const fn outputs(&self) -> &Outputs {
+        &self.outputs
+    }
+
+    pub(crate) fn level(&mut self, at: ConnectionIndex, role: Role, level: Option<bool>) {
+        match level {
+            Some(level) => self.outputs.levels.insert((at, role), level),
+            None => self.outputs.levels.remove(&(at, role)),
+        };
+    }
+
+    pub(crate) fn timer(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64) {
+        if let Some(at) = self.channels.get(&output).copied() {
+            self.pulses(at, period_ns, width_ns);
+        }
+    }
+
+    pub(crate) fn pulses(&mut self, at: ConnectionIndex, period_ns: u64, width_ns: u64) {
+        self.outputs.pulses.insert(at, (period_ns, width_ns));
+    }
+
+    pub(crate) fn converter(&mut self, channel: u8, millivolts: f64) {
+        if let Some(at) = self.converters.get(&channel).copied() {
+            self.millivolts(at, millivolts);
+        }
+    }
+
+    pub(crate) fn millivolts(&mut self, at: ConnectionIndex, millivolts: f64) {
+        self.outputs.millivolts.insert(at, millivolts);
+    }
+
+    /// A chip on I2C is addressed, or the bus is released.
+    pub(crate) fn addressed(&mut self, unit: u8, chip: Option<ConnectionIndex>, now_ns: u64) {
+        if let Some((at, bytes)) = self.open.remove(&unit) {
+            self.written(at, bytes, now_ns);
+        }
+        if let Some(chip) = chip {
+            self.open.insert(unit, (chip, Vec::new()));
+        }
+    }
+
+    /// The chip that was addressed last has taken a byte.
+    pub(crate) fn taken(&mut self, unit: u8, byte: u8) {
+        if let Some((_, bytes)) = self.open.get_mut(&unit).filter(|(_, all)| all.len() < KEPT) {
+            bytes.push(byte);
+        }
+    }
+
+    /// The chip select of a chip on SPI.
+    pub(crate) fn select(&mut self, chip: ConnectionIndex, is_selected: bool, now_ns: u64) {
+        if is_selected {
+            self.selected.insert(chip, Vec::new());
+        } else if let Some(bytes) = self.selected.remove(&chip) {
+            self.written(chip, bytes, now_ns);
+        }
+    }
+
+    /// A chip on SPI has got a byte.
+    pub(crate) fn shifted(&mut self, chip: ConnectionIndex, byte: u8) {
+        if let Some(bytes) = self.selected.get_mut(&chip).filter(|all| all.len() < KEPT) {
+            bytes.push(byte);
+        }
+    }
+
+    fn written(&mut self, at: ConnectionIndex, bytes: Vec<u8>, now_ns: u64) {
+        if !bytes.is_empty() {
+            keep(self.outputs.writes.entry(at).or_default(), (now_ns, bytes));
+        }
+    }
+
+    pub(crate) fn sent(&mut self, unit: u8, byte: u8, now_ns: u64) {
+        keep(self.outputs.bytes.entry(unit).or_default(), (now_ns, byte));
+    }
+
+    pub(crate) fn frame(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
+        keep(self.outputs.frames.entry(unit).or_default(), (now_ns, frame));
+    }
+}

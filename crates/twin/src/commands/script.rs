@@ -1,0 +1,118 @@
+//! What a host sets actuators to, so that everything about them shows: both ends, the middle, both signs, what lies
+//! beyond, and another value for each element and each device.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::words::Words;
+use sensedsl_wire::{Direction, Scalar, ScalarType};
+
+use super::expect::{FULL_CODE, FULL_LEVEL};
+use crate::arith::number;
+use crate::parts::words;
+use crate::truth::scalar;
+
+/// Numbers that a double holds are enough of 64 bits.
+const WHOLE_MAX: f64 = 9_007_199_254_740_991.0;
+/// What real numbers without bounds go to.
+const REAL_MAX: f64 = 1_000.0;
+
+/// The values of every actuator of a board, in the order of its devices: steps, and in each a value for each element.
+pub(super) fn usual(job: &BoardJob<'_>) -> Vec<(usize, Vec<Vec<Scalar>>)> {
+    let actuators = job.devices.iter().enumerate();
+    let actuators = actuators.filter(|(_, one)| one.device.direction == Direction::Actuator);
+    let actuators: Vec<(usize, &JobDevice<'_>)> = actuators.collect();
+    let count = |(_, one): &(usize, &JobDevice<'_>)| one.device.value.value.count();
+    let total: usize = actuators.iter().filter(|one| is_switch(one.1)).map(count).sum();
+    let (mut first, mut turn) = (0, 0);
+    let mut all = Vec::new();
+    for (index, one) in actuators {
+        let elements = one.device.value.value.count();
+        if is_switch(one) {
+            all.push((index, switches(one, first, total)));
+            first += elements;
+        } else {
+            all.push((index, numbers(one, turn)));
+        }
+        turn += elements;
+    }
+    all
+}
+
+/// Whether a value is only on or off.
+fn is_switch(one: &JobDevice<'_>) -> bool {
+    matches!(one.device.kind, Kind::Digital(_))
+        || one.device.value.value.scalar == ScalarType::Bool
+}
+
+/// Each switch of the board has a word of its own, whose bits it shows one after the other, each with its opposite: any
+/// two switches differ in some step, and each is on and off.
+fn switches(one: &JobDevice<'_>, first: usize, total: usize) -> Vec<Vec<Scalar>> {
+    let of = one.device.value.value.scalar;
+    let bits = usize::BITS - (total + 1).leading_zeros();
+    let most = of.integer_range().map_or(1.0, |(_, most)| whole(most));
+    let step = |step: u32| {
+        let element = |element: usize| {
+            let word = first + element + 1;
+            let is_on = ((word >> (step / 2)) & 1 == 1) != (step % 2 == 1);
+            // What is not 0 is on.
+            scalar(of, if !is_on { 0.0 } else if step < 2 { 1.0 } else { most })
+        };
+        (0..one.device.value.value.count()).map(element).collect()
+    };
+    (0..2 * bits.max(2)).map(step).collect()
+}
+
+/// Ends, middle, beyond: each element begins at another place of the list, and the values between the ends are its own.
+fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
+    let of = one.device.value.value.scalar;
+    let (low, high) = range(one);
+    let span = high - low;
+    let held = of.integer_range().map(|(least, most)| (whole(least), whole(most)));
+    let held = held.unwrap_or((low - span, high + span));
+    let beyond = [(high + span / 4.0).min(held.1), (low - span / 4.0).max(held.0)];
+    let element = |element: usize| {
+        let own = number(u64::try_from((turn + element) % 23).unwrap_or(0)) / 100.0;
+        let between = |share: f64| low + span * (share - own / 4.0);
+        let mut list = vec![high, low, between(0.75), between(0.30), beyond[0], between(0.55)];
+        if low < 0.0 {
+            list.push(low / 4.0 * (1.0 + own));
+        }
+        if beyond[1] < low {
+            list.push(beyond[1]);
+        }
+        list
+    };
+    let lists: Vec<Vec<f64>> =
+        (0..one.device.value.value.count()).map(|place| element(place)).collect();
+    let steps = lists.first().map_or(0, Vec::len);
+    let step = |step: usize| {
+        let value = |(place, list): (usize, &Vec<f64>)| {
+            let at = (step + place) % list.len().max(1);
+            scalar(of, list.get(at).copied().unwrap_or(0.0))
+        };
+        lists.iter().enumerate().map(value).collect()
+    };
+    (0..steps).map(step).collect()
+}
+
+/// The least and the greatest raw value that make a difference, and that the type holds.
+fn range(one: &JobDevice<'_>) -> (f64, f64) {
+    let own = match &one.device.kind {
+        Kind::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),
+        Kind::Pwm(_) => Some((0.0, FULL_LEVEL)),
+        Kind::Dac(_) => Some((0.0, FULL_CODE)),
+        _ => Words::of(one.device).as_ref().and_then(words::range),
+    };
+    let held = one.device.value.value.scalar.integer_range();
+    let held = held.map(|(least, most)| (whole(least), whole(most)));
+    let (low, high) = match (own, held) {
+        (Some(one), Some(other)) => (one.0.max(other.0), one.1.min(other.1)),
+        (one, other) => one.or(other).unwrap_or((-REAL_MAX, REAL_MAX)),
+    };
+    (low.max(-WHOLE_MAX), high.min(WHOLE_MAX))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "the ends of 64 bits are rounded")]
+fn whole(number: i128) -> f64 {
+    (number as f64).clamp(-WHOLE_MAX, WHOLE_MAX)
+}

@@ -1,0 +1,348 @@
+//! One actuator: what it is told when, when it must have done so, and what was found out.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::design::Transport;
+use sensedsl_model::kind::Kind;
+use sensedsl_wire::{Direction, Scalar};
+
+use super::expect::{self, Expected, What};
+use super::outputs::Outputs;
+use super::{Command, MS, compare};
+use crate::arith::number;
+use crate::bench::Bench;
+use crate::truth::{Scale, real};
+
+/// What a command takes in any case: cycles of the reporter on its way.
+const SETTLE_NS: u64 = 60 * MS;
+/// How long a bus is left alone at most after something held it, and a chip takes to start again.
+const RECOVERY_NS: u64 = 1_500 * MS;
+
+/// A wire that does not carry what it must.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Amiss {
+    /// When it was looked at.
+    pub at_ns: u64,
+    /// Of which element.
+    pub element: usize,
+    /// The wire and its pins: `Left.in1 at PB4`.
+    pub wire: String,
+    /// What the host had done: `after -100 %`.
+    pub after: String,
+    /// What must be there.
+    pub expected: String,
+    /// What is there.
+    pub got: String,
+}
+
+/// What was found out about an actuator, or about a level that never changes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tried {
+    /// Its name, or the wire.
+    pub name: String,
+    /// Whether the host sets it.
+    pub is_set: bool,
+    /// Values that it was set to.
+    pub commands: u64,
+    /// Values that there was no time for.
+    pub left: u64,
+    /// Whether there was no time for a silence, which it has a failsafe for.
+    pub is_silence_left: bool,
+    /// How often its wires were compared.
+    pub looks: u64,
+    /// How often not, because a fault of the world was there.
+    pub excused: u64,
+    /// How often something was amiss.
+    pub wrong: u64,
+    /// What was amiss first.
+    pub first: Option<Amiss>,
+}
+
+impl Tried {
+    pub(super) fn of(name: String) -> Self {
+        Self { name, ..Self::default() }
+    }
+
+    /// Compares wires with the outputs since a time.
+    pub(super) fn compare(
+        &mut self,
+        all: &[Expected],
+        outputs: &Outputs,
+        (since_ns, at_ns): (u64, u64),
+        after: &str,
+    ) {
+        if all.is_empty() {
+            return;
+        }
+        self.looks += 1;
+        let wrong = all.iter().find_map(|one| {
+            let got = compare::differs(one, outputs, since_ns)?;
+            let (element, wire) = (one.element, one.wire.clone());
+            let (after, expected) = (after.to_owned(), compare::shown(one));
+            Some(Amiss { at_ns, element, wire, after, expected, got })
+        });
+        self.wrong += u64::from(wrong.is_some());
+        self.first = self.first.take().or(wrong);
+    }
+}
+
+/// An actuator with its script.
+#[derive(Clone, Debug)]
+pub(super) struct Actor {
+    /// Its place in the job.
+    index: usize,
+    pub(super) id: u8,
+    scale: Scale,
+    quantity: String,
+    /// How long it takes to do what it is told.
+    pub(super) settle_ns: u64,
+    /// A time before which a value is not sent, and the value.
+    steps: Vec<(u64, Vec<Scalar>)>,
+    /// Whether the world has said them.
+    is_of_world: bool,
+    next: usize,
+    /// When it may be told the next one.
+    pub(super) due_ns: u64,
+    /// When it must have done what it was told last.
+    settles_ns: Option<u64>,
+    /// What it was told last, and when.
+    told: Option<(u64, Vec<Scalar>)>,
+    excuses: Vec<(u64, u64)>,
+    tried: Tried,
+}
+
+impl Actor {
+    pub(super) fn new(
+        job: &BoardJob<'_>,
+        bench: &Bench,
+        index: usize,
+        values: Vec<Vec<Scalar>>,
+    ) -> Self {
+        let one = job.devices.get(index);
+        let name = one.map(|one| one.name().to_owned()).unwrap_or_default();
+        let shown = one.map(|one| one.device.shown.clone()).unwrap_or_default();
+        Self {
+            index,
+            id: one.map_or(0, |one| one.device.id.value),
+            scale: Scale::of(&shown),
+            quantity: shown.quantity.map(|unit| format!(" {unit}")).unwrap_or_default(),
+            settle_ns: one.map_or(0, |one| settles_ns(job, one)),
+            steps: values.into_iter().map(|value| (0, value)).collect(),
+            is_of_world: false,
+            next: 0,
+            due_ns: 0,
+            settles_ns: None,
+            told: None,
+            excuses: one.map(|one| bench.excused(job, one.index)).unwrap_or_default(),
+            tried: Tried { is_set: true, ..Tried::of(name) },
+        }
+    }
+
+    /// Takes the world's script in place of the usual one.
+    pub(super) fn follow(&mut self, commands: &[&Command]) {
+        let mut steps: Vec<(u64, Vec<Scalar>)> =
+            commands.iter().map(|one| (one.at_ns, one.value.clone())).collect();
+        steps.sort_by_key(|one| one.0);
+        self.steps = steps;
+        self.is_of_world = true;
+    }
+
+    /// From now on it is set; so much time is left for it.
+    pub(super) fn begin(&mut self, now_ns: u64, left_ns: u64) {
+        let offset_ns = self.due_ns;
+        self.due_ns += now_ns;
+        if self.is_of_world {
+            let left = self.steps.iter().filter(|one| one.0 + self.settle_ns > now_ns + left_ns);
+            let left = left.count();
+            self.steps.truncate(self.steps.len() - left);
+            self.tried.left = u64::try_from(left).unwrap_or(0);
+            return;
+        }
+        let fits = left_ns.saturating_sub(offset_ns) / self.settle_ns.max(1);
+        let fits = usize::try_from(fits).unwrap_or(usize::MAX).min(self.steps.len());
+        self.tried.left = u64::try_from(self.steps.len() - fits).unwrap_or(0);
+        self.steps.truncate(fits);
+    }
+
+    /// The host speaks again after a silence.
+    pub(super) fn again(&mut self, now_ns: u64) {
+        let value = if self.is_of_world { self.steps.last() } else { self.steps.first() };
+        if let Some((_, value)) = value.cloned() {
+            self.steps.push((now_ns, value));
+            self.due_ns = now_ns;
+        }
+    }
+
+    /// The value that it is told now.
+    pub(super) fn next(&mut self, now_ns: u64) -> Option<Vec<Scalar>> {
+        let (at_ns, value) = self.steps.get(self.next)?;
+        // What a world says at a time is said then; else one after the other.
+        let is_settled = self.settles_ns.is_none() || self.is_of_world;
+        if now_ns < (*at_ns).max(self.due_ns) || !is_settled {
+            return None;
+        }
+        self.next += 1;
+        self.tried.commands += 1;
+        self.settles_ns = Some(now_ns + self.settle_ns);
+        self.told = Some((now_ns, value.clone()));
+        Some(value.clone())
+    }
+
+    /// Whether it has been told everything, and has been looked at.
+    pub(super) fn is_done(&self, now_ns: u64) -> bool {
+        self.next >= self.steps.len() && self.settles_ns.is_none_or(|at| at < now_ns)
+    }
+
+    /// Whether it must have done what it was told by now.
+    pub(super) fn is_due(&self, now_ns: u64) -> bool {
+        self.settles_ns.is_some_and(|at| at <= now_ns)
+    }
+
+    pub(super) fn look(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
+        if !self.is_due(now_ns) {
+            return;
+        }
+        self.settles_ns = None;
+        self.due_ns = now_ns;
+        let Some((since_ns, value)) = self.told.clone() else { return };
+        let after = format!("after {}", self.shown(&value));
+        self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, |_| true);
+    }
+
+    /// Before it is told anything.
+    pub(super) fn look_untold(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
+        let Some(one) = job.devices.get(self.index) else { return };
+        let expected = expect::untold(job, one);
+        if self.is_excused(0, now_ns) {
+            self.tried.excused += 1;
+        } else {
+            self.tried.compare(&expected, outputs, (0, now_ns), "before any command");
+        }
+    }
+
+    /// The host is silent, but not for as long as that counts.
+    pub(super) fn look_held(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
+        let Some((since_ns, value)) = self.told.clone() else { return };
+        let after = format!("after {}, and before the silence counts", self.shown(&value));
+        self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, is_lasting);
+    }
+
+    /// The host has been silent for too long.
+    pub(super) fn look_silent(
+        &mut self,
+        job: &BoardJob<'_>,
+        (since_ns, now_ns, silence_ns): (u64, u64, u64),
+        outputs: &Outputs,
+    ) {
+        let Some(one) = job.devices.get(self.index) else { return };
+        let after = format!("after {} ms of silence", silence_ns / MS);
+        let safe = expect::failsafe(one).map(|safe| vec![safe; one.device.value.value.count()]);
+        match (safe, self.told.clone()) {
+            (Some(safe), _) => {
+                let with = (safe.as_slice(), outputs);
+                self.compare(job, with, (since_ns, now_ns), &after, |_| true);
+            }
+            (None, Some((told_ns, value))) => {
+                self.compare(job, (&raw(&value), outputs), (told_ns, now_ns), &after, is_lasting);
+            }
+            (None, None) => {}
+        }
+    }
+
+    fn compare(
+        &mut self,
+        job: &BoardJob<'_>,
+        (raw, outputs): (&[f64], &Outputs),
+        (since_ns, now_ns): (u64, u64),
+        after: &str,
+        counts: impl Fn(&Expected) -> bool,
+    ) {
+        let Some(one) = job.devices.get(self.index) else { return };
+        let mut expected = expect::told(job, one, raw);
+        expected.retain(counts);
+        if self.is_excused(since_ns, now_ns) {
+            self.tried.excused += 1;
+        } else {
+            self.tried.compare(&expected, outputs, (since_ns, now_ns), after);
+        }
+    }
+
+    fn is_excused(&self, since_ns: u64, now_ns: u64) -> bool {
+        let hits = |&(at, until): &(u64, u64)| at <= now_ns && until + RECOVERY_NS >= since_ns;
+        self.excuses.iter().any(hits)
+    }
+
+    pub(super) fn finish(mut self, is_silence_left: bool) -> Tried {
+        let left = self.steps.len().saturating_sub(self.next);
+        self.tried.left += u64::try_from(left).unwrap_or(0);
+        self.tried.is_silence_left = is_silence_left;
+        self.tried
+    }
+
+    /// A value as a host shows it, with what is on the wire where that differs.
+    fn shown(&self, value: &[Scalar]) -> String {
+        let raw = raw(value);
+        let texts: Vec<String> =
+            raw.iter().map(|one| short(self.scale.shown(*one)) + &self.quantity).collect();
+        let wire: Vec<String> = raw.iter().map(|one| short(*one)).collect();
+        let text = listed(&texts);
+        let is_same = raw.iter().all(|one| (self.scale.shown(*one) - one).abs() < 1e-9);
+        if is_same { text } else { format!("{text} (raw {})", listed(&wire)) }
+    }
+}
+
+fn listed(all: &[String]) -> String {
+    match all {
+        [one] => one.clone(),
+        _ => format!("[{}]", all.join(", ")),
+    }
+}
+
+fn short(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn raw(value: &[Scalar]) -> Vec<f64> {
+    value.iter().map(|one| real(*one)).collect()
+}
+
+/// What is still there without being sent again.
+fn is_lasting(one: &Expected) -> bool {
+    matches!(one.what, What::Level(..) | What::Pulses(_) | What::Millivolts(_))
+}
+
+/// How long a device takes to do what it is told, at the most.
+fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
+    let cycle_ms = expect::wires(job, one).iter().map(|(_, wire)| wire.cycle.delay_ms).max();
+    let cycle_ns = MS * u64::from(cycle_ms.unwrap_or(0));
+    let own_ns = match &one.device.kind {
+        // A new width counts from the next period on.
+        Kind::Pwm(own) => 2 * 1_000_000_000 / u64::from(own.frequency_hz.max(1)),
+        // A bus looks after its chips in turns, and waits for those that measure.
+        Kind::I2c(_) | Kind::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
+        Kind::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
+        _ => 0,
+    };
+    SETTLE_NS + link_ns(job) + own_ns
+}
+
+/// How long the chips of a device's bus measure.
+fn measuring_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
+    let on_bus = job.devices.iter().filter(|other| other.unit == one.unit);
+    let wait_us = |other: &JobDevice<'_>| match &other.device.kind {
+        Kind::I2c(own) => own.wait_us,
+        Kind::Spi(own) => own.wait_us,
+        _ => 0,
+    };
+    on_bus.map(|other| 1_000 * u64::from(wait_us(other))).sum::<u64>() + 40 * MS
+}
+
+/// What all commands take on a serial link.
+fn link_ns(job: &BoardJob<'_>) -> u64 {
+    if job.board.link.transport != Transport::Uart {
+        return 0;
+    }
+    let bytes = job.schema.frame_bytes_max(Direction::Actuator) + 16 * job.devices.len();
+    let bits = number(u64::try_from(10 * bytes).unwrap_or(0));
+    crate::arith::nanoseconds(1e9 * bits / f64::from(job.board.link.baud.max(1)))
+}

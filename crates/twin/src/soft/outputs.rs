@@ -1,0 +1,280 @@
+//! What the host sets, on its way to pins, messages and frames: the runtime says what to put out, the bench takes it.
+
+use std::collections::BTreeMap;
+
+use sense_rt::{
+    Bridge, BridgeMode, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
+};
+use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_codegen::kinds::can;
+use sensedsl_codegen::part::BridgePlan;
+use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::{Kind, KindName, Role};
+use sensedsl_model::protocol::Drive;
+use sensedsl_wire::Direction;
+
+use super::tables;
+use crate::bench::{Bench, number_of};
+use crate::surroundings::{CanFrame, Surroundings as _};
+
+const FULL_CODE: u64 = 4_095;
+const FULL_MV: f64 = 3_300.0 / 4_096.0;
+
+/// All actuators that are not on a bus with registers.
+#[derive(Clone)]
+pub(super) struct Outputs {
+    /// By place in the schema.
+    all: BTreeMap<usize, Output>,
+    frames: Vec<Frame>,
+    /// Levels that no value changes.
+    levels: Vec<(ConnectionIndex, bool)>,
+    /// By place in the schema: the value that is taken when the host is silent.
+    safe: BTreeMap<usize, Vec<u8>>,
+}
+
+/// What a value goes to.
+#[derive(Clone)]
+struct Output {
+    item: Item,
+    /// What it begins with; none for what it has before anybody sets it.
+    first: Option<Vec<u8>>,
+    sink: Sink,
+}
+
+#[derive(Clone)]
+enum Sink {
+    Pins(Vec<Pin>),
+    Bridge(Bridge, BridgeState, Vec<Pin>),
+    Message(u8, Compose),
+    /// The frame, where it begins in it, and how it is coded.
+    Frame(usize, usize, Coding),
+}
+
+/// One wire.
+#[derive(Clone)]
+struct Pin {
+    at: ConnectionIndex,
+    element: usize,
+    what: Drives,
+}
+
+#[derive(Clone, Copy)]
+enum Drives {
+    Level { is_active_low: bool, is_on: bool },
+    Pulses { period_ns: u64, least_ns: u64, most_ns: u64 },
+    Volts,
+}
+
+#[derive(Clone)]
+struct Frame {
+    unit: u8,
+    frame: CanFrame,
+}
+
+impl Outputs {
+    pub(super) fn new(job: &BoardJob<'_>, schema: &'static Schema) -> Self {
+        let mut frames = Vec::new();
+        let mut all = BTreeMap::new();
+        let mut safe = BTreeMap::new();
+        let sent = on_can(job, &mut frames);
+        for ((index, one), item) in job.devices.iter().enumerate().zip(schema.items) {
+            if one.device.direction != Direction::Actuator {
+                continue;
+            }
+            let count = one.device.value.value.count();
+            let bytes = |value: f64| tables::value(item.scalar, value).repeat(count);
+            let first = begins(one).map(bytes);
+            let own = one.device.coding.failsafe.map(bytes);
+            safe.extend(own.or_else(|| first.clone()).map(|value| (index, value)));
+            let of_can = sent.get(&index).cloned();
+            if let Some(sink) = of_can.or_else(|| sink(job, one)) {
+                all.insert(index, Output { item: *item, first, sink });
+            }
+        }
+        let bare = wires(job, |one| one.devices.is_empty());
+        let level = |(at, one): (ConnectionIndex, &JobConnection<'_>)| {
+            let own = one.connection.kind.digital()?;
+            let is_driven = one.connection.direction == Direction::Actuator;
+            is_driven.then_some((at, own.initial != own.active_low))
+        };
+        Self { all, frames, levels: bare.into_iter().filter_map(level).collect(), safe }
+    }
+
+    /// The board starts.
+    pub(super) fn start(&mut self, bench: &mut Bench, now_ns: u64) {
+        for (at, level) in &self.levels {
+            bench.drive_at(*at, Role::Out, Some(*level), now_ns);
+        }
+        let mut first = Vec::new();
+        for (index, output) in &self.all {
+            output.rest(bench, now_ns);
+            first.extend(output.first.clone().map(|value| (*index, value)));
+        }
+        for (index, value) in first {
+            self.set(index, &value, bench, now_ns);
+        }
+    }
+
+    /// What is set when the host is silent.
+    pub(super) fn safe(&self) -> impl Iterator<Item = (usize, &[u8])> {
+        self.safe.iter().map(|(index, value)| (*index, value.as_slice()))
+    }
+
+    /// The host has set a device.
+    pub(super) fn set(&mut self, index: usize, value: &[u8], bench: &mut Bench, now_ns: u64) {
+        let Some(Output { item, sink, .. }) = self.all.get_mut(&index) else { return };
+        let size = item.scalar.bytes();
+        let element = |place: usize| value.get(place * size..).unwrap_or_default();
+        match sink {
+            Sink::Pins(pins) => {
+                for pin in pins {
+                    pin.set(item.scalar, element(pin.element), bench, now_ns);
+                }
+            }
+            Sink::Bridge(bridge, state, pins) => {
+                for write in bridge.drive(state, item.scalar, value).as_slice() {
+                    if let Some(pin) = pins.get(usize::from(write.output)) {
+                        pin.set(Scalar::Uint32, &write.value.to_be_bytes(), bench, now_ns);
+                    }
+                }
+            }
+            Sink::Message(unit, compose) => {
+                let mut message = vec![0; compose.bytes(item)];
+                let count = compose.write(item, value, &mut message);
+                for byte in message.iter().take(count) {
+                    bench.uart_out(*unit, *byte, now_ns);
+                }
+            }
+            Sink::Frame(place, byte, coding) => {
+                let Some(Frame { unit, frame }) = self.frames.get_mut(*place) else { return };
+                let room = frame.data.get_mut(*byte..).unwrap_or_default();
+                if coding.encode(item, value, room) > 0 {
+                    bench.can_out(*unit, *frame, now_ns);
+                }
+            }
+        }
+    }
+}
+
+impl Output {
+    /// What its wires have before anybody sets it.
+    fn rest(&self, bench: &mut Bench, now_ns: u64) {
+        let (Sink::Pins(pins) | Sink::Bridge(_, _, pins)) = &self.sink else { return };
+        for pin in pins {
+            match pin.what {
+                Drives::Level { is_active_low, is_on } => {
+                    bench.drive_at(pin.at, Role::Out, Some(is_on != is_active_low), now_ns);
+                }
+                Drives::Pulses { period_ns, .. } => bench.recorder().pulses(pin.at, period_ns, 0),
+                Drives::Volts => bench.recorder().millivolts(pin.at, 0.0),
+            }
+        }
+    }
+}
+
+impl Pin {
+    fn set(&self, scalar: Scalar, element: &[u8], bench: &mut Bench, now_ns: u64) {
+        match self.what {
+            Drives::Level { is_active_low, .. } => {
+                let (magnitude, _) = sense_rt::load_magnitude(scalar, element);
+                let level = (magnitude != 0) != is_active_low;
+                bench.drive_at(self.at, Role::Out, Some(level), now_ns);
+            }
+            Drives::Pulses { period_ns, least_ns, most_ns } => {
+                let level = u64::from(pulse_level(scalar, element));
+                let span_ns = most_ns.saturating_sub(least_ns);
+                let width_ns = least_ns + span_ns * level / u64::from(LEVEL_FULL);
+                bench.recorder().pulses(self.at, period_ns, width_ns);
+            }
+            Drives::Volts => {
+                let (code, is_negative) = sense_rt::load_magnitude(scalar, element);
+                let code = if is_negative { 0 } else { code.min(FULL_CODE) };
+                bench.recorder().millivolts(self.at, crate::arith::number(code) * FULL_MV);
+            }
+        }
+    }
+}
+
+/// The connections for which something holds, with their places in the design.
+fn wires<'j, 'a>(
+    job: &'j BoardJob<'a>,
+    holds: impl Fn(&JobConnection<'a>) -> bool,
+) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
+    let places = job.wiring.connections.iter().map(|wiring| wiring.connection);
+    places.zip(&job.connections).filter(|(_, one)| holds(one)).collect()
+}
+
+/// What pulses and voltages begin with.
+fn begins(one: &JobDevice<'_>) -> Option<f64> {
+    match &one.device.kind {
+        Kind::Pwm(own) => own.failsafe,
+        Kind::Dac(own) => own.failsafe,
+        _ => None,
+    }
+}
+
+fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
+    let tables = job.parts.iter().find(|part| part.index == one.device.part).map(|part| &part.plan);
+    let own = job.wires_of(one.device);
+    if let Kind::Uart(_) = &one.device.kind {
+        let plan = tables?.message.as_ref()?.commands.iter().find(|of| of.field == one.name())?;
+        return Some(Sink::Message(one.unit.and_then(number_of)?, tables::compose(plan)));
+    }
+    let all = wires(job, |wire| own.iter().any(|one| std::ptr::eq(*one, wire)));
+    // In the order in which the value goes over them.
+    let in_order = one.device.connections.iter().filter_map(|at| {
+        let (at, wire) = all.iter().find(|(place, _)| place == at)?;
+        pin(*at, wire)
+    });
+    let pins: Vec<Pin> = in_order.collect();
+    let bridge = tables.and_then(|all| all.bridges.iter().find(|plan| plan.field == one.name()));
+    match bridge {
+        Some(plan) => Some(Sink::Bridge(bridge_of(plan), BridgeState::NEW, pins)),
+        None if pins.is_empty() => None,
+        None => Some(Sink::Pins(pins)),
+    }
+}
+
+const fn bridge_of(plan: &BridgePlan) -> Bridge {
+    let mode = match plan.drive {
+        Drive::DirectionPins => BridgeMode::DirectionPins,
+        Drive::TwoPwm => BridgeMode::TwoPwm,
+    };
+    Bridge { mode, full: plan.full }
+}
+
+fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
+    let what = match &wire.connection.kind {
+        Kind::Digital(own) => {
+            Drives::Level { is_active_low: own.active_low, is_on: own.initial }
+        }
+        Kind::Pwm(own) => {
+            let period_ns = 1_000_000_000 / u64::from(own.frequency_hz.max(1));
+            let ns = |us: u32| 1_000 * u64::from(us);
+            let (least_ns, most_ns) = (own.min_us.map_or(0, ns), own.max_us.map_or(period_ns, ns));
+            Drives::Pulses { period_ns, least_ns, most_ns }
+        }
+        Kind::Dac(_) => Drives::Volts,
+        _ => return None,
+    };
+    Some(Pin { at, element: usize::from(wire.element()), what })
+}
+
+/// What goes into frames of CAN, by place in the schema.
+fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
+    let mut all = BTreeMap::new();
+    for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
+        let unit = number_of(bus.unit).unwrap_or(0);
+        for frame in &bus.frames {
+            for value in &frame.values {
+                let how = tables::coding(&value.how);
+                all.insert(value.index, Sink::Frame(frames.len(), value.byte.into(), how));
+            }
+            let length = u8::try_from(frame.bytes).unwrap_or(8);
+            let (id, extended) = (frame.identifier, frame.is_extended());
+            let frame = CanFrame { id, extended, remote: false, length, data: [0; 8] };
+            frames.push(Frame { unit, frame });
+        }
+    }
+    all
+}
