@@ -12,7 +12,8 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use crate::arith::{chance, number};
-use crate::commands::outputs::{Outputs, Recorder};
+use crate::commands::Command;
+use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line};
 use crate::parts::registers::{Reading, Registers};
 use crate::parts::{can, formula, message};
@@ -22,6 +23,7 @@ use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
 
 mod mcu;
+mod recorded;
 
 /// What a converter reads at most, and at what voltage.
 const FULL: f64 = 4_095.0;
@@ -42,6 +44,7 @@ pub struct Bench {
     /// By timer and channel: period and width of its pulses.
     waves: BTreeMap<TimerOutput, (u64, u64)>,
     recorder: Recorder,
+    commands: Vec<Command>,
     faults: Vec<Fault>,
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
@@ -96,6 +99,7 @@ impl Bench {
             talked_to: BTreeMap::new(),
             waves: BTreeMap::new(),
             recorder: Recorder::default(),
+            commands: world.commands.clone(),
             faults: world.faults.clone(),
             broken: Vec::new(),
             seed,
@@ -140,16 +144,6 @@ impl Bench {
     #[must_use]
     pub fn waves(&self) -> &BTreeMap<TimerOutput, (u64, u64)> {
         &self.waves
-    }
-
-    /// What the board puts out.
-    #[must_use]
-    pub const fn outputs(&self) -> &Outputs {
-        self.recorder.outputs()
-    }
-
-    pub(crate) const fn recorder(&mut self) -> &mut Recorder {
-        &mut self.recorder
     }
 
     /// Whether the board has no supply.

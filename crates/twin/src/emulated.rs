@@ -16,6 +16,9 @@ use crate::ports::{self, PlannedPort};
 /// The crystal of the boards that have this MCU.
 const CRYSTAL_HZ: u64 = 8_000_000;
 const MS_NS: u64 = 1_000_000;
+const SECOND_NS: u64 = 1_000 * MS_NS;
+/// A watchdog that bites no sooner is none.
+const WATCHDOG_NS: u64 = 10 * SECOND_NS;
 /// When pads and ports are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
 /// pads to itself for a moment.
 const LOOK_NS: u64 = 1_000 * MS_NS;
@@ -35,6 +38,8 @@ pub struct EmulatedBoard {
     is_off: bool,
     look: Option<Look>,
     misled: Vec<Misled>,
+    /// What is wrong with the watchdog.
+    unwatched: Option<String>,
     events: Vec<Event>,
     resets: u32,
     loops: Option<Lockup>,
@@ -80,6 +85,7 @@ impl EmulatedBoard {
             is_off: false,
             look: Some(Look::after(0)),
             misled: Vec::new(),
+            unwatched: None,
             events: Vec::new(),
             resets: 0,
             loops: None,
@@ -162,6 +168,11 @@ impl EmulatedBoard {
     /// Compares pads and ports with the plan, when it is time.
     fn look(&mut self, now_ns: u64) {
         let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
+        self.unwatched = self.unwatched.take().or_else(|| match self.machine.watchdog_ns() {
+            None => Some("does not run".to_owned()),
+            Some(ns) if ns > WATCHDOG_NS => Some(format!("bites after {} s only", ns / SECOND_NS)),
+            Some(_) => None,
+        });
         let mut now = misled(&self.planned, &self.machine.pads());
         now.extend(ports::misled(&self.ports, &self.machine.ports()));
         let still = match look.wrong.take() {
@@ -181,6 +192,17 @@ impl EmulatedBoard {
     /// The pads and ports that are not as planned, since the last call.
     pub fn misled(&mut self) -> Vec<Misled> {
         std::mem::take(&mut self.misled)
+    }
+
+    /// What is wrong with the watchdog, since the last call.
+    pub fn unwatched(&mut self) -> Option<String> {
+        self.unwatched.take()
+    }
+
+    /// What the board puts out.
+    #[must_use]
+    pub fn outputs(&self) -> crate::commands::outputs::Outputs {
+        self.bench().outputs().clone()
     }
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.

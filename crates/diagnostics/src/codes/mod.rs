@@ -128,6 +128,8 @@ codes! {
     e0548_locked_up,
     e0549_judged_wrong,
     e0550_pad_not_as_planned,
+    e0552_command_not_done,
+    e0553_no_watchdog,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

@@ -73,13 +73,13 @@ pub struct Commands<'a> {
 impl<'a> Commands<'a> {
     /// A host of a board that runs so long.
     #[must_use]
-    pub fn new(job: &'a BoardJob<'a>, bench: &Bench, commands: &[Command], end_ns: u64) -> Self {
+    pub fn new(job: &'a BoardJob<'a>, bench: &Bench, end_ns: u64) -> Self {
         let usual = script::usual(job).into_iter().enumerate();
         let mut actors = Vec::new();
         for (place, (index, values)) in usual {
             let Some(one) = job.devices.get(index) else { continue };
             let own: Vec<&Command> =
-                commands.iter().filter(|command| command.device == one.index).collect();
+                bench.commands().iter().filter(|command| command.device == one.index).collect();
             let mut actor = Actor::new(job, bench, index, values);
             actor.due_ns = APART_NS * u64::try_from(place).unwrap_or(0);
             if !own.is_empty() {

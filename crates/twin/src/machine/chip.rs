@@ -93,6 +93,11 @@ impl Chip {
         self.iwdg.deadline() != NEVER
     }
 
+    /// From a feeding of the watchdog to its bite; none where it does not run.
+    pub(super) fn watchdog_ns(&self) -> Option<u64> {
+        self.is_watched().then(|| self.iwdg.period_ns())
+    }
+
     /// All peripherals as after a reset; the backup domain keeps what it has, unless power went.
     pub(super) fn restart(&mut self, cause: ResetCause) {
         self.rcc.reset(cause);

@@ -22,9 +22,14 @@ impl Iwdg {
         self.bites_at
     }
 
-    fn feed(&mut self, now: u64) {
+    /// From a feeding to the bite.
+    pub(super) fn period_ns(&self) -> u64 {
         let divider = 4 << self.prescaler.min(6);
-        self.bites_at = now + periods_ns(u64::from(self.reload + 1) * divider, LSI_HZ);
+        periods_ns(u64::from(self.reload + 1) * divider, LSI_HZ)
+    }
+
+    fn feed(&mut self, now: u64) {
+        self.bites_at = now + self.period_ns();
     }
 
     pub(super) fn read(&self, offset: u32) -> u32 {

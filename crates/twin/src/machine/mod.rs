@@ -139,6 +139,12 @@ impl Machine {
         self.core.chip().ports()
     }
 
+    /// From a feeding of the watchdog to its bite; none where it does not run.
+    #[must_use]
+    pub fn watchdog_ns(&self) -> Option<u64> {
+        self.core.chip().watchdog_ns()
+    }
+
     /// The core's frequency in Hz, as the clock tree is set now.
     #[must_use]
     pub fn core_hz(&self) -> u64 {

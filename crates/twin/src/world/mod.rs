@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 
 use sensedsl_model::design::DeviceIndex;
 
+use crate::commands::Command;
+
 pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
 pub use signal::{Shape, Signal};
@@ -29,4 +31,6 @@ pub struct World {
     pub signals: BTreeMap<DeviceIndex, Vec<Signal>>,
     /// What breaks, in the order of time.
     pub faults: Vec<Fault>,
+    /// What the host sets, in the order of the text.
+    pub commands: Vec<Command>,
 }

@@ -3,6 +3,7 @@
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_twin::bench::Bench;
+use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::soft::SoftBoard;
 
 /// What a board does, whatever it is.
@@ -15,6 +16,8 @@ pub(super) trait Board {
     fn link_read(&mut self) -> Vec<u8>;
     /// What the host has set since the last call: the device's place in the schema, and the bytes of its value.
     fn received(&mut self) -> Vec<(usize, Vec<u8>)>;
+    /// What comes out of it.
+    fn outputs(&self) -> Outputs;
     /// Where and why the firmware does not run any more.
     fn halted(&self) -> Option<(u64, String)>;
     /// What the firmware has done wrong since the last call, told of the file.
@@ -41,6 +44,10 @@ impl Board for SoftBoard {
     fn received(&mut self) -> Vec<(usize, Vec<u8>)> {
         let all = SoftBoard::received(self).into_iter();
         all.map(|(_, index, value)| (index, value)).collect()
+    }
+
+    fn outputs(&self) -> Outputs {
+        self.bench().outputs().clone()
     }
 
     fn halted(&self) -> Option<(u64, String)> {

@@ -1,8 +1,10 @@
 //! An image of firmware on an emulated MCU, as a board of the simulator.
 
 use sensedsl_diagnostics::codes::e0550_pad_not_as_planned::not_as_planned;
+use sensedsl_diagnostics::codes::e0553_no_watchdog::no_watchdog;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_twin::bench::seconds;
+use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::machine::{Event, ResetCause};
 
@@ -25,6 +27,10 @@ impl Board for EmulatedBoard {
         Vec::new()
     }
 
+    fn outputs(&self) -> Outputs {
+        EmulatedBoard::outputs(self)
+    }
+
     fn halted(&self) -> Option<(u64, String)> {
         self.halt().map(|lockup| (u64::from(lockup.pc), lockup.why))
     }
@@ -38,7 +44,8 @@ impl Board for EmulatedBoard {
         let told = self.misled().into_iter();
         let told = told
             .map(|one| not_as_planned(at, &one.title, &one.place, &one.expected, &one.found, &now));
-        told.collect()
+        let watchdog = self.unwatched().map(|found| no_watchdog(at, &found, &now));
+        told.chain(watchdog).collect()
     }
 
     fn news(&mut self) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! `sensedsl simulate`: a board without hardware, whose sensors measure a simulated world.
 
 mod board;
+mod commands;
 #[cfg(feature = "twin")]
 mod emulated;
 #[cfg(unix)]

@@ -10,6 +10,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_model::design::Transport;
 use sensedsl_twin::bench::{Bench, seconds};
+use sensedsl_twin::commands::Commands;
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_wire::{
     Decoder, Direction, Event, Health, NEVER_MS, Scalar, Status as HealthStatus,
@@ -18,6 +19,7 @@ use sensedsl_wire::{
 
 use super::Scenery;
 use super::board::Board;
+use super::commands;
 #[cfg(unix)]
 use super::pty::Pty;
 use super::screen::Screen;
@@ -66,6 +68,8 @@ struct Session<'a> {
     board: Box<dyn Board>,
     decoder: Decoder<'a>,
     judge: Judge,
+    /// What sets actuators, before a judge.
+    commands: Option<Commands<'a>>,
     screen: Screen,
     frames: Vec<u8>,
     now_ns: u64,
@@ -81,11 +85,12 @@ struct Session<'a> {
 impl<'a> Session<'a> {
     fn new(scenery: &'a Scenery<'a>, bench: &Bench, board: Box<dyn Board>) -> Self {
         let job = scenery.job;
-        Self {
+        let mut session = Self {
             scenery,
             board,
             decoder: Decoder::new(&job.schema, Direction::Sensor),
             judge: Judge::new(job, bench),
+            commands: None,
             screen: Screen::new(job),
             frames: Vec::new(),
             now_ns: 0,
@@ -94,7 +99,12 @@ impl<'a> Session<'a> {
             last: None,
             reports: 0,
             is_wrong: false,
+        };
+        if scenery.args.judge && session.has_link() {
+            let end_ns = session.end_ns(Some(SECONDS)).unwrap_or(0);
+            session.commands = Some(Commands::new(job, bench, end_ns));
         }
+        session
     }
 
     /// How long the run lasts, in virtual time; none for as long as nobody stops it.
@@ -156,6 +166,21 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// Sets actuators, as a host does.
+    fn command(&mut self) {
+        if let Some(commands) = &mut self.commands {
+            let bytes = commands.host(self.now_ns, self.is_known);
+            self.board.link_write(&bytes);
+        }
+    }
+
+    /// Compares what comes out of the board, when it is time.
+    fn look(&mut self) {
+        if let Some(commands) = self.commands.as_mut().filter(|all| all.looks(self.now_ns)) {
+            commands.look(self.now_ns, &self.board.outputs());
+        }
+    }
+
     /// Why the run ends here; none where it goes on.
     fn trouble(&self) -> Result<Option<Status>> {
         if self.is_stranger {
@@ -177,7 +202,9 @@ impl<'a> Session<'a> {
         while self.now_ns < end_ns {
             let mut line = has_lines.then(String::new);
             self.ask();
+            self.command();
             self.step(line.as_mut())?;
+            self.look();
             if let Some(line) = line.filter(|line| !line.is_empty()) {
                 self.scenery.terminal.result(&line)?;
             }
@@ -299,7 +326,7 @@ impl<'a> Session<'a> {
 
     /// What the judge has found out.
     fn verdict(self) -> Result<Status> {
-        let Self { scenery, board, judge, now_ns, reports, is_wrong, .. } = self;
+        let Self { scenery, board, judge, commands, now_ns, reports, is_wrong, .. } = self;
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
         let heads = [
@@ -315,6 +342,8 @@ impl<'a> Session<'a> {
             text.push_str(&format!("  {}: {}\n", one.name, one.words()));
         }
         scenery.terminal.result(&text)?;
+        let tried = commands.map(Commands::finish).unwrap_or_default();
+        let is_done = commands::verdict(scenery, &tried)?;
         let all: u64 = judged.iter().map(|one| one.reports).sum();
         let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
         let off = |one: &&Judged| one.worst.as_ref().map_or(0.0, |worst| worst.off);
@@ -325,14 +354,15 @@ impl<'a> Session<'a> {
             scenery.say(judged_wrong::disagrees(scenery.at, &worst.name, &what, wrong, all))?;
             return Ok(Status::Wrong);
         }
-        if all == 0 {
+        if all == 0 && !judged.is_empty() {
             scenery.say(judged_wrong::silent(scenery.at))?;
             return Ok(Status::Wrong);
         }
-        let span = seconds(now_ns);
-        scenery
-            .terminal
-            .note(&format!("\nall {all} values of {span:.1} s agree with the world\n"))?;
+        if !judged.is_empty() {
+            let span = seconds(now_ns);
+            let text = format!("\nall {all} values of {span:.1} s agree with the world\n");
+            scenery.terminal.note(&text)?;
+        }
         if let Some(instructions) = board.instructions() {
             let each = instructions / reports.max(1);
             let text = format!(
@@ -340,7 +370,7 @@ impl<'a> Session<'a> {
             );
             scenery.terminal.note(&text)?;
         }
-        Ok(if is_wrong { Status::Wrong } else { Status::Done })
+        Ok(if is_wrong || !is_done { Status::Wrong } else { Status::Done })
     }
 }
 

@@ -1,0 +1,71 @@
+//! What the judge says of actuators: a table, and what was amiss first.
+
+use anyhow::Result;
+use sensedsl_diagnostics::codes::e0552_command_not_done as not_done;
+use sensedsl_twin::bench::seconds;
+use sensedsl_twin::commands::{Amiss, Tried};
+
+use super::Scenery;
+use crate::commands::table::table;
+
+/// Prints what was found out; false where something was amiss.
+pub(super) fn verdict(scenery: &Scenery<'_>, tried: &[Tried]) -> Result<bool> {
+    if tried.is_empty() {
+        return Ok(true);
+    }
+    let rows: Vec<[String; 5]> = tried.iter().map(cells).collect();
+    let heads =
+        [("Output", false), ("Set", true), ("Looked at", true), ("Excused", true), ("Wrong", true)];
+    let mut text = format!("\n{}", table(heads, &rows));
+    let mut amiss = Vec::new();
+    for one in tried {
+        if let Some(first) = &one.first {
+            text.push_str(&format!("  {}\n", words(first)));
+            amiss.push((one, first));
+        }
+    }
+    scenery.terminal.result(&text)?;
+    for one in tried.iter().filter(|one| one.left > 0 || (one.is_set && one.is_silence_left)) {
+        scenery.terminal.aside(&left(one))?;
+    }
+    // What the host sets says more than a level that it does not.
+    let worst = amiss.iter().find(|(one, _)| one.is_set).or(amiss.first());
+    let Some((one, first)) = worst else {
+        let commands: u64 = tried.iter().map(|one| one.commands).sum();
+        let looks: u64 = tried.iter().map(|one| one.looks).sum();
+        let what = format!("\n{commands} commands: all {looks} looks at outputs found what the design says\n");
+        scenery.terminal.note(&what)?;
+        return Ok(true);
+    };
+    let wrong = tried.iter().map(|one| one.wrong).sum();
+    let looks = tried.iter().map(|one| one.looks).sum();
+    let what = words(first);
+    scenery.say(if one.is_set {
+        not_done::not_done(scenery.at, &one.name, &what, wrong, looks)
+    } else {
+        not_done::not_there(scenery.at, &what)
+    })?;
+    Ok(false)
+}
+
+fn cells(one: &Tried) -> [String; 5] {
+    let set = if one.is_set { one.commands.to_string() } else { "-".to_owned() };
+    let [looks, excused, wrong] = [one.looks, one.excused, one.wrong].map(|one| one.to_string());
+    [one.name.clone(), set, looks, excused, wrong]
+}
+
+/// What is amiss, when, after what.
+fn words(one: &Amiss) -> String {
+    let Amiss { at_ns, wire, after, expected, got, .. } = one;
+    format!("{wire}: at {:.3} s, {after}: {got} and not {expected}", seconds(*at_ns))
+}
+
+/// What there was no time for.
+fn left(one: &Tried) -> String {
+    let silence = if one.is_silence_left { " and no silence" } else { "" };
+    let all = one.commands + one.left;
+    format!(
+        "{}: {} of {all} values were tried{silence}: `--seconds` makes the run longer",
+        one.name, one.commands
+    )
+}
