@@ -26,7 +26,8 @@ pub(super) fn differs(one: &Expected, outputs: &Outputs, since_ns: u64) -> Optio
         }
         What::Write(bytes, begins) => {
             let found = last_write(one.at, outputs, since_ns, bytes, *begins);
-            (found.as_deref() != Some(bytes)).then(|| found.map_or("nothing".into(), |one| hex(&one)))
+            (found.as_deref() != Some(bytes))
+                .then(|| found.map_or("nothing".into(), |one| hex(&one)))
         }
         What::Message(unit, bytes) => {
             let found = outputs.bytes(*unit, since_ns);

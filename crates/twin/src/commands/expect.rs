@@ -199,12 +199,13 @@ fn bridge(
         Drive::TwoPwm => vec![forward, backward],
     };
     let all = wires.iter().zip(inputs);
-    let each = |((at, wire), input): (&(ConnectionIndex, &JobConnection<'_>), f64)| {
-        match &wire.connection.kind {
-            Kind::Digital(own) => Some(level(*at, wire, 0, own, input != 0.0)),
-            Kind::Pwm(own) => Some(pulses(*at, wire, 0, own, input)),
-            _ => None,
-        }
+    let each = |((at, wire), input): (&(ConnectionIndex, &JobConnection<'_>), f64)| match &wire
+        .connection
+        .kind
+    {
+        Kind::Digital(own) => Some(level(*at, wire, 0, own, input != 0.0)),
+        Kind::Pwm(own) => Some(pulses(*at, wire, 0, own, input)),
+        _ => None,
     };
     all.filter_map(each).collect()
 }
@@ -241,9 +242,10 @@ fn frame(
     raw: &[f64],
 ) -> Option<Expected> {
     let own = one.device.kind.can()?;
-    let ends = job.devices.iter().filter(|other| {
-        other.device.direction == Direction::Actuator && other.unit == one.unit
-    });
+    let ends = job
+        .devices
+        .iter()
+        .filter(|other| other.device.direction == Direction::Actuator && other.unit == one.unit);
     let ends = ends.filter_map(|other| {
         let can = other.device.kind.can().filter(|can| can.frame_id == own.frame_id)?;
         Some(u16::from(can.byte) + Words::of(other.device)?.wire_bytes())

@@ -40,8 +40,7 @@ pub(super) fn usual(job: &BoardJob<'_>) -> Vec<(usize, Vec<Vec<Scalar>>)> {
 
 /// Whether a value is only on or off.
 fn is_switch(one: &JobDevice<'_>) -> bool {
-    matches!(one.device.kind, Kind::Digital(_))
-        || one.device.value.value.scalar == ScalarType::Bool
+    matches!(one.device.kind, Kind::Digital(_)) || one.device.value.value.scalar == ScalarType::Bool
 }
 
 /// Each switch of the board has a word of its own, whose bits it shows one after the other, each with its opposite: any
@@ -55,7 +54,16 @@ fn switches(one: &JobDevice<'_>, first: usize, total: usize) -> Vec<Vec<Scalar>>
             let word = first + element + 1;
             let is_on = ((word >> (step / 2)) & 1 == 1) != (step % 2 == 1);
             // What is not 0 is on.
-            scalar(of, if !is_on { 0.0 } else if step < 2 { 1.0 } else { most })
+            scalar(
+                of,
+                if !is_on {
+                    0.0
+                } else if step < 2 {
+                    1.0
+                } else {
+                    most
+                },
+            )
         };
         (0..one.device.value.value.count()).map(element).collect()
     };

@@ -245,9 +245,7 @@ const fn bridge_of(plan: &BridgePlan) -> Bridge {
 
 fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
     let what = match &wire.connection.kind {
-        Kind::Digital(own) => {
-            Drives::Level { is_active_low: own.active_low, is_on: own.initial }
-        }
+        Kind::Digital(own) => Drives::Level { is_active_low: own.active_low, is_on: own.initial },
         Kind::Pwm(own) => {
             let period_ns = 1_000_000_000 / u64::from(own.frequency_hz.max(1));
             let ns = |us: u32| 1_000 * u64::from(us);

@@ -10,7 +10,8 @@ use sense_rt::{
 };
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_codegen::part::{
-    self, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan, ValuePlan,
+    self, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
+    ValuePlan,
 };
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;

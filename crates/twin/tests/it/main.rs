@@ -9,6 +9,7 @@
 )]
 
 mod boards;
+mod commanded;
 mod judged;
 mod library;
 mod run;

@@ -25,15 +25,17 @@ pub(super) fn verdict(scenery: &Scenery<'_>, tried: &[Tried]) -> Result<bool> {
         }
     }
     scenery.terminal.result(&text)?;
-    for one in tried.iter().filter(|one| one.left > 0 || (one.is_set && one.is_silence_left)) {
-        scenery.terminal.aside(&left(one))?;
+    if let Some(left) = left(tried) {
+        scenery.terminal.aside(&left)?;
     }
     // What the host sets says more than a level that it does not.
     let worst = amiss.iter().find(|(one, _)| one.is_set).or(amiss.first());
     let Some((one, first)) = worst else {
         let commands: u64 = tried.iter().map(|one| one.commands).sum();
         let looks: u64 = tried.iter().map(|one| one.looks).sum();
-        let what = format!("\n{commands} commands: all {looks} looks at outputs found what the design says\n");
+        let what = format!(
+            "\n{commands} commands: all {looks} looks at outputs found what the design says\n"
+        );
         scenery.terminal.note(&what)?;
         return Ok(true);
     };
@@ -61,11 +63,20 @@ fn words(one: &Amiss) -> String {
 }
 
 /// What there was no time for.
-fn left(one: &Tried) -> String {
-    let silence = if one.is_silence_left { " and no silence" } else { "" };
-    let all = one.commands + one.left;
-    format!(
-        "{}: {} of {all} values were tried{silence}: `--seconds` makes the run longer",
-        one.name, one.commands
-    )
+fn left(tried: &[Tried]) -> Option<String> {
+    let short: Vec<&Tried> = tried.iter().filter(|one| one.left > 0).collect();
+    let left: u64 = short.iter().map(|one| one.left).sum();
+    let names: Vec<&str> = short.iter().take(4).map(|one| one.name.as_str()).collect();
+    let more =
+        if short.len() > 4 { format!(" and {} more", short.len() - 4) } else { String::new() };
+    let mut all = Vec::new();
+    if left > 0 {
+        all.push(format!("{left} values of {}{more}", names.join(", ")));
+    }
+    if tried.iter().any(|one| one.is_set && one.is_silence_left) {
+        all.push("the host's silence".to_owned());
+    }
+    let all = all.join(" and ");
+    (!all.is_empty())
+        .then(|| format!("no time was left for {all}: make the run longer with `--seconds`"))
 }

@@ -1,0 +1,106 @@
+//! What the judge has to catch of actuators: boards of a design with another mistake each, before the judge of the
+//! right one.
+
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::commands::{Commands, Tried};
+use sensedsl_twin::soft::SoftBoard;
+use sensedsl_wire::encode_hello_request;
+
+use crate::run::{read, with_job};
+
+const MS: u64 = 1_000_000;
+
+const RIGHT: &str = "board STM32F407G_DISC1 {
+    link { transport = uart; unit = USART3; silence = 400 ms; }
+    release CS43L22;
+    chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 { id = 1; reading = speed; } }
+    chip Right { driver = bts7960; actuator Thrust accepts int16 { id = 2; reading = speed; failsafe = 0; } }
+    actuator Servos accepts uint16[3] { id = 3; type = pwm; frequency = 50 Hz; min = 1 ms; max = 2 ms; failsafe = 5000; }
+    actuator Relays accepts bool[2] { id = 4; type = digital; initial = true; failsafe = false; }
+    actuator Lamp accepts uint8 { id = 5; type = digital; active = low; }
+    actuator Level accepts uint16 { id = 6; type = dac; failsafe = 100; }
+    actuator Lamps accepts uint16[2] { id = 7; type = i2c; address = 0x22; register = 0x10; length = 4; delay = 20 ms; failsafe = 3; }
+    actuator Dial accepts int16 { id = 8; type = spi; clock = 1 MHz; register = 0x20; length = 2; delay = 20 ms; }
+    actuator Demand accepts int16 { id = 9; type = can; bitrate = 500 kHz; frame = 0x120; failsafe = 7; }
+    actuator Limit accepts uint8 { id = 10; type = can; bitrate = 500 kHz; frame = 0x120; byte = 4; }
+    actuator Say accepts uint16 { id = 11; type = uart; baud = 9600; start = [0x55, 0xAA]; length = 2; checksum = xor8; end = [0x0D]; failsafe = 1; }
+}";
+
+/// What is found out about the outputs of a board, before the judge of the right design.
+fn tried(wrong: &str, world: &str) -> Vec<Tried> {
+    with_job(RIGHT, |right| {
+        with_job(wrong, |wrong| {
+            assert_eq!(right.schema.hash(), wrong.schema.hash());
+            let (world, said) = read(right, world, 7);
+            assert!(said.is_empty(), "{said:#?}");
+            let bench = Bench::new(right, &world, 7);
+            let mut commands = Commands::new(right, &bench, 10_000 * MS);
+            let mut board = SoftBoard::new(wrong, bench);
+            for ms in 0..10_000 {
+                if ms == 0 || ms == 500 {
+                    board.link_write(&encode_hello_request(&right.schema));
+                }
+                board.link_write(&commands.host(ms * MS, ms >= 600));
+                board.run_until((ms + 1) * MS);
+                if commands.looks((ms + 1) * MS) {
+                    commands.look((ms + 1) * MS, board.bench().outputs());
+                }
+            }
+            commands.finish()
+        })
+    })
+}
+
+/// The names of what is amiss when a text of the design is another one.
+fn amiss(from: &str, to: &str) -> Vec<String> {
+    assert!(RIGHT.contains(from), "{from}");
+    let all = tried(&RIGHT.replacen(from, to, 1), "");
+    all.into_iter().filter(|one| one.wrong > 0).map(|one| one.name).collect()
+}
+
+#[test]
+fn what_is_right_is_found_right() {
+    let all = tried(RIGHT, "");
+    for one in &all {
+        assert_eq!((one.wrong, one.left, one.is_silence_left), (0, 0, false), "{one:#?}");
+        assert!(one.looks >= 5 && (one.commands >= 5 || !one.is_set), "{one:#?}");
+    }
+    assert_eq!(all.iter().filter(|one| one.is_set).count(), 11);
+    // STBY of one bridge, the enables of the other.
+    assert_eq!(all.iter().filter(|one| !one.is_set).count(), 3);
+}
+
+#[test]
+fn each_mistake_is_noticed_where_it_is() {
+    let seeds = [
+        ("max = 2 ms", "max = 1900 us", "Servos"),
+        ("min = 1 ms", "min = 1100 us", "Servos"),
+        ("frequency = 50 Hz", "frequency = 100 Hz", "Servos"),
+        ("failsafe = 5000", "failsafe = 5100", "Servos"),
+        ("initial = true", "initial = false", "Relays"),
+        ("failsafe = false", "failsafe = true", "Relays"),
+        ("active = low", "active = high", "Lamp"),
+        ("failsafe = 100", "failsafe = 0", "Level"),
+        ("register = 0x10", "register = 0x11", "Lamps"),
+        ("length = 4;", "length = 4; order = little;", "Lamps"),
+        ("failsafe = 3", "failsafe = 4", "Lamps"),
+        ("register = 0x20", "register = 0x21", "Dial"),
+        ("byte = 4", "byte = 5", "Limit"),
+        ("failsafe = 7", "failsafe = 8", "Demand"),
+        ("0xAA", "0xAB", "Say"),
+        ("checksum = xor8", "checksum = sum8", "Say"),
+        ("end = [0x0D]", "end = [0x0A]", "Say"),
+    ];
+    for (from, to, name) in seeds {
+        let found = amiss(from, to);
+        assert!(found.iter().any(|one| one == name), "{from} -> {to}: {found:?}");
+    }
+}
+
+#[test]
+fn a_silence_that_does_not_count_or_counts_too_soon_is_noticed() {
+    for silence in ["3 s", "200 ms"] {
+        let found = amiss("silence = 400 ms", &format!("silence = {silence}"));
+        assert!(found.len() >= 5, "{silence}: {found:?}");
+    }
+}
