@@ -165,6 +165,17 @@ void up_can_start(const up_can_t *bus) {
 
 /* ---- what comes in ---- */
 
+/* The bytes of a frame as a number, the first the lowest. */
+static uint64_t bits_of(const uint8_t *data, size_t count) {
+  uint64_t bits = 0U;
+
+  while (count > 0U) {
+    count--;
+    bits = (bits << 8) | data[count];
+  }
+  return bits;
+}
+
 static void take(const up_can_t *bus, const CANRxFrame *frame) {
   static const up_result_t late = UP_NOTHING;
   uint64_t *value = bus->value;
@@ -178,7 +189,8 @@ static void take(const up_can_t *bus, const CANRxFrame *frame) {
     const up_can_value_t *how = &bus->values[i];
     up_result_t result = late;
 
-    if (how->identifier != identifier || how->is_extended != is_extended) {
+    if (how->identifier != identifier || how->is_extended != is_extended ||
+        (how->select_mask != 0U && (bits_of(frame->data8, count) & how->select_mask) != how->select)) {
       continue;
     }
     if (how->byte < count) {
@@ -251,24 +263,66 @@ void up_can_cycle(const void *work) {
 /* ---- what goes out ---- */
 
 void up_can_set(const up_can_frame_t *frame, const up_can_value_t *how, const void *value) {
-  const size_t count = up_value_encode(&how->value, &up_config.schema->fields[how->field], value,
-                                       &frame->data[how->byte], (size_t)frame->bytes - how->byte);
+  uint8_t coded[UP_CAN_FRAME_BYTES] = {0U};
+  const size_t count = up_value_encode(&how->value, &up_config.schema->fields[how->field], value, &coded[how->byte],
+                                       (size_t)frame->bytes - how->byte);
+  size_t i;
 
-  if (count > 0U) {
-    *frame->is_due = true;
-  } else {
+  if (count == 0U) {
     up_result(how->field, UP_BUS_ERROR, NULL);
+    return;
+  }
+  for (i = how->byte; i < how->byte + count; i++) {
+    const uint8_t mask = (how->mask == 0U) ? 0xFFU : (uint8_t)(how->mask >> (8U * i));
+    frame->data[i] = (uint8_t)((frame->data[i] & (uint8_t)~mask) | coded[i]);
+  }
+  if (how->is_quiet) {
+    return;
+  }
+  *frame->is_due = true;
+  if (frame->resend_ms > 0U) {
+    frame->kept->is_commanded = true;
   }
 }
 
+void up_can_hush(const up_can_t *bus) {
+  uint8_t i;
+
+  for (i = 0U; i < bus->frames_count; i++) {
+    if (bus->frames[i].resend_ms > 0U) {
+      bus->frames[i].kept->is_commanded = false;
+      *bus->frames[i].is_due = false;
+    }
+  }
+}
+
+/* Whether a frame is to be sent now. */
+static bool is_wanted(const up_can_frame_t *how, uint32_t now_ms) {
+  const bool is_repeated = how->resend_ms > 0U && how->kept->is_commanded;
+
+  return *how->is_due || (is_repeated && now_ms - how->kept->sent_ms >= how->resend_ms);
+}
+
+/* The next one is due a period after this one was, however late this one is. */
+static void sent(const up_can_frame_t *how, uint32_t now_ms) {
+  if (how->resend_ms > 0U) {
+    const uint32_t late_ms = now_ms - how->kept->sent_ms - how->resend_ms;
+    const bool is_in_turn = !*how->is_due && late_ms < how->resend_ms;
+
+    how->kept->sent_ms = is_in_turn ? now_ms - late_ms : now_ms;
+  }
+  *how->is_due = false;
+}
+
 void up_can_send(const up_can_t *bus) {
+  const uint32_t now_ms = up_now_ms();
   uint8_t i;
 
   for (i = 0U; i < bus->frames_count; i++) {
     const up_can_frame_t *how = &bus->frames[i];
     CANTxFrame frame;
 
-    if (!*how->is_due) {
+    if (!is_wanted(how, now_ms)) {
       continue;
     }
     memset(&frame, 0, sizeof frame);
@@ -278,7 +332,7 @@ void up_can_send(const up_can_t *bus) {
     if (canTransmitTimeout(bus->driver, CAN_ANY_MAILBOX, &frame, TIME_IMMEDIATE) != MSG_OK) {
       return;
     }
-    *how->is_due = false;
+    sent(how, now_ms);
   }
 }
 

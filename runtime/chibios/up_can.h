@@ -13,21 +13,33 @@
 
 #define UP_CAN_FRAME_BYTES 8U
 
-/* A value in a frame. */
+/* A value in a frame. Bits of a frame are a number, of which byte 0 of the frame is the lowest. */
 typedef struct {
   uint32_t identifier;
+  uint64_t mask;        /* sent: the bits of the frame that it has; 0: all of its bytes */
+  uint64_t select_mask; /* received: it is there only where these bits */
+  uint64_t select;      /* are these */
   uint16_t field;
   uint8_t byte; /* where the value begins */
   bool is_extended;
+  bool is_quiet; /* sent: setting it does not make the frame due, because another one with it is sent */
   uint32_t cycle_ms; /* put no more often */
   up_value_t value;
 } up_can_value_t;
+
+/* Of a frame that is repeated; all zero at the start. */
+typedef struct {
+  uint32_t sent_ms;
+  bool is_commanded; /* by the host or as failsafe, and the host has not fallen silent since */
+} up_can_kept_t;
 
 /* A frame that is sent. */
 typedef struct {
   uint32_t identifier;
   uint8_t *data; /* UP_CAN_FRAME_BYTES, kept between two values */
   bool *is_due;
+  up_can_kept_t *kept; /* with resend_ms */
+  uint32_t resend_ms;  /* sent again so long after it was commanded; 0: never */
   uint8_t bytes;
   bool is_extended;
 } up_can_frame_t;
@@ -65,7 +77,10 @@ void up_can_cycle(const void *work);
 /* An actuator's value goes into its frame, which becomes due; where it does not fit the device's health tells. */
 void up_can_set(const up_can_frame_t *frame, const up_can_value_t *how, const void *value);
 
-/* Sends the frames that are due; what finds no room stays due. From the reporter. */
+/* The host is silent: nothing is repeated until it is set again, by a failsafe or by the host. */
+void up_can_hush(const up_can_t *bus);
+
+/* Sends the frames that are due or to be repeated; what finds no room stays due. From the reporter. */
 void up_can_send(const up_can_t *bus);
 
 #endif

@@ -99,6 +99,16 @@ impl<'a> Fields<'a> {
         self.owner = owner;
     }
 
+    /// What the block is, for messages.
+    pub(crate) fn owner(&self) -> &str {
+        &self.owner
+    }
+
+    /// Where the block's name stands.
+    pub(crate) const fn owner_span(&self) -> Span {
+        self.owner_span
+    }
+
     /// Takes over the properties of a driver; what the block itself says wins.
     pub(crate) fn inherit(&mut self, driver: impl Iterator<Item = Property>, file: FileId) {
         self.layers += 1;

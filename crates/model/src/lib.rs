@@ -15,6 +15,7 @@ mod devices;
 mod drivers;
 pub mod facts;
 mod fields;
+mod frames;
 mod files;
 mod ids;
 pub mod kind;

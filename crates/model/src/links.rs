@@ -194,12 +194,17 @@ pub(crate) fn settle_silence(design: &mut Design, diagnostics: &mut Vec<Diagnost
             || matches!(kind, Kind::Dac(dac) if dac.failsafe.is_some())
     };
     let board_of = |device: &Device| design.part(device.part).and_then(|part| part.board);
+    // What is repeated ends with the host.
+    let has_to_stop = |device: &Device| {
+        let is_repeated = device.kind.can().is_some_and(|can| can.resend_ms > 0);
+        device.coding.failsafe.is_some() || is_repeated
+    };
     let falling: Vec<Option<BoardIndex>> = design
         .connections
         .iter()
         .filter(|connection| falls_back(&connection.kind))
         .map(|connection| connection.board)
-        .chain(design.devices.iter().filter(|one| one.coding.failsafe.is_some()).map(board_of))
+        .chain(design.devices.iter().filter(|one| has_to_stop(one)).map(board_of))
         .collect();
     for (index, board) in design.boards.iter_mut().enumerate() {
         let link = &mut board.link;

@@ -18,6 +18,7 @@ use crate::design::{Board, BoardIndex, Design, Spanned};
 use crate::devices::{self, Known};
 use crate::drivers::{self, Drivers};
 use crate::files::Files;
+use crate::frames;
 use crate::ids;
 use crate::links;
 use crate::names;
@@ -89,6 +90,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     let mut design = assemble(file, boards, parts);
     pins::bind(&mut design, &mut diagnostics);
     check_places(&design, &mut diagnostics);
+    frames::settle(&mut design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
     links::settle_silence(&mut design, &mut diagnostics);
     if items.broken {

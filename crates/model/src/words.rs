@@ -5,6 +5,7 @@ use sensedsl_wire::{ScalarType, ValueType};
 
 use crate::design::Device;
 use crate::kind::Kind;
+use crate::kind::can::BitField;
 use crate::kind::i2c::ByteOrder;
 use crate::protocol::{Coding, Crc, Protocol};
 
@@ -60,11 +61,54 @@ impl Words {
         self.on_wire(self.data_bytes)
     }
 
+    /// The bits that the value takes of a frame in which it begins at that byte; byte 0 is the lowest.
+    #[must_use]
+    pub fn in_frame(&self, byte: u8) -> u64 {
+        if self.code == Code::Packed || self.crc.is_some() {
+            let bytes = self.wire_bytes();
+            return (0..8 * bytes).fold(0, |all, bit| all | bit_of(u16::from(byte) + bit / 8, bit));
+        }
+        let words: Vec<u16> = if self.elements.is_empty() {
+            (0..self.count).collect()
+        } else {
+            self.elements.iter().map(|word| u16::from(*word)).collect()
+        };
+        let word = |word: &u16| {
+            let first = u16::from(byte) + word * u16::from(self.word_bytes);
+            (0..self.bits).fold(0, |all, bit| all | self.bit(first, bit))
+        };
+        words.iter().map(word).fold(0, |all, one| all | one)
+    }
+
+    /// A number in the bits of its word, in a frame in which the word begins at that byte; none where it has more bits.
+    #[must_use]
+    pub fn placed(&self, byte: u8, number: u64) -> Option<u64> {
+        let is_held = self.bits >= 64 || number >> self.bits == 0;
+        let set = |bit: &u8| number >> bit & 1 == 1;
+        let all = (0..self.bits).filter(set).map(|bit| self.bit(byte.into(), bit));
+        (is_held && self.count == 1).then(|| all.fold(0, |all, one| all | one))
+    }
+
+    /// A bit of a word that begins at that byte of a frame.
+    fn bit(&self, first: u16, bit: u8) -> u64 {
+        let bit = u16::from(self.low) + u16::from(bit);
+        let behind = match self.order {
+            ByteOrder::Little => bit / 8,
+            ByteOrder::Big => u16::from(self.word_bytes).saturating_sub(1 + bit / 8),
+        };
+        bit_of(first + behind, bit)
+    }
+
     /// Where a byte of the words stands on the wire.
     #[must_use]
     pub const fn on_wire(&self, byte: u16) -> u16 {
         if self.crc.is_some() { byte + byte / 2 } else { byte }
     }
+}
+
+/// A bit of a byte of a frame, of which byte 0 is the lowest; nothing behind the frame's end.
+fn bit_of(byte: u16, bit: u16) -> u64 {
+    1_u64.checked_shl(u32::from(8 * byte + bit % 8)).unwrap_or(0)
 }
 
 /// Whether the value can stand in its bytes, and whether the formula gets as many as it takes.
@@ -103,7 +147,9 @@ fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
         Kind::I2c(i2c) => Some(i2c.length_bytes),
         Kind::Spi(spi) => Some(spi.length_bytes),
         Kind::Uart(uart) => Some(uart.length_bytes),
-        Kind::Can(_) => coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok()),
+        Kind::Can(can) => can.field.map(|field| field.word_bytes.into()).or_else(|| {
+            coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok())
+        }),
         Kind::Analog(_)
         | Kind::Icu(_)
         | Kind::Encoder(_)
@@ -115,11 +161,15 @@ fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
 
 fn order(kind: &Kind) -> ByteOrder {
     let of_bus = kind.i2c().map(|i2c| i2c.order).or_else(|| kind.spi().map(|spi| spi.order));
-    of_bus.or_else(|| kind.uart().map(|uart| uart.order)).unwrap_or_default()
+    let of_line = || kind.uart().map(|uart| uart.order).or(kind.can().map(|can| can.order));
+    of_bus.or_else(of_line).unwrap_or_default()
 }
 
 fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<Words, String> {
     let of = coding.of.unwrap_or(value);
+    if let Some(field) = kind.can().and_then(|can| can.field) {
+        return in_frame(kind, coding, of.scalar, value.scalar, field);
+    }
     let elements = u16::try_from(of.count()).unwrap_or(u16::MAX).max(1);
     if let Some(bits) = coding.packed_bits {
         return packed(coding, of, (elements, bits), length);
@@ -162,6 +212,38 @@ fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<
         order: order(kind),
         crc: coding.crc,
         data_bytes: length,
+    })
+}
+
+/// A value of some bits of a frame.
+fn in_frame(
+    kind: &Kind,
+    coding: &Coding,
+    of: ScalarType,
+    value: ScalarType,
+    field: BitField,
+) -> Result<Words, String> {
+    if coding.crc.is_some() || coding.packed_bits.is_some() || !coding.elements.is_empty() {
+        return Err("`bit` goes with none of `packed`, `elements` and `crc`".to_owned());
+    }
+    let BitField { word_bytes, low, bits } = field;
+    let is_whole = usize::from(bits) == 8 * of.size_bytes() && bits == 8 * word_bytes;
+    let code = if is_whole || coding.bcd {
+        code(coding, of, value, word_bytes)?
+    } else {
+        Code::Integer
+    };
+    Ok(Words {
+        code,
+        word_bytes,
+        count: 1,
+        elements: Vec::new(),
+        low,
+        bits,
+        is_signed: coding.signed.unwrap_or_else(|| is_signed(of)),
+        order: order(kind),
+        crc: None,
+        data_bytes: word_bytes.into(),
     })
 }
 

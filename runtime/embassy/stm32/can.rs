@@ -51,8 +51,9 @@ pub(super) fn count(count: u8) -> NonZeroU8 {
     NonZeroU8::new(count).unwrap_or(NonZeroU8::MIN)
 }
 
-/// A value that comes: where it is, the identifier of its frame, and how often it is told at most.
-pub type Value = (MessageField, Id, u32);
+/// A value that comes: where it is, the identifier of its frame, how often it is told at most, and the bits of the frame
+/// by which it is there: those that count, and what they are. Byte 0 of a frame has the lowest bits.
+pub type Value = (MessageField, Id, u32, (u64, u64));
 
 /// What the task of a bus keeps.
 pub struct Bus<'a> {
@@ -84,9 +85,10 @@ impl Bus<'_> {
 
     fn take(&mut self, frame: &Frame, sink: &mut Sink<'_>) {
         let now_ms = now_ms();
-        for ((field, id, cycle_ms), told_ms) in self.values.iter().zip(self.told_ms.iter_mut()) {
+        let bits = bits(frame.data());
+        for ((field, id, cycle_ms, (mask, select)), told_ms) in self.values.iter().zip(self.told_ms.iter_mut()) {
             let index = usize::from(field.item);
-            let Some(item) = self.schema.items.get(index).filter(|_| id == frame.id()) else {
+            let Some(item) = self.schema.items.get(index).filter(|_| id == frame.id() && bits & mask == *select) else {
                 continue;
             };
             let value = self.value.get_mut(..item.bytes()).unwrap_or_default();
@@ -111,6 +113,11 @@ impl Bus<'_> {
     }
 }
 
+/// The bytes of a frame as a number, the first the lowest.
+fn bits(data: &[u8]) -> u64 {
+    data.iter().take(BYTES).rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte))
+}
+
 fn outcome(error: &BusError) -> Outcome {
     match error {
         BusError::Acknowledge => Outcome::NotAcknowledged,
@@ -130,11 +137,64 @@ pub struct Sent {
     bytes: usize,
     data: [u8; BYTES],
     is_due: bool,
+    /// It is sent again so long after it was commanded; 0: never.
+    every_ms: u32,
+    /// By the host or as failsafe, and the host has not fallen silent since.
+    is_commanded: bool,
+    sent_ms: u32,
 }
 
 impl Sent {
     pub const fn new(id: Id, bytes: usize) -> Self {
-        Self { id, bytes, data: [0; BYTES], is_due: false }
+        Self { id, bytes, data: [0; BYTES], is_due: false, every_ms: 0, is_commanded: false, sent_ms: 0 }
+    }
+
+    /// Sent again so often once it was commanded.
+    pub const fn repeated(self, every_ms: u32) -> Self {
+        Self { every_ms, ..self }
+    }
+
+    /// With the bits that say what else is in it.
+    pub const fn selected(self, data: [u8; BYTES]) -> Self {
+        Self { data, ..self }
+    }
+
+    fn is_wanted(&self, now_ms: u32) -> bool {
+        let is_repeated = self.every_ms > 0 && self.is_commanded;
+        self.is_due || is_repeated && now_ms.wrapping_sub(self.sent_ms) >= self.every_ms
+    }
+
+    /// The next one is due a period after this one was, however late this one is.
+    fn sent(&mut self, now_ms: u32) {
+        let late_ms = now_ms.wrapping_sub(self.sent_ms).wrapping_sub(self.every_ms);
+        let is_in_turn = !self.is_due && late_ms < self.every_ms;
+        self.sent_ms = if is_in_turn { now_ms.wrapping_sub(late_ms) } else { now_ms };
+        self.is_due = false;
+    }
+}
+
+/// Where a value is in its frame.
+#[derive(Clone, Copy)]
+pub struct Place {
+    byte: usize,
+    /// Its bits of the frame; 0: all of its bytes.
+    mask: u64,
+    is_quiet: bool,
+}
+
+impl Place {
+    pub const fn new(byte: usize) -> Self {
+        Self { byte, mask: 0, is_quiet: false }
+    }
+
+    /// Only with these bits of the frame, of which byte 0 has the lowest.
+    pub const fn masked(self, mask: u64) -> Self {
+        Self { mask, ..self }
+    }
+
+    /// Setting it does not make the frame due, because another one with it is sent.
+    pub const fn quiet(self) -> Self {
+        Self { is_quiet: true, ..self }
     }
 }
 
@@ -154,15 +214,23 @@ pub fn set<const COUNT: usize>(
     schema: &Schema,
     index: usize,
     value: &[u8],
-    byte: usize,
+    place: Place,
     board: &dyn Tell,
 ) {
     let size = frames.lock(|frames| {
         let mut frames = frames.borrow_mut();
         let (Some(frame), Some(item)) = (frames.get_mut(frame), schema.items.get(index)) else { return 0 };
-        let end = frame.bytes.min(BYTES);
-        let size = how.encode(item, value, frame.data.get_mut(byte..end).unwrap_or_default());
-        frame.is_due |= size > 0;
+        let mut coded = [0; BYTES];
+        let (byte, end) = (place.byte, frame.bytes.min(BYTES));
+        let size = how.encode(item, value, coded.get_mut(byte..end).unwrap_or_default());
+        let mask = if place.mask == 0 { u64::MAX } else { place.mask }.to_le_bytes();
+        let bytes = frame.data.iter_mut().zip(coded).zip(mask);
+        for ((data, coded), mask) in bytes.skip(byte).take(size) {
+            *data = *data & !mask | coded & mask;
+        }
+        let is_commanded = size > 0 && !place.is_quiet;
+        frame.is_due |= is_commanded;
+        frame.is_commanded |= is_commanded;
         size
     });
     if size == 0 {
@@ -170,14 +238,25 @@ pub fn set<const COUNT: usize>(
     }
 }
 
-/// Sends what is due, as far as there is room.
-pub fn send<const COUNT: usize>(bus: &mut Talk, frames: &Frames<COUNT>) {
+/// The host is silent: nothing is repeated until it is set again, by a failsafe or by the host.
+pub fn hush<const COUNT: usize>(frames: &Frames<COUNT>) {
     frames.lock(|frames| {
-        for frame in frames.borrow_mut().iter_mut().filter(|frame| frame.is_due) {
+        for frame in frames.borrow_mut().iter_mut().filter(|frame| frame.every_ms > 0) {
+            frame.is_commanded = false;
+            frame.is_due = false;
+        }
+    });
+}
+
+/// Sends what is due or to be repeated, as far as there is room.
+pub fn send<const COUNT: usize>(bus: &mut Talk, frames: &Frames<COUNT>) {
+    let now_ms = now_ms();
+    frames.lock(|frames| {
+        for frame in frames.borrow_mut().iter_mut().filter(|frame| frame.is_wanted(now_ms)) {
             let data = frame.data.get(..frame.bytes).unwrap_or_default();
             match Frame::new_data(frame.id, data) {
                 Ok(made) if !bus.say(&made) => return,
-                _ => frame.is_due = false,
+                _ => frame.sent(now_ms),
             }
         }
     });

@@ -1,9 +1,15 @@
 //! `can`: a value in the frames of a CAN bus.
 
+mod place;
+
+use super::i2c::{self, ByteOrder};
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
-use crate::fields::Fields;
+use crate::design::Spanned;
+use crate::fields::{Fields, name_or_text, plain_integer};
 use sensedsl_wire::{Direction, ValueType};
+
+pub use place::{BitField, FRAME_BYTES};
 
 /// What is the same for all devices of this kind.
 pub const SPEC: KindSpec = KindSpec {
@@ -11,7 +17,10 @@ pub const SPEC: KindSpec = KindSpec {
     article: "a",
     directions: &[Direction::Sensor, Direction::Actuator],
     values: Values::Any,
-    properties: &["bitrate", "frame", "byte", "tx", "rx"],
+    properties: &[
+        "bitrate", "frame", "node", "extended", "length", "order", "byte", "bit", "mux", "resend",
+        "tx", "rx",
+    ],
     sharing: Sharing::Bus,
     triggers_itself: false,
     wires: "RX and TX of one unit, shared by devices of one bit rate",
@@ -22,6 +31,12 @@ pub const SPEC: KindSpec = KindSpec {
 
 /// Bits per second where the file says nothing.
 const BITRATE_DEFAULT_HZ: u32 = 500_000;
+/// The greatest identifier of eleven bits; a greater one has 29.
+pub const STANDARD_MAX: u32 = 0x7FF;
+/// The greatest identifier of 29 bits.
+const EXTENDED_MAX: i64 = 0x1FFF_FFFF;
+/// The longest time from one repetition of a frame to the next.
+const RESEND_MAX_MS: u32 = 60_000;
 
 /// A value on a bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,20 +47,53 @@ pub struct Can {
     pub bitrate_span: Option<sensedsl_diagnostics::Span>,
     /// Identifier of the frame, up to 29 bits.
     pub frame_id: u32,
+    /// Whether it has 29 bits.
+    pub is_extended: bool,
     /// First byte of the value in the frame.
     pub byte: u8,
+    /// Where in the word that begins there the value stands; none for whole bytes.
+    pub field: Option<BitField>,
+    /// Order of the bytes of each number.
+    pub order: ByteOrder,
+    /// Bytes of the frame; none for as many as its values take.
+    pub length: Option<u8>,
+    /// A frame that was commanded is sent again after so long; 0: never.
+    pub resend_ms: u32,
+    /// The value is in the frame only where another value of it is so much.
+    pub mux: Option<Mux>,
+}
+
+/// In which of the frames of an identifier a value is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mux {
+    /// The value of the same frame that tells: its device, or its reading of the same part.
+    pub selector: Spanned<String>,
+    /// What it is there.
+    pub value: Spanned<u64>,
+    /// The bits of the frame that tell, and what is in them: byte 0 of the frame is the lowest. Both 0 until the
+    /// selector is known.
+    pub bits: (u64, u64),
 }
 
 impl Properties for Can {
-    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+    fn read(fields: &mut Fields<'_>, direction: Direction, value: ValueType) -> Self {
         let bitrate = fields.frequency_hz("bitrate", 10_000..=1_000_000);
-        let frame = fields.required_integer("frame", 0..=0x1FFF_FFFF, "frame = 0x120;");
-        let byte = fields.integer("byte", 0..=63).and_then(|n| u8::try_from(n.value).ok());
+        let (frame_id, is_extended) = identifier(fields);
+        let length = fields.integer("length", 1..=i64::from(FRAME_BYTES));
+        let length = length.and_then(|n| u8::try_from(n.value).ok());
+        let order = i2c::order(fields);
+        let (byte, field) = place::read(fields, order, value);
         Self {
             bitrate_hz: bitrate.map_or(BITRATE_DEFAULT_HZ, |rate| rate.value),
             bitrate_span: bitrate.map(|rate| rate.span),
-            frame_id: frame.and_then(|n| u32::try_from(n.value).ok()).unwrap_or(0),
-            byte: byte.unwrap_or(0),
+            frame_id,
+            is_extended,
+            byte,
+            field,
+            order,
+            length,
+            resend_ms: resend(fields, direction),
+            mux: mux(fields),
         }
     }
 
@@ -58,8 +106,93 @@ impl Properties for Can {
     }
 }
 
+impl Can {
+    /// The identifier as people write it.
+    #[must_use]
+    pub fn shown(&self) -> String {
+        if self.is_extended {
+            format!("0x{:X} (29 bits)", self.frame_id)
+        } else {
+            format!("0x{:X}", self.frame_id)
+        }
+    }
+
+    /// Bytes of the frame at most.
+    #[must_use]
+    pub const fn room(&self) -> u8 {
+        match self.length {
+            Some(length) => length,
+            None => FRAME_BYTES,
+        }
+    }
+}
+
+/// The identifier with the number of the node, and whether it has 29 bits.
+fn identifier(fields: &mut Fields<'_>) -> (u32, bool) {
+    let node = fields.integer("node", 0..=255).map_or(0, |n| n.value);
+    let extended = fields.boolean("extended");
+    let frame = fields.required_integer("frame", 0..=EXTENDED_MAX, "frame = 0x120;");
+    let Some(Spanned { value, span }) = frame else { return (0, false) };
+    let is_long = value > i64::from(STANDARD_MAX);
+    let is_extended = extended.map_or(is_long, |word| word.value);
+    if is_long && !is_extended {
+        let message = format!("0x{value:X} has more than 11 bits, so its frames are extended ones");
+        fields.contradiction(span, "extended", &message);
+    }
+    let most = if is_extended || is_long { EXTENDED_MAX } else { i64::from(STANDARD_MAX) };
+    let whole = value + node;
+    if whole > most {
+        let message = format!("0x{value:X} and {node} are more than 0x{most:X}, the greatest of these identifiers");
+        fields.contradiction(span, "node", &message);
+    }
+    (u32::try_from(whole.min(most)).unwrap_or(0), is_extended || is_long)
+}
+
+/// What is sent once is repeated.
+fn resend(fields: &mut Fields<'_>, direction: Direction) -> u32 {
+    let Some(resend) = fields.time_ms("resend", 1..=RESEND_MAX_MS) else { return 0 };
+    if direction == Direction::Actuator {
+        return resend.value;
+    }
+    // What is said of a chip is said of its commands.
+    if !fields.is_of_reading() {
+        fields.needs_direction(resend.span, "resend", Direction::Actuator);
+    }
+    0
+}
+
+/// `mux = NAME = VALUE`.
+fn mux(fields: &mut Fields<'_>) -> Option<Mux> {
+    let field = fields.take("mux")?;
+    let read = |list: &[Spanned<crate::value::Value>]| {
+        let [selector, value] = list else { return None };
+        let number = u64::try_from(plain_integer(&value.value)?).ok()?;
+        Some(Mux {
+            selector: Spanned { value: name_or_text(&selector.value)?, span: selector.span },
+            value: Spanned { value: number, span: value.span },
+            bits: (0, 0),
+        })
+    };
+    let found = field.value.list().and_then(read);
+    if found.is_none() {
+        fields.wrong(&field, "the value that selects and what it is, such as `mux = Page = 3`");
+    }
+    found
+}
+
 impl Default for Can {
     fn default() -> Self {
-        Self { bitrate_hz: BITRATE_DEFAULT_HZ, bitrate_span: None, frame_id: 0, byte: 0 }
+        Self {
+            bitrate_hz: BITRATE_DEFAULT_HZ,
+            bitrate_span: None,
+            frame_id: 0,
+            is_extended: false,
+            byte: 0,
+            field: None,
+            order: ByteOrder::Big,
+            length: None,
+            resend_ms: 0,
+            mux: None,
+        }
     }
 }

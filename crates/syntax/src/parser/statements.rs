@@ -5,6 +5,10 @@ use super::items::RuleKeyword;
 use crate::error::{Block, Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
+/// Properties whose value may itself say that something has a value: `mux = Page = 3`. Of any other a second `=` is the
+/// next property, whose `;` before it is missing.
+const PAIRED: &[&str] = &["mux"];
+
 impl Parser<'_> {
     pub(super) fn use_file(&mut self) {
         self.start(SyntaxKind::Use);
@@ -63,10 +67,29 @@ impl Parser<'_> {
             self.complain(SyntaxErrorKind::MissingValue { property }, self.gap());
         } else {
             if !equals {
-                self.complain(SyntaxErrorKind::MissingEquals { property }, self.gap());
+                self.complain(SyntaxErrorKind::MissingEquals { property: property.clone() }, self.gap());
             }
-            self.value();
+            if PAIRED.contains(&property.as_str()) && self.at_property() {
+                self.pair();
+            } else {
+                self.value();
+            }
         }
+    }
+
+    /// `NAME = VALUE` as a value: a list of the two.
+    fn pair(&mut self) {
+        self.start(SyntaxKind::List);
+        self.start(SyntaxKind::NameValue);
+        self.name(Expected::Value);
+        self.finish();
+        self.eat(SyntaxKind::Eq);
+        if self.at_value() {
+            self.value();
+        } else {
+            self.expected(Expected::Value);
+        }
+        self.finish();
     }
 
     /// `->` and `+=` in place of `=`.

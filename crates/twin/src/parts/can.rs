@@ -10,8 +10,6 @@ use crate::truth::Subject;
 const PERIOD_NS_MAX: u64 = 50_000_000;
 /// And the shortest.
 const PERIOD_NS_MIN: u64 = 2_000_000;
-/// The greatest identifier of eleven bits.
-const STANDARD_MAX: u32 = 0x7FF;
 
 /// A value in a frame.
 #[derive(Clone, Debug)]
@@ -22,26 +20,48 @@ pub(crate) struct Field {
     pub(crate) byte: u8,
     /// How it is coded.
     pub(crate) words: Words,
+    /// It is in the frame only where these bits of it are so; byte 0 of the frame has the lowest.
+    pub(crate) select: Option<(u64, u64)>,
+    /// Bytes of the frame, where they are known.
+    pub(crate) length: Option<u8>,
 }
 
 /// A frame that somebody sends again and again.
 #[derive(Clone, Debug)]
 pub(crate) struct Sender {
     pub(crate) id: u32,
+    pub(crate) is_extended: bool,
     pub(crate) fields: Vec<Field>,
     pub(crate) period_ns: u64,
     next_ns: u64,
+    /// What selects what else is in the frame, each once, and which of them is next: a frame has one of them.
+    selections: Vec<(u64, u64)>,
+    turn: usize,
 }
 
 impl Sender {
-    pub(crate) const fn new(id: u32) -> Self {
-        Self { id, fields: Vec::new(), period_ns: PERIOD_NS_MAX, next_ns: 0 }
+    pub(crate) const fn new(id: u32, is_extended: bool) -> Self {
+        let (fields, selections) = (Vec::new(), Vec::new());
+        let (period_ns, next_ns) = (PERIOD_NS_MAX, 0);
+        Self { id, is_extended, fields, period_ns, next_ns, selections, turn: 0 }
+    }
+
+    /// From one frame with all of its values to the next.
+    pub(crate) fn round_ns(&self) -> u64 {
+        self.period_ns * self.selections.len().max(1) as u64
     }
 
     /// A further value, for a device of that cycle.
     pub(crate) fn add(&mut self, field: Field, delay_ns: u64) {
+        if let Some(select) = field.select
+            && !self.selections.contains(&select)
+        {
+            self.selections.push(select);
+        }
         self.fields.push(field);
-        self.period_ns = self.period_ns.min((delay_ns / 2).max(PERIOD_NS_MIN));
+        // Each selection comes as often as a frame without any.
+        let turns = self.selections.len().max(1) as u64;
+        self.period_ns = self.period_ns.min((delay_ns / 2 / turns).max(PERIOD_NS_MIN));
     }
 
     /// The frame, when it is due. What was due in the meantime is lost where `is_cut`.
@@ -58,21 +78,32 @@ impl Sender {
         if is_cut {
             return None;
         }
-        let (mut data, mut length) = ([0_u8; 8], 0);
-        for field in &self.fields {
+        let select = self.selections.get(self.turn % self.selections.len().max(1)).copied();
+        self.turn = self.turn.wrapping_add(1);
+        let (mut bits, mut length) = (0_u64, 0);
+        let is_in = |field: &&Field| field.select.is_none() || field.select == select;
+        for field in self.fields.iter().filter(is_in) {
             let Some(subject) = subjects.get(field.subject) else { continue };
             let elements = 0..subject.signals.len();
             let raw: Vec<f64> = elements.map(|one| subject.raw(one, now_ns)).collect();
             let first = usize::from(field.byte);
+            let mut data = [0_u8; 8];
             for (place, byte) in (first..).zip(bytes(&field.words, &raw)) {
                 if let Some(target) = data.get_mut(place) {
-                    *target |= byte;
+                    *target = byte;
                     length = length.max(place + 1);
                 }
             }
+            let mask = field.words.in_frame(field.byte);
+            bits = bits & !mask | u64::from_le_bytes(data) & mask;
+            length = length.max(field.length.unwrap_or(0).into());
         }
-        let extended = self.id > STANDARD_MAX;
-        let length = u8::try_from(length).unwrap_or(8);
-        Some(CanFrame { id: self.id, extended, remote: false, length, data })
+        // The value that selects is what this frame says, whatever the world says of it.
+        if let Some((mask, selected)) = select {
+            bits = bits & !mask | selected;
+        }
+        let length = u8::try_from(length).unwrap_or(8).min(8);
+        let (id, extended) = (self.id, self.is_extended);
+        Some(CanFrame { id, extended, remote: false, length, data: bits.to_le_bytes() })
     }
 }

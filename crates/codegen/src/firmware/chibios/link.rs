@@ -8,6 +8,7 @@ use sensedsl_model::design::Transport;
 use super::context::{Context, Drive, PadPlan, alternate_mode};
 use super::names::Setting;
 use super::plan::TaskPlan;
+use crate::kinds::can;
 
 /// The reporter's cycle where nothing asks for another.
 const REPORT_MS: u32 = 10;
@@ -162,5 +163,6 @@ pub(super) fn report_ms(context: &Context<'_>, tasks: &[TaskPlan]) -> u32 {
     if let Some(rate_hz) = context.job.board.link.rate_hz {
         return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
     }
-    tasks.iter().map(|task| task.delay_ms).fold(REPORT_MS, u32::min).max(1)
+    let repeats = can::repeats_ms(context.job);
+    tasks.iter().map(|task| task.delay_ms).chain(repeats).fold(REPORT_MS, u32::min).max(1)
 }

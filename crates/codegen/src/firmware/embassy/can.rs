@@ -10,7 +10,7 @@ use super::context::Context;
 use super::filter;
 use super::lack::{self, Lack, Made};
 use super::section::{Field, Keep, Section, Start, Watched};
-use crate::kinds::can::{BANKS, Bus, STANDARD_MAX, Value, buses};
+use crate::kinds::can::{BANKS, Bus, Frame, Identifier, Value, buses};
 use crate::print::snake;
 
 /// Controllers with banks of filters are alone, or two of these; the third of a chip has banks of its own.
@@ -30,8 +30,8 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 /// An identifier in the HAL's words. None is greater than its bits, which the model has seen to.
-fn identifier(identifier: u32) -> String {
-    if identifier > STANDARD_MAX {
+fn identifier((identifier, is_extended): Identifier) -> String {
+    if is_extended {
         format!("crate::rt::can::extended({identifier:#X})")
     } else {
         format!("crate::rt::can::standard({identifier:#X})")
@@ -138,15 +138,21 @@ fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Made<String> {
     ))
 }
 
+/// The bits of a frame that count, and what they are.
+fn select((mask, bits): (u64, u64)) -> String {
+    format!("({mask:#x}, {bits:#x})")
+}
+
 fn tables(bus: &Bus<'_>, section: &mut Section) {
     let value = |one: &Value| {
         format!(
-            "(MessageField {{ item: {}, byte: {}, value: {}, ..MessageField::NEW }}, {}, {})",
+            "(MessageField {{ item: {}, byte: {}, value: {}, ..MessageField::NEW }}, {}, {}, {})",
             one.index,
             one.byte,
             coding(&one.how),
-            identifier(one.identifier),
-            one.device.cycle.delay_ms
+            identifier(one.identifier()),
+            one.device.cycle.delay_ms,
+            select(one.select.unwrap_or_default())
         )
     };
     let upper = bus.unit.to_uppercase();
@@ -155,7 +161,7 @@ fn tables(bus: &Bus<'_>, section: &mut Section) {
          pub const {upper}_VALUES: &[crate::rt::can::Value] = {};",
         list(bus.values.iter().map(value)).replace("\n    ", "\n")
     ));
-    for one in bus.frames.iter().flat_map(|frame| &frame.values) {
+    for one in bus.frames.iter().flat_map(|frame| &frame.values).filter(|one| !one.is_quiet) {
         section.tables.push(format!(
             "pub const {upper}_SENT_{}: Coding = {};",
             one.index,
@@ -169,8 +175,8 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
     let is_own = |index: usize| bus.wires.iter().any(|one| one.devices.contains(&index));
     let (filters, pass) = filter::of_items(context, is_own, section);
     let constant = format!("{upper}_LISTEN");
-    let sent: Vec<usize> =
-        bus.frames.iter().flat_map(|frame| &frame.values).map(|one| one.index).collect();
+    let sent = bus.frames.iter().flat_map(|frame| &frame.values).filter(|one| !one.is_quiet);
+    let sent: Vec<usize> = sent.map(|one| one.index).collect();
     section.items.push(format!(
         "/// {}: frames that come.\n#[embassy_executor::task]\nasync fn {name}_listen(come: rt::controller::Come) {{\n\
          {filters}    let mut bus = rt::can::Bus {{\n        come,\n        schema: &SCHEMA,\n        \
@@ -188,6 +194,27 @@ fn listen(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Sectio
     section.watched.push(Watched::new(constant, bus.cycle, device));
 }
 
+/// Where a value is in its frame.
+fn place(one: &Value<'_>) -> String {
+    let masked = if one.mask == 0 { String::new() } else { format!(".masked({:#x})", one.mask) };
+    let quiet = if one.is_quiet { ".quiet()" } else { "" };
+    format!("rt::can::Place::new({}){masked}{quiet}", one.byte)
+}
+
+/// A frame as it is at the start.
+fn sent(frame: &Frame<'_>) -> String {
+    let new = format!("rt::can::Sent::new({}, {})", identifier(frame.identifier()), frame.bytes);
+    let repeated = match frame.resend_ms {
+        0 => String::new(),
+        every_ms => format!(".repeated({every_ms})"),
+    };
+    let selected = match frame.start {
+        0 => String::new(),
+        _ => format!(".selected({:?})", frame.start_bytes()),
+    };
+    format!("{new}{repeated}{selected}, ")
+}
+
 /// The reporter has the bus: a frame that finds no room is sent in a later cycle.
 fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
     let upper = bus.unit.to_uppercase();
@@ -196,13 +223,7 @@ fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
         section.keeps.push(keep(&format!("_{name}_tx"), name));
         return;
     }
-    let frames: String = bus
-        .frames
-        .iter()
-        .map(|frame| {
-            format!("rt::can::Sent::new({}, {}), ", identifier(frame.identifier), frame.bytes)
-        })
-        .collect();
+    let frames: String = bus.frames.iter().map(sent).collect();
     section.items.push(format!(
         "static {upper}_FRAMES: rt::can::Frames<{}> = rt::can::frames([{frames}]);",
         bus.frames.len()
@@ -211,9 +232,12 @@ fn say(bus: &Bus<'_>, name: &str, section: &mut Section) {
         for one in &frame.values {
             section.sets.entry(one.index).or_default().push(format!(
                 "rt::can::set(&{upper}_FRAMES, {at}, &tables::{upper}_SENT_{}, &SCHEMA, {}, value, {}, &BOARD);",
-                one.index, one.index, one.byte
+                one.index, one.index, place(one)
             ));
         }
+    }
+    if bus.frames.iter().any(|frame| frame.resend_ms > 0) {
+        section.hushes.push(format!("rt::can::hush(&{upper}_FRAMES);"));
     }
     section.keeps.push(keep(&format!("mut {name}_tx"), name));
     section.polls.push(format!("rt::can::send(&mut {name}_tx, &{upper}_FRAMES);"));

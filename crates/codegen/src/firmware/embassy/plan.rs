@@ -71,6 +71,7 @@ pub(super) struct Plan {
     pub(super) has_actuators: bool,
     /// Whether there is anything that only the program drives.
     pub(super) has_outputs: bool,
+    pub(super) hushes: Vec<String>,
     pub(super) fails: Vec<String>,
     /// What is done with outputs and interrupts at the start.
     pub(super) begins: Vec<String>,
@@ -188,6 +189,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         keeps: section.keeps,
         states: section.states,
         polls: section.polls,
+        hushes: section.hushes,
         fails: section.fails,
         runtime: section.runtime,
     }
@@ -200,7 +202,8 @@ fn report_ms(context: &Context<'_>) -> u32 {
     }
     let devices = context.job.devices.iter().map(|one| one.device);
     let served = devices.filter(|device| !device.kind.name().spec().triggers_itself);
-    served.map(|device| device.delay_ms).fold(REPORT_MS, u32::min).max(1)
+    let repeats = crate::kinds::can::repeats_ms(context.job);
+    served.map(|device| device.delay_ms).chain(repeats).fold(REPORT_MS, u32::min).max(1)
 }
 
 /// The board's light, which is off at first.

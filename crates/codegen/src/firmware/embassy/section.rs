@@ -31,6 +31,8 @@ pub(super) struct Section {
     pub(super) sets: BTreeMap<usize, Vec<String>>,
     /// What is done with outputs at the start.
     pub(super) begins: Vec<String>,
+    /// What is done first when the host is silent.
+    pub(super) hushes: Vec<String>,
     /// What is done when the host is silent.
     pub(super) fails: Vec<String>,
     /// The cycles of the tasks, which the watchdog watches.
@@ -145,6 +147,7 @@ impl Section {
             self.sets.entry(index).or_default().extend(sets);
         }
         self.begins.append(&mut other.begins);
+        self.hushes.append(&mut other.hushes);
         self.fails.append(&mut other.fails);
         self.watched.append(&mut other.watched);
         self.is_otg |= other.is_otg;

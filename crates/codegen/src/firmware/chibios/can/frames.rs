@@ -1,5 +1,7 @@
 //! Buses with the values that come in, the frames that go out, and the filters of the hardware.
 
+use std::collections::BTreeMap;
+
 use askama::Template;
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
@@ -9,7 +11,7 @@ use crate::firmware::chibios::context::{Context, Drive};
 use crate::firmware::chibios::names::Setting;
 use crate::firmware::chibios::section::{Apply, Counter, Section, Size, Work};
 use crate::firmware::chibios::stacks::Depth;
-use crate::kinds::can::{self, BANKS, STANDARD_MAX};
+use crate::kinds::can::{self, BANKS, Identifier};
 use crate::print::{block, snake};
 
 /// How deep its thread gets.
@@ -98,8 +100,8 @@ fn filters(context: &Context<'_>, buses: &[Bus<'_>]) -> Vec<(usize, String, Stri
 }
 
 /// An identifier as a filter's register has it.
-fn register(identifier: u32) -> String {
-    if identifier > STANDARD_MAX {
+fn register((identifier, is_extended): Identifier) -> String {
+    if is_extended {
         format!("({identifier:#X}U << 3) | 4U")
     } else {
         format!("{identifier:#X}U << 21")
@@ -120,15 +122,26 @@ impl<'a> Bus<'a> {
     fn add_to(&self, section: &mut Section) {
         let Self { ident, clock, of, .. } = self;
         section.starts.push(format!("up_can_start(&{ident}_bus);"));
+        if self.repeats() {
+            section.failsafes.push(format!("up_can_hush(&{ident}_bus);"));
+        }
         if !of.frames.is_empty() {
             section.polls.push(format!("up_can_send(&{ident}_bus);"));
         }
         let sent = of.frames.iter().enumerate();
         let sent = sent.flat_map(|(at, frame)| frame.values.iter().map(move |value| (at, value)));
-        section.applies.extend(sent.enumerate().map(|(index, (at, value))| Apply {
-            field: value.device.name().to_owned(),
-            line: format!("up_can_set(&{ident}_frames[{at}], &{ident}_sent[{index}], value);"),
-        }));
+        // A value of several frames is set in all of them.
+        let mut lines: BTreeMap<usize, Apply> = BTreeMap::new();
+        for (index, (at, value)) in sent.enumerate() {
+            let line = format!("up_can_set(&{ident}_frames[{at}], &{ident}_sent[{index}], value);");
+            let apply = lines.entry(value.index).or_insert_with(|| Apply {
+                field: value.device.name().to_owned(),
+                line: String::new(),
+            });
+            let between = if apply.line.is_empty() { "" } else { "\n      " };
+            apply.line = format!("{}{between}{line}", apply.line);
+        }
+        section.applies.extend(lines.into_values());
         section.clocks.insert(clock.clone());
         section.counters.push(Counter {
             title: format!("{} was off the bus", of.unit),
@@ -148,6 +161,16 @@ impl<'a> Bus<'a> {
     fn value_words(&self) -> usize {
         let bytes = self.of.values.iter().map(|one| one.device.device.value.value.size_bytes());
         bytes.map(|bytes| bytes.div_ceil(8)).max().unwrap_or(0).max(1)
+    }
+
+    /// Whether bits of frames say what else is in them.
+    fn selects(&self) -> bool {
+        self.of.frames.iter().any(|frame| frame.start != 0)
+    }
+
+    /// Whether frames are repeated.
+    fn repeats(&self) -> bool {
+        self.of.frames.iter().any(|frame| frame.resend_ms > 0)
     }
 
     /// The values of all frames that are sent.
