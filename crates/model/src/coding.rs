@@ -55,8 +55,7 @@ const INIT_MAX: usize = 128;
 pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<Formula>) -> Coding {
     // With `bit` they are a number of bits, which its kind has read.
     let bits = if fields.has("bit") { None } else { fields.integer_range("bits", 0..=63) };
-    let bits =
-        bits.map(|Spanned { value: (high, low), .. }| (high.max(low), high.min(low)));
+    let bits = bits.map(|Spanned { value: (high, low), .. }| (high.max(low), high.min(low)));
     let signed = fields.boolean("signed").map(|word| word.value);
     let elements = elements(fields, of);
     let crc = fields.word("crc", &[("sensirion", Crc::Sensirion)]).map(|word| word.value);

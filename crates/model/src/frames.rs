@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::{
-    e0211_out_of_range, e0212_unknown_word, e0237_overlap_in_frame, e0238_frame_clash,
-    e0239_outside_frame, w0614_several_repeated,
+    e0211_out_of_range, e0212_unknown_word, e0222_contradiction, e0237_overlap_in_frame,
+    e0238_frame_clash, e0239_outside_frame, w0614_several_repeated,
 };
 use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_wire::Direction;
@@ -41,6 +41,28 @@ pub(crate) fn settle(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
         overlap(&sent, diagnostics);
     }
     repeated(design, diagnostics);
+    for device in &design.devices {
+        diagnostics.extend(slower_link(design, device));
+    }
+}
+
+/// A frame that is to be repeated more often than the reporter may look at it.
+fn slower_link(design: &Design, device: &Device) -> Option<Diagnostic> {
+    let resend_ms = device.kind.can()?.resend_ms;
+    let board = design.board(design.part(device.part)?.board?)?;
+    let cycle_ms = 1_000_u32.div_ceil(board.link.rate_hz?.max(1));
+    let message = format!(
+        "{} repeats its frame every {resend_ms} ms, and the link's `rate` lets the board look every {cycle_ms} ms",
+        device.name.value
+    );
+    let (at, other) = (device.name.span, board.name.span);
+    let help = format!(
+        "leave `rate` out, or let it be at least {} Hz",
+        1_000_u32.div_ceil(resend_ms.max(1))
+    );
+    (resend_ms > 0 && cycle_ms > resend_ms).then(|| {
+        e0222_contradiction::contradiction(at, &message, other, "its link has the `rate`", &help)
+    })
 }
 
 /// A value that ends behind its frame.
@@ -139,8 +161,7 @@ fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
 fn repeated(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
     let mut parts: BTreeMap<PartIndex, Vec<&Device>> = BTreeMap::new();
     for device in &design.devices {
-        if device.coding.reading.is_some()
-            && device.kind.can().is_some_and(|can| can.resend_ms > 0)
+        if device.coding.reading.is_some() && device.kind.can().is_some_and(|can| can.resend_ms > 0)
         {
             parts.entry(device.part).or_default().push(device);
         }

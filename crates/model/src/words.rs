@@ -147,9 +147,10 @@ fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
         Kind::I2c(i2c) => Some(i2c.length_bytes),
         Kind::Spi(spi) => Some(spi.length_bytes),
         Kind::Uart(uart) => Some(uart.length_bytes),
-        Kind::Can(can) => can.field.map(|field| field.word_bytes.into()).or_else(|| {
-            coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok())
-        }),
+        Kind::Can(can) => can
+            .field
+            .map(|field| field.word_bytes.into())
+            .or_else(|| coding.of.and_then(|of| u16::try_from(of.size_bytes()).ok())),
         Kind::Analog(_)
         | Kind::Icu(_)
         | Kind::Encoder(_)
@@ -228,11 +229,8 @@ fn in_frame(
     }
     let BitField { word_bytes, low, bits } = field;
     let is_whole = usize::from(bits) == 8 * of.size_bytes() && bits == 8 * word_bytes;
-    let code = if is_whole || coding.bcd {
-        code(coding, of, value, word_bytes)?
-    } else {
-        Code::Integer
-    };
+    let code =
+        if is_whole || coding.bcd { code(coding, of, value, word_bytes)? } else { Code::Integer };
     Ok(Words {
         code,
         word_bytes,

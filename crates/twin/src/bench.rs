@@ -121,8 +121,10 @@ impl Bench {
     #[must_use]
     pub fn period_ns(&self, part: PartIndex) -> Option<u64> {
         let talker = self.talkers.values().find(|one| one.part == part);
-        let senders = || self.senders.values().flatten().find(|(of, _)| *of == part);
-        talker.map(|one| one.talker.period_ns()).or_else(|| senders().map(|(_, one)| one.period_ns))
+        let of_part =
+            |(of, sender): &(PartIndex, can::Sender)| (*of == part).then(|| sender.round_ns());
+        let senders = || self.senders.values().flatten().filter_map(of_part).max();
+        talker.map(|one| one.talker.period_ns()).or_else(senders)
     }
 
     /// The devices that a fault may keep from reporting, and from when to when.
@@ -318,30 +320,34 @@ impl Bench {
                 let talker = message::Talker::new(uart.clone(), fields, delay_ns, &self.subjects);
                 self.talkers.insert(unit, Talking { part, talker });
             }
-            (Kind::Can(own), Some(unit)) => {
-                let senders = self.senders.entry(unit).or_default();
-                let known = senders.iter_mut().find(|(_, sender)| sender.id == own.frame_id);
-                let fields = devices.iter().filter_map(|of| {
-                    let subject = self.subjects.iter().position(|one| one.id == of.id.value)?;
-                    let delay_ns = MS_NS * u64::from(of.delay_ms);
-                    let byte = of.kind.can().map_or(own.byte, |can| can.byte);
-                    Some((can::Field { subject, byte, words: Words::of(of)? }, delay_ns))
-                });
-                let fields: Vec<_> = fields.collect();
-                if let Some((_, sender)) = known {
-                    fields.into_iter().for_each(|(field, delay_ns)| sender.add(field, delay_ns));
-                } else {
-                    let mut sender = can::Sender::new(own.frame_id);
-                    fields.into_iter().for_each(|(field, delay_ns)| sender.add(field, delay_ns));
-                    senders.push((part, sender));
-                }
-            }
+            (Kind::Can(_), Some(unit)) => self.stations(unit, part, &devices),
             (_, _) => {
                 wired.analog = first.and_then(|of| self.analog(job, of, element));
                 wired.line = first.and_then(|of| self.line(&one.connection.kind, of, element));
             }
         }
         self.wires.insert(index, wired);
+    }
+
+    /// What a part sends on a CAN bus.
+    fn stations(&mut self, unit: u8, part: PartIndex, devices: &[&Device]) {
+        for of in devices {
+            let Some((can, words)) = of.kind.can().zip(Words::of(of)) else { continue };
+            let Some(subject) = self.subject(of) else { continue };
+            let select = can.mux.as_ref().map(|mux| mux.bits);
+            let field = can::Field { subject, byte: can.byte, words, select, length: can.length };
+            let senders = self.senders.entry(unit).or_default();
+            let known = senders
+                .iter()
+                .position(|(_, one)| one.id == can.frame_id && one.is_extended == can.is_extended);
+            let place = known.unwrap_or(senders.len());
+            if known.is_none() {
+                senders.push((part, can::Sender::new(can.frame_id, can.is_extended)));
+            }
+            if let Some((_, sender)) = senders.get_mut(place) {
+                sender.add(field, MS_NS * u64::from(of.delay_ms));
+            }
+        }
     }
 
     fn subject(&self, device: &Device) -> Option<usize> {

@@ -21,6 +21,8 @@ const EXTENDED_FILTERS: usize = 8;
 /// Bytes of a frame.
 const FRAME_BYTES: u16 = 8;
 
+pub use sensedsl_model::kind::can::STANDARD_MAX;
+
 /// An identifier, and whether it has 29 bits.
 pub type Identifier = (u32, bool);
 
@@ -159,8 +161,7 @@ fn frames<'a>(values: &[Value<'a>]) -> Vec<Frame<'a>> {
             };
             let quiet = |value: &Value<'a>| Value { is_quiet: true, ..value.clone() };
             let values = own().filter(is_in).cloned();
-            let values: Vec<Value<'a>> =
-                values.chain(own().filter(is_shared).map(quiet)).collect();
+            let values: Vec<Value<'a>> = values.chain(own().filter(is_shared).map(quiet)).collect();
             let repeats = values.iter().filter(|value| !value.is_quiet && value.resend_ms > 0);
             Frame {
                 identifier: one.identifier,
@@ -252,6 +253,12 @@ impl<'a> Value<'a> {
 }
 
 impl Frame<'_> {
+    /// Whether the identifier has 29 bits.
+    #[must_use]
+    pub fn is_extended(&self) -> bool {
+        self.is_extended
+    }
+
     /// The identifier, and whether it has 29 bits.
     #[must_use]
     pub fn identifier(&self) -> Identifier {

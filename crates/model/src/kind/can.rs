@@ -142,7 +142,9 @@ fn identifier(fields: &mut Fields<'_>) -> (u32, bool) {
     let most = if is_extended || is_long { EXTENDED_MAX } else { i64::from(STANDARD_MAX) };
     let whole = value + node;
     if whole > most {
-        let message = format!("0x{value:X} and {node} are more than 0x{most:X}, the greatest of these identifiers");
+        let message = format!(
+            "0x{value:X} and {node} are more than 0x{most:X}, the greatest of these identifiers"
+        );
         fields.contradiction(span, "node", &message);
     }
     (u32::try_from(whole.min(most)).unwrap_or(0), is_extended || is_long)

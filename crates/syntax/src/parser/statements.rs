@@ -67,7 +67,10 @@ impl Parser<'_> {
             self.complain(SyntaxErrorKind::MissingValue { property }, self.gap());
         } else {
             if !equals {
-                self.complain(SyntaxErrorKind::MissingEquals { property: property.clone() }, self.gap());
+                self.complain(
+                    SyntaxErrorKind::MissingEquals { property: property.clone() },
+                    self.gap(),
+                );
             }
             if PAIRED.contains(&property.as_str()) && self.at_property() {
                 self.pair();

@@ -1,6 +1,7 @@
 //! The judge of one sensor: its values against the world, and its silences.
 
 use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
 use sensedsl_wire::{DeviceHealth, Scalar};
@@ -44,6 +45,8 @@ pub(super) struct SensorJudge {
     bounds: Option<(f64, f64)>,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
+    /// What it may be whatever the world says, because it tells what else is in a frame.
+    selections: Vec<f64>,
     /// Where it was before the board was up is unknown.
     is_anywhere: bool,
     /// What a count may have begun with, less what the world had: from, to.
@@ -51,6 +54,19 @@ pub(super) struct SensorJudge {
     last_ns: Option<u64>,
     /// When a value may have been measured at the earliest, because no host was there to take it before.
     waits_from_ns: Option<u64>,
+}
+
+/// What the frames of a CAN bus say that a value is which selects what else is in them.
+fn selections(job: &BoardJob<'_>, own: &Device) -> Vec<f64> {
+    let selected = job.devices.iter().filter_map(|one| {
+        let mux = one.device.kind.can()?.mux.as_ref()?;
+        let is_of_part =
+            one.device.part == own.part && own.coding.reading.as_ref() == Some(&mux.selector.value);
+        let is_own =
+            own.kind.can().is_some() && (own.name.value == mux.selector.value || is_of_part);
+        is_own.then(|| crate::arith::number(mux.value.value))
+    });
+    selected.collect()
 }
 
 impl SensorJudge {
@@ -87,6 +103,7 @@ impl SensorJudge {
             last: Vec::new(),
             bounds: raw_range(device),
             excuses: bench.excused(job, one.index),
+            selections: selections(job, device),
             is_anywhere: is_encoder,
             is_relative: is_encoder || is_counter(&device.kind, device),
             bases: vec![None; subject.signals.len()],
@@ -166,6 +183,9 @@ impl SensorJudge {
     }
 
     fn compare(&self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+        if self.selections.contains(&got) {
+            return None;
+        }
         let (least, greatest) = self.expected(now_ns, element);
         let below = (least - self.tolerance) - got;
         let above = got - (greatest + self.tolerance);

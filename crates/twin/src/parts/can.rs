@@ -40,7 +40,7 @@ pub(crate) struct Sender {
 }
 
 impl Sender {
-    pub(crate) const fn new(id: u32, is_extended: bool) -> Self {
+    pub(crate) fn new(id: u32, is_extended: bool) -> Self {
         let (fields, selections) = (Vec::new(), Vec::new());
         let (period_ns, next_ns) = (PERIOD_NS_MAX, 0);
         Self { id, is_extended, fields, period_ns, next_ns, selections, turn: 0 }

@@ -296,7 +296,9 @@ pub(super) struct Stations {
 
 #[derive(Clone)]
 struct Heard {
-    frame_id: u32,
+    frame_id: (u32, bool),
+    /// It is in the frame only where these bits are so.
+    select: (u64, u64),
     item: usize,
     what: Item,
     field: MessageField,
@@ -311,7 +313,11 @@ impl Stations {
         }
         while let Some(frame) = bench.can_in(self.unit, now_ns) {
             let data = frame.data.get(..usize::from(frame.length)).unwrap_or_default();
-            let takers = self.heard.iter_mut().filter(|one| one.frame_id == frame.id);
+            let bits = data.iter().rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte));
+            let takers = self.heard.iter_mut().filter(|one| {
+                let (mask, select) = one.select;
+                one.frame_id == (frame.id, frame.extended) && bits & mask == select
+            });
             for heard in takers.filter(|one| !one.is_told) {
                 let mut value = vec![0; heard.what.bytes()];
                 if let Some(outcome) = heard.field.read(&heard.what, data, &mut value) {
@@ -335,7 +341,8 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
         let Some(field) = tables::in_frame(item, one.device) else { continue };
         let unit = one.unit.and_then(number_of).unwrap_or(0);
         let heard = Heard {
-            frame_id: can.frame_id,
+            frame_id: (can.frame_id, can.is_extended),
+            select: can.mux.as_ref().map(|mux| mux.bits).unwrap_or_default(),
             item,
             what: *what,
             field,
