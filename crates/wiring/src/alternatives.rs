@@ -110,6 +110,9 @@ pub(crate) fn alternatives<'a>(
     let mut list = Vec::new();
     let mut meanings = Vec::new();
     for offer in offers.iter().filter(|offer| wanted.boards.contains(&offer.index)) {
+        if builder.cancel.is_over() {
+            break;
+        }
         let mut maker = Maker { builder, offer, wanted, rules: &rules };
         for (alternative, meaning) in served(wanted.kind).ways(&mut maker) {
             list.push(alternative);

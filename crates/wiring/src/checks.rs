@@ -298,7 +298,7 @@ fn relaxed_on(
 ) -> Vec<crate::formulate::Meaning> {
     let mut wanted = wanted(design, wires);
     relax(&mut wanted);
-    let mut builder = Builder::new(design, Converters::Later);
+    let mut builder = Builder::new(design, Converters::Later, sensedsl_solve::Cancel::NEVER);
     wanted.boards.retain(|board| offers.iter().any(|offer| offer.index == *board));
     alternatives(&mut builder, offers, &wanted).1
 }

@@ -103,10 +103,12 @@ pub(crate) struct Builder<'a> {
     rules_of: BTreeMap<PartIndex, Vec<wishes::Rule<'a>>>,
     pub(crate) design: &'a Design,
     pub(crate) converters: Converters,
+    /// Asked for each board of each device, and for each alternative that is tied.
+    pub(crate) cancel: Cancel<'a>,
 }
 
 impl<'a> Builder<'a> {
-    pub(crate) fn new(design: &'a Design, converters: Converters) -> Self {
+    pub(crate) fn new(design: &'a Design, converters: Converters, cancel: Cancel<'a>) -> Self {
         Self {
             names: Names::default(),
             first_pins: pins(design).1,
@@ -119,6 +121,7 @@ impl<'a> Builder<'a> {
             rules_of: BTreeMap::new(),
             design,
             converters,
+            cancel,
         }
     }
 
@@ -193,7 +196,7 @@ pub(crate) fn formulate<'a>(
     design: &'a Design,
     keep: Option<&Keep>,
     asked: Asked,
-    cancel: Cancel<'_>,
+    cancel: Cancel<'a>,
 ) -> Formulation<'a> {
     let offers: Vec<Offer<'_>> = design
         .boards
@@ -205,7 +208,7 @@ pub(crate) fn formulate<'a>(
     let pins = pins(design).0;
     let links = links(design);
     let converters = asked.converters;
-    let mut builder = Builder::new(design, converters);
+    let mut builder = Builder::new(design, converters, cancel);
     let mut askers = Vec::new();
     let mut devices = Vec::new();
     let mut meanings = Vec::new();

@@ -158,6 +158,9 @@ impl<'d> Tier<'d> {
             let alternatives = std::mem::take(&mut device.alternatives);
             let all = alternatives.into_iter().zip(std::mem::take(meanings));
             for (alternative, meaning) in all {
+                if builder.cancel.is_over() {
+                    break;
+                }
                 for (tight, meaning) in self.tight(builder, number, alternative, meaning) {
                     device.alternatives.push(tight);
                     meanings.push(meaning);
@@ -179,6 +182,9 @@ impl<'d> Tier<'d> {
             let all = alternatives.into_iter().zip(std::mem::take(meanings));
             let (mut tight, mut loose) = (Vec::new(), Vec::new());
             for (alternative, meaning) in all {
+                if builder.cancel.is_over() {
+                    break;
+                }
                 if only.is_some_and(|board| board != meaning.board) {
                     tight.push((alternative, meaning));
                     continue;

@@ -60,9 +60,10 @@ impl BoardSymmetry {
     }
 }
 
-/// The board on which each resource, DMA user and stream is used.
+/// The board on which each resource, group, DMA user and stream is used.
 struct Sites {
     resources: IdVec<ResourceId, Site>,
+    groups: BTreeMap<u32, Site>,
     users: IdVec<DmaUserId, Site>,
     streams: IdVec<StreamId, Site>,
 }
@@ -88,6 +89,7 @@ impl Sites {
     fn new(problem: &Problem, model: &Model) -> Self {
         let mut sites = Self {
             resources: IdVec::same(Site::Unused, problem.resources as usize),
+            groups: BTreeMap::new(),
             users: IdVec::same(Site::Unused, problem.dma.len()),
             streams: IdVec::same(Site::Unused, problem.streams as usize),
         };
@@ -95,6 +97,10 @@ impl Sites {
             let of_cands = model.alt_cands(alt).iter().flat_map(|id| &model.cand_claims[id]);
             for claim in model.alt_claims[alt].iter().chain(of_cands) {
                 sites.resources[claim.resource].add(board);
+                sites.add_group(claim.holder, board);
+            }
+            for id in model.alt_cands(alt) {
+                sites.add_group(model.cand[id].holder, board);
             }
             for &user in &model.alt_dma[alt] {
                 sites.users[user].add(board);
@@ -103,6 +109,12 @@ impl Sites {
             }
         }
         sites
+    }
+
+    fn add_group(&mut self, holder: Holder, board: BoardId) {
+        if let Holder::Group(number) = holder {
+            self.groups.entry(number).or_insert(Site::Unused).add(board);
+        }
     }
 }
 
@@ -166,12 +178,21 @@ impl<'a> Signature<'a> {
                 self.holder(holder);
                 continue;
             }
-            // On a resource of several boards, equal boards must have the same groups.
-            self.text.push(match holder {
-                Holder::Own => 0,
-                Holder::Group(number) => u64::from(number) + 1,
-            });
+            // On a resource of several boards, equal boards must have the same groups, or each one
+            // of its own: a chip is on this board or on that.
+            match holder {
+                Holder::Group(number) if self.is_of_one_board(number) => {
+                    self.text.push(u64::MAX - 1);
+                    self.holder(holder);
+                }
+                Holder::Group(number) => self.text.push(u64::from(number) + 1),
+                Holder::Own => self.text.push(0),
+            }
         }
+    }
+
+    fn is_of_one_board(&self, group: u32) -> bool {
+        matches!(self.sites.groups.get(&group), Some(Site::On(_)))
     }
 
     /// The device alone is the same on every board.

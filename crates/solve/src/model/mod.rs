@@ -6,11 +6,13 @@
 //! multi-objective programs*, 1982).
 
 mod board_symmetry;
+pub(crate) mod bundles;
 mod flatten;
 mod validate;
 mod wires;
 
 use self::board_symmetry::BoardSymmetry;
+use self::bundles::Bundles;
 use crate::answer::{Choice, Fault, Objective};
 use crate::domains::streams;
 use crate::index::{AltId, Blocks, CandId, DemandId, GateId, Id, IdVec, Ids, RoleId, Rows, WireId};
@@ -103,6 +105,8 @@ pub(crate) struct Model {
     pub(crate) boards: BoardSymmetry,
     /// First device that is interchangeable with this one.
     pub(crate) class: IdVec<DeviceId, DeviceId>,
+    /// Devices that are interchangeable as a whole: those of equal chips, of equal arrays.
+    pub(crate) bundles: Bundles,
     pub(crate) alts: Blocks<DeviceId, AltId>,
     pub(crate) alt_device: IdVec<AltId, DeviceId>,
     pub(crate) alt_board: IdVec<AltId, BoardId>,
@@ -166,6 +170,7 @@ impl Model {
         model.find_local_rules();
         model.find_gates();
         model.find_classes();
+        model.bundles = Bundles::new(&model);
         model.find_demands();
         model.find_private_users(problem);
         model.most = model.find_most();

@@ -9,8 +9,10 @@
 use super::Engine;
 use crate::domains::{Charge, Pruned};
 use crate::index::{AltId, CandId, FacilityId};
+use crate::model::bundles::Bundle;
 use crate::model::{Choices, Chosen};
 use crate::problem::{BoardId, DeviceId, RuleId};
+use std::collections::BTreeSet;
 
 /// What a node splits on: taken first, then refused.
 #[derive(Clone, Copy, Debug)]
@@ -85,9 +87,11 @@ impl Engine<'_> {
         let [_] = boards.as_slice() else {
             return alts.iter().try_for_each(|&alt| self.domains.remove_alt(model, alt));
         };
+        let mut all = self.equal_facilities(alts);
+        all.push(alts.clone());
         for board in self.equals(branch) {
             let here = |alt: &AltId| model.boards.alt_on(model, *alt, board);
-            for alt in alts.iter().filter_map(here) {
+            for alt in all.iter().flatten().filter_map(here) {
                 self.domains.remove_alt(model, alt)?;
             }
         }
@@ -129,11 +133,92 @@ impl Engine<'_> {
         boards.into_iter()
     }
 
-    /// The device and those that are interchangeable with it at this node.
+    /// The device and those that are interchangeable with it at this node, by themselves or with
+    /// their bundles.
     fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
         let model = self.model;
         let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
-        model.class_of(model.class[device]).filter(same).collect()
+        let mut twins: Vec<DeviceId> = model.class_of(model.class[device]).filter(same).collect();
+        let own: Vec<DeviceId> = twins.clone();
+        for bundle in self.equal_bundles(device) {
+            let there = |twin: &DeviceId| {
+                let place = model.bundles.place(*twin)?;
+                bundle.devices.get(place.position).copied()
+            };
+            twins.extend(own.iter().filter_map(there));
+        }
+        twins
+    }
+
+    /// The bundles that are interchangeable at this node with the one of the device.
+    fn equal_bundles(&self, device: DeviceId) -> Vec<&Bundle> {
+        let bundles = &self.model.bundles;
+        let Some(place) = bundles.place(device).filter(|_| self.bundle_symmetry) else {
+            return Vec::new();
+        };
+        let family = bundles.family(place);
+        let Some(own) = family.get(place.bundle) else { return Vec::new() };
+        family.iter().filter(|other| *other != own && self.are_equal(own, other)).collect()
+    }
+
+    /// Whether two bundles that can stand for each other have the same choices left.
+    fn are_equal(&self, one: &Bundle, other: &Bundle) -> bool {
+        let mut devices = one.devices.iter().zip(&other.devices);
+        let mut rules = one.rules.iter().zip(&other.rules);
+        rules.all(|(&r, &s)| self.domains.rule[r] == self.domains.rule[s])
+            && devices.all(|(&d, &e)| self.domains.same_domain(self.model, d, e))
+            && self.are_opened_alike(one, other)
+    }
+
+    /// Whether swapping the bundles leaves the same facilities open.
+    fn are_opened_alike(&self, one: &Bundle, other: &Bundle) -> bool {
+        let (model, opened) = (self.model, &self.domains.opened);
+        let Some(pricing) = self.pricing.as_ref().filter(|_| !opened.is_empty()) else {
+            return true;
+        };
+        let partner = |device: DeviceId| {
+            let here = |from: &Bundle, to: &Bundle| {
+                let at = from.devices.iter().position(|d| *d == device)?;
+                to.devices.get(at).copied()
+            };
+            here(one, other).or_else(|| here(other, one)).unwrap_or(device)
+        };
+        let alts = |f: &FacilityId| -> BTreeSet<AltId> {
+            pricing.dualized.facilities[*f].alts.iter().copied().collect()
+        };
+        let image = |f: &FacilityId| -> BTreeSet<AltId> {
+            let swapped = |&alt: &AltId| model.twin_alt(alt, partner(model.alt_device[alt]));
+            pricing.dualized.facilities[*f].alts.iter().map(swapped).collect()
+        };
+        opened.iter().all(|f| {
+            let image = image(f);
+            opened.iter().any(|g| alts(g) == image)
+        })
+    }
+
+    /// The same facility of the bundles that are interchangeable with the one that it belongs to.
+    fn equal_facilities(&self, alts: &[AltId]) -> Vec<Vec<AltId>> {
+        let model = self.model;
+        let Some(&first) = alts.first() else { return Vec::new() };
+        let device = model.alt_device[first];
+        let Some(place) = model.bundles.place(device) else { return Vec::new() };
+        let positions: Option<Vec<usize>> = alts
+            .iter()
+            .map(|&alt| {
+                let at = model.bundles.place(model.alt_device[alt])?;
+                (at.family == place.family && at.bundle == place.bundle).then_some(at.position)
+            })
+            .collect();
+        // A facility of others too is the same whoever changes places.
+        let Some(positions) = positions else { return Vec::new() };
+        let there = |bundle: &Bundle| {
+            let twins = alts.iter().zip(&positions);
+            let twin = |(&alt, &at): (&AltId, &usize)| {
+                bundle.devices.get(at).map(|device| model.twin_alt(alt, *device))
+            };
+            twins.filter_map(twin).collect()
+        };
+        self.equal_bundles(device).into_iter().map(there).collect()
     }
 
     /// A rule that the wiring violates, or a spare board that it uses, and that the bound leaves out.

@@ -5,13 +5,14 @@
 
 use super::tie_break::{Entry, entries};
 use crate::index::{AltId, CandId, IdVec};
+use crate::model::bundles::Bundle;
 use crate::model::{Choices, Chosen, Model};
 use crate::problem::{BoardId, DeviceId, PinId};
 
 /// Puts alike devices in order, and what is on equal boards on the first of them.
 pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {
     let entries = entries(model);
-    let mut best = earlier(model, &entries, devices_in_order(model, &known), known);
+    let mut best = earlier(model, &entries, in_order(model, &known), known);
     let mut used = IdVec::same(false, model.spare.len());
     let equal = &model.boards.first_equal;
     for device in model.devices {
@@ -24,7 +25,12 @@ pub(crate) fn earliest(model: &Model, known: Choices) -> Choices {
         }
         used[model.alt_board[best[device].alt]] = true;
     }
-    earlier(model, &entries, devices_in_order(model, &best), best)
+    earlier(model, &entries, in_order(model, &best), best)
+}
+
+/// Puts alike devices in order, then bundles.
+fn in_order(model: &Model, known: &Choices) -> Choices {
+    bundles_in_order(model, &devices_in_order(model, known))
 }
 
 /// The one of two answers that comes first.
@@ -60,6 +66,30 @@ fn devices_in_order(model: &Model, known: &Choices) -> Choices {
         for (device, (_, _, from)) in model.class_of(leader).zip(&had) {
             let chosen = &known[*from];
             sorted[device] = moved(model, chosen, model.twin_alt(chosen.alt, device));
+        }
+    }
+    sorted
+}
+
+/// Gives interchangeable bundles their choices in order.
+fn bundles_in_order(model: &Model, known: &Choices) -> Choices {
+    let mut sorted = known.clone();
+    for family in &model.bundles.families {
+        let has = |bundle: &Bundle| -> Vec<(Vec<PinId>, usize, DeviceId)> {
+            let of_device = |&device: &DeviceId| {
+                let Chosen { alt, cands } = &known[device];
+                let pins = cands.iter().map(|&id| model.cand[id].pin).collect();
+                (pins, model.alt_position(*alt), device)
+            };
+            bundle.devices.iter().map(of_device).collect()
+        };
+        let mut had: Vec<_> = family.iter().map(has).collect();
+        had.sort_unstable();
+        for (bundle, had) in family.iter().zip(&had) {
+            for (device, (_, _, from)) in bundle.devices.iter().zip(had) {
+                let chosen = &known[*from];
+                sorted[*device] = moved(model, chosen, model.twin_alt(chosen.alt, *device));
+            }
         }
     }
     sorted

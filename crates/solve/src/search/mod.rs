@@ -49,6 +49,8 @@ pub(crate) struct Engine<'a> {
     /// Whether a choice may be refused on all equal boards at once. It may be while every restriction
     /// of the domains marks the boards that it is about.
     pub(crate) board_symmetry: bool,
+    /// Whether a choice may be refused in all equal bundles at once.
+    pub(crate) bundle_symmetry: bool,
 }
 
 /// What the Lagrangian bound needs.
@@ -116,6 +118,7 @@ impl<'a> Engine<'a> {
             goal: Goal::default(),
             progress: Progress::after(nodes),
             board_symmetry: false,
+            bundle_symmetry: true,
         }
     }
 

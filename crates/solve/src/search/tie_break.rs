@@ -11,7 +11,8 @@ use crate::index::{AltId, CandId, RoleId};
 use crate::model::{Choices, Model};
 use crate::problem::DeviceId;
 
-/// Nodes that a question about several values is worth.
+/// Nodes that a question about several values is worth for each of them, where one has not been
+/// seen to take more.
 const PATIENCE: u64 = 40;
 
 /// A pin, a signal or an alternative, by its number; nothing where there is no such role.
@@ -167,7 +168,7 @@ impl Engine<'_> {
         values.retain(|value| *value >= floor);
         let saved = self.flow.save();
         let mark = self.domains.mark();
-        let mut number = number;
+        let (mut number, mut patience) = (number, PATIENCE);
         // The least first. Where that is not possible, more at once: mostly nothing is, and to show
         // that takes hardly more of many than of one. Where it does, fewer are asked about.
         loop {
@@ -176,7 +177,8 @@ impl Engine<'_> {
                 return number;
             }
             let some = number.min(values.len());
-            let many = Effort::Nodes(self.progress.nodes + PATIENCE);
+            let before = self.progress.nodes;
+            let many = Effort::Nodes(before + patience.saturating_mul(some as u64));
             self.progress.effort = if some > 1 { many } else { Effort::Any };
             let (asked, _) = values.split_at(some);
             let restricted = self.restrict_to(entry, asked);
@@ -192,6 +194,9 @@ impl Engine<'_> {
                 None if unknown => number = some / 2,
                 None if self.progress.stopped => return number,
                 None => {
+                    if some == 1 {
+                        patience = patience.max(self.progress.nodes - before);
+                    }
                     values.drain(..some);
                     number = some * 4;
                 }
@@ -200,12 +205,19 @@ impl Engine<'_> {
         }
     }
 
-    /// Interchangeable devices stand in order in the least answer, so a later one starts where
-    /// the one before it stands.
+    /// Interchangeable devices, and bundles, stand in order in the least answer, so a later one
+    /// starts where the one before it stands.
     fn floor(&self, entry: Entry, known: &Choices) -> Value {
         let Entry::Pin(device, 0) = entry else { return None };
-        let class = self.model.class_of(self.model.class[device]);
-        let before = class.take_while(|d| *d < device).last()?;
-        Entry::Pin(before, 0).of(self.model, known)
+        let model = self.model;
+        let class = model.class_of(model.class[device]);
+        let alike = class.take_while(|d| *d < device).last();
+        let first = model.bundles.place(device).filter(|place| place.position == 0);
+        let bundle = first.and_then(|place| {
+            let before = model.bundles.family(place).get(place.bundle.checked_sub(1)?)?;
+            before.devices.first().copied()
+        });
+        let pin = |device| Entry::Pin(device, 0).of(model, known);
+        alike.and_then(pin).max(bundle.and_then(pin))
     }
 }

@@ -183,6 +183,57 @@ fn copied(alternative: &Alternative, board: u32) -> Alternative {
     copy
 }
 
+/// A problem with two devices, or one, in several copies: two resources and a rule belong to each
+/// copy alone, the others to all. On up to two boards, with a device of another sort.
+fn with_equal_bundles() -> impl Strategy<Value = Problem> {
+    let devices = prop::collection::vec(device(2, 3), 1..3);
+    (devices, 2..4u32, prop::option::of(device(2, 3)), problem(), any::<bool>()).prop_map(
+        |(bundle, copies, other, base, other_first)| {
+            let copy = |number: u32| bundle.iter().map(move |device| owned(device, number));
+            let mut devices: Vec<Device> = (0..copies).flat_map(copy).collect();
+            devices.truncate(4);
+            if let Some(other) = other.filter(|_| devices.len() < 4) {
+                devices.insert(if other_first { 0 } else { devices.len() }, other);
+            }
+            let pin = |number: u32| {
+                let mut like = base.pins.iter().cycle().skip(number as usize);
+                let (cost, shared) = like.next().map_or((1, false), |pin| (pin.cost, pin.shared));
+                Pin { board: BoardId(number / 3), cost, shared }
+            };
+            let spare = |number: usize| base.boards.get(number).is_some_and(|board| board.spare);
+            Problem {
+                pins: (0..6).map(pin).collect(),
+                boards: (0..2).map(|number| Board { spare: spare(number) }).collect(),
+                devices,
+                rules: RULES + 3,
+                resources: RESOURCES + 2 + 2 * 3,
+                ..base.clone()
+            }
+        },
+    )
+}
+
+/// The device in a copy of its bundle.
+fn owned(device: &Device, copy: u32) -> Device {
+    let mut device = device.clone();
+    let own_claims = |claims: &mut Vec<Claim>| {
+        let own = claims.iter_mut().filter(|claim| claim.resource.0 < 2);
+        own.for_each(|claim| claim.resource.0 += RESOURCES + 2 + 2 * copy);
+    };
+    let own_rules = |rules: &mut Vec<RuleId>| {
+        rules.iter_mut().filter(|rule| rule.0 == 0).for_each(|rule| rule.0 = RULES + copy);
+    };
+    for alternative in &mut device.alternatives {
+        own_claims(&mut alternative.claims);
+        own_rules(&mut alternative.violates);
+        for candidate in alternative.roles.iter_mut().flat_map(|role| &mut role.candidates) {
+            own_claims(&mut candidate.claims);
+            own_rules(&mut candidate.violates);
+        }
+    }
+    device
+}
+
 fn only(problem: &Problem, keep: impl Fn(u32) -> bool) -> Problem {
     let devices = (0..).zip(&problem.devices).filter(|(i, _)| keep(*i)).map(|(_, d)| d.clone());
     Problem { devices: devices.collect(), ..problem.clone() }
@@ -225,6 +276,12 @@ proptest! {
     #[test]
     fn agrees_with_the_oracle(problem in problem()) {
         prop_assume!(brute::combinations(&problem) < 30_000.0);
+        compare(&problem)?;
+    }
+
+    #[test]
+    fn agrees_with_the_oracle_on_equal_bundles(problem in with_equal_bundles()) {
+        prop_assume!(brute::combinations(&problem) < 5_000.0);
         compare(&problem)?;
     }
 

@@ -59,6 +59,7 @@ pub const FAMILIES: &[Family] = &[
     Family { name: "64 digital on 63 pins", number: 1, make: digital_64 },
     Family { name: "30 i2c with 7 addresses", number: 1, make: i2c_30 },
     Family { name: "two F407 with 61 i2c", number: 1, make: i2c_61 },
+    Family { name: "four equal chips", number: 1, make: four_chips },
 ];
 
 /// Boards of the catalog beside those with a table of their own.
@@ -225,4 +226,23 @@ fn i2c_30(_: u64) -> Text {
 
 fn i2c_61(_: u64) -> Text {
     i2c(2, 61, 10)
+}
+
+/// Four equal motors with encoders, and an array in a row, floating between two boards.
+fn four_chips(_: u64) -> Text {
+    let mut sense =
+        "board Brd0 on NUCLEO_F446RE {\n}\nboard Brd1 on NUCLEO_G474RE {\n}\n".to_owned();
+    for number in 1..=4 {
+        let (place, speed) = (2 * number, 2 * number + 1);
+        let _ = writeln!(
+            sense,
+            "chip Motor{number} {{\n    driver = gearmotor_tb6612;\n    sensor Position{number} \
+             returns int32 {{ id = {place}; }}\n    actuator Speed{number} accepts int16 \
+             {{ id = {speed}; }}\n}}"
+        );
+    }
+    sense.push_str(
+        "sensor Buttons returns bool[8] { id = 20; type = digital; sequence = header; }\n",
+    );
+    Text { sense, tables: BTreeMap::new() }
 }
