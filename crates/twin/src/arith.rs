@@ -44,6 +44,16 @@ pub(crate) fn ln(x: f64) -> f64 {
     2.0 * sum + (number(exponent) - 1023.0) * std::f64::consts::LN_2
 }
 
+/// The exponential function of the negative of a number from 0 to 1.
+pub(crate) fn decay(x: f64) -> f64 {
+    let (mut term, mut sum) = (1.0, 1.0);
+    for step in 1..20_u32 {
+        term = -term * x / f64::from(step);
+        sum += term;
+    }
+    sum
+}
+
 /// A pseudo-random number, always the same one for the same input (`SplitMix64`).
 pub(crate) fn scrambled(mut state: u64) -> u64 {
     state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);

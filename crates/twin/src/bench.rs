@@ -24,6 +24,10 @@ use crate::world::{Fault, FaultKind, World, usual};
 
 mod mcu;
 mod recorded;
+mod units;
+
+pub(crate) use units::Units;
+pub use units::number_of;
 
 /// What a converter reads at most, and at what voltage.
 const FULL: f64 = 4_095.0;
@@ -48,6 +52,7 @@ pub struct Bench {
     faults: Vec<Fault>,
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
+    units: Units,
     seed: u64,
 }
 
@@ -102,6 +107,7 @@ impl Bench {
             commands: world.commands.clone(),
             faults: world.faults.clone(),
             broken: Vec::new(),
+            units: Units::new(job),
             seed,
         };
         for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
@@ -284,7 +290,7 @@ impl Bench {
         faults.any(|(fault, (_, units))| {
             fault.kind == kind
                 && fault.is_there(now_ns)
-                && units.iter().any(|one| number_of(one) == Some(unit))
+                && units.iter().any(|one| self.units.number(one) == Some(unit))
         })
     }
 }
@@ -299,7 +305,7 @@ impl Bench {
         }
         self.recorder.connect(index, one);
         let part = one.connection.part;
-        let unit = one.unit.and_then(number_of);
+        let unit = one.unit.and_then(|name| self.units.number(name));
         let mut wired = Wired { part, line: None, analog: None };
         let devices: Vec<&Device> = job
             .devices
@@ -469,15 +475,6 @@ fn broken(job: &BoardJob<'_>, fault: &Fault) -> (Option<PartIndex>, Vec<String>)
     let part = fault.device.and_then(|device| job.design.device(device)).map(|device| device.part);
     let of_part = job.connections.iter().filter(|one| Some(one.connection.part) == part);
     (part, of_part.filter_map(|one| one.unit.map(str::to_owned)).collect())
-}
-
-/// The number of a peripheral instance: 2 of `USART2`.
-#[must_use]
-pub fn number_of(unit: &str) -> Option<u8> {
-    let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
-    // `I2C3`: what stands behind the last letter.
-    let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
-    last.parse().ok()
 }
 
 /// The value that a converter gives for a voltage, with the digits behind the point that many samples have.

@@ -93,7 +93,8 @@ pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<Misle
     let differs = |one: &PlannedPort| {
         let state = states.iter().find(|state| state.unit == one.unit)?;
         let is_right = one.wanted.iter().any(|wanted| fits(*wanted, state.setting));
-        let expected: Vec<String> = one.wanted.iter().map(|wanted| expected(*wanted)).collect();
+        let expected: Vec<String> =
+            one.wanted.iter().map(|wanted| expected(*wanted, state.setting)).collect();
         (!is_right).then(|| Misled {
             title: one.title.clone(),
             place: one.unit.clone(),
@@ -124,7 +125,8 @@ fn fits(wanted: Wanted, state: Setting) -> bool {
             mode == found && (least_hz..=most_hz).contains(&clock_hz)
         }
         // A driver that divides without a remainder may have to stay below what is allowed.
-        (Wanted::I2c { most_hz }, Setting::I2c { clock_hz }) => {
+        (Wanted::I2c { most_hz }, Setting::I2c { clock_hz, fastest_hz }) => {
+            let most_hz = most_hz.min(fastest_hz);
             (most_hz / 2..=most_hz).contains(&clock_hz)
         }
         (Wanted::Can { bitrate_hz }, Setting::Can { bitrate_hz: found }) => bitrate_hz == found,
@@ -147,7 +149,7 @@ fn serial(baud: u64, data_bits: u8, odd_parity: Option<bool>, stop_bits: u8) -> 
     format!("at {baud} baud, {data_bits}{parity}{stop_bits}")
 }
 
-fn expected(wanted: Wanted) -> String {
+fn expected(wanted: Wanted, state: Setting) -> String {
     match wanted {
         Wanted::Serial { baud, data_bits, odd_parity, stop_bits } => {
             serial(baud, data_bits, odd_parity, stop_bits)
@@ -155,7 +157,13 @@ fn expected(wanted: Wanted) -> String {
         Wanted::Spi { most_hz, mode } => {
             format!("at {} to {most_hz} Hz in mode {mode}", most_hz / 2)
         }
-        Wanted::I2c { most_hz } => format!("at {} to {most_hz} Hz", most_hz / 2),
+        Wanted::I2c { most_hz } => {
+            let most_hz = match state {
+                Setting::I2c { fastest_hz, .. } => most_hz.min(fastest_hz),
+                Setting::Serial { .. } | Setting::Spi { .. } | Setting::Can { .. } => most_hz,
+            };
+            format!("at {} to {most_hz} Hz", most_hz / 2)
+        }
         Wanted::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
     }
 }
@@ -166,7 +174,7 @@ fn found(state: Setting) -> String {
             serial(baud, data_bits, odd_parity, stop_bits)
         }
         Setting::Spi { clock_hz, mode, .. } => format!("at {clock_hz} Hz in mode {mode}"),
-        Setting::I2c { clock_hz } => format!("at {clock_hz} Hz"),
+        Setting::I2c { clock_hz, .. } => format!("at {clock_hz} Hz"),
         Setting::Can { bitrate_hz } => format!("at {bitrate_hz} bit/s"),
     }
 }
@@ -212,14 +220,21 @@ mod tests {
         for setting in wrong.into_iter().chain([serial(115_384, None, 2)]) {
             assert!(is_misled(&wanted, setting), "{setting:?}");
         }
+        let found = |clock_hz| Setting::I2c { clock_hz, fastest_hz: 400_000 };
         let bus = [Wanted::I2c { most_hz: 400_000 }];
-        assert!(!is_misled(&bus, Setting::I2c { clock_hz: 280_000 }));
+        assert!(!is_misled(&bus, found(280_000)));
         for clock_hz in [100_000, 410_000] {
-            assert!(is_misled(&bus, Setting::I2c { clock_hz }), "{clock_hz}");
+            assert!(is_misled(&bus, found(clock_hz)), "{clock_hz}");
+        }
+        // A unit that is slower than its part is as fast as it may be, and no faster.
+        let bus = [Wanted::I2c { most_hz: 1_000_000 }];
+        assert!(!is_misled(&bus, found(400_000)));
+        for clock_hz in [100_000, 1_000_000] {
+            assert!(is_misled(&bus, found(clock_hz)), "{clock_hz}");
         }
         let bus = [Wanted::Can { bitrate_hz: 500_000 }];
         assert!(!is_misled(&bus, Setting::Can { bitrate_hz: 500_000 }));
         assert!(is_misled(&bus, Setting::Can { bitrate_hz: 250_000 }));
-        assert!(is_misled(&bus, Setting::I2c { clock_hz: 500_000 }));
+        assert!(is_misled(&bus, found(500_000)));
     }
 }

@@ -83,7 +83,7 @@ const fn times(count: u16) -> &'static str {
 
 /// A finding of what the board said.
 pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
-    Wrong { at_ns, finding: Finding::Health(what), off: 1_000.0 }
+    Wrong { at_ns, finding: Finding::Health(what), off: 100_000.0 }
 }
 
 /// A device that reports nothing: its bus may still tell of faults.

@@ -7,6 +7,7 @@
 //! file says, and what the board itself counts of a device with which nothing is wrong.
 
 mod age;
+mod filtered;
 mod health;
 mod pace;
 mod sensor;

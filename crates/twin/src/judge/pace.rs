@@ -33,6 +33,8 @@ pub(super) struct Pace {
     pub(super) most_ns: u64,
     /// By how much two may be closer or further apart than that.
     pub(super) jitter_ns: u64,
+    /// Whether the board's own clock says when.
+    pub(super) is_regular: bool,
 }
 
 impl Pace {
@@ -72,8 +74,10 @@ impl Pace {
             }
             Kind::Pwm(_) | Kind::Dac(_) => return None,
         };
+        let is_regular = least_ns == most_ns && own_ns == 0;
         let most_ns = most_ns.max(reporter_ns);
-        Some(Self { least_ns: least_ns.min(most_ns), most_ns, jitter_ns: 2 * reporter_ns + own_ns })
+        let jitter_ns = 2 * reporter_ns + own_ns;
+        Some(Self { least_ns: least_ns.min(most_ns), most_ns, jitter_ns, is_regular })
     }
 
     /// The longest silence that means nothing.
@@ -149,7 +153,8 @@ impl Paced {
         (is_slow || is_fast).then(|| Wrong {
             at_ns: now_ns,
             finding: Finding::Pace { expected_ns, got_ns },
-            off: 10.0 * ratio.max(1.0 / ratio),
+            // It explains values that are too old, and not the other way round.
+            off: 1_000.0 * ratio.max(1.0 / ratio),
         })
     }
 }

@@ -7,6 +7,7 @@ use sensedsl_model::kind::icu::Mode;
 use sensedsl_wire::{DeviceHealth, Scalar};
 
 use super::age::{link_ns, measured_ns};
+use super::filtered::{Filtered, Shape};
 use super::health::{Expected, wrong};
 use super::pace::{Pace, Paced};
 use super::silence::Reasons;
@@ -22,9 +23,8 @@ const SLACK_NS: u64 = 40 * MS;
 const START_NS: u64 = 2 * SECOND;
 /// How long a bus is left alone at most after something held it, and a chip takes to start again.
 const RECOVERY_NS: u64 = 1_500 * MS;
-/// A low-pass is as good as there after so many of its time constants, and this is what is left.
+/// A low-pass is as good as there after so many of its time constants.
 const SETTLED: u64 = 8;
-const UNSETTLED: f64 = 0.000_34;
 
 #[derive(Clone, Debug)]
 pub(super) struct SensorJudge {
@@ -42,7 +42,11 @@ pub(super) struct SensorJudge {
     halves: u16,
     /// What was reported last, where it says something about what comes next.
     last: Vec<f64>,
-    bounds: Option<(f64, f64)>,
+    /// Its filters, and for how long they remember.
+    shape: Shape,
+    filtered: Vec<Filtered>,
+    fed_since_ns: Option<u64>,
+    memory_ns: u64,
     excuses: Vec<(u64, u64)>,
     is_relative: bool,
     /// What it may be whatever the world says, because it tells what else is in a frame.
@@ -80,28 +84,39 @@ impl SensorJudge {
         let filter = &device.filter;
         let period_ns = bench.period_ns(device.part).unwrap_or(0);
         let delay_ns = MS * u64::from(device.delay_ms);
-        let mut age_ns = SLACK_NS + link_ns(job) + measured_ns(one, subject, period_ns);
-        age_ns += SETTLED * MS * u64::from(filter.smooth_ms);
-        age_ns += u64::from(filter.median) * delay_ns.max(period_ns);
-        let mut tolerance = tolerance(job, one, subject);
-        if let Some((least, greatest)) = raw_range(device).filter(|_| filter.smooth_ms > 0) {
-            tolerance += 1.0 + UNSETTLED * (greatest - least).min(1e6);
-        }
+        let age_ns = SLACK_NS + link_ns(job) + measured_ns(one, subject, period_ns);
+        let smooth_ns = MS * u64::from(filter.smooth_ms);
+        let memory_ns =
+            age_ns + SETTLED * smooth_ns + u64::from(filter.median) * delay_ns.max(period_ns);
+        let tolerance = tolerance(job, one, subject);
+        let pace = Pace::of(job, bench, one, subject);
+        let shape = Shape {
+            median: filter.median,
+            smooth_ns,
+            age_ns,
+            cycle_ns: pace.map_or(delay_ns, |pace| pace.most_ns).max(delay_ns).max(MS),
+            is_regular: pace.is_some_and(|pace| pace.is_regular),
+            bounds: raw_range(device),
+        };
         let icu = device.kind.icu().filter(|icu| icu.mode != Mode::Count);
-        let reasons = Reasons { filter: filter.clone(), icu: icu.cloned(), tolerance, age_ns };
+        let reasons =
+            Reasons { filter: filter.clone(), icu: icu.cloned(), tolerance, age_ns: memory_ns };
         let quantity = device.shown.quantity.clone();
         let judged = Judged { age_ns, ..Judged::new(subject.name.clone(), quantity) };
         let is_encoder = matches!(device.kind, Kind::Encoder(_));
         Self {
             judged,
             tolerance,
-            pace: Pace::of(job, bench, one, subject),
+            pace,
+            shape,
+            filtered: vec![Filtered::default(); subject.signals.len()],
+            fed_since_ns: None,
+            memory_ns,
             paced: Paced::default(),
             reasons,
             start_ns: START_NS + MS * u64::from(one.cycle.start_ms),
             halves: u16::from(matches!(device.kind, Kind::Uart(_))),
             last: Vec::new(),
-            bounds: raw_range(device),
             excuses: bench.excused(job, one.index),
             selections: selections(job, device),
             is_anywhere: is_encoder,
@@ -122,6 +137,7 @@ impl SensorJudge {
             // A board that has started again counts anew.
             self.bases.iter_mut().for_each(|base| *base = None);
             self.waits_from_ns = Some(now_ns);
+            self.forget_filters(now_ns);
             self.paced.interrupt();
             self.last = raw;
             return;
@@ -129,6 +145,10 @@ impl SensorJudge {
         self.judged.reports += 1;
         let is_mute = self.reasons.is_mute(&self.subject, (before_ns, now_ns));
         self.paced.take(now_ns, !is_mute);
+        if is_mute {
+            self.forget_filters(now_ns);
+        }
+        let _ = self.fed_since_ns.get_or_insert(now_ns);
         let mut worst = self.unfiltered(now_ns, before_ns, &raw);
         for (element, got) in raw.iter().enumerate() {
             let wrong = if self.is_relative {
@@ -170,25 +190,36 @@ impl SensorJudge {
         wrong(Finding::Unchanged { got, before })
     }
 
-    /// The raw numbers that an element can have had when what arrives now was measured.
-    fn expected(&self, now_ns: u64, element: usize) -> (f64, f64) {
-        let from_ns = now_ns.saturating_sub(self.judged.age_ns);
-        let from_ns = self.waits_from_ns.map_or(from_ns, |first_ns| from_ns.min(first_ns));
-        let signal = self.subject.signals.get(element);
-        let (least, greatest) = signal.map_or((0.0, 0.0), |signal| signal.range(from_ns, now_ns));
-        let ends = [least, greatest].map(|end| self.subject.scale.raw(end));
-        let [one, other] =
-            ends.map(|end| self.bounds.map_or(end, |(low, high)| end.clamp(low, high.max(low))));
-        (one.min(other), one.max(other))
+    /// What the filters have seen is unknown.
+    fn forget_filters(&mut self, now_ns: u64) {
+        self.filtered.iter_mut().for_each(Filtered::forget);
+        self.fed_since_ns = Some(now_ns);
     }
 
-    fn compare(&self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
+    /// The raw numbers that an element can have had when what arrives now was measured, and by how much they can be off.
+    fn expected(&mut self, now_ns: u64, element: usize) -> (f64, f64, f64) {
+        let shape = &self.shape;
+        if !shape.is_plain()
+            && let Some(filtered) = self.filtered.get_mut(element)
+        {
+            let fed_since_ns = self.waits_from_ns.or(self.fed_since_ns).unwrap_or(0);
+            let span = (fed_since_ns, now_ns);
+            let (least, greatest, more) = filtered.expected(shape, &self.subject, element, span);
+            return (least, greatest, self.tolerance + more);
+        }
+        let from_ns = now_ns.saturating_sub(self.judged.age_ns);
+        let from_ns = self.waits_from_ns.map_or(from_ns, |first_ns| from_ns.min(first_ns));
+        let (least, greatest) = shape.range(&self.subject, element, from_ns, now_ns);
+        (least, greatest, self.tolerance)
+    }
+
+    fn compare(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
         if self.selections.contains(&got) {
             return None;
         }
-        let (least, greatest) = self.expected(now_ns, element);
-        let below = (least - self.tolerance) - got;
-        let above = got - (greatest + self.tolerance);
+        let (least, greatest, tolerance) = self.expected(now_ns, element);
+        let below = (least - tolerance) - got;
+        let above = got - (greatest + tolerance);
         let off = below.max(above);
         (off > 1e-9 * got.abs().max(1.0) || got.is_nan())
             .then(|| self.wrong(now_ns, element, (least, greatest), (got, off)))
@@ -196,8 +227,8 @@ impl SensorJudge {
 
     /// What a counter counted before is unknown, but it must be the same for all reports.
     fn compare_count(&mut self, now_ns: u64, element: usize, got: f64) -> Option<Wrong> {
-        let (least, greatest) = self.expected(now_ns, element);
-        let found = (got - greatest - self.tolerance, got - least + self.tolerance);
+        let (least, greatest, tolerance) = self.expected(now_ns, element);
+        let found = (got - greatest - tolerance, got - least + tolerance);
         let known = self.bases.get(element).copied().flatten();
         let (from, to) = match known {
             Some(known) => known,
@@ -243,7 +274,7 @@ impl SensorJudge {
     }
 
     fn is_excused(&self, now_ns: u64) -> bool {
-        let from_ns = now_ns.saturating_sub(self.judged.age_ns);
+        let from_ns = now_ns.saturating_sub(self.memory_ns);
         let hits = |&(at, until): &(u64, u64)| now_ns >= at && from_ns <= until + RECOVERY_NS;
         self.excuses.iter().any(hits)
     }

@@ -4,6 +4,8 @@ use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 use crate::surroundings::{I2cEvent, I2cReply};
 
+/// Fast mode; this unit has no fast mode plus.
+const FASTEST_HZ: u64 = 400_000;
 /// Bits of SR1.
 const STARTED: u32 = 1;
 const ADDRESSED: u32 = 1 << 1;
@@ -121,7 +123,8 @@ impl I2c {
     /// How it is set up, once it has started.
     pub(super) fn state(&self, wires: &Wires) -> Option<PortState> {
         let [cr, _] = self.cr;
-        let setting = Setting::I2c { clock_hz: wires.clocks.apb1 / self.divider() };
+        let clock_hz = wires.clocks.apb1 / self.divider();
+        let setting = Setting::I2c { clock_hz, fastest_hz: FASTEST_HZ };
         (cr & ENABLE != 0).then(|| PortState { unit: format!("I2C{}", self.unit), setting })
     }
 

@@ -36,6 +36,8 @@ pub enum Setting {
     I2c {
         /// Its clock.
         clock_hz: u64,
+        /// The fastest clock that its unit is made for.
+        fastest_hz: u64,
     },
     /// A CAN bus.
     Can {

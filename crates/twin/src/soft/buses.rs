@@ -10,7 +10,7 @@ use sensedsl_wire::Direction;
 
 use super::tables::{self, kept};
 use super::{Core, begins, wrapped};
-use crate::bench::{Bench, number_of};
+use crate::bench::{Bench, Units};
 use crate::surroundings::{I2cEvent, I2cReply, Surroundings as _};
 
 /// Transfers that a chip makes in a millisecond at most, so that nothing goes on for ever.
@@ -184,6 +184,7 @@ fn exchange(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: 
 
 /// The chips of a board.
 pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
+    let units = Units::new(job);
     let mut all = Vec::new();
     for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
         let is_spi = match one.connection.kind {
@@ -207,7 +208,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             table,
             schema,
             chip: Box::new(Chip::new(table, schema)),
-            unit: one.unit.and_then(number_of).unwrap_or(0),
+            unit: one.unit.and_then(|name| units.number(name)).unwrap_or(0),
             selected: is_spi.then_some(wiring.connection),
             start_ms: one.cycle.start_ms,
             wakes_ms: u64::from(one.cycle.start_ms),
@@ -266,6 +267,7 @@ impl Port {
 
 /// The serial parts of a board.
 pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
+    let units = Units::new(job);
     let mut all = Vec::new();
     for one in job.connections(KindName::Uart) {
         let (Kind::Uart(uart), Some(tables)) = (&one.connection.kind, job.tables_of(one)) else {
@@ -277,7 +279,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
             table,
             schema,
             stream: Box::new(MessageStream::new(table, schema)),
-            unit: one.unit.and_then(number_of).unwrap_or(0),
+            unit: one.unit.and_then(|name| units.number(name)).unwrap_or(0),
             cycle: one.cycle,
             told: Vec::new(),
             pause_ms: 2 + 30_000 / u64::from(uart.baud.max(1)),
@@ -331,6 +333,7 @@ impl Stations {
 
 /// The CAN buses of a board.
 pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
+    let units = Units::new(job);
     let mut all: Vec<Stations> = Vec::new();
     let schema = tables::schema(job);
     let devices = job.devices.iter().zip(schema.items).enumerate();
@@ -339,7 +342,7 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
             continue;
         };
         let Some(field) = tables::in_frame(item, one.device) else { continue };
-        let unit = one.unit.and_then(number_of).unwrap_or(0);
+        let unit = one.unit.and_then(|name| units.number(name)).unwrap_or(0);
         let heard = Heard {
             frame_id: (can.frame_id, can.is_extended),
             select: can.mux.as_ref().map(|mux| mux.bits).unwrap_or_default(),

@@ -19,7 +19,7 @@ use crate::commands::Command;
 
 pub use fault::{Fault, FaultKind};
 pub use file::{Scene, read};
-pub use signal::{Shape, Signal};
+pub use signal::{Shape, Signal, Visit};
 pub use usual::usual;
 
 /// What happens around a board.

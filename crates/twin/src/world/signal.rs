@@ -64,6 +64,35 @@ pub enum Shape {
         /// Whether it goes straight from one to the next, and does not jump.
         is_straight: bool,
     },
+    /// What another quantity does, with something else at the end of each period.
+    Visits {
+        /// The other.
+        base: Box<Shape>,
+        /// From one visit to the next.
+        every_ns: u64,
+        /// How long each lasts.
+        for_ns: u64,
+        /// Where it is meanwhile.
+        to: Visit,
+    },
+}
+
+/// Where a quantity goes for a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Visit {
+    /// To this value.
+    To(f64),
+    /// So far from where it would be.
+    By(f64),
+}
+
+impl Visit {
+    fn of(self, value: f64) -> f64 {
+        match self {
+            Self::To(to) => to,
+            Self::By(by) => value + by,
+        }
+    }
 }
 
 impl Signal {
@@ -100,7 +129,8 @@ impl Signal {
             | Shape::Sine { .. }
             | Shape::Square { .. }
             | Shape::Rate { .. }
-            | Shape::Points { .. } => Some(self.range(0, u64::MAX)),
+            | Shape::Points { .. }
+            | Shape::Visits { .. } => Some(self.range(0, u64::MAX)),
         }
     }
 
@@ -118,7 +148,10 @@ impl Signal {
                     _ => None,
                 })
                 .reduce(f64::max),
-            Shape::Constant(_) | Shape::Sine { .. } | Shape::Square { .. } => None,
+            Shape::Constant(_)
+            | Shape::Sine { .. }
+            | Shape::Square { .. }
+            | Shape::Visits { .. } => None,
         }
     }
 
@@ -132,6 +165,7 @@ impl Signal {
             Shape::Sine { amplitude, .. } => *amplitude != 0.0,
             Shape::Square { first, second, .. } => first != second,
             Shape::Points { points, .. } => !points.is_sorted_by(|one, next| one.1 <= next.1),
+            Shape::Visits { .. } => true,
         }
     }
 }
@@ -156,6 +190,11 @@ impl Shape {
             }
             Self::Rate { from, a_second } => from + a_second * (number(now_ns) / SECOND_NS),
             Self::Points { points, is_straight } => at_points(points, *is_straight, now_ns),
+            Self::Visits { base, every_ns, for_ns, to } => {
+                let value = base.at(now_ns);
+                let is_there = now_ns % (*every_ns).max(1) >= every_ns.saturating_sub(*for_ns);
+                if is_there { to.of(value) } else { value }
+            }
         }
     }
 
@@ -164,6 +203,22 @@ impl Shape {
         let mut take = |value: f64| range = (range.0.min(value), range.1.max(value));
         match self {
             Self::Constant(_) | Self::Ramp { .. } | Self::Rate { .. } => {}
+            Self::Visits { base, every_ns, for_ns, to } => {
+                let every_ns = (*every_ns).max(1);
+                let (least, greatest) = base.range(from_ns, to_ns);
+                let (begins, ends) = (from_ns / every_ns, to_ns / every_ns);
+                let rest_ns = every_ns.saturating_sub(*for_ns);
+                let is_there = |at_ns: u64| at_ns % every_ns >= rest_ns;
+                let has_none = begins == ends && !is_there(to_ns);
+                let has_others = !(begins == ends && is_there(from_ns));
+                range = (f64::MAX, f64::MIN);
+                let ends = [least, greatest];
+                let plain = ends.into_iter().filter(|_| has_others);
+                let visited = ends.into_iter().map(|end| to.of(end)).filter(|_| !has_none);
+                for end in plain.chain(visited) {
+                    range = (range.0.min(end), range.1.max(end));
+                }
+            }
             Self::Sine { offset, amplitude, period_ns } => {
                 let quarter = TURN / 4;
                 if passes(from_ns, to_ns, *period_ns, quarter) {

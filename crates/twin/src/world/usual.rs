@@ -8,10 +8,18 @@ use sensedsl_model::protocol::Format;
 use sensedsl_model::words::{Code, Words};
 use sensedsl_wire::ScalarType;
 
-use super::signal::{Shape, Signal};
+use super::signal::{Shape, Signal, Visit};
 use crate::arith::{nanoseconds, number};
 use crate::range::{edges_a_second_max, is_counter, raw_range};
 use crate::truth::Scale;
+
+/// How often a sensor has nothing to measure, and for how long.
+const INVALID_EVERY_NS: u64 = 6_000_000_000;
+const INVALID_NS: u64 = 700_000_000;
+/// How often there is a value that a median takes away.
+const SPIKE_EVERY_NS: u64 = 1_300_000_000;
+/// How long a low-pass has at least to follow a step.
+const STEP_NS: u64 = 1_500_000_000;
 
 /// Raw numbers in a row are never further away from 0 than this without a reason.
 const FAR: f64 = 30_000.0;
@@ -21,7 +29,47 @@ const FAR: f64 = 30_000.0;
 pub fn usual(index: DeviceIndex, device: &Device) -> Vec<Signal> {
     let elements = u64::try_from(device.value.value.count()).unwrap_or(1);
     let place = u64::try_from(index.0).unwrap_or(0);
-    (0..elements).map(|element| Signal::of(shape(device, place * 5 + element))).collect()
+    let shape = |element: u64| {
+        let shape = shape(device, place * 5 + element);
+        if element == 0 { visits(device, shape) } else { shape }
+    };
+    (0..elements).map(|element| Signal::of(shape(element))).collect()
+}
+
+/// What shows whether filters work: now and then a value that is none, or a jump.
+fn visits(device: &Device, base: Shape) -> Shape {
+    let Shape::Sine { offset, amplitude, period_ns } = base else { return base };
+    let half = amplitude / 2.0;
+    let filter = &device.filter;
+    let cycle_ns = 1_000_000 * u64::from(device.delay_ms.max(1));
+    let (every_ns, for_ns, to) = if let Some(code) = invalid_code(device) {
+        (INVALID_EVERY_NS.max(20 * cycle_ns), INVALID_NS.max(4 * cycle_ns), Visit::To(code))
+    } else if filter.smooth_ms > 0 {
+        let half_ns = STEP_NS.max(5_000_000 * u64::from(filter.smooth_ms));
+        (2 * half_ns, half_ns, Visit::By(half))
+    } else if filter.median > 2 {
+        (SPIKE_EVERY_NS.max(20 * cycle_ns), cycle_ns + cycle_ns / 5, Visit::By(half))
+    } else {
+        return base;
+    };
+    // Both together stay within what is sound.
+    let base = Box::new(Shape::Sine { offset, amplitude: half, period_ns });
+    Shape::Visits { base, every_ns, for_ns, to }
+}
+
+/// A value in the device's own unit that is `invalid` and that its part can send.
+fn invalid_code(device: &Device) -> Option<f64> {
+    let is_coded = Words::of(device).is_some() && device.coding.output.is_none();
+    if !is_coded && device.kind.analog().is_none() {
+        return None;
+    }
+    let scale = Scale::of(&device.shown);
+    let (least, greatest) = raw_range(device)?;
+    let codes = device.filter.invalid.iter().flat_map(|(low, high)| [*low, *high]);
+    let is_there = |code: &f64| {
+        (least..=greatest).contains(code) && (scale.raw(scale.shown(*code)) - code).abs() < 0.01
+    };
+    codes.into_iter().find(is_there).map(|code| scale.shown(code))
 }
 
 fn shape(device: &Device, place: u64) -> Shape {

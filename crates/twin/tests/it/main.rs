@@ -12,5 +12,6 @@ mod boards;
 mod commanded;
 mod judged;
 mod library;
+mod mistakes;
 mod run;
 mod worlds;

@@ -1,0 +1,50 @@
+//! The numbers of a board's peripheral instances.
+//!
+//! Emulated MCUs know their units by number. Boards that no emulator runs may have units without one (`TWI`, `SPI` of an
+//! AVR), or two of a kind that end in the same one (`USART1`, `LPUART1`): these get numbers that no unit of theirs has.
+
+use std::collections::BTreeMap;
+
+use sensedsl_codegen::job::BoardJob;
+use sensedsl_model::kind::KindName;
+
+/// Where the numbers begin of units that have none of their own.
+const OTHERS_FROM: u8 = 128;
+
+/// The numbers of all units that devices are wired to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Units(BTreeMap<String, u8>);
+
+impl Units {
+    pub(crate) fn new(job: &BoardJob<'_>) -> Self {
+        let mut taken: BTreeMap<(KindName, u8), &str> = BTreeMap::new();
+        let mut units: BTreeMap<String, u8> = BTreeMap::new();
+        let mut other = OTHERS_FROM;
+        for one in &job.connections {
+            let Some(name) = one.unit.filter(|name| !units.contains_key(*name)) else { continue };
+            let kind = one.connection.kind.name();
+            let own = number_of(name).filter(|number| *number < OTHERS_FROM);
+            let own = own.filter(|number| *taken.entry((kind, *number)).or_insert(name) == name);
+            let number = own.unwrap_or_else(|| {
+                other = other.saturating_add(1);
+                other - 1
+            });
+            units.insert(name.to_owned(), number);
+        }
+        Self(units)
+    }
+
+    /// The number of a unit.
+    pub(crate) fn number(&self, name: &str) -> Option<u8> {
+        self.0.get(name).copied()
+    }
+}
+
+/// The number of a peripheral instance: 2 of `USART2`.
+#[must_use]
+pub fn number_of(unit: &str) -> Option<u8> {
+    let digits = unit.trim_start_matches(|c: char| !c.is_ascii_digit());
+    // `I2C3`: what stands behind the last letter.
+    let last = digits.rsplit(|c: char| !c.is_ascii_digit()).next()?;
+    last.parse().ok()
+}

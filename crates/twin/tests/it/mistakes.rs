@@ -1,0 +1,133 @@
+//! What the judge has to see of firmware with a mistake: the board does another file's job than the one it is judged by.
+
+use sensedsl_twin::judge::Finding;
+
+use crate::run::{mistaken, plainly};
+
+const ROVER: &str = "board STM32F407G_DISC1 {
+    sensor Near returns uint16 { id = 1; type = analog; delay = 20 ms; }
+    sensor Far returns uint16 { id = 2; type = analog; delay = 60 ms; smooth = 200 ms; }
+    sensor Noisy returns uint16 { id = 3; type = analog; delay = 20 ms; median = 5; }
+    sensor Rear returns uint16 { id = 4; driver = srf08; address = 0x70; delay = 100 ms; invalid = 0; }
+    sensor Angle returns uint16 { id = 5; driver = as5600; address = 0x36; delay = 20 ms; change = 40; heartbeat = 1 s; }
+    sensor Steering returns uint16 { id = 6; type = icu; mode = width; }
+    sensor Level returns uint16 { id = 7; type = i2c; address = 0x48; delay = 50 ms; invalid = 65535; register = 1; }
+    sensor Bumper returns bool { id = 8; type = digital; delay = 30 ms; }
+}";
+
+/// The names of those that disagree, with the words for it.
+fn wrong(find: &str, with: &str, world: &str, seconds: u64) -> Vec<(String, String)> {
+    assert!(ROVER.contains(find), "{find}");
+    let run = mistaken(ROVER, &ROVER.replacen(find, with, 1), world, seconds);
+    let wrong = run.judged.iter().filter(|one| one.wrong > 0);
+    wrong.map(|one| (one.name.clone(), one.words())).collect()
+}
+
+#[test]
+fn a_board_without_a_mistake_is_right() {
+    let run = plainly(ROVER, "", 10);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    for one in &run.judged {
+        let every = one.every_ns.unwrap_or_else(|| panic!("{} has no pace", one.name));
+        assert!(one.reports > 9, "{}: {} reports, every {every} ns", one.name, one.reports);
+    }
+}
+
+/// What is written in the file, what in the firmware, who is to be told of it, and with which words.
+#[test]
+fn mistakes_of_firmware_are_seen() {
+    let cases = [
+        (
+            "id = 1; type = analog; delay = 20 ms",
+            "id = 1; type = analog; delay = 200 ms",
+            "Near",
+            "every 200 ms",
+        ),
+        (
+            "id = 1; type = analog; delay = 20 ms",
+            "id = 1; type = analog; delay = 24 ms",
+            "Near",
+            "every 24 ms",
+        ),
+        (
+            "id = 1; type = analog; delay = 20 ms",
+            "id = 1; type = analog; delay = 15 ms",
+            "Near",
+            "every 15 ms",
+        ),
+        ("delay = 60 ms; smooth", "delay = 600 ms; smooth", "Far", "every 60"),
+        ("smooth = 200 ms", "smooth = 20 ms", "Far", " and not "),
+        ("smooth = 200 ms", "smooth = 2000 ms", "Far", " and not "),
+        ("smooth = 200 ms;", "", "Far", " and not "),
+        ("median = 5;", "", "Noisy", " and not "),
+        ("address = 0x70", "address = 0x71", "Rear", "not acknowledged"),
+        (
+            "driver = srf08; address = 0x70; delay = 100 ms",
+            "driver = srf08; address = 0x70; delay = 120 ms",
+            "Rear",
+            "every 120 ms",
+        ),
+        ("address = 0x48", "address = 0x49", "Level", "not acknowledged"),
+        ("invalid = 65535;", "", "Level", "which is `invalid`"),
+        ("delay = 20 ms; change = 40;", "delay = 400 ms; change = 40;", "Angle", ""),
+        ("change = 40;", "change = 400;", "Angle", "nothing for"),
+        ("change = 40; heartbeat = 1 s;", "", "Angle", "less than `change`"),
+        ("heartbeat = 1 s", "heartbeat = 60 s", "Angle", "nothing for"),
+        (
+            "id = 8; type = digital; delay = 30 ms",
+            "id = 8; type = digital; delay = 300 ms",
+            "Bumper",
+            "every 300 ms",
+        ),
+    ];
+    let mut missed = Vec::new();
+    for (find, with, name, words) in cases {
+        let world = if find.contains("heartbeat = 1 s") && with.contains("60 s") {
+            "[devices]\nAngle = 100\n"
+        } else {
+            ""
+        };
+        let said = wrong(find, with, world, 12);
+        let is_seen = said.iter().all(|(of, _)| of == name)
+            && said.iter().any(|(_, what)| what.contains(words));
+        if !is_seen {
+            missed.push(format!("`{find}` as `{with}`: {said:?}"));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// What the world does not send is nobody's fault, and what it sends has to come.
+#[test]
+fn what_the_world_explains_is_right() {
+    let mute = "[devices]\nRear = 0\nAngle = 1000\nSteering = 0\nLevel = 65535\n";
+    let run = plainly(ROVER, mute, 8);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    for name in ["Rear", "Steering", "Level"] {
+        assert_eq!(run.of(name).reports, 0, "{name}");
+    }
+}
+
+/// Three channels of a model receiver that nobody listens to.
+#[test]
+fn a_capture_that_does_not_come_is_wrong() {
+    let lost = |_: u64, values: &mut crate::run::Values| values.retain(|(id, _)| *id != 6);
+    let run = crate::run::simulate(ROVER, "", 6, lost);
+    let worst = run.of("Steering").worst.clone().unwrap();
+    assert!(matches!(worst.finding, Finding::Silence(_)), "{worst:?}");
+    let wrong: Vec<&str> =
+        run.judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect();
+    assert_eq!(wrong, ["Steering"]);
+}
+
+/// Boards whose units have no number, or share one: `TWI` and `SPI` of an AVR.
+#[test]
+fn units_without_a_number_are_read() {
+    let text = "board ARDUINO_UNO_R3 {
+        sensor Acceleration returns int16[3] { id = 1; type = i2c; address = 0x68; register = 0x3B; delay = 20 ms; }
+        sensor Angle returns uint16 { id = 2; driver = as5047p; delay = 20 ms; }
+    }";
+    let run = plainly(text, "", 5);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    assert!(run.judged.iter().all(|one| one.reports > 200), "{:#?}", run.judged);
+}
