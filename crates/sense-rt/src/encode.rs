@@ -34,23 +34,39 @@ pub fn encode_values(
     values: &[u8],
     frame: &mut [u8],
 ) -> usize {
+    let mut rest = values;
+    let mut put = |index: usize, out: &mut Writer<'_>| {
+        let Some(item) = schema.items.get(index) else { return };
+        let Some((value, others)) = rest.split_at_checked(item.bytes()) else { return };
+        rest = others;
+        if item.direction == direction && due.has(index) {
+            out.put(&[item.id]);
+            out.put(value);
+        }
+    };
+    encode_each(schema, direction, stamp, &mut put, frame)
+}
+
+/// The same, with `put`, which puts what is due of an item and is called for one after the other: whoever locks the
+/// values locks them for one item at a time.
+pub(crate) fn encode_each(
+    schema: &Schema,
+    direction: Direction,
+    stamp: Stamp,
+    put: &mut dyn FnMut(usize, &mut Writer<'_>),
+    frame: &mut [u8],
+) -> usize {
     let head = if schema.stamps(direction) { STAMP_BYTES } else { 0 };
-    let mut put = |out: &mut Writer<'_>| {
+    let mut all = |out: &mut Writer<'_>| {
         if head > 0 {
             let [a, b, c, d] = stamp.time_us.to_be_bytes();
             out.put(&[ID_HELLO, a, b, c, d, stamp.counter]);
         }
-        let mut rest = values;
-        for (index, item) in schema.items.iter().enumerate() {
-            let Some((value, others)) = rest.split_at_checked(item.bytes()) else { return };
-            rest = others;
-            if item.direction == direction && due.has(index) {
-                out.put(&[item.id]);
-                out.put(value);
-            }
+        for index in 0..schema.items.len() {
+            put(index, out);
         }
     };
-    frame_of(schema, direction, frame, head, &mut put)
+    frame_of(schema, direction, frame, head, &mut all)
 }
 
 /// The hello of the board, with the hash of its schema.

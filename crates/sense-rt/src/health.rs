@@ -135,6 +135,12 @@ pub struct HealthRow {
     pub counts: [u16; Fault::COUNT],
 }
 
+impl HealthRow {
+    /// A device of which nothing is known.
+    pub(crate) const UNKNOWN: Self =
+        Self { status: Status::Never, age_ms: AGE_NEVER, counts: [0; Fault::COUNT] };
+}
+
 /// What is known of one device.
 #[derive(Clone, Copy, Debug)]
 pub struct Record {

@@ -8,11 +8,11 @@
 use core::ops::{Deref, DerefMut};
 
 use crate::bits::Bits;
-use crate::bytes::{part, part_mut, split};
+use crate::bytes::{Writer, part, part_mut, split};
 use crate::convert::milliseconds;
 use crate::decode::Frame;
-use crate::encode::{Stamp, encode_health, encode_hello};
-use crate::health::{AGE_NEVER, BoardHealth, Health};
+use crate::encode::{Stamp, encode_each, encode_health, encode_hello};
+use crate::health::{AGE_NEVER, BoardHealth, Health, HealthRow};
 use crate::listener::Listener;
 use crate::schema::{Direction, Schema};
 use crate::silence::Silence;
@@ -291,12 +291,14 @@ impl Reporter {
             ..BoardHealth::NEW
         };
         host.describe(&mut board);
-        let mut size = 0;
         let schema = self.config.schema;
         let frame = part_mut(&mut self.memory, 0, schema.frame_bytes(Direction::ToHost));
-        host.with(&mut |_, health| {
-            size = encode_health(schema, &board, &mut |index| health.row(index, now_ms), frame);
-        });
+        let mut row_of = |index| {
+            let mut row = HealthRow::UNKNOWN;
+            host.with(&mut |_, health| row = health.row(index, now_ms));
+            row
+        };
+        let size = encode_health(schema, &board, &mut row_of, frame);
         self.send(size, false, channel, host);
     }
 
@@ -320,11 +322,22 @@ impl Reporter {
         let (now_ms, cycle_ms) = (self.now_ms(), self.config.cycle_ms);
         let frame_bytes = self.config.schema.frame_bytes(Direction::ToHost);
         let frame = part_mut(&mut self.memory, 0, frame_bytes);
-        let (mut size, mut dropped) = (0, 0);
-        host.with(&mut |store, health| {
-            dropped = drop_old(store, health, now_ms, cycle_ms);
-            size = store.take(stamp, frame, &mut self.taken);
-        });
+        let (schema, taken) = (self.config.schema, &mut self.taken);
+        let (mut dropped, mut at) = (0, 0);
+        *taken = Bits::NONE;
+        // The host locks for one item at a time: where it masks interrupts, ports have characters to take meanwhile.
+        let mut put = |index: usize, out: &mut Writer<'_>| {
+            let Some(item) = schema.items.get(index) else { return };
+            host.with(&mut |store, health| {
+                if store.has_due(index) && is_old(health, index, now_ms, cycle_ms) {
+                    store.forget(index);
+                    dropped += 1;
+                }
+                store.hand_out((index, item, at), out, taken);
+            });
+            at += item.bytes();
+        };
+        let size = encode_each(schema, Direction::ToHost, stamp, &mut put, frame);
         self.counts.values_dropped = self.counts.values_dropped.wrapping_add(dropped);
         if size > 0 {
             self.counter = self.counter.wrapping_add(1);
@@ -376,16 +389,4 @@ fn is_old(health: &Health, index: usize, now_ms: u32, own_ms: u32) -> bool {
     let is_late =
         age_ms / FRESH_CYCLES >= cycle_ms && age_ms > cycle_ms.saturating_mul(FRESH_CYCLES);
     device_ms != 0 && age_ms != AGE_NEVER && is_late
-}
-
-/// Takes off what is old; returns how many.
-fn drop_old(store: &mut Store, health: &Health, now_ms: u32, cycle_ms: u32) -> u32 {
-    let mut dropped = 0;
-    for index in 0..store.schema().items.len() {
-        if store.has_due(index) && is_old(health, index, now_ms, cycle_ms) {
-            store.forget(index);
-            dropped += 1;
-        }
-    }
-    dropped
 }

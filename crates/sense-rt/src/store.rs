@@ -7,12 +7,11 @@
 use core::ops::{Deref, DerefMut};
 
 use crate::bits::Bits;
-use crate::bytes::copy;
-use crate::encode::{Stamp, encode_values};
+use crate::bytes::{Writer, copy};
 use crate::filter::Filter;
 use crate::health::Health;
 use crate::outcome::Outcome;
-use crate::schema::{Direction, Schema};
+use crate::schema::{Direction, Item, Schema};
 
 /// The values of a schema, in `[u8; SCHEMA.values_bytes()]`.
 #[derive(Debug)]
@@ -144,11 +143,21 @@ impl Store {
         self.due.clear(index);
     }
 
-    /// Puts what is due into a frame and takes it off the list; `taken` says what it was. Returns the
-    /// bytes of the frame, 0 when nothing is due.
-    pub fn take(&mut self, stamp: Stamp, frame: &mut [u8], taken: &mut Bits) -> usize {
-        *taken = core::mem::take(&mut self.due);
-        encode_values(self.schema, Direction::ToHost, stamp, taken, &self.values, frame)
+    /// Puts the value of an item, which is at `at` in the memory, behind its identifier where it is due, and takes it off
+    /// the list; `taken` says that it was.
+    pub(crate) fn hand_out(
+        &mut self,
+        (index, item, at): (usize, &Item, usize),
+        out: &mut Writer<'_>,
+        taken: &mut Bits,
+    ) {
+        let value = self.values.get(at..at.wrapping_add(item.bytes()));
+        if let Some(value) = value.filter(|_| self.due.has(index)) {
+            self.due.clear(index);
+            taken.set(index);
+            out.put(&[item.id]);
+            out.put(value);
+        }
     }
 
     /// Makes the items of a frame due again that could not be sent.

@@ -164,6 +164,42 @@ fn with_too_little_memory_nothing_is_said_and_nothing_breaks() {
     assert!(line.1.starts_with(b"5:\0") && board.2 == 3);
 }
 
+/// A host masks interrupts while it has the store, so a port loses characters where that takes as long as one of them:
+/// a report takes the values out one at a time.
+#[test]
+fn a_host_has_the_store_for_one_value_at_a_time() {
+    const ITEMS: &[Item] = &[
+        Item::sensor(17, Scalar::Uint16, 1),
+        Item::sensor(18, Scalar::Uint16, 1),
+        Item::sensor(19, Scalar::Uint16, 1),
+    ];
+    static THREE: Schema = Schema { items: ITEMS, hash: 1, stamp: false, checksum: false };
+    struct Locked(Store<[u8; 6]>, Health<[Record; 3]>, usize);
+    impl Host for Locked {
+        fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health)) {
+            let due = |store: &Store| (0..3).filter(|index| store.has_due(*index)).count();
+            let before = due(&self.0);
+            task(&mut self.0, &mut self.1);
+            self.2 = self.2.max(before - due(&self.0));
+        }
+
+        fn apply(&mut self, _: usize, _: &[u8]) {}
+    }
+    let mut board = Locked(Store::new(&THREE), Health::new(&[]), 0);
+    for index in 0..3 {
+        board.0.put(index, &[index as u8, 7]);
+    }
+    let config = ReporterConfig { schema: &THREE, cycle_ms: 10, silence_ms: 0 };
+    let mut line = Line(Vec::new(), Vec::new());
+    let mut reporter = Reporter::<[u8; THREE.reporter_bytes()]>::new(config);
+    for cycle in 0..3 {
+        reporter.cycle(cycle * 10_000, &mut line, &mut board);
+    }
+    let report: &[u8] = b"9:\x11\x00\x07\x12\x01\x07\x13\x02\x07,";
+    assert!(line.1.ends_with(report), "{:?}", line.1);
+    assert_eq!(board.2, 1);
+}
+
 /// With sensors alone: streams of pieces of requests, and of what only looks like one.
 #[test]
 fn requests_are_what_a_decoder_finds() {

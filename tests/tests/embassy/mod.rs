@@ -472,3 +472,25 @@ fn devices_that_take_all_timers_are_told() {
         assert!(told[0].message.contains("no timer for Embassy's clock"), "{told:?}");
     });
 }
+
+/// The clock of a bus is that of its slowest part, and no faster than the unit: one of the first sort makes 400 kHz.
+#[test]
+fn a_bus_is_no_faster_than_its_unit() {
+    for (mcu, hz) in [
+        ("STM32F407VGT6", 400_000),
+        ("STM32F103C8T6", 400_000),
+        ("STM32F303RET6", 1_000_000),
+        ("STM32G474RET6", 1_000_000),
+    ] {
+        let design = format!(
+            "board B on {mcu} {{ link {{ transport = uart; }}
+chip Servos {{ driver = pca9685; actuator Pan accepts uint16 {{ command = output0; }} }} }}"
+        );
+        with_job(&design, Some("embassy"), |job| {
+            let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
+            let wiring = String::from_utf8(files.get("src/wiring.rs").unwrap().bytes.clone());
+            let wiring = wiring.unwrap();
+            assert!(wiring.contains(&format!("bus({hz})")), "{mcu}: {wiring}");
+        });
+    }
+}

@@ -33,24 +33,25 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Reach {
     Reach { parameters: String::new(), arguments: String::new(), lines: lines.collect() }
 }
 
-/// The clock that all parts of a bus take.
-fn hz(bus: &Bus<'_>) -> u32 {
+/// The clock that all parts of a bus take, and that the unit of this family makes: the HAL takes any and makes of one
+/// beyond it what no register describes.
+fn hz(context: &Context<'_>, bus: &Bus<'_>) -> u32 {
     let all = bus.all.iter().filter_map(|one| one.connection.kind.i2c()).map(|i2c| i2c.speed_hz);
-    all.min().unwrap_or(100_000).max(1)
+    all.min().unwrap_or(100_000).clamp(1, context.profile.i2c.speed_max_hz.max(1))
 }
 
 /// The bus, in the words of the HAL, and the tasks that serve its chips.
 fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
     let field = match context.names.hal {
         Hal::Stm32 => unit(context, bus, section)?,
-        Hal::Rp => rp::buses::i2c(context, bus, hz(bus), section)?,
+        Hal::Rp => rp::buses::i2c(context, bus, hz(context, bus), section)?,
     };
     bus.share(field, section);
     section.runtime.insert("i2c.rs");
     chips::tasks(
         context,
         bus,
-        hz(bus),
+        hz(context, bus),
         |served| Ok(reach(context, bus.unit.as_str(), served)),
         section,
     )
@@ -79,7 +80,7 @@ fn unit(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<Fie
             context.generics(unit, &["_"; 3]),
             scl.pin.name,
             sda.pin.name,
-            hz(bus)
+            hz(context, bus)
         ),
     })
 }
