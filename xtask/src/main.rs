@@ -2,7 +2,8 @@
 //!
 //! `bless` writes everything that tests compare with as it is now: golden trees, snapshots, the
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
-//! break something. `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
+//! break something. `mutants` puts mistakes into generated firmware and says which of them `simulate --judge` notices.
+//! `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
 //! `profiles` compares the target profiles with a tree of ChibiOS,
 //! and writes those for Embassy. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
@@ -10,6 +11,7 @@
 mod embassy;
 mod firmware;
 mod fuzz;
+mod mutants;
 mod parts;
 mod profiles;
 mod typecheck;
@@ -37,6 +39,7 @@ fn run() -> Result<()> {
         Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "firmware" => firmware::run(rest),
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
+        Some((task, rest)) if task == "mutants" => mutants::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => match rest.split_first() {
             Some((target, rest)) if target == "embassy" => embassy::run(rest),
@@ -45,7 +48,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
+            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mutants, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
         ),
     }
 }
