@@ -124,10 +124,9 @@ fn numbers(line: &str, add: &mut impl FnMut(std::ops::Range<usize>, String, &'st
         let length = rest.find(|one| !is_of_word(one)).unwrap_or(rest.len());
         let word = rest.get(..length).unwrap_or_default();
         let digits = word.trim_end_matches(['U', 'L']);
-        let number = digits.strip_prefix("0x").map_or_else(
-            || digits.parse::<u64>().ok(),
-            |hex| u64::from_str_radix(hex, 16).ok(),
-        );
+        let number = digits
+            .strip_prefix("0x")
+            .map_or_else(|| digits.parse::<u64>().ok(), |hex| u64::from_str_radix(hex, 16).ok());
         if let Some(number) = number.filter(|_| !is_quoted) {
             let end = word.get(digits.len()..).unwrap_or_default();
             for other in [number + 1, u64::from(number == 0), 2 * number] {

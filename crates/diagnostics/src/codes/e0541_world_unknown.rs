@@ -11,7 +11,7 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "a world names something unknown",
     explanation: r#"Under `[devices]` stand the names of the sensors of the simulated board as the `.sense` file has them. What the chip
 `Climate` measures by itself is called `ClimateTemperature`, `ClimateHumidity` and so on; `sensedsl simulate FILE`
-shows all names. An actuator has no line: the host sets it.
+shows all names. An actuator has no line: the host sets it, and `[[command]]` says to what.
 
 Way out: write a name or a word that there is; the message has the nearest one, or all of them.
 "#,
@@ -31,6 +31,22 @@ pub fn unknown_device(span: Span, name: &str, near: Option<&str>, all: &str) -> 
             near,
         ),
         None => report.here("unknown").help(format!("its sensors are {all}")),
+    }
+}
+
+/// No actuator of the board has that name.
+#[must_use]
+pub fn unknown_actuator(span: Span, name: &str, near: Option<&str>, all: &[&str]) -> Diagnostic {
+    let what = format!("the board has no actuator called `{name}`");
+    let report = Diagnostic::new(CODE, span, what).here("unknown");
+    match near {
+        Some(near) => report.help(format!("did you mean `{near}`?")).replace(
+            format!("change to `{near}`"),
+            span,
+            near,
+        ),
+        None if all.is_empty() => report.help("it has none: take the command out"),
+        None => report.help(format!("its actuators are {}", all.join(", "))),
     }
 }
 

@@ -4,6 +4,7 @@ use sensedsl_model::design::ConnectionIndex;
 
 use super::expect::{Expected, Sent, What};
 use super::outputs::Outputs;
+use crate::surroundings::CanFrame;
 
 /// How many bytes of a transfer are shown.
 const SHOWN: usize = 24;
@@ -65,20 +66,21 @@ fn is_same(wanted: Option<(u64, u64)>, found: Option<(u64, u64)>) -> bool {
 }
 
 fn frame(sent: &Sent, outputs: &Outputs, since_ns: u64) -> Option<String> {
+    let bits = |frame: &CanFrame| u64::from_le_bytes(frame.data);
     let own = outputs.frames(sent.unit, since_ns).filter(|frame| {
         (frame.id, frame.extended, frame.remote) == (sent.identifier, sent.is_extended, false)
+            && bits(frame) & sent.select.0 == sent.select.1
     });
+    let data =
+        |frame: &CanFrame| hex(frame.data.get(..usize::from(frame.length)).unwrap_or_default());
     let Some(found) = own.last() else {
         let other = outputs.frames(sent.unit, since_ns).last();
-        return Some(other.map_or("nothing".into(), |one| {
-            let data = one.data.get(..usize::from(one.length)).unwrap_or_default();
-            format!("{} in frame 0x{:X}", hex(data), one.id)
-        }));
+        return Some(
+            other.map_or("nothing".into(), |one| format!("{} in frame 0x{:X}", data(one), one.id)),
+        );
     };
-    let data = found.data.get(..usize::from(found.length)).unwrap_or_default();
-    let own = data.get(sent.byte..sent.byte + sent.bytes.len());
-    let is_right = found.length == sent.length && own == Some(sent.bytes.as_slice());
-    (!is_right).then(|| format!("{} in {} bytes", hex(own.unwrap_or_default()), found.length))
+    let is_right = found.length == sent.length && bits(found) & sent.bits.0 == sent.bits.1;
+    (!is_right).then(|| data(found))
 }
 
 /// What must be there, for people.
@@ -89,8 +91,15 @@ pub(super) fn shown(one: &Expected) -> String {
         What::Millivolts(wanted) => format!("{wanted:.0} mV"),
         What::Write(bytes, _) | What::Message(_, bytes) => hex(bytes),
         What::Frame(sent) => {
-            let Sent { bytes, identifier, length, .. } = sent;
-            format!("{} in {length} bytes of frame 0x{identifier:X}", hex(bytes))
+            let Sent { identifier, length, bits: (mask, bits), .. } = sent;
+            let shown =
+                |bits: u64| hex(bits.to_le_bytes().get(..usize::from(*length)).unwrap_or_default());
+            let whole = if *mask == u64::MAX {
+                String::new()
+            } else {
+                format!(" where bits are set in {}", shown(*mask))
+            };
+            format!("{}{whole} in frame 0x{identifier:X}", shown(*bits))
         }
     }
 }

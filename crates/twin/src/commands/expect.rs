@@ -20,8 +20,7 @@ pub(super) const FULL_LEVEL: f64 = 10_000.0;
 /// The code of a converter's reference.
 pub(super) const FULL_CODE: f64 = 4_095.0;
 const REFERENCE_MV: f64 = 3_300.0;
-/// The greatest identifier of eleven bits.
-const STANDARD_MAX: u32 = 0x7FF;
+const FRAME_BYTES: u16 = 8;
 
 /// What one wire must carry.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,8 +53,10 @@ pub(super) struct Sent {
     pub(super) identifier: u32,
     pub(super) is_extended: bool,
     pub(super) length: u8,
-    pub(super) byte: usize,
-    pub(super) bytes: Vec<u8>,
+    /// The bits of the frame that are the value's, and what is in them: byte 0 is the lowest.
+    pub(super) bits: (u64, u64),
+    /// The bits that say in which of the frames of an identifier it is.
+    pub(super) select: (u64, u64),
 }
 
 /// A device's wires with their places in the wiring.
@@ -242,21 +243,38 @@ fn frame(
     raw: &[f64],
 ) -> Option<Expected> {
     let own = one.device.kind.can()?;
-    let ends = job
-        .devices
-        .iter()
-        .filter(|other| other.device.direction == Direction::Actuator && other.unit == one.unit);
-    let ends = ends.filter_map(|other| {
-        let can = other.device.kind.can().filter(|can| can.frame_id == own.frame_id)?;
-        Some(u16::from(can.byte) + Words::of(other.device)?.wire_bytes())
-    });
+    let words = Words::of(one.device)?;
+    let mask = words.in_frame(own.byte);
+    let select = own.mux.as_ref().map(|mux| mux.bits);
+    let mut length = own.length.map_or(0, u16::from);
+    for other in job.devices.iter().filter(|other| other.unit == one.unit) {
+        let is_set = other.device.direction == Direction::Actuator;
+        let Some(can) = other.device.kind.can().filter(|_| is_set) else { continue };
+        if (can.frame_id, can.is_extended) != (own.frame_id, own.is_extended) {
+            continue;
+        }
+        let others = can.mux.as_ref().map(|mux| mux.bits);
+        if select.is_none() && others.is_some_and(|(of, _)| of & mask != 0) {
+            // It only says which of the frames others are in.
+            return None;
+        }
+        if others.is_none() || select.is_none() || others == select {
+            let ends = u16::from(can.byte) + Words::of(other.device)?.wire_bytes();
+            length = length.max(can.length.map_or(ends, u16::from));
+        }
+    }
+    let mut data = [0_u8; 8];
+    let bytes = words::bytes(&words, raw);
+    for (target, byte) in data.iter_mut().skip(usize::from(own.byte)).zip(bytes) {
+        *target = byte;
+    }
     let sent = Sent {
         unit: wire.unit.and_then(number_of).unwrap_or(0),
         identifier: own.frame_id,
-        is_extended: own.frame_id > STANDARD_MAX,
-        length: u8::try_from(ends.max()?).ok()?,
-        byte: usize::from(own.byte),
-        bytes: words::bytes(&Words::of(one.device)?, raw),
+        is_extended: own.is_extended,
+        length: u8::try_from(length.min(FRAME_BYTES)).ok()?,
+        bits: (mask, u64::from_le_bytes(data) & mask),
+        select: select.unwrap_or_default(),
     };
     Some(expected(at, wire, 0, What::Frame(sent)))
 }

@@ -11,6 +11,7 @@ use sensedsl_codegen::part::BridgePlan;
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
+use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::tables;
@@ -46,8 +47,18 @@ enum Sink {
     Pins(Vec<Pin>),
     Bridge(Bridge, BridgeState, Vec<Pin>),
     Message(u8, Compose),
-    /// The frame, where it begins in it, and how it is coded.
-    Frame(usize, usize, Coding),
+    Frame(InFrame),
+}
+
+/// The frame that a value is in, where it begins in it, and how it is coded.
+#[derive(Clone)]
+struct InFrame {
+    place: usize,
+    byte: usize,
+    coding: Coding,
+    /// Its bits of the frame, byte 0 the lowest.
+    mask: u64,
+    is_quiet: bool,
 }
 
 /// One wire.
@@ -145,10 +156,17 @@ impl Outputs {
                     bench.uart_out(*unit, *byte, now_ns);
                 }
             }
-            Sink::Frame(place, byte, coding) => {
-                let Some(Frame { unit, frame }) = self.frames.get_mut(*place) else { return };
-                let room = frame.data.get_mut(*byte..).unwrap_or_default();
-                if coding.encode(item, value, room) > 0 {
+            Sink::Frame(own) => {
+                let Some(Frame { unit, frame }) = self.frames.get_mut(own.place) else { return };
+                let mut coded = [0; 8];
+                let room = coded.get_mut(own.byte..).unwrap_or_default();
+                if own.coding.encode(item, value, room) == 0 {
+                    return;
+                }
+                let before = u64::from_le_bytes(frame.data) & !own.mask;
+                let bits = before | u64::from_le_bytes(coded) & own.mask;
+                frame.data = bits.to_le_bytes();
+                if !own.is_quiet {
                     bench.can_out(*unit, *frame, now_ns);
                 }
             }
@@ -265,12 +283,17 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
         let unit = number_of(bus.unit).unwrap_or(0);
         for frame in &bus.frames {
             for value in &frame.values {
-                let how = tables::coding(&value.how);
-                all.insert(value.index, Sink::Frame(frames.len(), value.byte.into(), how));
+                let coding = tables::coding(&value.how);
+                let words = Words::of(value.device.device);
+                let mask = words.map_or(0, |words| words.in_frame(value.byte));
+                let (place, byte, is_quiet) = (frames.len(), value.byte.into(), value.is_quiet);
+                let sink = Sink::Frame(InFrame { place, byte, coding, mask, is_quiet });
+                all.insert(value.index, sink);
             }
             let length = u8::try_from(frame.bytes).unwrap_or(8);
-            let (id, extended) = (frame.identifier, frame.is_extended());
-            let frame = CanFrame { id, extended, remote: false, length, data: [0; 8] };
+            let (id, extended) = (frame.identifier, frame.is_extended);
+            let frame =
+                CanFrame { id, extended, remote: false, length, data: frame.start.to_le_bytes() };
             frames.push(Frame { unit, frame });
         }
     }

@@ -188,7 +188,7 @@ impl Entry<'_> {
 }
 
 /// A number, or a truth as 0 or 1.
-fn number(value: &DeValue<'_>) -> Option<f64> {
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     if let Some(flag) = value.as_bool() {
         return Some(f64::from(u8::from(flag)));
     }

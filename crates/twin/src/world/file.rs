@@ -53,17 +53,17 @@ pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnost
 }
 
 /// Reading one text.
-struct Reader<'a> {
-    file: FileId,
-    scene: &'a Scene<'a>,
-    said: Vec<Diagnostic>,
-    world: World,
+pub(super) struct Reader<'a> {
+    pub(super) file: FileId,
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) said: Vec<Diagnostic>,
+    pub(super) world: World,
 }
 
 type Table<'i> = DeTable<'i>;
 
 impl<'a> Reader<'a> {
-    fn span<T>(&self, of: &Spanned<T>) -> Span {
+    pub(super) fn span<T>(&self, of: &Spanned<T>) -> Span {
         Span::new(self.file, of.span())
     }
 
@@ -84,11 +84,12 @@ impl<'a> Reader<'a> {
                 "seed" => {}
                 "devices" => self.devices(value),
                 "fault" => self.faults(value),
+                "command" => self.commands(value),
                 other => {
-                    let all = ["seed", "devices", "fault"];
+                    let all = ["seed", "devices", "fault", "command"];
                     let near = nearest(other, all);
                     let span = self.span(key);
-                    let list = "`seed`, `[devices]` and `[[fault]]`";
+                    let list = "`seed`, `[devices]`, `[[fault]]` and `[[command]]`";
                     self.said.push(unknown::unknown_word(span, other, "a world", near, list));
                 }
             }
@@ -128,7 +129,7 @@ impl<'a> Reader<'a> {
         let why = if !scene.devices.contains(&index) {
             "is not on the simulated board"
         } else if device.direction == Direction::Actuator {
-            "is an actuator: the host sets it"
+            "is an actuator: the host sets it, as `[[command]]` says"
         } else {
             return Some((index, device));
         };
@@ -299,7 +300,7 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
 }
 
 /// A number for people: six digits that count.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text.is_empty() || text == "-0" { "0".to_owned() } else { text.to_owned() }

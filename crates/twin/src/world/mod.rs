@@ -4,6 +4,7 @@
 //! that the text names, in the sensor's own unit, and the faults in the order of time; what is wrong with the text is
 //! diagnostics with places in it. What the text does not name does what is [usual](usual()).
 
+mod command;
 mod entry;
 mod fault;
 mod file;

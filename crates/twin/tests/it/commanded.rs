@@ -104,3 +104,35 @@ fn a_silence_that_does_not_count_or_counts_too_soon_is_noticed() {
         assert!(found.len() >= 5, "{silence}: {found:?}");
     }
 }
+
+#[test]
+fn a_world_has_a_script_of_its_own() {
+    let world = "[[command]]\ndevice = \"Thrust\"\nat = \"2 s\"\nvalue = -50\n\
+                 [[command]]\ndevice = \"Servos\"\nat = \"1500 ms\"\nvalue = [0, 2000, 10000]\n";
+    let all = tried(RIGHT, world);
+    let of = |name: &str| all.iter().find(|one| one.name == name).unwrap();
+    // Once, and once again after the silence.
+    for name in ["Thrust", "Servos"] {
+        assert_eq!((of(name).commands, of(name).wrong), (2, 0), "{:#?}", of(name));
+    }
+    let wrong = tried(&RIGHT.replacen("max = 2 ms", "max = 1900 us", 1), world);
+    let first = wrong.iter().find_map(|one| one.first.clone()).unwrap();
+    assert!(first.wire.starts_with("Servos["), "{first:#?}");
+}
+
+#[test]
+fn a_command_that_cannot_be_is_told_with_its_place() {
+    let said = |text: &str| {
+        with_job(RIGHT, |job| {
+            read(job, text, 7).1.iter().map(|one| one.code.to_string()).collect::<Vec<_>>()
+        })
+    };
+    let command = |rest: &str| said(&format!("[[command]]\n{rest}\n"));
+    assert_eq!(command("device = \"Thrust\"\nat = \"1 s\"\nvalue = 400"), ["E0542"]);
+    assert_eq!(command("device = \"Thrsut\"\nat = \"1 s\"\nvalue = 4"), ["E0541"]);
+    assert_eq!(command("device = \"Servos\"\nat = \"1 s\"\nvalue = [1, 2]"), ["E0542"]);
+    assert_eq!(command("device = \"Thrust\"\nvalue = 4"), ["E0540"]);
+    assert_eq!(command("device = \"Thrust\"\nat = \"soon\"\nvalue = 4"), ["E0543"]);
+    assert_eq!(command("device = \"Thrust\"\nat = \"1 s\"\nvalue = \"fast\""), ["E0540"]);
+    assert_eq!(command("device = \"Thrust\"\nat = \"1 s\"\nvalues = 4"), ["E0541"]);
+}
