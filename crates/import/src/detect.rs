@@ -19,6 +19,8 @@ pub enum Format {
     Hwdef,
     /// The alternate functions of `MicroPython`'s ports.
     MicroPython,
+    /// The messages of a CAN bus.
+    Dbc,
 }
 
 /// So much of a file is looked at.
@@ -44,6 +46,9 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
     if lines().any(|line| line.starts_with("Mcu.") && line.contains('=')) {
         return Some(Format::Ioc);
+    }
+    if lines().any(|line| line.starts_with("BO_ ") || line.starts_with("BU_:")) {
+        return Some(Format::Dbc);
     }
     let content = || lines().filter(|line| !line.starts_with('#'));
     if content().next().is_some_and(|head| head.starts_with("Port,") && head.contains(",AF0,")) {
@@ -73,6 +78,7 @@ mod tests {
             ("#c\nMcu.Name=STM32F407VGTx\n", Some(Format::Ioc)),
             ("# b\nMCU STM32F4xx STM32F405xx\nPA0 UART4_TX UART4\n", Some(Format::Hwdef)),
             ("include ../x/hwdef.dat\n", Some(Format::Hwdef)),
+            ("VERSION \"\"\nBU_: A\nBO_ 1 A: 8 A\n", Some(Format::Dbc)),
             ("", None),
             ("\u{0}\u{1}\u{2}", None),
         ] {

@@ -11,9 +11,9 @@ use crate::log::Log;
 use crate::project::{Project, TimerMode, Using, Wire, identifier, one_line};
 
 /// Identifiers go from 1 to this.
-const IDS_MAX: usize = 254;
+pub(crate) const IDS_MAX: usize = 254;
 /// Words of the language that a device cannot be called.
-const WORDS: [&str; 18] = [
+pub(crate) const WORDS: [&str; 18] = [
     "use", "spare", "board", "on", "link", "sensor", "actuator", "returns", "accepts", "driver",
     "for", "prefer", "avoid", "reserve", "release", "allow", "true", "false",
 ];

@@ -6,6 +6,7 @@
 
 mod assemble;
 mod cubemx;
+mod dbc;
 mod decode;
 mod detect;
 mod devices;
@@ -45,7 +46,7 @@ pub struct Source<'a> {
 /// What came of it.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// The board table as CSV; none when the source could not be read.
+    /// The board table as CSV; none when the source could not be read, or says nothing of pins.
     pub table: Option<String>,
     /// The `.sense` file that goes with it, from the project of another tool.
     pub program: Option<String>,
@@ -88,11 +89,21 @@ impl Importer {
     /// Imports a source. Never fails: what cannot be read is among the diagnostics.
     #[must_use]
     pub fn import(&self, source: &Source<'_>) -> Imported {
+        self.import_for(source, None)
+    }
+
+    /// The same; of a DBC file what concerns a node.
+    #[must_use]
+    pub fn import_for(&self, source: &Source<'_>, node: Option<&str>) -> Imported {
         let mut log = Log::default();
         let format = source.format.or_else(|| detect(source.bytes));
         let made = match format {
             None => unknown(source, &mut log),
             Some(Format::Xlsx | Format::Ods) => workbook::import(source, &mut log),
+            Some(Format::Dbc) => {
+                let (file, text) = log.text(source.name, source.bytes);
+                dbc::import(file, source.name, &text, node, &mut log)
+            }
             Some(_) if source.sheet.is_some() => no_sheets(source, &mut log),
             Some(Format::Csv | Format::MicroPython) => {
                 let (file, text) = log.text(source.name, source.bytes);
@@ -113,7 +124,7 @@ impl Importer {
 }
 
 fn unknown(source: &Source<'_>, log: &mut Log) -> Made {
-    let why = "it is no CSV, XLSX, ODS, XML of CubeMX, .ioc or hwdef.dat";
+    let why = "it is no CSV, XLSX, ODS, XML of CubeMX, .ioc, hwdef.dat or .dbc";
     let file = log.sources.add(source.name, "");
     log.unreadable(Span::new(file, 0..0), source.name, why);
     Made::default()

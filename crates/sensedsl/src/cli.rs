@@ -319,7 +319,7 @@ pub(crate) struct DriversArgs {
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
     /// A spreadsheet (CSV, XLSX, ODS), an MCU (XML) or project (.ioc) of CubeMX, an hwdef.dat of
-    /// ArduPilot, alternate functions of MicroPython; - is the standard input
+    /// ArduPilot, alternate functions of MicroPython, messages of CAN (.dbc); - is the standard input
     pub(crate) source: PathBuf,
     /// Where to write the result; the table of a project goes beside it, as .csv
     #[arg(short, long, value_name = "FILE")]
@@ -333,6 +333,10 @@ pub(crate) struct ImportArgs {
     /// The sheet of a workbook
     #[arg(long, value_name = "NAME")]
     pub(crate) sheet: Option<String>,
+    /// Of messages of CAN take the place of this node: what it sends become actuators, what it
+    /// receives sensors; without it everything becomes a sensor
+    #[arg(long, value_name = "NAME")]
+    pub(crate) node: Option<String>,
     /// Of a project print the table of its pins, not the file with its devices
     #[arg(long)]
     pub(crate) table: bool,
@@ -359,6 +363,8 @@ pub(crate) enum ImportFormat {
     Hwdef,
     /// Alternate functions of MicroPython
     Micropython,
+    /// Messages of a CAN bus
+    Dbc,
 }
 
 #[derive(Debug, Args)]

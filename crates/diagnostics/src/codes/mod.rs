@@ -166,6 +166,8 @@ codes! {
     e0807_import_too_large,
     e0808_too_many_includes,
     e0809_include_unreadable,
+    e0810_dbc_line,
+    e0811_dbc_no_node,
 }
 
 /// What is known of a code.

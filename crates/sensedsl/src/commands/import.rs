@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use sensedsl_diagnostics::codes::e0803_import_no_sheet;
-use sensedsl_import::{Format, Imported, Source, detect, import};
+use sensedsl_import::{Format, Imported, Importer, Source, detect};
 use sensedsl_model::What;
 
 use super::in_the_way;
@@ -20,14 +20,15 @@ pub(crate) fn run(args: &ImportArgs, terminal: &mut Terminal) -> Result<Status> 
     let (folder, root) = folders(args, &bytes);
     let disk = Disk::below(&root, &args.reach.allow_outside);
     let beside = |path: &str| disk.bytes(&folder.join(path), What::Source);
-    let imported = import(&Source {
+    let source = Source {
         name: &shown(&args.source),
         bytes: &bytes,
         format: format(args.format),
         sheet: args.sheet.as_deref(),
         table: &table_name.unwrap_or_default(),
         beside: &beside,
-    });
+    };
+    let imported = Importer::default().import_for(&source, args.node.as_deref());
     terminal.diagnostics(&imported.diagnostics, &imported.sources)?;
     let Some((result, beside)) = results(args, &imported) else {
         let no_sheet = e0803_import_no_sheet::CODE;
@@ -80,7 +81,9 @@ fn folders(args: &ImportArgs, bytes: &[u8]) -> (PathBuf, PathBuf) {
 
 /// What is asked for, and the table that goes beside it; none when there is no result.
 fn results<'a>(args: &ImportArgs, imported: &'a Imported) -> Option<(&'a str, Option<&'a str>)> {
-    let table = imported.table.as_deref()?;
+    let Some(table) = imported.table.as_deref() else {
+        return imported.program.as_deref().map(|program| (program, None));
+    };
     match imported.program.as_deref() {
         Some(program) if !args.table => Some((program, Some(table))),
         Some(_) | None => Some((table, None)),
@@ -104,5 +107,6 @@ fn format(format: ImportFormat) -> Option<Format> {
         ImportFormat::Ioc => Some(Format::Ioc),
         ImportFormat::Hwdef => Some(Format::Hwdef),
         ImportFormat::Micropython => Some(Format::MicroPython),
+        ImportFormat::Dbc => Some(Format::Dbc),
     }
 }

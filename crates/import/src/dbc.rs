@@ -1,0 +1,41 @@
+//! DBC files of CAN buses: lines in, devices of a `.sense` file out.
+//!
+//! What a node sends becomes actuators, what it receives sensors; without a node everything is heard. The reader is the
+//! project's own, as that of tables is: whoever mends a file needs the line of each mistake.
+
+mod read;
+mod write;
+
+use sensedsl_diagnostics::codes::e0811_dbc_no_node;
+use sensedsl_diagnostics::{FileId, Span};
+
+use crate::Made;
+use crate::log::Log;
+
+/// Imports a DBC file for a node.
+pub(crate) fn import(
+    file: FileId,
+    name: &str,
+    text: &str,
+    node: Option<&str>,
+    log: &mut Log,
+) -> Made {
+    let network = read::read(file, text, log);
+    if log.has_errors() {
+        return Made::default();
+    }
+    if network.messages.is_empty() {
+        log.unreadable(Span::new(file, 0..0), name, "it has no messages (`BO_`)");
+        return Made::default();
+    }
+    if let Some(node) = node.filter(|node| !network.nodes.iter().any(|one| one == node)) {
+        let at = Span::new(file, 0..0);
+        log.say(e0811_dbc_no_node::dbc_no_node(at, node, &network.nodes));
+        return Made::default();
+    }
+    let program = write::program(&network, name, node, log);
+    Made { table: None, program }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,306 @@
+//! The lines of a DBC file: nodes, messages, signals, types, value tables and the cycle times of messages.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::codes::e0810_dbc_line;
+use sensedsl_diagnostics::{FileId, Span};
+
+use crate::log::Log;
+
+/// The message that holds signals of no message.
+const ORPHANS: u32 = 0xC000_0000;
+/// An identifier has 29 bits where this one is set.
+const EXTENDED: u32 = 1 << 31;
+
+/// What a file says.
+#[derive(Debug, Default)]
+pub(super) struct Network {
+    pub(super) nodes: Vec<String>,
+    pub(super) messages: Vec<Message>,
+    /// Bits per second, where the file says it.
+    pub(super) bitrate_hz: Option<u32>,
+}
+
+#[derive(Debug)]
+pub(super) struct Message {
+    pub(super) span: Span,
+    pub(super) id: u32,
+    pub(super) is_extended: bool,
+    pub(super) name: String,
+    pub(super) bytes: u32,
+    pub(super) sender: String,
+    pub(super) cycle_ms: Option<u32>,
+    pub(super) signals: Vec<Signal>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Signal {
+    pub(super) span: Span,
+    pub(super) name: String,
+    pub(super) mux: Mux,
+    pub(super) bit: u32,
+    pub(super) bits: u32,
+    pub(super) is_little: bool,
+    pub(super) kind: Number,
+    pub(super) factor: f64,
+    pub(super) offset: f64,
+    pub(super) least: f64,
+    pub(super) most: f64,
+    pub(super) unit: String,
+    pub(super) receivers: Vec<String>,
+    /// What its values mean.
+    pub(super) words: Vec<(i64, String)>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Number {
+    Unsigned,
+    Signed,
+    Float,
+    Double,
+}
+
+/// In which contents of its message a signal is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mux {
+    Always,
+    /// It says which content there is.
+    Selector,
+    Only(u64),
+    /// Selected, and selects further ones.
+    Nested,
+}
+
+struct Reader<'l> {
+    network: Network,
+    /// Where each message is.
+    places: BTreeMap<u32, usize>,
+    current: Option<usize>,
+    log: &'l mut Log,
+}
+
+/// Reads a file; each line that is wrong is told.
+pub(super) fn read(file: FileId, text: &str, log: &mut Log) -> Network {
+    let (network, places) = (Network::default(), BTreeMap::new());
+    let mut reader = Reader { network, places, current: None, log };
+    let mut begin = 0;
+    let mut open = false;
+    for line in text.split_inclusive('\n') {
+        let (from, to) = (begin, begin + line.trim_end().len());
+        begin += line.len();
+        // A text goes on in the next line until its quote ends; its first line says what it is of.
+        let is_inside = open;
+        open ^= line.matches('"').count() % 2 == 1;
+        if is_inside {
+            continue;
+        }
+        let span = Span::new(file, from..to);
+        if let Err(why) = reader.line(span, line.trim()) {
+            reader.log.say(e0810_dbc_line::dbc_line(span, &why));
+        }
+    }
+    reader.network
+}
+
+impl Reader<'_> {
+    fn line(&mut self, span: Span, line: &str) -> Result<(), String> {
+        let Some(word) = line.split([' ', '\t', ':']).next() else { return Ok(()) };
+        let rest = line.get(word.len()..).unwrap_or_default().trim();
+        match word {
+            "BU_" => {
+                let names = rest.trim_start_matches(':').split_whitespace();
+                self.network.nodes.extend(names.map(str::to_owned));
+                Ok(())
+            }
+            "BO_" => self.message(span, rest),
+            "SG_" => self.signal(span, rest),
+            "VAL_" => self.words(rest),
+            "SIG_VALTYPE_" => self.real(rest),
+            "BA_" => self.attribute(rest),
+            "SG_MUL_VAL_" => {
+                let what = "a range of selecting values (`SG_MUL_VAL_`) is left out";
+                self.log.dropped(span, "", what);
+                Ok(())
+            }
+            // Comments, definitions of attributes, environment variables.
+            _ => Ok(()),
+        }
+    }
+
+    fn message(&mut self, span: Span, rest: &str) -> Result<(), String> {
+        self.current = None;
+        let words: Vec<&str> =
+            rest.split([' ', '\t', ':']).filter(|word| !word.is_empty()).collect();
+        let [id, name, bytes, others @ ..] = words.as_slice() else {
+            return Err("a message is `BO_ IDENTIFIER NAME: BYTES SENDER`".to_owned());
+        };
+        let raw: u32 = whole(id, "an identifier")?;
+        let is_extended = raw & EXTENDED != 0;
+        let own = raw & !EXTENDED;
+        if raw == ORPHANS {
+            return Ok(());
+        }
+        let most = if is_extended { 0x1FFF_FFFF } else { 0x7FF };
+        if own > most {
+            return Err(format!(
+                "{own} is more than 0x{most:X}, the greatest identifier of a message like this"
+            ));
+        }
+        if self.places.contains_key(&raw) {
+            return Err(format!("there are two messages of identifier {raw}"));
+        }
+        self.places.insert(raw, self.network.messages.len());
+        self.current = Some(self.network.messages.len());
+        self.network.messages.push(Message {
+            span,
+            id: own,
+            is_extended,
+            name: (*name).to_owned(),
+            bytes: whole(bytes, "a length")?,
+            sender: others.first().copied().unwrap_or_default().to_owned(),
+            cycle_ms: None,
+            signals: Vec::new(),
+        });
+        Ok(())
+    }
+
+    /// `NAME [M|mN]: BIT|BITS@ORDER SIGN (FACTOR,OFFSET) [LEAST|MOST] "UNIT" RECEIVERS`
+    fn signal(&mut self, span: Span, rest: &str) -> Result<(), String> {
+        let Some(message) = self.current.and_then(|at| self.network.messages.get_mut(at)) else {
+            return Ok(());
+        };
+        let form = "a signal is `SG_ NAME : BIT|BITS@ORDER± (FACTOR,OFFSET) [LEAST|MOST] \"UNIT\" RECEIVERS`";
+        let parts = || {
+            let (head, rest) = rest.split_once(':')?;
+            let (place, rest) = rest.split_once('(')?;
+            let (scale, rest) = rest.split_once(')')?;
+            let (_, rest) = rest.split_once('[')?;
+            let (bounds, rest) = rest.split_once(']')?;
+            let (_, rest) = rest.split_once('"')?;
+            let (unit, receivers) = rest.split_once('"')?;
+            Some((head, place, scale.split_once(',')?, bounds.split_once('|')?, unit, receivers))
+        };
+        let (head, place, scale, bounds, unit, receivers) = parts().ok_or(form)?;
+        let (bit, place) = place.trim().split_once('|').ok_or(form)?;
+        let (bits, order) = place.split_once('@').ok_or(form)?;
+        let mut head = head.split_whitespace();
+        let name = head.next().ok_or(form)?.to_owned();
+        let receivers = receivers.split([' ', ',', '\t', '\r']).filter(|name| !name.is_empty());
+        message.signals.push(Signal {
+            span,
+            name,
+            mux: selection(head.next())?,
+            bit: whole(bit, "a bit")?,
+            bits: whole(bits, "a number of bits")?,
+            is_little: match order.trim().chars().next() {
+                Some('1') => true,
+                Some('0') => false,
+                _ => return Err("the order behind `@` is 1 (little) or 0 (big)".to_owned()),
+            },
+            kind: match order.trim().chars().last() {
+                Some('+') => Number::Unsigned,
+                Some('-') => Number::Signed,
+                _ => return Err("the sign behind the order is + or -".to_owned()),
+            },
+            factor: real(scale.0)?,
+            offset: real(scale.1)?,
+            least: real(bounds.0)?,
+            most: real(bounds.1)?,
+            unit: unit.to_owned(),
+            receivers: receivers.map(str::to_owned).collect(),
+            words: Vec::new(),
+        });
+        Ok(())
+    }
+
+    fn find(&mut self, id: &str, name: &str) -> Result<Option<&mut Signal>, String> {
+        let id: u32 = whole(id, "an identifier")?;
+        let place = self.places.get(&id).copied();
+        let message = place.and_then(|place| self.network.messages.get_mut(place));
+        Ok(message.and_then(|one| one.signals.iter_mut().find(|signal| signal.name == name)))
+    }
+
+    /// `ID SIGNAL NUMBER "WORDS" … ;`; tables of environment variables have no identifier.
+    fn words(&mut self, rest: &str) -> Result<(), String> {
+        let mut head = rest.splitn(3, char::is_whitespace);
+        let (Some(id), Some(name), Some(list)) = (head.next(), head.next(), head.next()) else {
+            return Ok(());
+        };
+        if !id.starts_with(|c: char| c.is_ascii_digit()) {
+            return Ok(());
+        }
+        let mut words = Vec::new();
+        let mut pieces = list.trim_end_matches(';').split('"');
+        while let (Some(number), Some(word)) = (pieces.next(), pieces.next()) {
+            words.push((whole(number.trim(), "a value")?, word.to_owned()));
+        }
+        if let Some(signal) = self.find(id, name)? {
+            signal.words = words;
+        }
+        Ok(())
+    }
+
+    /// `ID SIGNAL : 1;` for 32 and 2 for 64 bits.
+    fn real(&mut self, rest: &str) -> Result<(), String> {
+        let words: Vec<&str> =
+            rest.split([' ', ':', ';', '\t']).filter(|one| !one.is_empty()).collect();
+        let [id, name, kind] = words.as_slice() else { return Ok(()) };
+        let kind = match *kind {
+            "1" => Number::Float,
+            "2" => Number::Double,
+            _ => return Ok(()),
+        };
+        if let Some(signal) = self.find(id, name)? {
+            signal.kind = kind;
+        }
+        Ok(())
+    }
+
+    /// The cycle times of messages, and the bit rate.
+    fn attribute(&mut self, rest: &str) -> Result<(), String> {
+        let words: Vec<&str> = rest.trim_end_matches(';').split_whitespace().collect();
+        match words.as_slice() {
+            ["\"GenMsgCycleTime\"", "BO_", id, ms] => {
+                let id: u32 = whole(id, "an identifier")?;
+                let ms = real(ms)?;
+                let place = self.places.get(&id).copied();
+                let message = place.and_then(|place| self.network.messages.get_mut(place));
+                if let Some(message) = message.filter(|_| (1.0..=60_000.0).contains(&ms)) {
+                    message.cycle_ms = whole(&format!("{ms:.0}"), "a time").ok();
+                }
+            }
+            ["\"Baudrate\"", rate] => {
+                let rate: Option<u32> = rate.parse().ok();
+                self.network.bitrate_hz = rate.filter(|rate| (10_000..=1_000_000).contains(rate));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn selection(word: Option<&str>) -> Result<Mux, String> {
+    let wrong = || "what is between the name and `:` is `M` or `m` with a number".to_owned();
+    match word {
+        None => Ok(Mux::Always),
+        Some("M") => Ok(Mux::Selector),
+        Some(word) => {
+            let number = word.strip_prefix('m').ok_or_else(wrong)?;
+            match number.strip_suffix('M') {
+                Some(_) => Ok(Mux::Nested),
+                None => number.parse().map(Mux::Only).map_err(|_| wrong()),
+            }
+        }
+    }
+}
+
+fn whole<T: std::str::FromStr>(text: &str, what: &str) -> Result<T, String> {
+    text.trim().parse().map_err(|_| format!("`{}` is not {what}", text.trim()))
+}
+
+fn real(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.trim().parse().ok();
+    number
+        .filter(|number| number.is_finite())
+        .ok_or_else(|| format!("`{}` is not a number", text.trim()))
+}

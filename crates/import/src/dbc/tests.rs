@@ -1,0 +1,117 @@
+use proptest::prelude::*;
+
+use crate::{Format, Importer, Source, Unread};
+
+const VESC: &str = r#"VERSION ""
+NS_ :
+BS_:
+BU_: Robot Drive
+BO_ 2147484417 SetRpm: 4 Robot
+ SG_ Rpm : 7|32@0- (1,0) [-60000|60000] "rpm" Drive
+BO_ 2147485953 Status: 8 Drive
+ SG_ Speed : 7|32@0- (1,0) [0|0] "rpm" Robot
+ SG_ Current : 39|16@0- (0.1,0) [-200|200] "A" Robot
+ SG_ Duty : 55|16@0- (0.001,0) [-1|1] "" Robot
+BO_ 288 Pages: 8 Drive
+ SG_ Page M : 0|3@1+ (1,0) [0|7] "" Robot
+ SG_ Heat m3 : 12|10@1- (0.5,-40) [-40|100] "°C" Robot
+ SG_ Exact m4 : 32|32@1- (1,0) [0|0] "V" Robot
+CM_ BO_ 288 "two
+BO_ lines";
+BA_ "GenMsgCycleTime" BO_ 2147484417 20;
+VAL_ 288 Page 3 "heat" 4 "voltage" ;
+SIG_VALTYPE_ 288 Exact : 1;
+"#;
+
+fn imported(text: &str, node: Option<&str>) -> (String, Vec<String>) {
+    let source = Source {
+        name: "bus.dbc",
+        bytes: text.as_bytes(),
+        format: None,
+        sheet: None,
+        table: "",
+        beside: &|_| Err(Unread::Missing),
+    };
+    let made = Importer::default().import_for(&source, node);
+    let said = made.diagnostics.iter().map(|one| {
+        let place = made.sources.line_column(one.primary.span.file, one.primary.span.start);
+        format!("{} {} {}", one.code, place.line, one.message)
+    });
+    (made.program.unwrap_or_default(), said.collect())
+}
+
+#[test]
+fn a_node_sends_and_receives() {
+    let (text, said) = imported(VESC, Some("Robot"));
+    assert_eq!(said, Vec::<String>::new());
+    for wanted in [
+        "actuator Rpm accepts int32 {\n    type = can;\n    frame = 0x301;\n    extended = true;\n    order = big;\n    \
+         bit = 7;\n    bits = 32;\n    quantity = \"rpm\";\n    min = -60000;\n    max = 60000;\n    length = 4;\n    \
+         resend = 20 ms;\n}",
+        "sensor Duty returns int16 {\n    type = can;\n    frame = 0x901;\n    order = big;\n    bit = 55;\n    \
+         bits = 16;\n    scale = 0.001;\n    min = -1;\n    max = 1;\n}",
+        "sensor Heat returns int16 {\n    type = can;\n    frame = 0x120;\n    order = little;\n    bit = 12;\n    \
+         bits = 10;\n    mux = Page = 3;\n    scale = 0.5;\n    offset = -40;\n    quantity = \"°C\";\n    min = -40;\n    max = 100;\n}",
+        "sensor Exact returns float32 {",
+        "    // 3: heat\n    // 4: voltage\n",
+    ] {
+        assert!(text.contains(wanted), "{wanted}\n\n{text}");
+    }
+}
+
+#[test]
+fn without_a_node_everything_is_heard() {
+    let (text, _) = imported(VESC, None);
+    assert_eq!(text.matches("\nsensor ").count(), 7);
+    assert!(!text.contains("actuator"));
+}
+
+#[test]
+fn what_is_wrong_has_its_line() {
+    let (text, said) = imported(VESC, Some("Robo"));
+    assert!(text.is_empty());
+    assert_eq!(said, ["E0811 1 there is no node `Robo` in the file"]);
+    for (line, why) in [
+        ("BO_ 300 Short", "E0810 3 a message is `BO_ IDENTIFIER NAME: BYTES SENDER`"),
+        ("BO_ x Short: 8 A", "E0810 3 `x` is not an identifier"),
+        (
+            "BO_ 2048 Long: 8 A",
+            "E0810 3 2048 is more than 0x7FF, the greatest identifier of a message like this",
+        ),
+        ("BO_ 1 A: 8 A\nBO_ 1 B: 8 A", "E0810 4 there are two messages of identifier 1"),
+        (
+            "BO_ 1 A: 8 A\n SG_ S : 0|8@2+ (1,0) [0|0] \"\" B",
+            "E0810 4 the order behind `@` is 1 (little) or 0 (big)",
+        ),
+        ("BO_ 1 A: 8 A\n SG_ S : 0|8@1+ (a,0) [0|0] \"\" B", "E0810 4 `a` is not a number"),
+    ] {
+        let (text, said) = imported(&format!("VERSION \"\"\nBU_: A B\n{line}\n"), None);
+        assert!(text.is_empty());
+        assert_eq!(said, [why]);
+    }
+    let (_, said) = imported(
+        "BU_: A B\nBO_ 1 A: 2 A\n SG_ S : 12|8@1+ (1,0) [0|0] \"\" B\n SG_ T : 0|8@1+ (1,0) [0|0] \"\" B\n",
+        None,
+    );
+    assert_eq!(said, ["W0804 3 S is left out: its bits are not in the 2 bytes of its message"]);
+}
+
+proptest! {
+    #[test]
+    fn nothing_panics(cut in 0..VESC.len(), other in "[ -~\\n]{0,40}", at in 0..VESC.len()) {
+        let mut text: String = VESC.chars().take(cut).collect();
+        let at = (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+        text.insert_str(at, &other);
+        for node in [None, Some("Robot")] {
+            let source = Source {
+                name: "bus.dbc",
+                bytes: text.as_bytes(),
+                format: Some(Format::Dbc),
+                sheet: None,
+                table: "",
+                        beside: &|_| Err(Unread::Missing),
+            };
+            let _ = Importer::default().import_for(&source, node);
+        }
+    }
+}
