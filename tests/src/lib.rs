@@ -146,7 +146,14 @@ pub struct Ran {
 pub fn sensedsl<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Call {
     let mut command = Command::new(binary());
     command.args(arguments).current_dir(root()).env_remove("NO_COLOR");
+    command.env("XDG_STATE_HOME", state());
     Call { command, stdin: None }
+}
+
+/// Where the programs under test remember what they have written: not in the home of who tests.
+#[must_use]
+pub fn state() -> PathBuf {
+    std::env::temp_dir().join("sensedsl-tests-state")
 }
 
 impl Call {

@@ -37,6 +37,7 @@ mod simulate;
 mod single_files;
 mod soft_units;
 mod spreadsheets;
+mod strangers;
 mod tidy;
 mod timing;
 mod traceability;

@@ -167,3 +167,17 @@ fn what_was_left_behind_is_removed_by_the_next_who_writes_the_file() {
     assert_eq!(names(&scratch), [".other.sense.sensedsl-part-1-0", "robot.sense"]);
     assert!(Path::new(&file).is_file());
 }
+
+#[test]
+fn new_goes_on_where_one_was_killed_and_prints_what_a_shell_takes() {
+    let scratch = Scratch::new("new-killed");
+    let name = "$(touch evil) it's";
+    for part in [".robot.sense.sensedsl-part-1-0", ".README.md.sensedsl-part-1-1"] {
+        scratch.write(&format!("{name}/{part}"), "half of i");
+    }
+    let ran = sensedsl(["new"]).arg(scratch.join(name)).run().exits(0);
+    assert!(ran.stdout.contains("'\\''s/robot.sense'"), "{} {}", ran.stdout, ran.stderr);
+    let mut names: Vec<_> = fs::read_dir(scratch.join(name)).unwrap().collect();
+    names.retain(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().contains("part"));
+    assert!(names.is_empty(), "{names:?}");
+}

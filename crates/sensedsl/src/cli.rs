@@ -218,6 +218,9 @@ pub(crate) struct GenerateArgs {
     /// Write nothing; exit 1 if the folder is not what would be written
     #[arg(long)]
     pub(crate) check: bool,
+    /// Believe the folder's list of generated files, although this machine did not write it
+    #[arg(long)]
+    pub(crate) adopt: bool,
     /// Move as few wires as possible from this earlier answer (JSON)
     #[arg(long, value_name = "WIRING")]
     pub(crate) keep: Option<PathBuf>,

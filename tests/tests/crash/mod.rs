@@ -17,7 +17,7 @@ use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, tree};
+use sensedsl_tests::{Ran, Scratch, binary, design, sensedsl, state, tree};
 
 /// How much is asked for; none for the few that always run.
 fn asked() -> Option<usize> {
@@ -118,6 +118,7 @@ fn run(file: &Path, out: &Path) -> Ran {
 fn start(file: &Path, out: &Path) -> Child {
     let mut command = Command::new(binary());
     command.args(["generate", "-q"]).arg(file).arg("-o").arg(out);
+    command.env("XDG_STATE_HOME", state());
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 

@@ -132,6 +132,7 @@ fn of_file(
         host: Vec::new(),
         without: Vec::new(),
         check: false,
+        adopt: false,
         keep: None,
     };
     generate::made(&args, terminal, &mut |made| {

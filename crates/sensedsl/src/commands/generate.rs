@@ -8,7 +8,8 @@ use sensedsl_codegen::host::{HOSTS, Host, find};
 use sensedsl_codegen::{Selection, target};
 use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
-    e0509_not_written, e0510_unfinished,
+    e0509_not_written, e0510_unfinished, e0524_through_a_link, e0525_not_our_work,
+    e0526_unproved_files,
 };
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
 use sensedsl_model::design::Design;
@@ -21,7 +22,7 @@ use super::input;
 use super::output::{self, Changes};
 use crate::Status;
 use crate::cli::{GenerateArgs, Without};
-use crate::files::tree::{Failure, Output, Trouble};
+use crate::files::tree::{Away, Failure, Output, Trouble};
 use crate::files::{lock, shown};
 use crate::terminal::Terminal;
 
@@ -144,12 +145,16 @@ fn update(
         // There is nowhere to report that reporting failed.
         let _ = terminal.aside(&format!("waiting for another run that writes {folder}"));
     };
-    let mut output = match Output::take(&args.output, lock::WAIT, &mut waiting) {
+    let project = args.file.parent().unwrap_or(Path::new(""));
+    let mut output = match Output::take(&args.output, project, lock::WAIT, &mut waiting) {
         Ok(output) => output,
         Err(trouble) => return trouble_taking(trouble, at, &folder).map(Err),
     };
     let changes = output::compare(output.root(), files)?;
-    if let Some(why) = foreign(at, &folder, &changes) {
+    let why = foreign(at, &folder, &changes)
+        .or_else(|| linked(at, &folder, &changes))
+        .or_else(|| unproved(at, &folder, &changes).filter(|_| !args.adopt));
+    if let Some(why) = why {
         return Ok(Err(Refusal::new(why, Status::Wrong)));
     }
     Ok(match output::write(&mut output, files, &changes) {
@@ -174,6 +179,13 @@ fn trouble_taking(trouble: Trouble, at: Span, folder: &str) -> Result<Refusal> {
         }
         Trouble::Orphan(left) => {
             (e0510_unfinished::unfinished(at, folder, &shown(&left)), Status::Wrong)
+        }
+        Trouble::Strange(left) => {
+            (e0525_not_our_work::not_our_work(at, folder, &shown(&left)), Status::Wrong)
+        }
+        Trouble::Linked(Away { link, target }) => {
+            let (link, target) = (shown(&link), shown(&target));
+            (e0524_through_a_link::folder_is_elsewhere(at, &link, &target), Status::Wrong)
         }
         Trouble::Unwritten(error) => {
             (e0509_not_written::not_written(at, folder, &error.to_string()), Status::Misused)
@@ -214,6 +226,18 @@ fn foreign(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     Some(e0502_foreign_files::foreign_files(at, folder, &files))
 }
 
+/// That files would be written through links.
+fn linked(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
+    let files = (!changes.linked.is_empty()).then(|| some(&changes.linked))?;
+    Some(e0524_through_a_link::files_are_elsewhere(at, folder, &files))
+}
+
+/// That files would be lost which nothing proves to be generated.
+fn unproved(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
+    let files = (!changes.unproved.is_empty()).then(|| some(&changes.unproved))?;
+    Some(e0526_unproved_files::unproved_files(at, folder, &files))
+}
+
 /// That the folder is not what would be written.
 fn out_of_date(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> {
     if changes.is_up_to_date() {
@@ -222,6 +246,7 @@ fn out_of_date(at: Span, folder: &str, changes: &Changes) -> Option<Diagnostic> 
     let parts = [
         ("missing", &changes.missing),
         ("different", &changes.different),
+        ("behind a link", &changes.linked),
         ("no longer made", &changes.stale),
     ];
     let parts: Vec<String> = parts

@@ -6,10 +6,10 @@ use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
 use sensedsl_diagnostics::visible;
 
-use super::{boards, in_the_way, starter};
+use super::{boards, in_the_way, output, starter};
 use crate::Status;
 use crate::cli::NewArgs;
-use crate::files::{files_below, shown, write_together};
+use crate::files::{files_below, is_part_of, shown, write_together};
 use crate::terminal::Terminal;
 
 const README: &str = include_str!("../../templates/project-readme.md");
@@ -29,7 +29,10 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
         if in_the_way::refuse(&files, "the new project", terminal)? {
             return Ok(Status::Misused);
         }
-        let own = |path: &Path| files.iter().any(|(file, _)| *file == args.dir.join(path));
+        let own = |path: &Path| {
+            let path = args.dir.join(path);
+            files.iter().any(|(file, _)| *file == path || is_part_of(&path, file))
+        };
         let found = files_below(&args.dir, &|_| false)?;
         if let Some(other) = found.iter().find(|path| !own(path)) {
             in_the_way::say_not_empty(&args.dir, other, terminal)?;
@@ -37,11 +40,10 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
         }
     }
     write_together(&files)?;
-    let file = args.dir.join("robot.sense");
     terminal.note(&format!(
         "made {}\nnext: sensedsl solve {}\n",
         visible(&shown(&args.dir)),
-        visible(&shown(&file))
+        visible(&output::typed(&args.dir, "robot.sense"))
     ))?;
     Ok(Status::Done)
 }

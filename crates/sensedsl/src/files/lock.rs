@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// The file in the folder.
-const NAME: &str = "lock";
+pub(super) const NAME: &str = "lock";
 
 /// How often a lock that another holds is tried.
 const PAUSE: Duration = Duration::from_millis(10);
@@ -36,6 +36,8 @@ pub(crate) enum NoLock {
     Busy,
     /// The folder cannot be made.
     Failed(io::Error),
+    /// What stands there was not made by a run.
+    Strange(PathBuf),
 }
 
 impl From<io::Error> for NoLock {
@@ -70,22 +72,29 @@ impl Lock {
         }
     }
 
-    fn try_take(folder: &Path) -> io::Result<Option<Self>> {
+    fn try_take(folder: &Path) -> Result<Option<Self>, NoLock> {
         match fs::create_dir(folder) {
-            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error.into()),
             Ok(()) | Err(_) => {}
         }
-        // Who held it may have removed it just now; a link to somewhere else is not used.
-        if !fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir()) {
-            return Ok(None);
+        match fs::symlink_metadata(folder) {
+            // Who held it has removed it just now.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(error.into()),
+            // A link leads to somebody else's folder.
+            Ok(found) if !found.is_dir() => return Err(NoLock::Strange(folder.to_path_buf())),
+            Ok(_) => {}
         }
         let path = folder.join(NAME);
-        let mut options = OpenOptions::new();
-        let file = match options.create(true).truncate(false).write(true).open(&path) {
+        let file = match open(&path) {
             // Who held it has removed the folder just now.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(_) if is_strange(&path) => return Err(NoLock::Strange(path)),
             file => file?,
         };
+        if !file.metadata()?.is_file() {
+            return Err(NoLock::Strange(path));
+        }
         let file = match file.try_lock() {
             Ok(()) => Some(file),
             Err(TryLockError::WouldBlock) => return Ok(None),
@@ -109,6 +118,24 @@ impl Drop for Lock {
         // Not empty where something is left for the next run to complete.
         let _ = fs::remove_dir(&self.folder);
     }
+}
+
+/// Opens the file of a lock: never what a link leads to, and without waiting for a pipe's reader.
+fn open(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.create(true).truncate(false).write(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt as _;
+        let flags = rustix::fs::OFlags::NOFOLLOW | rustix::fs::OFlags::NONBLOCK;
+        options.custom_flags(flags.bits().cast_signed());
+    }
+    options.open(path)
+}
+
+/// Whether something stands there that is not a file.
+fn is_strange(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| !found.is_file())
 }
 
 /// Whether the file is still the one of that name.

@@ -2,7 +2,7 @@
 //!
 //! `read` reads. `write` writes single files, `tree` whole folders, both so that a run that is
 //! stopped at any moment leaves nothing half done; `ops` are the changes that a tree is written
-//! with, `lock` keeps two runs apart.
+//! with, `lock` keeps two runs apart, `state` knows what this machine has written.
 
 #[cfg(test)]
 mod fault;
@@ -10,6 +10,7 @@ pub(crate) mod lock;
 mod open;
 mod ops;
 mod read;
+pub(crate) mod state;
 pub(crate) mod tree;
 mod write;
 
@@ -20,7 +21,7 @@ use sensedsl_model::{Unread, Wanted, What};
 
 pub(crate) use read::{Disk, files_below, read_if_there, real_folder};
 pub(crate) use write::{
-    begins_with, is_in_the_way, is_stream, remove_file, write_together, write_whole,
+    begins_with, is_in_the_way, is_part_of, is_stream, remove_file, write_together, write_whole,
 };
 
 /// The name under which people see a file.

@@ -160,15 +160,27 @@ impl Drop for Staged {
     }
 }
 
+/// Whether a file was to become that one, by a run that was stopped or one that is at it.
+pub(crate) fn is_part_of(part: &Path, whole: &Path) -> bool {
+    let names = part.file_name().zip(whole.file_name());
+    part.parent() == whole.parent()
+        && names.is_some_and(|(part, whole)| {
+            part.to_string_lossy().starts_with(&beginning_of_parts(whole))
+        })
+}
+
+fn beginning_of_parts(name: &std::ffi::OsStr) -> String {
+    format!(".{}{UNTIL_THEN}", name.to_string_lossy())
+}
+
 /// Removes what processes left beside a file that were killed.
 fn remove_leftovers(folder: &Path, name: &std::ffi::OsStr) {
-    let mut beginning = OsString::from(".");
-    beginning.push(name);
-    beginning.push(UNTIL_THEN);
-    let beginning = beginning.to_string_lossy().into_owned();
+    let beginning = beginning_of_parts(name);
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
-        if !entry.file_name().to_string_lossy().starts_with(&beginning) {
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        // Opening a link or a pipe of that name would reach what is somebody else's.
+        if !is_file || !entry.file_name().to_string_lossy().starts_with(&beginning) {
             continue;
         }
         // The lock of a process ends with it.

@@ -44,11 +44,16 @@ impl Pty {
     }
 
     /// Whether somebody has it open; waits for news for a while.
-    pub(super) fn wait(&self, most: Duration) -> bool {
+    pub(super) fn wait(&self, pause: Duration) -> bool {
         let mut wanted = [PollFd::new(&self.board, PollFlags::IN)];
-        let most = Timespec { tv_sec: 0, tv_nsec: most.subsec_nanos().into() };
+        let most = Timespec { tv_sec: 0, tv_nsec: pause.subsec_nanos().into() };
         match poll(&mut wanted, Some(&most)) {
-            Ok(_) => wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP)),
+            Ok(_) if wanted.iter().all(|one| !one.revents().contains(PollFlags::HUP)) => true,
+            // That nobody has it open is news at every moment, and no reason to hurry.
+            Ok(_) => {
+                std::thread::sleep(pause);
+                false
+            }
             Err(_) => true,
         }
     }

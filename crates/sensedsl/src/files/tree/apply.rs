@@ -1,11 +1,12 @@
 //! From one tree to another within a folder: staged files take their places, files that are no
 //! longer made go. Whoever is stopped in the middle begins again and ends with the same.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::NewTree;
-use super::layout::{self, Kind, LIST, is_there, listed, not_ours_above, walk};
+use super::layout::{self, Kind, LIST, is_there, link_above, listed, not_ours_above, walk};
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 
@@ -14,6 +15,9 @@ const FILES: &str = "files";
 
 /// The list of the new tree; it stays until all is done.
 pub(super) const NEW_LIST: &str = "list";
+
+/// What is no longer made. It is the run's own: the folder's list may be a stranger's.
+const STALE: &str = "stale";
 
 /// Writes the files of a tree that change, except those, and its list into a working folder.
 pub(super) fn stage(
@@ -24,6 +28,8 @@ pub(super) fn stage(
     except: &dyn Fn(&str) -> bool,
 ) -> io::Result<()> {
     ops.create(&work.join(NEW_LIST), new.list.as_bytes(), None)?;
+    let stale = new.stale.iter().map(|path| (path.clone(), None)).collect();
+    ops.create(&work.join(STALE), layout::list(&stale).as_bytes(), None)?;
     let files = work.join(FILES);
     ops.make_folders(&files)?;
     for file in new.files.iter().filter(|file| file.changes && !except(file.path)) {
@@ -35,7 +41,7 @@ pub(super) fn stage(
     // With the folders, as a name is on the disk only when its folder is.
     let mut all: Vec<PathBuf> =
         walk_all(&files)?.iter().map(|(path, _)| files.join(path)).collect();
-    all.extend([files, work.join(NEW_LIST), work.to_path_buf()]);
+    all.extend([files, work.join(NEW_LIST), work.join(STALE), work.to_path_buf()]);
     ops::sync(&all)
 }
 
@@ -47,6 +53,10 @@ pub(super) fn staged(work: &Path, path: &Path) -> PathBuf {
 /// Lets a folder hold what is staged for it, and waits until it does.
 pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
     let files = work.join(FILES);
+    // First, as a file may have been where a folder will be.
+    for stale in listed(&work.join(STALE))? {
+        remove(ops, root, Path::new(&stale))?;
+    }
     let mut last = None;
     for (path, kind) in walk_all(&files)? {
         let from = files.join(&path);
@@ -59,10 +69,6 @@ pub(super) fn apply(ops: &Ops, work: &Path, root: &Path) -> io::Result<()> {
             _ if path == Path::new(LIST) => last = Some(from),
             Kind::File | Kind::Link => put(ops, &from, root, &path)?,
         }
-    }
-    let new = listed(&work.join(NEW_LIST))?;
-    for stale in listed(&root.join(LIST))?.difference(&new) {
-        remove(ops, root, Path::new(stale))?;
     }
     // With the list goes the memory of what was there before, so it comes last.
     if let Some(list) = last {
@@ -87,7 +93,7 @@ pub(super) fn sync_folders(root: &Path) -> io::Result<()> {
 /// Removes what a working folder holds; its lock stays.
 pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
     ops.remove_all(&work.join(FILES))?;
-    for name in more.iter().chain(&[NEW_LIST]) {
+    for name in more.iter().chain(&[NEW_LIST, STALE]) {
         ops.remove_file(&work.join(name))?;
     }
     Ok(())
@@ -96,6 +102,7 @@ pub(super) fn clear(ops: &Ops, work: &Path, more: &[&str]) -> io::Result<()> {
 /// Puts one file into its place.
 fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
     let to = root.join(path);
+    never_through_a_link(root, path)?;
     let theirs =
         not_ours_above(path).is_some() || path.file_name().is_some_and(layout::is_not_ours);
     if theirs && is_there(&to) {
@@ -112,9 +119,17 @@ fn put(ops: &Ops, from: &Path, root: &Path, path: &Path) -> io::Result<()> {
     }
 }
 
+/// Refuses what would end elsewhere. Before anything is changed such folders are refused by name, so
+/// this one has been changed since.
+pub(super) fn never_through_a_link(root: &Path, path: &Path) -> io::Result<()> {
+    let Some(link) = link_above(root, path) else { return Ok(()) };
+    Err(io::Error::other(format!("{} is a link", root.join(link).display())))
+}
+
 /// Removes a file and the folders that are empty without it.
 fn remove(ops: &Ops, root: &Path, path: &Path) -> io::Result<()> {
-    if root.join(path).is_dir() {
+    never_through_a_link(root, path)?;
+    if fs::symlink_metadata(root.join(path)).is_ok_and(|found| found.is_dir()) {
         // What is a folder by now is not the file that was generated.
         return Ok(());
     }

@@ -1,9 +1,10 @@
 //! What belongs to whom in an output folder, and the names of what stands there for a while.
 //!
-//! The list [`LIST`] names all generated files, so that what is no longer made can be removed and
-//! what is foreign can be told.
+//! The list [`LIST`] names all generated files with what was in them, so that what is no longer made
+//! can be removed and what is foreign can be told. It may be a stranger's, so what it says of a file
+//! counts only for who knows the list, or where the file is still what the list says.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::io;
@@ -19,9 +20,24 @@ const NOT_OURS: &[&str] = &["user", "build", ".dep", ".git", "target", "__pycach
 /// What one run needs while it writes, in the folder itself.
 pub(crate) const WORK: &str = ".sensedsl-work";
 
+/// The most bytes of a list that are read.
+const LIST_BYTES_MAX: u64 = 16 << 20;
+
+/// How many digits a file's SHA-256 has.
+const DIGEST_DIGITS: usize = 64;
+
 /// Whether a folder of that name belongs to the user or to build tools.
 pub(crate) fn is_not_ours(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| NOT_OURS.contains(&name))
+}
+
+/// The link that a path below a folder leads through, its last name apart.
+pub(crate) fn link_above(root: &Path, path: &Path) -> Option<PathBuf> {
+    let is_link = |folder: &&Path| {
+        fs::symlink_metadata(root.join(folder)).is_ok_and(|found| found.is_symlink())
+    };
+    let above = path.ancestors().skip(1).filter(|folder| *folder != Path::new(""));
+    above.filter(is_link).last().map(Path::to_path_buf)
 }
 
 /// The folder of the user's, or of a build tool's, that a path leads through.
@@ -31,30 +47,57 @@ pub(crate) fn not_ours_above(path: &Path) -> Option<&Path> {
     path.ancestors().skip(1).filter(name).last()
 }
 
-/// The list of those generated files.
-pub(crate) fn list(paths: &BTreeSet<String>) -> String {
-    let lines: String = paths.iter().map(|path| format!("{path}\n")).collect();
-    format!("{LIST_HEAD}{lines}")
+/// The list of those generated files, with the SHA-256 of each where there is one.
+pub(crate) fn list(files: &BTreeMap<String, Option<String>>) -> String {
+    let mut text = LIST_HEAD.to_owned();
+    for (path, digest) in files {
+        let digest = digest.iter().flat_map(|digest| [digest, "  "]);
+        text.extend(digest.chain([path.as_str(), "\n"]));
+    }
+    text
 }
 
-/// The generated files according to a list, none where there is no list; a line that leaves the
-/// folder is not believed.
+/// The generated files according to a list, none where there is no list.
 pub(crate) fn listed(list: &Path) -> io::Result<BTreeSet<String>> {
-    let bytes = match fs::symlink_metadata(list) {
-        // Whatever else stands there, only a file is read.
-        Ok(found) if found.is_file() || found.is_symlink() => read_file(list)?,
-        Ok(_) => Vec::new(),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-        Err(error) => return Err(error),
+    Ok(entries(&read_list(list)?).into_keys().collect())
+}
+
+/// The text of a list. Whatever else stands there, only a file is read.
+pub(crate) fn read_list(list: &Path) -> io::Result<Vec<u8>> {
+    match fs::metadata(list) {
+        Ok(found) if found.is_file() && found.len() <= LIST_BYTES_MAX => fs::read(list),
+        Ok(_) => Ok(Vec::new()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        // A link that leads to itself is not a list.
+        Err(_) if fs::symlink_metadata(list).is_ok_and(|found| found.is_symlink()) => {
+            Ok(Vec::new())
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// The files that a list names, with the SHA-256 that it gives. A line that leaves the folder, or
+/// names what is not ours, is not believed.
+pub(crate) fn entries(list: &[u8]) -> BTreeMap<String, Option<String>> {
+    let text = String::from_utf8_lossy(list);
+    let ours = |(path, _): &(&str, Option<&str>)| {
+        !path.is_empty()
+            && !path.starts_with('/')
+            && path.split('/').all(|part| !matches!(part, "" | "." | ".."))
+            && !Path::new(path).file_name().is_some_and(is_not_ours)
     };
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    let inside = |line: &&str| {
-        !line.is_empty()
-            && !line.starts_with('#')
-            && !line.starts_with('/')
-            && line.split('/').all(|part| !matches!(part, "" | "." | ".."))
+    let line = |line| match split_digest(line) {
+        Some((digest, path)) => (path, Some(digest)),
+        None => (line, None),
     };
-    Ok(text.lines().filter(inside).map(str::to_owned).collect())
+    let lines = text.lines().filter(|line| !line.starts_with('#')).map(line).filter(ours);
+    lines.map(|(path, digest)| (path.to_owned(), digest.map(str::to_owned))).collect()
+}
+
+fn split_digest(line: &str) -> Option<(&str, &str)> {
+    let (digest, path) = line.split_once("  ")?;
+    let is_digest = digest.len() == DIGEST_DIGITS && digest.bytes().all(|c| c.is_ascii_hexdigit());
+    is_digest.then_some((digest, path))
 }
 
 /// The bytes of a file; none where there is no file.

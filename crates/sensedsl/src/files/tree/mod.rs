@@ -13,13 +13,18 @@
 //!   made once and are missing. For some milliseconds of a switch, and until the next run where one
 //!   is stopped within them, the folder shows them through symbolic links.
 //! - A run that fails before the switch leaves the folder as it was.
+//! - Only what a run of this machine left is completed or removed (`seal`). The folder may be a
+//!   stranger's: nothing is written or removed through a link in it (`apply`), nor where the folder
+//!   itself is a link that leads elsewhere (`away`).
 //!
 //! What is not: a process whose working folder is within the output folder sees files change one by
 //! one, and so does one that reads several files by their paths while a run is at it.
 
 mod apply;
+mod away;
 mod journal;
 pub(crate) mod layout;
+mod seal;
 #[cfg(target_os = "linux")]
 mod switch;
 #[cfg(test)]
@@ -34,6 +39,7 @@ use anyhow::{Context as _, Result, bail};
 
 use super::lock::{Lock, NoLock};
 use super::ops::{self, Ops};
+pub(crate) use away::Away;
 use layout::{Beside, WORK, is_there};
 
 /// What a folder is to hold.
@@ -42,6 +48,8 @@ pub(crate) struct NewTree<'a> {
     pub(crate) files: Vec<NewFile<'a>>,
     /// The text of the list of those that are generated.
     pub(crate) list: String,
+    /// Generated files that are no longer made.
+    pub(crate) stale: Vec<String>,
 }
 
 /// One file of a [`NewTree`].
@@ -74,6 +82,10 @@ pub(crate) enum Trouble {
     Unwritten(io::Error),
     /// What an earlier run left here has lost what it belongs to.
     Orphan(PathBuf),
+    /// What stands there looks like an unfinished run, and is not one of this machine's.
+    Strange(PathBuf),
+    /// The folder is reached through a link that leads elsewhere.
+    Linked(Away),
     /// What an earlier run left behind can be neither completed nor removed now.
     Unrecovered(io::Error),
     /// The machine is wrong.
@@ -85,6 +97,7 @@ impl From<NoLock> for Trouble {
         match why {
             NoLock::Busy => Self::Busy,
             NoLock::Failed(error) => Self::Unwritten(error),
+            NoLock::Strange(what) => Self::Strange(what),
         }
     }
 }
@@ -109,12 +122,17 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Takes a folder for this run, made if needed, and puts right what an earlier run has left.
+    /// Takes a folder for this run, made if needed, and puts right what an earlier run has left. The
+    /// project is the folder of the file, which may be a stranger's.
     pub(crate) fn take(
         output: &Path,
+        project: &Path,
         wait: Duration,
         waiting: &mut dyn FnMut(),
     ) -> Result<Self, Trouble> {
+        if let Some(away) = away::leads_away(output, project) {
+            return Err(Trouble::Linked(away));
+        }
         Self::take_with(Ops::default(), output, wait, waiting)
     }
 
@@ -130,7 +148,10 @@ impl Output {
         let mut locks = Vec::new();
         if let Some(place) = &beside {
             match Lock::take(&place.work, wait, waiting) {
-                Ok(lock) => locks.push(lock),
+                Ok(lock) => {
+                    seal::vet(&place.work, Some(&place.tree))?;
+                    locks.push(lock);
+                }
                 // Then everything has to happen within the folder.
                 Err(NoLock::Failed(error)) if ops::is_unsupported(&error) => beside = None,
                 Err(why) => return Err(why.into()),
@@ -145,6 +166,7 @@ impl Output {
         let within = taken.root.join(WORK);
         if taken.beside.is_none() || is_there(&within) {
             taken.lock_within(wait, waiting)?;
+            seal::vet(&within, None)?;
             journal::recover(&taken.ops, &taken.root, &within).map_err(Trouble::Unrecovered)?;
         }
         Ok(taken)
@@ -162,11 +184,22 @@ impl Output {
             done => return done,
         }
         let within = self.root.join(WORK);
+        let strange = |what: PathBuf| {
+            io::Error::other(format!("{} is not a run's of this machine", what.display()))
+        };
         match self.lock_within(super::lock::WAIT, &mut || {}) {
-            Ok(()) => journal::write(&self.ops, &self.root, &within, new),
-            Err(NoLock::Failed(error)) => Err(Failure::Before(error)),
-            Err(NoLock::Busy) => Err(Failure::Before(io::ErrorKind::ResourceBusy.into())),
+            Ok(()) => {}
+            Err(NoLock::Failed(error)) => return Err(Failure::Before(error)),
+            Err(NoLock::Busy) => return Err(Failure::Before(io::ErrorKind::ResourceBusy.into())),
+            Err(NoLock::Strange(what)) => return Err(Failure::Before(strange(what))),
         }
+        match seal::vet(&within, None) {
+            Ok(()) => {}
+            Err(seal::Unclaimed::Strange(what)) => return Err(Failure::Before(strange(what))),
+            Err(seal::Unclaimed::Failed(error)) => return Err(Failure::Before(error)),
+        }
+        seal::set(&self.ops, &within).map_err(Failure::Before)?;
+        journal::write(&self.ops, &self.root, &within, new)
     }
 
     #[cfg(target_os = "linux")]
@@ -214,6 +247,12 @@ impl Output {
 
 impl Drop for Output {
     fn drop(&mut self) {
+        if self.locks.len() > usize::from(self.beside.is_some()) {
+            seal::give_back(&self.root.join(WORK));
+        }
+        if let Some(beside) = &self.beside {
+            seal::give_back(&beside.work);
+        }
         // The last one taken is within the folder.
         while self.locks.len() > usize::from(self.beside.is_some()) {
             self.locks.pop();

@@ -8,16 +8,17 @@
 //! been moved, copied or opened. Whatever moment a run is stopped at, the next one finds in these
 //! names alone what is to be done.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::apply::{NEW_LIST, apply, clear, stage, staged, sync_folders};
+use super::apply::{NEW_LIST, apply, clear, never_through_a_link, stage, staged, sync_folders};
 use super::layout::{
-    self, Beside, Kind, LIST, is_not_ours, is_there, listed, not_ours_above, slashed, walk,
+    self, Beside, Kind, LIST, is_not_ours, is_there, link_above, listed, not_ours_above, slashed,
+    walk,
 };
-use super::{Failure, NewTree};
+use super::{Failure, NewTree, seal};
 use crate::files::ops::{self, Ops};
 use crate::files::write_whole;
 
@@ -36,7 +37,9 @@ impl Switch<'_> {
     /// Makes the folder hold a tree.
     pub(super) fn write(&self, new: &NewTree<'_>) -> Result<(), Failure> {
         let Beside { work, tree } = self.beside;
-        let ready = self.prepare(new).and_then(|()| self.ops.exchange(tree, self.root));
+        let ready = seal::set(self.ops, work)
+            .and_then(|()| self.prepare(new))
+            .and_then(|()| self.ops.exchange(tree, self.root));
         if let Err(error) = ready {
             // What cannot be removed now is removed by the next run.
             let _ = self.dismantle().and_then(|_| clear(self.ops, work, &[ONCE]));
@@ -74,12 +77,14 @@ impl Switch<'_> {
         let once = new.files.iter().filter(|file| file.once);
         let paths: BTreeSet<String> =
             once.clone().filter(|file| !at_once(file.path)).map(|file| file.path.into()).collect();
-        self.ops.create(&work.join(ONCE), layout::list(&paths).as_bytes(), None)?;
+        let lines: BTreeMap<_, _> = paths.iter().map(|path| (path.clone(), None)).collect();
+        self.ops.create(&work.join(ONCE), layout::list(&lines).as_bytes(), None)?;
         let is_once: BTreeSet<&str> = once.clone().map(|file| file.path).collect();
         stage(self.ops, work, self.root, new, &|path| is_once.contains(path))?;
         self.stage_links(&paths)?;
         self.build(new, &at_once)?;
         for file in once.filter(|file| file.changes && at_once(file.path)) {
+            never_through_a_link(self.root, Path::new(file.path))?;
             write_whole(&self.root.join(file.path), file.bytes).map_err(io::Error::other)?;
         }
         let files = walk(tree)?.into_iter().filter(|(_, kind)| *kind == Kind::File);
@@ -220,7 +225,7 @@ impl Switch<'_> {
     /// Moves what somebody else put into the tree beside to where it was meant to be.
     fn rescue(&self, path: &Path) -> io::Result<()> {
         let to = self.root.join(path);
-        if is_there(&to) {
+        if is_there(&to) || link_above(self.root, path).is_some() {
             return Ok(());
         }
         self.ops.make_folders(to.parent().unwrap_or(self.root))?;

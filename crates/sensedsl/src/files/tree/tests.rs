@@ -1,12 +1,12 @@
 //! A run is stopped after each single change, or a single change fails, and so is the run that
 //! puts it right: the folder holds the old tree or the new one, and what is the user's is there.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::layout::{LIST, WORK, list, listed};
+use super::layout::{LIST, WORK, listed};
 use super::*;
 use crate::files::fault::Fault;
 
@@ -39,6 +39,10 @@ impl Drop for Scratch {
     }
 }
 
+fn take(out: &Path, wait: Duration, waiting: &mut dyn FnMut()) -> Result<Output, Trouble> {
+    Output::take(out, Path::new(""), wait, waiting)
+}
+
 type Tree = BTreeMap<String, String>;
 
 /// All files as whoever goes by their names sees them, but for the work of a run.
@@ -69,6 +73,16 @@ const NEW: &[(&str, &str)] =
     &[("a", "new a"), ("fw/A/Makefile", "same"), ("fw/A/gen/x.c", "new x"), ("fw/B/m", "m")];
 const NEW_ONCE: &str = "fw/B/user/user.c";
 
+/// A list without digests.
+fn list(paths: &BTreeSet<String>) -> String {
+    layout::list(&paths.iter().map(|path| (path.clone(), None)).collect())
+}
+
+/// What a list names that is no longer made.
+fn stale(out: &Path, generated: &BTreeSet<String>) -> Vec<String> {
+    listed(&out.join(LIST)).unwrap().difference(generated).cloned().collect()
+}
+
 /// Writes a tree as `generate` does.
 fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bool, bool) {
     let ops = Ops { fault };
@@ -78,7 +92,7 @@ fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bo
         Err(other) => panic!("{other:?}"),
     };
     let root = output.root().to_path_buf();
-    let generated = files.iter().map(|(path, _)| (*path).to_owned()).collect();
+    let generated: BTreeSet<_> = files.iter().map(|(path, _)| (*path).to_owned()).collect();
     let there = |path: &str| fs::read_to_string(root.join(path)).ok();
     let files = files.iter().map(|(path, text)| NewFile {
         path,
@@ -92,7 +106,8 @@ fn write(out: &Path, fault: Fault, files: &[(&str, &str)], once: &[&str]) -> (bo
         once: true,
         changes: there(path).is_none(),
     });
-    let new = NewTree { files: files.chain(once).collect(), list: list(&generated) };
+    let stale = stale(&root, &generated);
+    let new = NewTree { files: files.chain(once).collect(), list: list(&generated), stale };
     let done = output.write(&new).is_ok();
     (done, output.ops.fault.has_struck())
 }
@@ -291,9 +306,11 @@ fn a_journal_is_completed_by_the_next_run() {
                 once,
                 changes: there(path).is_none_or(|found| !once && found != text),
             });
-            let generated = NEW.iter().map(|(path, _)| (*path).to_owned()).collect();
-            let new = NewTree { files: files.collect(), list: list(&generated) };
+            let generated: BTreeSet<_> = NEW.iter().map(|(path, _)| (*path).to_owned()).collect();
+            let stale = stale(&out, &generated);
+            let new = NewTree { files: files.collect(), list: list(&generated), stale };
             let done = journal::recover(&ops, &out, &work)
+                .and_then(|()| seal::set(&ops, &work))
                 .map_err(Failure::Before)
                 .and_then(|()| journal::write(&ops, &out, &work, &new));
             (done.is_ok(), ops.fault.has_struck())
@@ -333,14 +350,14 @@ fn where_nothing_can_stand_beside_the_folder_there_is_a_journal() {
 fn a_second_run_waits_and_gives_up() {
     let scratch = Scratch::new();
     let out = scratch.out();
-    let first = Output::take(&out, Duration::ZERO, &mut || {}).unwrap();
+    let first = take(&out, Duration::ZERO, &mut || {}).unwrap();
     let mut said = 0;
-    let second = Output::take(&out, Duration::from_millis(500), &mut || said += 1);
+    let second = take(&out, Duration::from_millis(500), &mut || said += 1);
     assert!(matches!(second, Err(Trouble::Busy)));
     assert_eq!(said, 1);
     drop(first);
     assert!(!out.exists(), "nothing was written");
-    drop(Output::take(&out, Duration::ZERO, &mut || {}).unwrap());
+    drop(take(&out, Duration::ZERO, &mut || {}).unwrap());
 }
 
 #[test]
@@ -353,7 +370,7 @@ fn an_unfinished_tree_whose_folder_was_replaced_is_not_removed() {
         let (_, struck) = write(&out, Fault::killed_at(n), NEW, &[OLD_ONCE, NEW_ONCE]);
         fs::rename(&out, scratch.0.join("moved")).unwrap();
         fs::create_dir(&out).unwrap();
-        if let Err(Trouble::Orphan(left)) = Output::take(&out, Duration::ZERO, &mut || {}) {
+        if let Err(Trouble::Orphan(left)) = take(&out, Duration::ZERO, &mut || {}) {
             assert_eq!(fs::read_to_string(left.join(OLD_ONCE)).unwrap(), "mine");
             orphans += 1;
         }

@@ -1,0 +1,278 @@
+//! What this machine knows of the folders that it has written: a key, and the list of each folder.
+//!
+//! An output folder may be a stranger's: cloned, unpacked, pulled. Nothing in it can prove that a
+//! run of this machine left it, but for a code that only this machine can compute. The key is in
+//! the user's folder for state, readable to nobody else, as is a record of each folder's list. Both
+//! are of the folder's inode, so that a folder may be moved, and a copy is nobody's.
+//!
+//! Without a place for the key each run has one of its own: it writes as safely, and what a killed
+//! run has left is refused by the next one.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::UNIX_EPOCH;
+
+use sha2::{Digest as _, Sha256};
+
+/// The bytes of the key.
+const KEY_BYTES: usize = 32;
+
+/// What SHA-256 takes at a time.
+const BLOCK_BYTES: usize = 64;
+
+/// Folders that are remembered; beyond that the ones written longest ago are forgotten.
+const FOLDERS_MAX: usize = 4_096;
+
+/// In the folder for state: a record of each output folder.
+const FOLDERS: &str = "folders";
+
+/// The machine's memory.
+#[derive(Debug)]
+pub(crate) struct State {
+    /// None where there is no place that is the user's alone.
+    place: Option<PathBuf>,
+    key: [u8; KEY_BYTES],
+}
+
+impl State {
+    /// That of this user on this machine.
+    pub(crate) fn of_user() -> &'static Self {
+        static STATE: OnceLock<State> = OnceLock::new();
+        STATE.get_or_init(|| {
+            // Tests of this crate leave no traces, and each runs as one machine.
+            if cfg!(test) {
+                return Self { place: None, key: [7; KEY_BYTES] };
+            }
+            Self::at(places())
+        })
+    }
+
+    fn at(places: Vec<PathBuf>) -> Self {
+        let found = places.into_iter().find_map(|place| Some((key(&place).ok()?, place)));
+        match found {
+            Some((key, place)) => Self { place: Some(place), key },
+            None => Self { place: None, key: random() },
+        }
+    }
+
+    /// What a run leaves in a folder of its own, so that the next one believes what is in it.
+    pub(crate) fn seal(&self, folder: &Path) -> io::Result<String> {
+        Ok(self.code(&[b"work", identity(folder)?.as_bytes()]))
+    }
+
+    /// Whether this machine wrote that list into that folder.
+    pub(crate) fn knows(&self, folder: &Path, list: &[u8]) -> bool {
+        let Some((record, text)) = self.record(folder, list) else { return false };
+        fs::read(record).is_ok_and(|found| found == text.as_bytes())
+    }
+
+    /// Remembers that this machine wrote that list into that folder. Where it cannot, the files'
+    /// own content has to prove whose they are.
+    pub(crate) fn remember(&self, folder: &Path, list: &[u8]) {
+        let Some((record, text)) = self.record(folder, list) else { return };
+        let Some(above) = record.parent() else { return };
+        if private_folder(above).is_ok() && !self.knows(folder, list) {
+            forget_some(above);
+            let _ = super::write_whole(&record, text.as_bytes());
+        }
+    }
+
+    /// Where the record of a folder is, and what it says.
+    fn record(&self, folder: &Path, list: &[u8]) -> Option<(PathBuf, String)> {
+        let (place, id) = (self.place.as_ref()?, identity(folder).ok()?);
+        let name = self.code(&[b"folder", id.as_bytes()]);
+        let text = self.code(&[b"list", id.as_bytes(), list]);
+        Some((place.join(FOLDERS).join(name), text))
+    }
+
+    /// The code of some texts, each with its length before it.
+    fn code(&self, texts: &[&[u8]]) -> String {
+        let mut all = Vec::new();
+        for text in texts {
+            all.extend((text.len() as u64).to_be_bytes());
+            all.extend(*text);
+        }
+        hmac(&self.key, &all)
+    }
+}
+
+/// HMAC-SHA-256 (RFC 2104).
+fn hmac(key: &[u8; KEY_BYTES], text: &[u8]) -> String {
+    let pad = |with: u8| {
+        let mut block = [with; BLOCK_BYTES];
+        block.iter_mut().zip(key).for_each(|(byte, key)| *byte ^= key);
+        block
+    };
+    let inner = Sha256::new().chain_update(pad(0x36)).chain_update(text).finalize();
+    hex(&Sha256::new().chain_update(pad(0x5c)).chain_update(inner).finalize())
+}
+
+/// The SHA-256 of a file's content, as `sha256sum` prints it.
+pub(crate) fn digest(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What stays the same when a folder is moved, and not when it is copied.
+#[cfg(unix)]
+fn identity(folder: &Path) -> io::Result<String> {
+    use std::os::unix::fs::MetadataExt as _;
+    let found = fs::metadata(folder)?;
+    // The number of a folder that was removed is given to another one.
+    let born = found.created().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    Ok(format!("{} {}", found.ino(), born.unwrap_or_default().as_nanos()))
+}
+
+#[cfg(not(unix))]
+fn identity(folder: &Path) -> io::Result<String> {
+    Ok(fs::canonicalize(folder)?.display().to_string())
+}
+
+/// Where state may be kept, the best place first.
+fn places() -> Vec<PathBuf> {
+    // What is relative would be in somebody's project.
+    let variable =
+        |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let mut places: Vec<PathBuf> = variable("XDG_STATE_HOME").into_iter().collect();
+    places.extend(variable("HOME").map(|home| home.join(".local/state")));
+    if cfg!(windows) {
+        places.extend(variable("LOCALAPPDATA"));
+    }
+    let mut places: Vec<PathBuf> = places.iter().map(|place| place.join("sensedsl")).collect();
+    // Containers often have no home.
+    #[cfg(unix)]
+    places.push(format!("/var/tmp/sensedsl-{}", rustix::process::geteuid().as_raw()).into());
+    places
+}
+
+/// The key in a folder, made where there is none.
+fn key(place: &Path) -> io::Result<[u8; KEY_BYTES]> {
+    private_folder(place)?;
+    let path = place.join("key");
+    match read_key(&path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        found => return found,
+    }
+    // Of two runs that make it at once, one is first, and both take what is there then.
+    let part = place.join(format!("key-{}", std::process::id()));
+    let _ = fs::remove_file(&part);
+    let mut options = OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    let mut file = options.open(&part)?;
+    let made = file.write_all(&random()).and_then(|()| file.sync_all());
+    let linked = made.and_then(|()| fs::hard_link(&part, &path));
+    let _ = fs::remove_file(&part);
+    match linked {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => Err(error),
+        _ => read_key(&path),
+    }
+}
+
+/// A key that others can neither read nor have put there.
+fn read_key(path: &Path) -> io::Result<[u8; KEY_BYTES]> {
+    let found = fs::symlink_metadata(path)?;
+    if !found.is_file() || found.len() != KEY_BYTES as u64 || !is_private(&found, 0o077) {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
+    let mut key = [0; KEY_BYTES];
+    File::open(path)?.read_exact(&mut key)?;
+    Ok(key)
+}
+
+/// Makes a folder that is the user's alone, or finds it.
+fn private_folder(path: &Path) -> io::Result<()> {
+    if let Some(above) = path.parent() {
+        fs::create_dir_all(above)?;
+    }
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    match builder.create(path) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+        Ok(()) | Err(_) => {}
+    }
+    let found = fs::symlink_metadata(path)?;
+    let is_own = found.is_dir() && is_private(&found, 0o022);
+    if is_own { Ok(()) } else { Err(io::ErrorKind::PermissionDenied.into()) }
+}
+
+/// Whether something is the user's, and gives others none of these permissions.
+#[cfg(unix)]
+fn is_private(found: &fs::Metadata, others: u32) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    found.uid() == rustix::process::geteuid().as_raw() && found.mode() & others == 0
+}
+
+#[cfg(not(unix))]
+fn is_private(_: &fs::Metadata, _: u32) -> bool {
+    true
+}
+
+/// Removes records where there are very many.
+fn forget_some(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut records: Vec<_> = entries
+        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
+        .collect();
+    if records.len() >= FOLDERS_MAX {
+        records.sort();
+        for (_, record) in records.iter().take(FOLDERS_MAX / 4) {
+            let _ = fs::remove_file(record);
+        }
+    }
+}
+
+/// Bytes that nobody can guess: of the system's source, or of the seeds of hash tables.
+fn random() -> [u8; KEY_BYTES] {
+    use std::hash::{BuildHasher as _, Hasher as _, RandomState};
+    let mut key = [0; KEY_BYTES];
+    let read = File::open("/dev/urandom").and_then(|mut source| source.read_exact(&mut key));
+    if read.is_err() {
+        let mut seeds = Sha256::new();
+        for _ in 0..KEY_BYTES {
+            seeds.update(RandomState::new().build_hasher().finish().to_be_bytes());
+        }
+        key = seeds.finalize().into();
+    }
+    key
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_those_of_rfc_4231() {
+        // Its second case. The key is shorter than ours, and HMAC fills keys up with zeros.
+        let mut key = [0; KEY_BYTES];
+        key[..4].copy_from_slice(b"Jefe");
+        let code = "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843";
+        assert_eq!(hmac(&key, b"what do ya want for nothing?"), code);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_key_that_others_could_have_put_there_is_not_taken() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = std::env::temp_dir().join(format!("sensedsl-state-{}", std::process::id()));
+        let place = folder.join("sensedsl");
+        let state = State::at(vec![place.clone()]);
+        assert_eq!(state.place.as_deref(), Some(place.as_path()));
+        assert_eq!(State::at(vec![place.clone()]).key, state.key);
+        state.remember(&folder, b"list");
+        assert!(state.knows(&folder, b"list") && !state.knows(&folder, b"other"));
+        assert!(!state.knows(&place, b"list"), "it is of one folder");
+        fs::set_permissions(place.join("key"), fs::Permissions::from_mode(0o644)).unwrap();
+        let other = State::at(vec![place.clone()]);
+        assert!(other.place.is_none() && other.key != state.key);
+        assert!(!other.knows(&folder, b"list"));
+        fs::remove_dir_all(folder).unwrap();
+    }
+}

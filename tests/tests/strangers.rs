@@ -1,0 +1,464 @@
+//! Folders of strangers: whatever a cloned or unpacked project holds, `generate` changes nothing
+//! outside its output folder, nothing of `user/` and `.git`, and nobody waits for it.
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::fs::{MetadataExt as _, symlink};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use sensedsl_tests::{Ran, Random, Scratch, design, few, read, sensedsl, tree};
+
+const USER: &str = "build/firmware/Robot/user";
+const SHEET: &str = "build/wiring.md";
+
+/// A home with things in it, and beside it a project that came from somewhere.
+struct Clone {
+    scratch: Scratch,
+    output: &'static str,
+}
+
+/// All that `stat` tells of what must not change, with its content.
+type Seen = BTreeMap<PathBuf, (u64, u32, u64, i64, i64, Vec<u8>)>;
+
+impl Clone {
+    /// A project whose output another machine made.
+    fn new(made: &BTreeMap<String, Vec<u8>>) -> Self {
+        let scratch = Scratch::new("stranger");
+        for name in [".bashrc", "notes.txt", "keys/id"] {
+            scratch.write(&format!("home/{name}"), format!("the user's {name}"));
+        }
+        fs::create_dir_all(scratch.join("home/empty")).unwrap();
+        let clone = Self { scratch, output: "build" };
+        clone.file("robot.sense", &design("Robot on STM32F4DiscoveryBoard", &["analog"]));
+        for (path, bytes) in made {
+            clone.file(&format!("build/{path}"), bytes);
+        }
+        clone.file(&format!("{USER}/own.c"), "int own;\n");
+        clone.file("build/.git/config", "[core]\n");
+        clone.file(".git/config", "[core]\n");
+        clone
+    }
+
+    fn path(&self, path: &str) -> PathBuf {
+        self.scratch.join("clone").join(path)
+    }
+
+    fn file(&self, path: &str, bytes: impl AsRef<[u8]>) {
+        self.scratch.write(&format!("clone/{path}"), bytes);
+    }
+
+    /// A link to something of the user's, or to anything else; it takes the place of what is there.
+    fn link(&self, path: &str, target: &str) {
+        let path = self.path(path);
+        let _ = fs::remove_file(&path);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        symlink(target.replace('~', &self.scratch.join("home").display().to_string()), path)
+            .unwrap();
+    }
+
+    fn pipe(&self, path: &str) {
+        let path = self.path(path);
+        let _ = fs::remove_file(&path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+    }
+
+    fn hard(&self, path: &str, of: &str) {
+        let path = self.path(path);
+        let _ = fs::remove_file(&path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::hard_link(self.scratch.join("home").join(of), path).unwrap();
+    }
+
+    fn remove(&self, path: &str) {
+        fs::remove_dir_all(self.path(path)).unwrap();
+    }
+
+    /// Adds a line to the list, with the right SHA-256 where there is such a file.
+    fn listed(&self, entry: &str) {
+        let list = read(&self.path("build/.sensedsl-files"));
+        let path = self.path("build").join(entry);
+        let sum = Command::new("sha256sum").arg(path).output().unwrap().stdout;
+        let sum = String::from_utf8_lossy(&sum).into_owned();
+        let sum = sum.split_once(' ').map_or(String::new(), |(sum, _)| format!("{sum}  "));
+        self.file("build/.sensedsl-files", format!("{list}{sum}{entry}\n"));
+    }
+
+    /// What a run that was cut off leaves in a working folder.
+    fn journal(&self, work: &str, path: &str) {
+        self.file(&format!("{work}/complete"), "");
+        self.file(&format!("{work}/list"), format!("{path}\n"));
+        self.file(&format!("{work}/stale"), "x/notes.txt\n");
+        self.file(&format!("{work}/once"), "");
+        self.file(&format!("{work}/files/{path}"), "evil\n");
+        self.file(&format!("{work}/files/.sensedsl-files"), "evil\n");
+    }
+
+    fn generate(&self, more: &[&str]) -> Ran {
+        let call = sensedsl(["generate", "-q", "robot.sense", "-o", self.output]).args(more);
+        let state = self.scratch.join("state").display().to_string();
+        call.within(&self.path("")).env("XDG_STATE_HOME", &state).run()
+    }
+
+    /// The home, the project but for its output, and what is the user's in that.
+    fn precious(&self) -> Seen {
+        let mut seen = Seen::new();
+        let mut ways = vec![self.scratch.join("home"), self.scratch.join("clone")];
+        let output = self.path("build");
+        while let Some(way) = ways.pop() {
+            let found = fs::symlink_metadata(&way).unwrap();
+            let below = way.strip_prefix(&output).ok();
+            let theirs = |path: &Path| path.iter().any(|part| part == "user" || part == ".git");
+            let is_output = below.is_some_and(|below| !theirs(below));
+            // Whoever writes makes and removes a lock and a seal beside the output, and their folder
+            // where nothing else is in it.
+            let is_folder_of_lock = found.is_dir() && way.ends_with(".build.sensedsl-work");
+            let is_lock = is_folder_of_lock
+                || way.file_name().is_some_and(|name| name == "lock" || name == "seal");
+            let has_lock = way == self.path("");
+            let is_folder = found.is_dir();
+            if is_folder {
+                ways.extend(fs::read_dir(&way).unwrap().map(|entry| entry.unwrap().path()));
+            }
+            if is_output && !(found.is_symlink() && below == Some(Path::new(""))) || is_lock {
+                continue;
+            }
+            let bytes = match () {
+                () if found.is_symlink() => {
+                    fs::read_link(&way).unwrap().into_os_string().into_encoded_bytes()
+                }
+                () if found.is_file() => fs::read(&way).unwrap(),
+                () => Vec::new(),
+            };
+            // A second name comes and goes with the link in the output.
+            let time = if has_lock { (0, 0) } else { (found.mtime(), found.mtime_nsec()) };
+            let size = if is_folder { 0 } else { found.size() };
+            seen.insert(way, (found.ino(), found.mode(), size, time.0, time.1, bytes));
+        }
+        seen
+    }
+}
+
+/// What came with a project: what it is, and how to put it there.
+type Case = (&'static str, fn(&mut Clone));
+
+const CASES: &[Case] = &[
+    ("a journal in the folder, through a link", |clone| {
+        clone.link("build/x", "../../home");
+        clone.journal("build/.sensedsl-work", "x/.bashrc");
+    }),
+    ("the same with an absolute link", |clone| {
+        clone.link("build/x", "~");
+        clone.journal("build/.sensedsl-work", "x/.bashrc");
+    }),
+    ("a journal beside, through a link", |clone| {
+        clone.link("build/x", "../../home");
+        clone.journal(".build.sensedsl-work", "x/.bashrc");
+        clone.file(".build.sensedsl-unfinished/x/.bashrc", "evil");
+    }),
+    ("a folder that says it was switched", |clone| {
+        clone.journal(".build.sensedsl-work", ".bashrc");
+        clone.link("build/.sensedsl-files", "../.build.sensedsl-work/list");
+        clone.link(".build.sensedsl-unfinished", "~");
+    }),
+    ("the same with a tree beside", |clone| {
+        clone.journal(".build.sensedsl-work", "x/.bashrc");
+        clone.link("build/.sensedsl-files", "../.build.sensedsl-work/list");
+        clone.link(".build.sensedsl-unfinished/x", "~");
+    }),
+    ("an unfinished tree with files to rescue through a link", |clone| {
+        clone.link("build/x", "~");
+        clone.file(".build.sensedsl-unfinished/x/new", "evil");
+    }),
+    ("an unfinished tree that is a link", |clone| {
+        clone.link(".build.sensedsl-unfinished", "~");
+    }),
+    ("an unfinished tree that was the folder", |clone| {
+        clone.remove("build");
+        clone.file(".build.sensedsl-unfinished/.sensedsl-files", "wiring.md\n");
+        clone.link(".build.sensedsl-unfinished/firmware", "~/empty");
+    }),
+    ("a working folder that is a link", |clone| {
+        clone.link("build/.sensedsl-work", "~/empty");
+    }),
+    ("a working folder beside that is a link", |clone| {
+        clone.link(".build.sensedsl-work", "~/empty");
+    }),
+    ("a lock that leads to a new file", |clone| {
+        clone.link("build/.sensedsl-work/lock", "~/new");
+    }),
+    ("a lock beside that leads to a new file", |clone| {
+        clone.link(".build.sensedsl-work/lock", "~/new");
+    }),
+    ("a lock that is a pipe", |clone| clone.pipe(".build.sensedsl-work/lock")),
+    ("a lock that is a second name", |clone| {
+        clone.hard(".build.sensedsl-work/lock", ".bashrc");
+    }),
+    ("a seal that is a link", |clone| {
+        clone.link(".build.sensedsl-work/seal", "~/.bashrc");
+        clone.journal("build/.sensedsl-work", "x/.bashrc");
+        clone.link("build/.sensedsl-work/seal", "~/.bashrc");
+        clone.link("build/x", "~");
+    }),
+    ("a seal of nobody's", |clone| {
+        clone.file("build/.sensedsl-work/seal", "0".repeat(64));
+        clone.journal("build/.sensedsl-work", "x/.bashrc");
+        clone.link("build/x", "~");
+    }),
+    ("a list through a linked user folder", |clone| {
+        clone.link(USER, "~");
+        clone.listed("firmware/Robot/user/.bashrc");
+    }),
+    ("a list that names a user's file", |clone| {
+        clone.listed("firmware/Robot/user/user.c");
+        clone.listed("firmware/Robot/user/own.c");
+    }),
+    ("a list that names git's files", |clone| clone.listed(".git/config")),
+    ("a list with absolute paths", |clone| {
+        let path = clone.scratch.join("home/.bashrc").display().to_string();
+        clone.listed(&path);
+        clone.listed(&format!("/{path}"));
+    }),
+    ("a list with dots", |clone| {
+        clone.listed("../../home/.bashrc");
+        clone.listed("firmware/../../../home/.bashrc");
+        clone.listed("./../../home/notes.txt");
+        clone.listed("..");
+    }),
+    ("a list through a link", |clone| {
+        clone.link("build/x", "~");
+        clone.listed("x/.bashrc");
+    }),
+    ("a list that names the link as well", |clone| {
+        clone.link("build/x", "~");
+        clone.listed("x/.bashrc");
+        clone.listed("x");
+    }),
+    ("names in other cases", |clone| {
+        clone.file("build/.GIT/config", "[core]\n");
+        clone.listed(".GIT/config");
+        clone.listed("firmware/Robot/USER/own.c");
+        clone.listed("FIRMWARE/Robot/user/own.c");
+    }),
+    ("an output folder that is a link to a home", |clone| clone.link("build", "../home")),
+    ("an output folder that is a link to an empty folder", |clone| {
+        clone.link("build", "../home/empty");
+    }),
+    ("an output folder below a link", |clone| {
+        clone.link("out", "../home/empty");
+        clone.output = "out/build";
+    }),
+    ("an output folder below a link, by a detour", |clone| {
+        clone.link("a/out", "../../home/empty");
+        clone.output = "a/../a/./out/build";
+    }),
+    ("a generated folder that is a link", |clone| clone.link("build/firmware", "~/empty")),
+    ("a generated folder that is a listed link", |clone| {
+        clone.link("build/firmware", "~/empty");
+        clone.listed("firmware");
+    }),
+    ("a generated folder that is a listed file", |clone| {
+        clone.remove("build/host");
+        clone.file("build/host", "a file");
+        clone.listed("host");
+    }),
+    ("a generated file that is a link", |clone| clone.link(SHEET, "~/.bashrc")),
+    ("a generated file that is a link to nothing", |clone| clone.link(SHEET, "~/new")),
+    ("a generated file that is a link to a device", |clone| clone.link(SHEET, "/dev/zero")),
+    ("a generated file that is a second name", |clone| clone.hard(SHEET, ".bashrc")),
+    ("a generated file that is a pipe", |clone| clone.pipe(SHEET)),
+    ("a generated file that is a folder", |clone| {
+        fs::remove_file(clone.path(SHEET)).unwrap();
+        clone.link(&format!("{SHEET}/x"), "~");
+    }),
+    ("a user folder that is a link to an empty one", |clone| clone.link(USER, "~/empty")),
+    ("a user's file that is a link to nothing", |clone| {
+        clone.link(&format!("{USER}/user.c"), "~/new");
+    }),
+    ("parts of a user's file", |clone| {
+        fs::remove_file(clone.path(USER).join("user.c")).unwrap();
+        clone.link(&format!("{USER}/.user.c.sensedsl-part-1-1"), "~/.bashrc");
+        clone.pipe(&format!("{USER}/.user.c.sensedsl-part-1-2"));
+        clone.link("build/.wiring.md.part", "~/.bashrc");
+        fs::remove_file(clone.path("build/.wiring.md.part")).unwrap();
+    }),
+    ("parts of earlier versions", |clone| {
+        clone.link("build/.wiring.md.part", "~/.bashrc");
+    }),
+    ("a list that is a pipe", |clone| clone.pipe("build/.sensedsl-files")),
+    ("a list that is a folder", |clone| {
+        clone.link("build/.sensedsl-files", "x");
+        fs::remove_file(clone.path("build/.sensedsl-files")).unwrap();
+        clone.file("build/.sensedsl-files/x", "x");
+    }),
+    ("a list that is a link", |clone| clone.link("build/.sensedsl-files", "~/.bashrc")),
+    ("a list that is a link to itself", |clone| {
+        clone.link("build/.sensedsl-files", ".sensedsl-files");
+    }),
+    ("a list without end", |clone| clone.link("build/.sensedsl-files", "/dev/zero")),
+    ("a list that names folders", |clone| {
+        for folder in ["firmware", "firmware/Robot", "firmware/Robot/user", "host/", ".git"] {
+            clone.listed(folder);
+        }
+    }),
+    ("a file called as git's folder", |clone| {
+        clone.remove("build/.git");
+        clone.file("build/.git", "gitdir: ../.git/modules/build\n");
+        clone.listed(".git");
+    }),
+];
+
+/// What another machine generates.
+fn made() -> BTreeMap<String, Vec<u8>> {
+    let scratch = Scratch::new("other-machine");
+    let text = design("Robot on STM32F4DiscoveryBoard", &["analog"]);
+    let file = scratch.write("robot.sense", text);
+    let call = sensedsl(["generate", "-q"]).arg(file).arg("-o").arg(scratch.join("build"));
+    let _ = call.env("XDG_STATE_HOME", &scratch.join("state").display().to_string()).run().exits(0);
+    tree(&scratch.join("build"))
+}
+
+/// Runs `generate` in a hostile project, as a user does, and as one who believes all that it says.
+#[track_caller]
+fn harmless(name: &str, made: &BTreeMap<String, Vec<u8>>, prepare: &dyn Fn(&mut Clone)) {
+    let all = [&["--adopt"][..], &[], &["--without", "firmware"]];
+    // The first believes the most.
+    for more in few(&all, 1) {
+        let mut clone = Clone::new(made);
+        prepare(&mut clone);
+        let mut before = clone.precious();
+        let ran = clone.generate(more);
+        assert!((0..=2).contains(&ran.status), "{name}: {} {}", ran.status, ran.stderr);
+        if ran.status != 0 {
+            assert!(ran.stderr.contains("error"), "{name}: {}", ran.stderr);
+        }
+        let _ = clone.generate(&[]);
+        let mut after = clone.precious();
+        // A user's file that is missing is made, in a folder that is one.
+        let once = clone.path(USER).join("user.c");
+        if !before.contains_key(&once) {
+            for seen in [&mut before, &mut after] {
+                seen.remove(&once);
+                seen.remove(&clone.path(USER));
+                seen.remove(&clone.path(USER).join(".user.c.sensedsl-part-1-1"));
+            }
+        }
+        let changed: Vec<_> = before
+            .iter()
+            .filter(|(path, one)| after.get(*path) != Some(*one))
+            .map(|(path, _)| path)
+            .chain(after.keys().filter(|path| !before.contains_key(*path)))
+            .collect();
+        assert!(changed.is_empty(), "{name} {more:?}: {changed:#?}\n{}", ran.stderr);
+    }
+}
+
+#[test]
+fn hostile_folders_change_nothing_that_is_not_theirs() {
+    let made = made();
+    assert!(CASES.len() >= 40, "{}", CASES.len());
+    for (name, prepare) in CASES {
+        harmless(name, &made, &|clone| prepare(clone));
+    }
+}
+
+#[test]
+fn drawn_hostile_folders_change_nothing_that_is_not_theirs() {
+    let made = made();
+    let paths: Vec<&String> = made.keys().collect();
+    for seed in 0..15 {
+        harmless(&format!("seed {seed}"), &made, &|clone| {
+            let mut random = Random::new(seed);
+            for _ in 0..=random.below(4) {
+                let path = paths[random.below(paths.len())];
+                let way: Vec<&Path> = Path::new(path).ancestors().collect();
+                // The file itself or a folder above it.
+                let way = way[random.below(way.len() - 1)].display().to_string();
+                let target = ["~", "~/empty", "~/.bashrc", "~/new", "../../../home"];
+                let target = target[random.below(target.len())];
+                match random.below(6) {
+                    0 | 1 => clone.link(&format!("build/{way}"), target),
+                    2 => clone.journal("build/.sensedsl-work", &format!("{way}/.bashrc")),
+                    3 => clone.journal(".build.sensedsl-work", &format!("{way}/.bashrc")),
+                    4 if clone.path("build/.sensedsl-files").is_file() => clone.listed(&way),
+                    _ => clone.link(&format!(".build.sensedsl-unfinished/{way}"), target),
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn a_clone_of_another_machine_is_taken_over_where_nothing_was_changed() {
+    let made = made();
+    let clone = Clone::new(&made);
+    let _ = clone.generate(&[]).exits(0);
+    let _ = clone.generate(&["--check"]).exits(0);
+    // The design goes on: what is no longer made goes, as it is what the list says.
+    let clone = Clone::new(&made);
+    clone.file("robot.sense", design("Rover on STM32F4DiscoveryBoard", &["analog"]));
+    let _ = clone.generate(&[]).exits(0);
+    let _ = clone.generate(&["--check"]).exits(0);
+    let left = tree(&clone.path("build/firmware/Robot"));
+    assert_eq!(left.keys().collect::<Vec<_>>(), ["user/own.c", "user/user.c"]);
+    // And what this machine wrote it may rewrite, whatever became of it, wherever it went.
+    fs::rename(clone.path("build"), clone.path("moved")).unwrap();
+    let clone = Clone { output: "moved", ..clone };
+    clone.file("moved/wiring.md", "changed");
+    let _ = clone.generate(&[]).exits(0);
+    assert_ne!(read(&clone.path("moved/wiring.md")), "changed");
+}
+
+#[test]
+fn a_changed_file_of_another_machine_is_replaced_only_where_that_is_said() {
+    let clone = Clone::new(&made());
+    clone.file(SHEET, "notes of somebody's");
+    let ran = clone.generate(&[]).exits(1);
+    assert!(ran.stderr.contains("error[E0526]") && ran.stderr.contains("wiring.md"));
+    assert_eq!(read(&clone.path(SHEET)), "notes of somebody's");
+    let _ = clone.generate(&["--adopt"]).exits(0);
+    assert_ne!(read(&clone.path(SHEET)), "notes of somebody's");
+    // A list of an earlier version has no SHA-256.
+    let clone = Clone::new(&made());
+    clone.file("build/.sensedsl-files", "schema.json\n");
+    clone.file("build/schema.json", "of an earlier version");
+    let ran = clone.generate(&[]).exits(1);
+    assert!(ran.stderr.contains("error[E0526]") && ran.stderr.contains("schema.json"));
+    let _ = clone.generate(&["--adopt"]).exits(0);
+}
+
+#[test]
+fn what_is_refused_says_what_to_do() {
+    let cases = [
+        ("a journal in the folder, through a link", "error[E0525]", ".sensedsl-work"),
+        ("an unfinished tree that is a link", "error[E0525]", ".build.sensedsl-unfinished"),
+        ("a working folder beside that is a link", "error[E0525]", ".build.sensedsl-work"),
+        ("an output folder below a link", "error[E0524]", "`out` is a link that leads to"),
+        ("a user folder that is a link to an empty one", "error[E0524]", "user/user.c"),
+        ("a generated folder that is a link", "error[E0502]", "firmware"),
+    ];
+    let made = made();
+    for (name, code, what) in cases {
+        let mut clone = Clone::new(&made);
+        let (_, prepare) = CASES.iter().find(|(one, _)| *one == name).unwrap();
+        prepare(&mut clone);
+        let ran = clone.generate(&[]).exits(1);
+        assert!(ran.stderr.contains(code) && ran.stderr.contains(what), "{name}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_machine_without_a_place_for_its_state_still_writes() {
+    let made = made();
+    let clone = Clone::new(&made);
+    clone.file("state", "not a folder");
+    let state = clone.path("state").display().to_string();
+    for output in ["build", "new"] {
+        let call = sensedsl(["generate", "-q", "robot.sense", "-o", output]);
+        let call = call.env("XDG_STATE_HOME", &state).env("HOME", "/nonexistent");
+        let _ = call.within(&clone.path("")).run().exits(0);
+    }
+}
