@@ -66,6 +66,28 @@ fn statuses_and_codes() {
     }
 }
 
+/// What a device does not report is explained by the world or told; a board of an AVR is read like any other.
+#[test]
+fn silences_are_explained_by_the_world() {
+    let scratch = Scratch::new("silence");
+    let file = scratch.write(
+        "uno.sense",
+        "board ARDUINO_UNO_R3 {
+            sensor Rear returns uint16 { id = 1; driver = srf08; address = 0x70; delay = 100 ms; invalid = 0; }
+            sensor Angle returns uint16 { id = 2; driver = as5047p; delay = 20 ms; }
+        }",
+    );
+    let file = file.display().to_string();
+    let judge = |world: &str| {
+        let world = scratch.write("world.toml", world).display().to_string();
+        sensedsl(["simulate", &file, "--target", "none", "--world", &world, "--judge"]).run()
+    };
+    let ran = judge("").exits(0);
+    assert!(ran.stdout.contains("100 ms") && ran.stdout.contains("20 ms"), "{}", ran.stdout);
+    let ran = judge("[devices]\nRear = 0\n").exits(0);
+    assert!(ran.stdout.contains("Rear          0 "), "{}", ran.stdout);
+}
+
 #[test]
 fn a_seed_gives_the_same_bytes() {
     let scratch = Scratch::new("frames");

@@ -10,10 +10,11 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Error,
     title: "reports disagree with the world",
     explanation: r#"`simulate --judge` compares every report with the world: what a device reports must lie within what the world did since
-the measurement can have been made, give or take what hardware and coding round. A device that has nothing to report for
-longer than three of its cycles disagrees as well, unless a fault of the world explains it.
+the measurement can have been made, give or take what hardware and coding round. A device disagrees as well that reports
+nothing for longer than three of its cycles, unless the world explains it, or whose reports come more than 10 % too
+often or too rarely; and one that the board says has failed, with nothing wrong in the world.
 
-Values of another scale, order or device, old values and lost ones are found this way.
+Values of another scale, order or device, old values, lost ones and wrong addresses are found this way.
 
 Way out: look at the device that the message names; the table before it has them all.
 "#,
