@@ -16,6 +16,7 @@ use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line};
 use crate::parts::registers::{Reading, Registers};
+use crate::parts::sleep::Sleep;
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
 use crate::surroundings::{Pad, TimerOutput};
@@ -419,6 +420,7 @@ impl Bench {
     ) -> Chip {
         let part = one.connection.part;
         let protocol = one.part.chip.clone().unwrap_or_default();
+        let sleep = one.part.driver.as_deref().and_then(Sleep::of);
         let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
             let device = of.device;
             let subject = self.subject(device)?;
@@ -454,7 +456,7 @@ impl Bench {
             address: one.connection.kind.i2c().map(|own| own.address),
             connection: index,
             is_selected: false,
-            registers: Registers::new(protocol, readings.collect()),
+            registers: Registers::new(protocol, readings.collect(), sleep),
         }
     }
 }

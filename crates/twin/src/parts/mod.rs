@@ -6,4 +6,5 @@ pub(crate) mod line;
 pub(crate) mod message;
 pub(crate) mod pulses;
 pub(crate) mod registers;
+pub(crate) mod sleep;
 pub(crate) mod words;

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use sensedsl_model::protocol::{Formula, Protocol};
 use sensedsl_model::words::Words;
 
+use super::sleep::Sleep;
 use super::{formula, words};
 use crate::truth::Subject;
 
@@ -51,6 +52,9 @@ pub(crate) struct Registers {
     protocol: Protocol,
     readings: Vec<Reading>,
     written: BTreeMap<u16, u8>,
+    /// What wakes it, and all that was written, triggers included.
+    sleep: Option<Sleep>,
+    controls: BTreeMap<u16, u8>,
     /// What the master has sent in this transfer.
     sent: Vec<u8>,
     pointer: Option<u16>,
@@ -62,11 +66,13 @@ pub(crate) struct Registers {
 }
 
 impl Registers {
-    pub(crate) fn new(protocol: Protocol, readings: Vec<Reading>) -> Self {
+    pub(crate) fn new(protocol: Protocol, readings: Vec<Reading>, sleep: Option<Sleep>) -> Self {
         Self {
             protocol,
             readings,
             written: BTreeMap::new(),
+            sleep,
+            controls: BTreeMap::new(),
             sent: Vec::new(),
             pointer: None,
             measurement: None,
@@ -78,7 +84,8 @@ impl Registers {
 
     /// The supply was gone.
     pub(crate) fn reset(&mut self) {
-        *self = Self::new(self.protocol.clone(), std::mem::take(&mut self.readings));
+        let readings = std::mem::take(&mut self.readings);
+        *self = Self::new(self.protocol.clone(), readings, self.sleep);
     }
 
     /// Whether it measures and does not answer. A part that is set up first, or is asked for several things, has a
@@ -182,6 +189,9 @@ impl Registers {
         if sent.is_empty() {
             return;
         }
+        let width = self.width();
+        let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
+        self.controls.extend((first..=u16::MAX).zip(sent.iter().skip(width).copied()));
         if let Some(one) = self.readings.iter().find(|one| one.trigger == sent) {
             // A driver names the longest time; parts are a little faster.
             let ready_ns = now_ns.saturating_add(one.wait_ns - one.wait_ns / 50);
@@ -189,8 +199,6 @@ impl Registers {
             self.pointer = None;
             return;
         }
-        let width = self.width();
-        let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
         self.pointer = Some(first);
         for (register, byte) in (first..=u16::MAX).zip(sent.iter().skip(width)) {
             self.written.insert(register, *byte);
@@ -276,6 +284,10 @@ impl Registers {
         subjects: &[Subject],
         now_ns: u64,
     ) -> Vec<Vec<(usize, u8)>> {
+        // The registers of what a part that sleeps would measure hold 0.
+        if self.sleep.is_some_and(|sleep| sleep.is_asleep(&self.controls)) {
+            return Vec::new();
+        }
         let of = |one: &&Reading| {
             let measured = self.measurement.as_ref().filter(|_| !one.trigger.is_empty());
             let at_ns = measured.map_or(now_ns, |measured| measured.began_ns);

@@ -131,3 +131,17 @@ fn units_without_a_number_are_read() {
     assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
     assert!(run.judged.iter().all(|one| one.reports > 200), "{:#?}", run.judged);
 }
+
+/// A part that nobody wakes measures nothing, as its data sheet says.
+#[test]
+fn a_part_that_is_not_woken_is_seen() {
+    let board = |init: &str| {
+        format!(
+            "board STM32F407G_DISC1 {{ chip Imu {{ driver = adxl345; address = 0x53; delay = 20 ms; {init} }} }}"
+        )
+    };
+    let right = board("");
+    assert!(plainly(&right, "", 5).wrong().is_empty());
+    let asleep = mistaken(&right, &board("init = [[0x31, 0x0B], [0x2C, 0x0A]];"), "", 5);
+    assert!(!asleep.wrong().is_empty());
+}
