@@ -484,7 +484,7 @@ fn a_bus_is_no_faster_than_its_unit() {
     ] {
         let design = format!(
             "board B on {mcu} {{ link {{ transport = uart; }}
-chip Servos {{ driver = pca9685; actuator Pan accepts uint16 {{ command = output0; }} }} }}"
+chip Servos {{ driver = pca9685; actuator Pan accepts uint16 {{ reading = output0; }} }} }}"
         );
         with_job(&design, Some("embassy"), |job| {
             let files = target::of(job.profile.unwrap()).unwrap().generate(job).unwrap();
