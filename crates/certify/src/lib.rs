@@ -9,6 +9,8 @@ mod ascent;
 mod case;
 mod labels;
 mod model;
+mod search;
+mod swaps;
 mod tree;
 mod write;
 
@@ -26,6 +28,8 @@ use write::{Proof, Writer};
 
 /// Tolls that may be looked up for one certificate: some ten seconds.
 const WORK_MAX: u64 = 1_000_000_000;
+/// Tolls that may be looked up for one that a person can read: some hundredths of a second.
+const WORK_SHORT: u64 = 1;
 
 /// What the problem was made of, for whoever has to tell its certificate from others. Each text
 /// has its SHA-256.
@@ -77,24 +81,69 @@ pub fn certify(
     claim: Claim<'_>,
     cancel: Cancel<'_>,
 ) -> Result<String, Uncertified> {
-    let mut effort = Effort { work: WORK_MAX, cancel };
-    let writer = Writer { problem, labels };
-    let (answer, proofs) = match claim {
+    match claim {
         Claim::Best(answer) => {
             let tasks = tasks(&answer.objective).ok_or(Uncertified::TooLarge)?;
-            (Some(answer), prove(&writer, &tasks, &mut effort)?)
+            Case { problem, labels, subject, answer: Some(answer), cancel }.certify(&tasks)
         }
         Claim::NoWiring(devices) => {
             let devices: Vec<usize> = devices.iter().map(|device| device.0 as usize).collect();
             let mut part = problem.clone();
             part.devices = labels::pick(&problem.devices, &devices);
-            let writer = Writer { problem: &part, labels: &labels.with_devices(&devices) };
+            let labels = labels.with_devices(&devices);
             let task = Task { of: "existence", weights: Objective::default(), limit: 0, most: 1 };
-            (None, prove(&writer, &[task], &mut effort)?)
+            let case = Case { problem: &part, labels: &labels, subject, answer: None, cancel };
+            case.certify(&[task])
         }
-    };
-    let text = writer.certificate(subject, answer, &proofs);
-    believed(&text, cancel).map(|()| text)
+    }
+}
+
+/// A claim about all devices of a problem.
+struct Case<'a> {
+    problem: &'a Problem,
+    labels: &'a Labels,
+    subject: &'a Subject,
+    answer: Option<&'a Answer>,
+    cancel: Cancel<'a>,
+}
+
+impl Case<'_> {
+    /// Short proofs first, which a person can read; then the record of the search; where that is not
+    /// enough, longer proofs.
+    fn certify(&self, tasks: &[Task]) -> Result<String, Uncertified> {
+        let Self { problem, labels, subject, answer, cancel } = *self;
+        let writer = Writer { problem, labels };
+        let proved = |work: u64| {
+            let proofs = prove(&writer, tasks, &mut Effort { work, cancel })?;
+            let text = writer.certificate(subject, answer, &proofs, None);
+            believed(&text, cancel).map(|()| text)
+        };
+        match proved(WORK_SHORT) {
+            Err(Uncertified::GivenUp) => {}
+            done => return done,
+        }
+        if let Some(search) = self.recorded() {
+            let text = writer.certificate(subject, answer, &[], Some(&search));
+            match believed(&text, cancel) {
+                Ok(()) => return Ok(text),
+                Err(Uncertified::Stopped) => return Err(Uncertified::Stopped),
+                Err(why) => eprintln!("DEBUG {why:?}"),
+            }
+        } else { eprintln!("DEBUG no record"); }
+        proved(WORK_MAX)
+    }
+
+    /// The record of the search; none where it holds more than the format has.
+    fn recorded(&self) -> Option<String> {
+        let Self { problem, labels, answer, cancel, .. } = *self;
+        let best = answer.map(|answer| answer.objective);
+        let equal = sensedsl_solve::equal_boards(problem).ok()?;
+        let swaps = equal.iter().enumerate().all(|(board, first)| {
+            board == *first || swaps::Swap::new(problem, (*first, board)).is_some()
+        });
+        let record = sensedsl_solve::record(problem, best, swaps, cancel).ok()??;
+        search::Text::of(problem, &search::Places::new(problem, labels), &record)
+    }
 }
 
 /// What is handed out has been verified.

@@ -47,6 +47,7 @@ impl Writer<'_> {
         subject: &Subject,
         answer: Option<&Answer>,
         proofs: &[String],
+        search: Option<&str>,
     ) -> String {
         let Self { problem, labels } = self;
         let boards = labels.boards.iter().zip(&problem.boards);
@@ -76,7 +77,11 @@ impl Writer<'_> {
             Some(answer) => self.answer(&mut text, answer),
             None => text.push_str("null"),
         }
-        let _ = writeln!(text, ",\n\"proofs\": [{}]\n}}", proofs.join(",\n"));
+        let _ = write!(text, ",\n\"proofs\": [{}]", proofs.join(",\n"));
+        if let Some(search) = search {
+            let _ = write!(text, ",\n\"search\": {search}");
+        }
+        text.push_str("\n}\n");
         text
     }
 

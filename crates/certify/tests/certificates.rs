@@ -280,7 +280,7 @@ fn what_passes_after_a_change_is_true() {
         for _ in 0..20 {
             let mut value = value.clone();
             // The proof and the answer are small beside the problem.
-            let part = ["problem", "answer", "proofs"][rng.below(3) as usize];
+            let part = ["problem", "answer", "search"][rng.below(3) as usize];
             mutate(&mut value[part], &mut rng);
             let Ok(certificate) = read(&value.to_string()) else { continue };
             let Ok(verified) = verify(&certificate) else {

@@ -17,6 +17,9 @@ pub const STEPS_MAX: usize = 1_250_000;
 /// Choices that are remembered of the cases that wait, about a few hundred bytes each.
 pub const WAITING_MAX: usize = 500_000;
 
+/// Choices that the records of searches look at, which takes a second or two.
+pub const WORK_MAX: usize = 150_000_000;
+
 /// What is said of a proof beyond [`STEPS_MAX`] or [`WAITING_MAX`].
 pub const TOO_LONG: &str = "the proofs are longer than the verifier looks at";
 
@@ -47,15 +50,21 @@ pub fn fits(text: &str) -> Result<(), Unusable> {
 pub(crate) struct Budget {
     steps: usize,
     waiting: usize,
+    work: usize,
 }
 
 impl Budget {
     pub(crate) const fn new() -> Self {
-        Self { steps: STEPS_MAX, waiting: WAITING_MAX }
+        Self { steps: STEPS_MAX, waiting: WAITING_MAX, work: WORK_MAX }
     }
 
     pub(crate) fn step(&mut self, steps: usize) -> Result<(), Refuted> {
         spend(&mut self.steps, steps)
+    }
+
+    /// A search looks at so many choices.
+    pub(crate) fn work(&mut self, choices: usize) -> Result<(), Refuted> {
+        spend(&mut self.work, choices)
     }
 
     /// Cases wait for as many choices.

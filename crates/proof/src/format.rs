@@ -11,7 +11,7 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 
 /// Name and version of the format.
-pub const NAME: &str = "SenseDSL certificate 2";
+pub const NAME: &str = "SenseDSL certificate 3";
 
 /// Things by name, no name twice.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,8 +72,12 @@ pub struct Certificate {
     /// The claim; `null` claims that there is no wiring.
     #[serde(deserialize_with = "stated")]
     pub answer: Option<Answer>,
-    /// One for each part of the objective that is not 0, or one of existence.
+    /// One for each part of the objective that is not 0, or one of existence; none where there is a
+    /// search.
     pub proofs: Vec<Proof>,
+    /// One proof of everything: the record of a search.
+    #[serde(default)]
+    pub search: Option<Search>,
 }
 
 /// A value that may be `null`, but not left out.
@@ -307,4 +311,138 @@ pub struct Leaf {
     pub prices: Map<Map<u32>>,
     /// Kind, thing, device: what that device pays that uses it with others; otherwise nothing.
     pub tolls: Map<Map<Map<u32>>>,
+}
+
+/// Numbers in a row; what belongs together stands side by side.
+pub type Row = Vec<u64>;
+
+/// The record of a search that no wiring weighs less than the answer, or that there is none.
+///
+/// Boards, pins, users of DMA, devices, their alternatives, the roles of these and their candidates
+/// are called by their place in the order of names; so are all resources and holders that are
+/// claimed, rules that are violated, and streams. The holder `own` is 0.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Search {
+    /// What each part of the objective weighs.
+    pub weights: [u64; 5],
+    /// What is opened once for all who use it.
+    pub facilities: Vec<Facility>,
+    /// Facilities of which so many must be open.
+    pub covers: Vec<Cover>,
+    /// Boards that can change places.
+    pub swaps: Vec<Swap>,
+    /// The cases, depth first.
+    pub steps: Vec<Step>,
+}
+
+/// What is opened once for all who use it together.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Facility {
+    /// Device, alternative: whoever takes one of these uses it.
+    pub members: Row,
+    /// The resource that it occupies, if it does.
+    pub resource: Option<u64>,
+    /// For each wire that its members hold together the role of every member.
+    pub wires: Vec<Row>,
+    /// The users of DMA whose streams it needs.
+    pub users: Row,
+    /// Resources that one member at a time can hold.
+    pub slots: Row,
+}
+
+/// Facilities of which so many must be open because there is no room for these devices otherwise.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cover {
+    /// The devices.
+    pub devices: Row,
+    /// The facilities of which `need` must be open.
+    pub great: Row,
+    /// The other facilities that these devices can use.
+    pub small: Row,
+    /// How many.
+    pub need: u64,
+}
+
+/// Two boards that change places, with all that changes with them, in pairs.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Swap {
+    /// The two.
+    pub boards: (u64, u64),
+    /// Pins.
+    pub pins: Row,
+    /// Resources.
+    pub resources: Row,
+    /// Holders.
+    pub holders: Row,
+    /// Users of DMA.
+    pub users: Row,
+    /// Streams.
+    pub streams: Row,
+    /// Device, alternative, alternative.
+    pub ways: Row,
+}
+
+/// A step of a search.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Step {
+    /// Nothing is left.
+    Dead,
+    /// All that is left weighs too much.
+    Closed(By),
+    /// What weighs too much is removed. The next step is about the rest.
+    Narrowed(By),
+    /// It is so, which the next steps are about; or it is not, for which others follow.
+    Split {
+        /// The question.
+        on: Question,
+        /// Devices that are as good for it.
+        #[serde(default)]
+        twins: Row,
+        /// Swaps to boards that are as good for it.
+        #[serde(default)]
+        swaps: Row,
+    },
+}
+
+/// What is taken or refused.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Question {
+    /// Device, alternative.
+    Way(u64, u64),
+    /// Device, alternative, role, candidate.
+    Wire(u64, u64, u64, u64),
+    /// Nobody violates the rule.
+    Kept(u64),
+    /// Nobody is on the board.
+    Unused(u64),
+    /// Somebody uses the facility.
+    Open(u64),
+}
+
+/// Multipliers: what everybody pays for what; see the module `search::price`.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct By {
+    /// How many units of these are a unit of weight.
+    pub scale: u64,
+    /// Pin, what it costs beyond its weight.
+    pub pins: Row,
+    /// Resource, what it costs.
+    pub resources: Row,
+    /// Stream, what it costs.
+    pub streams: Row,
+    /// Facility, device, what the device pays to it.
+    pub links: Row,
+    /// Facility, resource, what the member who holds it for itself pays to the facility.
+    pub tickets: Row,
+    /// Rule, device, 0 or the role and 1, what is paid for violating it there.
+    pub rules: Row,
+    /// Cover, what each of its facilities saves.
+    pub covers: Row,
 }

@@ -19,6 +19,7 @@
 pub mod budget;
 pub mod format;
 mod leaf;
+mod search;
 pub mod subject;
 mod tree;
 mod wiring;
@@ -97,12 +98,23 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
 /// # Errors
 /// The first thing that is wrong with it.
 pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
-    let Certificate { format: _, subject: _, problem, answer, proofs } = certificate;
+    let Certificate { format: _, subject: _, problem, answer, proofs, search } = certificate;
     named(problem)?;
     let mut parts = proofs.iter().enumerate().map(|(at, proof)| (at, proof.of));
     let twice = parts.find(|(at, of)| proofs.iter().take(*at).any(|before| before.of == *of));
     ensure(twice.is_none(), || "two proofs are of one part".into())?;
     let budget = &mut Budget::new();
+    if let Some(search) = search {
+        ensure(proofs.is_empty(), || "there are proofs beside the search".into())?;
+        let claimed = answer.as_ref().map(|answer| answer.objective);
+        if let Some(answer) = answer {
+            let actual = wiring::objective(problem, answer)?;
+            let claimed = answer.objective;
+            ensure(actual == claimed, || format!("the wiring has {actual}, not {claimed}"))?;
+        }
+        search::check(problem, search, claimed, budget)?;
+        return Ok(claimed.map_or(Verified::NoWiring, Verified::Best));
+    }
     match answer {
         Some(answer) => best(problem, answer, proofs, budget),
         None => no_wiring(problem, proofs, budget),

@@ -14,6 +14,7 @@ mod model;
 pub mod problem;
 mod questions;
 mod search;
+pub mod trace;
 
 pub use answer::{Answer, Choice, Conflict, Count, Fault, Objective, Optimality, Outcome};
 pub use cancel::Cancel;
@@ -22,3 +23,4 @@ pub use problem::Problem;
 pub use questions::count::count;
 pub use questions::enumerate::{Answers, enumerate};
 pub use questions::solve::{Options, alike, feasible, solve};
+pub use search::recorded::{equal_boards, record};

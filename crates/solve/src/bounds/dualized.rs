@@ -51,6 +51,8 @@ pub(crate) struct Dualized {
     pub(crate) covers: Vec<Cover>,
     /// Soft rules that more than one wire can violate.
     pub(crate) penalties: IdVec<PenaltyId, Penalty>,
+    /// What the price of each link is for.
+    pub(crate) ties: Vec<(PriceId, Tie)>,
 }
 
 /// A soft rule that is paid for once, by all who violate it together.
@@ -58,6 +60,17 @@ pub(crate) struct Dualized {
 pub(crate) struct Penalty {
     pub(crate) rule: RuleId,
     pub(crate) links: Vec<Link>,
+}
+
+/// What the price of a link ties to what.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Tie {
+    /// Whoever claims the resource for itself pays to the facility.
+    Ticket(FacilityId, ResourceId),
+    /// Each device of the class pays to the facility.
+    Link(FacilityId, DeviceId),
+    /// Each device of the class pays for the rule: as a whole (0) or by a role (1 and up).
+    Rule(RuleId, DeviceId, usize),
 }
 
 /// What a link ties to a facility.
@@ -148,7 +161,26 @@ impl Dualized {
         price.index() >= self.held.len()
     }
 
-    fn resource(&self, resource: ResourceId) -> PriceId {
+    /// The resource of a price.
+    pub(crate) fn resource_of(&self, price: PriceId) -> ResourceId {
+        ResourceId::new(price.index().saturating_sub(self.first_resource))
+    }
+
+    /// The stream of a price, if it is one of a stream.
+    pub(crate) fn stream_of(&self, price: PriceId) -> Option<StreamId> {
+        price.index().checked_sub(self.first_stream).map(StreamId::new)
+    }
+
+    /// The resources that one user at a time holds in a facility.
+    pub(crate) fn slots_of(&self, facility: FacilityId) -> Vec<ResourceId> {
+        let slot = |(_, tie): &(PriceId, Tie)| match tie {
+            Tie::Ticket(of, resource) if *of == facility => Some(*resource),
+            _ => None,
+        };
+        self.ties.iter().filter_map(slot).collect()
+    }
+
+    pub(crate) fn resource(&self, resource: ResourceId) -> PriceId {
         PriceId::new(self.first_resource + resource.index())
     }
 
@@ -184,9 +216,18 @@ impl Dualized {
                 Tied::Class(Reverse(class)) => alike(class),
             };
             self.facilities[facility].links.push((link, times));
+            self.ties.push(match tied {
+                Tied::Resource(resource) => (link, Tie::Ticket(facility, resource)),
+                Tied::Class(Reverse(class)) => (link, Tie::Link(facility, class)),
+            });
         }
         let mut penalties: BTreeMap<RuleId, Vec<Link>> = BTreeMap::new();
-        for (&(rule, class, _), &link) in &links.of_rule {
+        for (&(rule, class, place), &link) in &links.of_rule {
+            let place = match place {
+                Place::Role(position) => position + 1,
+                Place::Alternative => 0,
+            };
+            self.ties.push((link, Tie::Rule(rule, class, place)));
             penalties.entry(rule).or_default().push((link, alike(class)));
         }
         let penalty = |(rule, links)| Penalty { rule, links };

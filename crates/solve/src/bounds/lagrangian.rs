@@ -16,6 +16,7 @@
 //! mixed-integer linear programming*, 2004).
 
 mod fixing;
+mod multipliers;
 
 use super::dualized::Dualized;
 use super::subproblems::{Subproblems, Way};

@@ -99,7 +99,7 @@ impl Engine<'_> {
     }
 
     /// The boards that a branch is about. Rules are the same on equal boards.
-    fn boards_of(&self, branch: Branch) -> Vec<BoardId> {
+    pub(super) fn boards_of(&self, branch: Branch) -> Vec<BoardId> {
         let model = self.model;
         match branch {
             Branch::Alt(alt) => vec![model.alt_board[alt]],
@@ -120,7 +120,7 @@ impl Engine<'_> {
     /// The board of a branch and those that are equal to it at this node, because nothing is decided
     /// of any of them. If some answer had the refused choice on another one of them, swapping the two
     /// boards would give an answer with the choice where it was tried.
-    fn equals(&self, branch: Branch) -> impl Iterator<Item = BoardId> + use<> {
+    pub(super) fn equals(&self, branch: Branch) -> impl Iterator<Item = BoardId> + use<> {
         let first = &self.model.boards.first_equal;
         let mut boards = self.boards_of(branch);
         if let &[board] = boards.as_slice()
@@ -135,7 +135,7 @@ impl Engine<'_> {
 
     /// The device and those that are interchangeable with it at this node, by themselves or with
     /// their bundles.
-    fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
+    pub(super) fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
         let model = self.model;
         let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
         let mut twins: Vec<DeviceId> = model.class_of(model.class[device]).filter(same).collect();

@@ -15,6 +15,7 @@ mod node;
 mod progress;
 mod pseudo_costs;
 mod read_off;
+pub(crate) mod recorded;
 mod rounding;
 mod strong_branching;
 pub(crate) mod tie_break;

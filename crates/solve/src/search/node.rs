@@ -52,12 +52,12 @@ impl Engine<'_> {
         end.is_some_and(|end| self.goal.best.is_some() || self.progress.nodes > end)
     }
 
-    fn is_stopped(&mut self) -> bool {
+    pub(super) fn is_stopped(&mut self) -> bool {
         self.progress.stopped |= self.progress.is_spent() || self.cancel.is_over();
         self.progress.stopped
     }
 
-    fn streams_may_suffice(&self) -> bool {
+    pub(super) fn streams_may_suffice(&self) -> bool {
         !self.model.dma_matters || streams::may_suffice(self.problem, self.model, &self.domains)
     }
 

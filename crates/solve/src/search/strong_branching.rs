@@ -75,6 +75,33 @@ impl Engine<'_> {
         Ok(best.1)
     }
 
+    /// As [`Self::strongest`], for a record: where one side is pruned, that is the branch. None where
+    /// nothing is fractional.
+    pub(super) fn strongest_recorded(&mut self) -> Option<Branch> {
+        let now = self.pricing.as_ref().map_or(0.0, |pricing| pricing.relaxation.bound());
+        let mut best = (f64::NEG_INFINITY, None);
+        let mut trials = 0;
+        for question in self.fractional() {
+            let Some(pricing) = &self.pricing else { break };
+            let mut gains = pricing.pseudo_costs.expected(&question);
+            let known = pricing.pseudo_costs.is_known(&question);
+            if !known && trials < TRIALS && !self.cancel.is_over() {
+                trials += 1;
+                let sides = [true, false].map(|side| self.try_side(question.branch, side));
+                let [Ok(taken), Ok(refused)] = sides else { return Some(question.branch) };
+                gains = [taken - now, refused - now].map(|gain| gain.max(0.0));
+                if let Some(pricing) = &mut self.pricing {
+                    pricing.pseudo_costs.note(&question, gains);
+                }
+            }
+            let [taken, refused] = gains.map(|gain| gain.max(LITTLE));
+            if taken * refused > best.0 {
+                best = (taken * refused, Some(question.branch));
+            }
+        }
+        best.1
+    }
+
     /// The bound on one side of a branch.
     fn try_side(&mut self, branch: Branch, taken: bool) -> Result<f64, Pruned> {
         let mark = self.domains.mark();

@@ -7,6 +7,7 @@
 use super::{Dualized, Link};
 use crate::index::{FacilityId, IdVec, PriceId};
 use crate::model::{Holding, Model};
+use crate::problem::DeviceId;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,25 +16,28 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Cover {
     pub(crate) members: Vec<FacilityId>,
     pub(crate) need: usize,
+    /// The others among which the devices choose.
+    pub(crate) small: Vec<FacilityId>,
+    pub(crate) devices: Vec<DeviceId>,
 }
 
 impl Dualized {
     /// Finds facilities that the same devices choose from, and how many they need at least.
     pub(super) fn find_covers(&mut self, model: &Model) {
         let family = self.families(model);
-        let mut devices: BTreeMap<FacilityId, usize> = BTreeMap::new();
+        let mut devices: BTreeMap<FacilityId, Vec<DeviceId>> = BTreeMap::new();
         for device in model.devices {
             let alts = model.alts.of(device);
             if alts.iter().all(|alt| self.alt_facilities[alt].len() == 1)
                 && let Some(facility) = self.alt_facilities[alts.at(0)].first()
             {
-                *devices.entry(family[*facility]).or_default() += 1;
+                devices.entry(family[*facility]).or_default().push(device);
             }
         }
         for (number, devices) in devices {
             let of_family = family.enumerate().filter(|f| *f.1 == number);
             let room = of_family.map(|(f, _)| (self.capacity(model, f).max(1), f)).collect();
-            self.add_covers(devices, room);
+            self.add_covers(&devices, room);
         }
     }
 
@@ -55,7 +59,7 @@ impl Dualized {
 
     /// Where the small facilities have no room for all devices, some of the larger ones must be open.
     /// Adds a cover for each size at which more of them are needed; each cover contains the last.
-    fn add_covers(&mut self, devices: usize, mut room: Vec<(usize, FacilityId)>) {
+    fn add_covers(&mut self, devices: &[DeviceId], mut room: Vec<(usize, FacilityId)>) {
         room.sort_by_key(|&(room, facility)| (Reverse(room), facility));
         let mut last = 0;
         for number in 1..=room.len() {
@@ -63,8 +67,8 @@ impl Dualized {
             if great.last().map(|g| g.0) == small.first().map(|s| s.0) {
                 continue;
             }
-            let small = small.iter().fold(0_usize, |sum, s| sum.saturating_add(s.0));
-            let mut left = devices.saturating_sub(small);
+            let rest = small.iter().fold(0_usize, |sum, s| sum.saturating_add(s.0));
+            let mut left = devices.len().saturating_sub(rest);
             let mut need = 0;
             for (room, _) in great {
                 if left == 0 {
@@ -76,7 +80,8 @@ impl Dualized {
             if need > last {
                 last = need;
                 let members = great.iter().map(|g| g.1).collect();
-                self.covers.push(Cover { members, need });
+                let small = small.iter().map(|s| s.1).collect();
+                self.covers.push(Cover { members, need, small, devices: devices.to_vec() });
             }
         }
     }

@@ -15,6 +15,8 @@ pub(crate) struct Facility {
     pub(crate) wires: Vec<WireId>,
     pub(crate) links: Vec<Link>,
     pub(crate) requests: Vec<Request>,
+    /// Whose requests these are.
+    pub(crate) users: Vec<DmaUserId>,
     /// Whoever takes one of these uses the facility.
     pub(crate) alts: Vec<AltId>,
 }
@@ -89,22 +91,30 @@ impl Dualized {
                 }
                 continue;
             }
-            self.add_shared_requests(model, &alts, &requests);
+            self.add_shared_requests(model, user, &alts, &requests);
         }
     }
 
     /// A bus pays for its streams if everybody on it uses them, and nobody else does at the same
     /// time. That is so if there is nobody else, or if all users claim one resource.
-    fn add_shared_requests(&mut self, model: &Model, alts: &[AltId], requests: &[Request]) {
+    fn add_shared_requests(
+        &mut self,
+        model: &Model,
+        user: DmaUserId,
+        alts: &[AltId],
+        requests: &[Request],
+    ) {
         let whole = |f: &Facility| f.alts.iter().all(|alt| alts.contains(alt));
         let only = |f: &&mut Facility| f.alts.len() == alts.len() && whole(f);
         if let Some(facility) = self.facilities.iter_mut().find(only) {
             facility.requests.extend(requests.iter().cloned());
+            facility.users.push(user);
         } else if let Some(resource) = common_resource(model, alts) {
             let price = Some(self.resource(resource));
             for facility in &mut self.facilities {
                 if facility.resource == price && whole(facility) {
                     facility.requests.extend(requests.iter().cloned());
+                    facility.users.push(user);
                 }
             }
             let own = Claim { resource, holder: Holder::Own };

@@ -1,0 +1,410 @@
+//! What a record says beside its steps, and whether it is so: facilities, covers and swaps.
+
+use super::state::State;
+use super::statement::{Claim, Part, Statement};
+use crate::format::{self, Row};
+use crate::{Refuted, ensure};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A number below another.
+pub(crate) fn below(number: u64, most: usize, kind: &str) -> Result<usize, Refuted> {
+    let place = usize::try_from(number).ok().filter(|place| *place < most);
+    place.ok_or_else(|| Refuted(format!("the search has no {kind} {number}")))
+}
+
+/// The groups of so many numbers in a row.
+pub(crate) fn groups<const N: usize>(row: &Row) -> Result<Vec<[u64; N]>, Refuted> {
+    let chunks = row.chunks_exact(N);
+    ensure(chunks.remainder().is_empty(), || "a row of the search has an odd end".into())?;
+    Ok(chunks.filter_map(|chunk| <[u64; N]>::try_from(chunk).ok()).collect())
+}
+
+fn all_below(row: &Row, most: usize, kind: &str) -> Result<Vec<usize>, Refuted> {
+    row.iter().map(|number| below(*number, most, kind)).collect()
+}
+
+/// The alternative of a device.
+pub(crate) fn way_of(statement: &Statement, device: u64, place: u64) -> Result<usize, Refuted> {
+    let ways = &statement.devices[below(device, statement.devices.len(), "device")?];
+    Ok(ways.start + below(place, ways.len(), "alternative")?)
+}
+
+/// A facility that was checked.
+#[derive(Debug, Default)]
+pub(crate) struct Facility {
+    pub(crate) members: Vec<usize>,
+    pub(crate) resource: Option<usize>,
+    /// For each wire the role of every member.
+    pub(crate) wires: Vec<Vec<usize>>,
+    pub(crate) users: Vec<usize>,
+    slots: BTreeSet<usize>,
+}
+
+/// So many of these are open in every wiring.
+#[derive(Debug)]
+pub(crate) struct Cover {
+    pub(crate) great: Vec<usize>,
+    pub(crate) need: usize,
+}
+
+/// All facilities.
+#[derive(Debug, Default)]
+pub(crate) struct Facilities {
+    pub(crate) all: Vec<Facility>,
+    /// Those of each alternative.
+    pub(crate) of_way: Vec<Vec<usize>>,
+    /// Places on wires of facilities where every wire counts as moved.
+    pub(crate) moved: BTreeMap<(usize, usize, usize), bool>,
+    /// For each user of DMA whether every use excludes all others.
+    pub(crate) private: Vec<bool>,
+    /// For each user of DMA the resource by which its facilities exclude each other: who has it for
+    /// itself pays for the streams himself.
+    pub(crate) direct: Vec<Option<usize>>,
+    pub(crate) covers: Vec<Cover>,
+}
+
+impl Facilities {
+    pub(crate) fn new(statement: &Statement, search: &format::Search) -> Result<Self, Refuted> {
+        let mut facilities = Self {
+            of_way: vec![Vec::new(); statement.ways.len()],
+            private: private(statement),
+            direct: vec![None; statement.users.len()],
+            ..Self::default()
+        };
+        let mut occupied = BTreeSet::new();
+        for (number, stated) in search.facilities.iter().enumerate() {
+            let facility = Facility::new(statement, stated)?;
+            if let Some(resource) = facility.resource {
+                let holder = facility.holder(statement, resource)?;
+                let new = occupied.insert((resource, holder));
+                ensure(new, || format!("facility {number} is there twice"))?;
+            }
+            facility.members.iter().for_each(|way| facilities.of_way[*way].push(number));
+            facilities.all.push(facility);
+        }
+        facilities.check_places(statement)?;
+        facilities.check_users(statement)?;
+        for cover in &search.covers {
+            let cover = facilities.cover(statement, cover)?;
+            facilities.covers.push(cover);
+        }
+        Ok(facilities)
+    }
+
+    /// A place is on one wire of one facility, and not on a wire that a device has for itself.
+    fn check_places(&mut self, statement: &Statement) -> Result<(), Refuted> {
+        let mut owners = BTreeMap::new();
+        for (number, facility) in self.all.iter().enumerate() {
+            for (wire, roles) in facility.wires.iter().enumerate() {
+                for role in roles.iter().map(|role| &statement.roles[*role]) {
+                    ensure(!role.own, || format!("facility {number} shares what is not shared"))?;
+                    for one in &statement.wires[role.wires.clone()] {
+                        let owner = owners.entry(one.place()).or_insert((number, wire));
+                        ensure(*owner == (number, wire), || {
+                            format!("facility {number} has a wire of another one")
+                        })?;
+                        *self.moved.entry(one.place()).or_insert(true) &= one.moved;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Only one facility at a time pays for the streams of a user.
+    fn check_users(&mut self, statement: &Statement) -> Result<(), Refuted> {
+        for user in 0..statement.users.len() {
+            let payers: Vec<&Facility> =
+                self.all.iter().filter(|facility| facility.users.contains(&user)).collect();
+            let Some(first) = payers.first() else { continue };
+            let same = payers.iter().all(|one| one.resource == first.resource);
+            let alone = payers.len() == 1 || (same && first.resource.is_some());
+            ensure(alone && !self.private[user], || {
+                format!("the streams of user {user} are paid twice")
+            })?;
+            self.direct[user] = first.resource;
+        }
+        Ok(())
+    }
+
+    fn cover(&self, statement: &Statement, stated: &format::Cover) -> Result<Cover, Refuted> {
+        let devices = all_below(&stated.devices, statement.devices.len(), "device")?;
+        let devices: BTreeSet<usize> = devices.into_iter().collect();
+        let great: BTreeSet<usize> =
+            all_below(&stated.great, self.all.len(), "facility")?.into_iter().collect();
+        let small: BTreeSet<usize> =
+            all_below(&stated.small, self.all.len(), "facility")?.into_iter().collect();
+        let need = below(stated.need, great.len() + 1, "facility")?;
+        for device in &devices {
+            let mut ways = statement.devices[*device].clone();
+            let known = |facility: &usize| great.contains(facility) || small.contains(facility);
+            let inside = ways.all(|way| self.of_way[way].iter().any(known));
+            ensure(inside, || format!("device {device} needs none of a cover"))?;
+        }
+        let room = |facility: &usize| self.all[*facility].room(statement, &devices);
+        let mut rooms: Vec<usize> = great.iter().map(room).collect();
+        rooms.sort_unstable_by(|one, other| other.cmp(one));
+        let rest: usize = small.iter().map(room).sum();
+        let most: usize = rooms.iter().take(need.saturating_sub(1)).sum();
+        ensure(need == 0 || rest + most < devices.len(), || {
+            "a cover needs fewer facilities than it says".into()
+        })?;
+        Ok(Cover { great: great.into_iter().collect(), need })
+    }
+}
+
+impl Facility {
+    fn new(statement: &Statement, stated: &format::Facility) -> Result<Self, Refuted> {
+        let mut members = Vec::new();
+        let mut seen = BTreeSet::new();
+        for [device, place] in groups::<2>(&stated.members)? {
+            let way = way_of(statement, device, place)?;
+            ensure(seen.insert(way), || "a member of a facility is there twice".into())?;
+            members.push(way);
+        }
+        let resource = stated.resource.map(|r| below(r, statement.resources.len(), "resource"));
+        let users = all_below(&stated.users, statement.users.len(), "user of DMA")?;
+        let users: BTreeSet<usize> = users.into_iter().collect();
+        let all = |user: &usize| members.iter().all(|way| statement.ways[*way].users.contains(user));
+        ensure(users.iter().all(all), || "a facility pays for streams that it may not need".into())?;
+        let slots = all_below(&stated.slots, statement.resources.len(), "resource")?;
+        let mut wires = Vec::new();
+        for wire in &stated.wires {
+            ensure(wire.len() == members.len(), || "a wire misses a member".into())?;
+            let roles = wire.iter().zip(&members).map(|(role, way)| {
+                let roles = &statement.ways[*way].roles;
+                Ok(roles.start + below(*role, roles.len(), "role")?)
+            });
+            wires.push(roles.collect::<Result<Vec<usize>, Refuted>>()?);
+        }
+        Ok(Self {
+            members,
+            resource: resource.transpose()?,
+            wires,
+            users: users.into_iter().collect(),
+            slots: slots.into_iter().collect(),
+        })
+    }
+
+    /// The group as which all members hold the facility's resource.
+    fn holder(&self, statement: &Statement, resource: usize) -> Result<usize, Refuted> {
+        let held = |way: &usize| {
+            let mut claims = statement.ways[*way].claims.iter();
+            claims.find(|claim| claim.resource == resource).map_or(0, |claim| claim.holder)
+        };
+        let holders: BTreeSet<usize> = self.members.iter().map(held).collect();
+        let one = holders.first().copied().filter(|holder| *holder != 0 && holders.len() == 1);
+        one.ok_or_else(|| Refuted("a facility is not held as one group".into()))
+    }
+
+    /// How many of these devices it can serve at most.
+    fn room(&self, statement: &Statement, devices: &BTreeSet<usize>) -> usize {
+        let members = self.members.iter().filter(|way| devices.contains(&statement.ways[**way].device));
+        let members: Vec<usize> = members.copied().collect();
+        let own = |claims: &[Claim]| {
+            claims.iter().any(|claim| claim.holder == 0 && self.slots.contains(&claim.resource))
+        };
+        let slotted = members.iter().all(|way| {
+            let of = &statement.ways[*way];
+            own(&of.claims)
+                || of.roles.clone().any(|role| {
+                    let mut wires = statement.roles[role].wires.clone();
+                    wires.all(|wire| own(&statement.wires[wire].claims))
+                })
+        });
+        let slots = if slotted { self.slots.len() } else { usize::MAX };
+        let different: BTreeSet<usize> =
+            members.iter().map(|way| statement.ways[*way].device).collect();
+        let places = members.iter().map(|way| statement.ways[*way].roles.len()).min().unwrap_or(0);
+        let pins = (0..places).filter_map(|place| pins_at(statement, &members, place)).min();
+        slots.min(different.len()).min(pins.unwrap_or(usize::MAX))
+    }
+}
+
+/// How many pins there are for a role that each of these has for itself.
+fn pins_at(statement: &Statement, members: &[usize], place: usize) -> Option<usize> {
+    let mut pins = BTreeSet::new();
+    for way in members {
+        let role = &statement.roles[statement.ways[*way].roles.start + place];
+        if !role.own {
+            return None;
+        }
+        pins.extend(statement.wires[role.wires.clone()].iter().map(|wire| wire.pin));
+    }
+    Some(pins.len())
+}
+
+/// For each user of DMA whether only one device can use it, or all who do take one resource for
+/// themselves.
+fn private(statement: &Statement) -> Vec<bool> {
+    let mut users: Vec<Option<(usize, bool, BTreeSet<usize>)>> = vec![None; statement.users.len()];
+    for way in &statement.ways {
+        let own = way.claims.iter().filter(|claim| claim.holder == 0).map(|claim| claim.resource);
+        let own: BTreeSet<usize> = own.collect();
+        for user in &way.users {
+            let entry = users[*user].get_or_insert_with(|| (way.device, true, own.clone()));
+            entry.1 &= entry.0 == way.device;
+            entry.2 = &entry.2 & &own;
+        }
+    }
+    users.into_iter().map(|user| user.is_some_and(|(_, one, own)| one || !own.is_empty())).collect()
+}
+
+/// A way to change the places of two boards that maps the statement to itself.
+#[derive(Debug)]
+pub(crate) struct Swap {
+    pub(crate) boards: (usize, usize),
+    pub(crate) ways: Vec<usize>,
+    wires: Vec<usize>,
+}
+
+/// The numbers from 0, of which some change places in pairs.
+fn paired(row: &Row, most: usize, kind: &str) -> Result<Vec<usize>, Refuted> {
+    let mut map: Vec<usize> = (0..most).collect();
+    for [one, other] in groups::<2>(row)? {
+        let (one, other) = (below(one, most, kind)?, below(other, most, kind)?);
+        ensure(map[one] == one && map[other] == other, || format!("a {kind} is swapped twice"))?;
+        map[one] = other;
+        map[other] = one;
+    }
+    Ok(map)
+}
+
+/// What a swap does to numbers.
+struct Maps {
+    boards: Vec<usize>,
+    pins: Vec<usize>,
+    resources: Vec<usize>,
+    holders: Vec<usize>,
+    users: Vec<usize>,
+    ways: Vec<usize>,
+}
+
+impl Swap {
+    pub(crate) fn new(statement: &Statement, stated: &format::Swap) -> Result<Self, Refuted> {
+        let (one, other) = stated.boards;
+        let boards = paired(&vec![one, other], statement.spare.len(), "board")?;
+        let pins = paired(&stated.pins, statement.pins.len(), "pin")?;
+        let streams = paired(&stated.streams, statement.streams, "stream")?;
+        let mut pairs = Vec::new();
+        for [device, one, other] in groups::<3>(&stated.ways)? {
+            let ways = [way_of(statement, device, one)?, way_of(statement, device, other)?];
+            pairs.extend(ways.map(|way| way as u64));
+        }
+        let maps = Maps {
+            boards,
+            pins,
+            resources: paired(&stated.resources, statement.resources.len(), "resource")?,
+            holders: paired(&stated.holders, statement.holders, "holder")?,
+            users: paired(&stated.users, statement.users.len(), "user of DMA")?,
+            ways: paired(&pairs, statement.ways.len(), "alternative")?,
+        };
+        let board = |(one, other): (usize, &usize)| statement.spare[one] == statement.spare[*other];
+        let pin = |(one, other): (usize, &usize)| {
+            let (one, other) = (&statement.pins[one], &statement.pins[*other]);
+            (one.cost, one.shared) == (other.cost, other.shared)
+        };
+        let user = |(one, other): (usize, &usize)| {
+            let image = |request: &BTreeSet<usize>| -> BTreeSet<usize> {
+                request.iter().map(|stream| streams[*stream]).collect()
+            };
+            statement.users[one].iter().map(image).eq(statement.users[*other].iter().cloned())
+        };
+        let things = maps.boards.iter().enumerate().all(board)
+            && maps.pins.iter().enumerate().all(pin)
+            && maps.users.iter().enumerate().all(user)
+            && maps.holders.first() == Some(&0);
+        ensure(things, || "a swap changes boards, pins or streams".into())?;
+        let mut wires: Vec<usize> = (0..statement.wires.len()).collect();
+        for (way, image) in maps.ways.iter().enumerate() {
+            let same = maps.way(statement, way, *image, &mut wires);
+            ensure(same, || format!("a swap changes alternative {way}"))?;
+        }
+        let boards = (below(one, statement.spare.len(), "board")?, maps.boards[one as usize]);
+        Ok(Self { boards, ways: maps.ways, wires })
+    }
+
+    /// The other of the two boards.
+    pub(crate) const fn board(&self, board: usize) -> Option<usize> {
+        match (board == self.boards.0, board == self.boards.1) {
+            (true, _) => Some(self.boards.1),
+            (_, true) => Some(self.boards.0),
+            _ => None,
+        }
+    }
+
+    /// Where a candidate goes.
+    pub(crate) fn wire(&self, wire: usize) -> usize {
+        self.wires[wire]
+    }
+
+    /// Whether a case stays as it is.
+    pub(crate) fn keeps(&self, state: &State, facilities: &Facilities) -> bool {
+        let mut ways = self.ways.iter().enumerate();
+        let mut wires = self.wires.iter().enumerate();
+        let within = |number: usize, facility: &Facility| {
+            let image = |way: &usize| &facilities.of_way[self.ways[*way]];
+            facility.members.iter().all(|way| image(way).contains(&number))
+        };
+        let open = facilities.all.iter().enumerate().zip(&state.open);
+        let mut open = open.filter(|(_, open)| **open).map(|(facility, _)| facility);
+        ways.all(|(way, image)| state.way[way] == state.way[*image])
+            && wires.all(|(wire, image)| state.wire[wire] == state.wire[*image])
+            && state.board[self.boards.0] == state.board[self.boards.1]
+            && open.all(|(number, facility)| within(number, facility))
+    }
+}
+
+impl Maps {
+    fn claims(&self, claims: &[Claim]) -> BTreeSet<(usize, usize, bool)> {
+        let image = |claim: &Claim| {
+            (self.resources[claim.resource], self.holders[claim.holder], claim.first)
+        };
+        claims.iter().map(image).collect()
+    }
+
+    /// Whether an alternative becomes another one; notes what its candidates become.
+    fn way(&self, statement: &Statement, way: usize, image: usize, wires: &mut [usize]) -> bool {
+        let (one, other) = (&statement.ways[way], &statement.ways[image]);
+        let plain = |claims: &[Claim]| -> BTreeSet<(usize, usize, bool)> {
+            claims.iter().map(|claim| (claim.resource, claim.holder, claim.first)).collect()
+        };
+        let users: BTreeSet<usize> = one.users.iter().map(|user| self.users[*user]).collect();
+        let mut roles = one.roles.clone().zip(other.roles.clone());
+        one.device == other.device
+            && self.boards[one.board] == other.board
+            && self.claims(&one.claims) == plain(&other.claims)
+            && one.rules == other.rules
+            && users == other.users.iter().copied().collect()
+            && one.roles.len() == other.roles.len()
+            && roles.all(|(role, image)| {
+                let (from, to) = (&statement.roles[role].wires, &statement.roles[image].wires);
+                let places: BTreeMap<_, usize> =
+                    to.clone().map(|wire| (statement.wires[wire].place(), wire)).collect();
+                from.len() == to.len()
+                    && places.len() == to.len()
+                    && from.clone().all(|wire| {
+                        let of = &statement.wires[wire];
+                        let place = (self.pins[of.pin], self.holders[of.holder], of.signal);
+                        let Some(found) = places.get(&place) else { return false };
+                        let to = &statement.wires[*found];
+                        wires[wire] = *found;
+                        of.moved == to.moved
+                            && of.rules == to.rules
+                            && self.claims(&of.claims) == plain(&to.claims)
+                    })
+            })
+    }
+}
+
+/// The devices that violate a rule, each with the places where it does: 0, or the role and 1.
+pub(crate) fn violators(statement: &Statement, rule: usize) -> BTreeSet<(usize, usize)> {
+    let place = |part: &Part| match part {
+        Part::Way(way) => (statement.ways[*way].device, 0),
+        Part::Wire(wire) => {
+            let of = &statement.wires[*wire];
+            (of.device, of.role - statement.ways[of.way].roles.start + 1)
+        }
+    };
+    statement.rules[rule].iter().map(place).collect()
+}

@@ -1,0 +1,341 @@
+//! Whether the record of a search proves what it claims.
+//!
+//! The record says how the search split the problem, and by which multipliers it narrowed or closed
+//! each case; this walks through it and computes every step anew, in integers:
+//! 1. `statement` numbers the problem;
+//! 2. `claims` checks what the record says beside its steps: facilities, covers, swaps of boards;
+//! 3. `state` keeps what is left in a case, and removes what excludes each other;
+//! 4. `price` computes from multipliers what all that is left weighs at least.
+//!
+//! Two things are kept of each case: what was *decided* on the way to it, and what is *left* after
+//! everything that cannot be in a wiring below the limit was removed as well. Where either stays as
+//! it is when two alike devices, or two boards, change places, then from any wiring of the case
+//! below the limit we get another one by changing them. So if there is none where one of them takes
+//! a choice, there is none where the other one does, and the choice is refused to both.
+
+mod claims;
+mod price;
+mod state;
+mod statement;
+
+use crate::budget::Budget;
+use crate::format::{Cover, Facility, Objective, Problem, Question, Row, Search, Step};
+use crate::{Refuted, ensure};
+use claims::{Facilities, Swap, below, way_of};
+use price::{Market, Weights};
+use state::State;
+use statement::Statement;
+
+/// A question in numbers of the statement.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    Way(usize),
+    Wire(usize),
+    Kept(usize),
+    Unused(usize),
+    Open(usize),
+    /// An alternative that is refused alone: the image of one of a facility.
+    Member(usize),
+}
+
+/// A case that waits for its question to be refused.
+struct Waiting {
+    decided: usize,
+    left: usize,
+    refused: Vec<Asked>,
+}
+
+struct Walk<'s> {
+    market: Market<'s>,
+    swaps: Vec<Swap>,
+    /// What was decided.
+    decided: State,
+    /// What is left.
+    left: State,
+    waiting: Vec<Waiting>,
+}
+
+/// Checks that no wiring is better than the claim, or that there is none.
+pub(crate) fn check(
+    problem: &Problem,
+    search: &Search,
+    claim: Option<Objective>,
+    budget: &mut Budget,
+) -> Result<(), Refuted> {
+    let statement = Statement::new(problem);
+    budget.work(cost(problem, search))?;
+    let facilities = Facilities::new(&statement, search)?;
+    let mut weights = weights(&statement, search.weights, claim)?;
+    if claim.is_none() {
+        weights.limit = Market::new(&statement, &facilities, weights).most();
+    }
+    let swaps = search.swaps.iter().map(|swap| Swap::new(&statement, swap));
+    let swaps = swaps.collect::<Result<Vec<Swap>, Refuted>>()?;
+    budget.work(statement.wires.len() * (1 + swaps.len()))?;
+    let number = facilities.all.len();
+    let mut walk = Walk {
+        market: Market::new(&statement, &facilities, weights),
+        swaps,
+        decided: State::new(&statement, number),
+        left: State::new(&statement, number),
+        waiting: Vec::new(),
+    };
+    for (at, step) in search.steps.iter().enumerate() {
+        let closed = walk.step(at, step, budget)?;
+        if closed && !walk.refuse() {
+            let last = at + 1 == search.steps.len();
+            return ensure(last, || "the search goes on after its end".into());
+        }
+    }
+    Err(Refuted("the search leaves out cases".into()))
+}
+
+/// The time it takes at most to check what a record says beside its steps.
+fn cost(problem: &Problem, search: &Search) -> usize {
+    let ways: usize = problem.devices.values().map(|device| device.len()).sum();
+    let facility = |one: &Facility| one.members.len() * (1 + one.users.len() + one.wires.len());
+    let all: usize = search.facilities.iter().map(facility).sum();
+    let users = problem.dma.len().saturating_mul(search.facilities.len());
+    let cover = |one: &Cover| one.devices.len() + (one.great.len() + one.small.len()) * 20;
+    let covers: usize = search.covers.iter().map(cover).sum();
+    let each = search.covers.len().saturating_mul(ways + all);
+    all.saturating_add(users).saturating_add(covers).saturating_add(each)
+}
+
+/// The weights with the limit. A lower objective has to weigh less.
+fn weights(
+    statement: &Statement,
+    weights: [u64; 5],
+    claim: Option<Objective>,
+) -> Result<Weights, Refuted> {
+    ensure(weights.iter().all(|weight| *weight < 1 << 60), || "a weight is too large".into())?;
+    let claimed = claim.unwrap_or_default().parts().map(i128::from);
+    let weights = weights.map(i128::from);
+    let most_wires: usize = statement
+        .devices
+        .iter()
+        .map(|ways| ways.clone().map(|way| statement.ways[way].roles.len()).max().unwrap_or(0))
+        .sum();
+    let wires = most_wires.min(statement.pins.len());
+    let mut costs: Vec<u32> = statement.pins.iter().map(|pin| pin.cost).collect();
+    costs.sort_unstable_by(|one, other| other.cmp(one));
+    let shared = statement.pins.iter().filter(|pin| pin.shared).count().min(wires);
+    let spares = statement.spare.iter().filter(|spare| **spare).count();
+    let most = [
+        wires as i128,
+        statement.rules.len() as i128,
+        shared as i128,
+        costs.into_iter().take(wires).map(i128::from).sum(),
+        spares as i128,
+    ];
+    // What the later parts can be lower than claimed, or higher, together.
+    let mut later = 0;
+    for (weight, (most, claimed)) in weights.into_iter().zip(most.into_iter().zip(claimed)).rev() {
+        ensure(weight > later, || "a weight is not larger than all later ones".into())?;
+        later += weight * most.max(claimed);
+    }
+    let [moved, rule, shared, cost, spare] = weights;
+    let total: i128 = weights.into_iter().zip(claimed).map(|(weight, part)| weight * part).sum();
+    Ok(Weights { moved, rule, shared, cost, spare, limit: total - 1 })
+}
+
+impl Walk<'_> {
+    /// One step; whether it ends a case.
+    fn step(&mut self, at: usize, step: &Step, budget: &mut Budget) -> Result<bool, Refuted> {
+        let statement = self.market.statement;
+        self.left.propagate(statement);
+        budget.work(std::mem::take(&mut self.left.work) + 1)?;
+        match step {
+            Step::Dead => {
+                budget.work(statement.ways.len() + statement.wires.len())?;
+                ensure(self.is_dead(), || format!("step {at} says that nothing is left"))?;
+                Ok(true)
+            }
+            Step::Closed(by) => {
+                let (closed, work) = self.market.closes(&self.left, by)?;
+                budget.work(work)?;
+                let closed = closed || self.left.dead;
+                ensure(closed, || format!("step {at} does not show what it has to"))?;
+                Ok(true)
+            }
+            Step::Narrowed(by) => {
+                budget.work(self.market.narrow(&mut self.left, by)?)?;
+                Ok(false)
+            }
+            Step::Split { on, twins, swaps } => {
+                budget.work((twins.len() + 2 * swaps.len()) * statement.wires.len())?;
+                let asked = self.asked(*on)?;
+                let refused = self.images(at, asked, twins, swaps)?;
+                let (decided, left) = (self.decided.mark(), self.left.mark());
+                self.waiting.push(Waiting { decided, left, refused });
+                for state in [&mut self.decided, &mut self.left] {
+                    take(state, statement, asked);
+                }
+                Ok(false)
+            }
+        }
+    }
+
+    /// Goes back to the last case that waits, where its question is refused; false if there is none.
+    fn refuse(&mut self) -> bool {
+        let Some(Waiting { decided, left, refused }) = self.waiting.pop() else { return false };
+        let Market { statement, facilities, .. } = self.market;
+        self.decided.undo(statement, decided);
+        self.left.undo(statement, left);
+        for state in [&mut self.decided, &mut self.left] {
+            for asked in &refused {
+                refuse(state, statement, facilities, *asked);
+            }
+        }
+        true
+    }
+
+    /// Whether nothing is left: no choice, no member of a facility that is used, or too few streams.
+    fn is_dead(&self) -> bool {
+        let Market { statement, facilities, .. } = self.market;
+        let unused = |(facility, open): (&claims::Facility, &bool)| {
+            *open && !facility.members.iter().any(|way| self.left.way[*way])
+        };
+        self.left.dead
+            || facilities.all.iter().zip(&self.left.open).any(unused)
+            || !self.left.has_streams(statement, &facilities.private)
+    }
+
+    fn asked(&self, on: Question) -> Result<Asked, Refuted> {
+        let statement = self.market.statement;
+        Ok(match on {
+            Question::Way(device, place) => Asked::Way(way_of(statement, device, place)?),
+            Question::Wire(device, place, role, wire) => {
+                let roles = &statement.ways[way_of(statement, device, place)?].roles;
+                let role = roles.start + below(role, roles.len(), "role")?;
+                let wires = &statement.roles[role].wires;
+                Asked::Wire(wires.start + below(wire, wires.len(), "candidate")?)
+            }
+            Question::Kept(rule) => Asked::Kept(below(rule, statement.rules.len(), "rule")?),
+            Question::Unused(board) => Asked::Unused(below(board, statement.spare.len(), "board")?),
+            Question::Open(facility) => {
+                Asked::Open(below(facility, self.market.facilities.all.len(), "facility")?)
+            }
+        })
+    }
+
+    /// What is refused together: the question, and what it becomes when alike devices and equal
+    /// boards change places.
+    fn images(
+        &self,
+        at: usize,
+        asked: Asked,
+        twins: &Row,
+        swaps: &Row,
+    ) -> Result<Vec<Asked>, Refuted> {
+        let statement = self.market.statement;
+        let facilities = self.market.facilities;
+        let mut images = vec![asked];
+        for number in swaps {
+            let swap = &self.swaps[below(*number, self.swaps.len(), "swap")?];
+            let keeps =
+                swap.keeps(&self.decided, facilities) || swap.keeps(&self.left, facilities);
+            ensure(keeps || self.left.dead, || format!("step {at} swaps boards that differ"))?;
+            match asked {
+                Asked::Way(way) => images.push(Asked::Way(swap.ways[way])),
+                Asked::Wire(wire) => images.push(Asked::Wire(swap.wire(wire))),
+                Asked::Unused(board) => images.extend(swap.board(board).map(Asked::Unused)),
+                Asked::Open(facility) => {
+                    let members = facilities.all[facility].members.iter();
+                    images.extend(members.map(|way| Asked::Member(swap.ways[*way])));
+                }
+                Asked::Kept(_) | Asked::Member(_) => {}
+            }
+        }
+        let device = match asked {
+            Asked::Way(way) => statement.ways[way].device,
+            Asked::Wire(wire) => statement.wires[wire].device,
+            _ => {
+                ensure(twins.is_empty(), || format!("step {at} is not about a device"))?;
+                return Ok(images);
+            }
+        };
+        let own = images.clone();
+        for twin in twins {
+            let twin = below(*twin, statement.devices.len(), "device")?;
+            let alike = statement.alike(device, twin)
+                && (self.unchanged(&self.decided, device, twin)
+                    || self.unchanged(&self.left, device, twin));
+            ensure(alike || self.left.dead, || format!("step {at} swaps devices that differ"))?;
+            if alike {
+                images.extend(own.iter().map(|image| twin_of(statement, *image, twin)));
+            }
+        }
+        Ok(images)
+    }
+
+    /// Whether a case stays as it is when two alike devices change places.
+    fn unchanged(&self, state: &State, one: usize, other: usize) -> bool {
+        let Market { statement, facilities, .. } = self.market;
+        let mut ways = statement.devices[one].clone().zip(statement.devices[other].clone());
+        let open = |facility: &&usize| state.open[**facility];
+        ways.all(|(a, b)| {
+            let (p, q) = (&statement.ways[a].roles, &statement.ways[b].roles);
+            let mut roles = p.clone().zip(q.clone());
+            let facilities_of = |way: usize| facilities.of_way[way].iter().filter(open);
+            state.way[a] == state.way[b]
+                && facilities_of(a).eq(facilities_of(b))
+                && roles.all(|(r, s)| {
+                    let (r, s) = (&statement.roles[r].wires, &statement.roles[s].wires);
+                    state.wire[r.clone()] == state.wire[s.clone()]
+                })
+        })
+    }
+}
+
+/// The same choice of an alike device.
+fn twin_of(statement: &Statement, asked: Asked, twin: usize) -> Asked {
+    let way_of = |way: usize| {
+        let own = &statement.devices[statement.ways[way].device];
+        statement.devices[twin].start + way - own.start
+    };
+    match asked {
+        Asked::Way(way) => Asked::Way(way_of(way)),
+        Asked::Wire(wire) => {
+            let of = &statement.wires[wire];
+            let twin = &statement.ways[way_of(of.way)].roles;
+            let role = twin.start + of.role - statement.ways[of.way].roles.start;
+            let place = wire - statement.roles[of.role].wires.start;
+            Asked::Wire(statement.roles[role].wires.start + place)
+        }
+        other => other,
+    }
+}
+
+fn take(state: &mut State, statement: &Statement, asked: Asked) {
+    match asked {
+        Asked::Way(way) | Asked::Member(way) => {
+            if !state.way[way] {
+                state.die();
+            }
+            state.keep_way(statement, way);
+        }
+        Asked::Wire(wire) => {
+            if !state.wire[wire] || !state.way[statement.wires[wire].way] {
+                state.die();
+            }
+            state.keep_wire(statement, wire);
+        }
+        Asked::Kept(rule) => state.close_rule(statement, rule),
+        Asked::Unused(board) => state.close_board(statement, board),
+        Asked::Open(facility) => state.open(facility),
+    }
+}
+
+fn refuse(state: &mut State, statement: &Statement, facilities: &Facilities, asked: Asked) {
+    match asked {
+        Asked::Way(way) | Asked::Member(way) => state.remove_way(statement, way),
+        Asked::Wire(wire) => state.remove_wire(statement, wire),
+        Asked::Kept(rule) => state.pay_rule(rule),
+        Asked::Unused(board) => state.use_board(board),
+        Asked::Open(facility) => {
+            let members = &facilities.all[facility].members;
+            members.iter().for_each(|way| state.remove_way(statement, *way));
+        }
+    }
+}
