@@ -1,9 +1,10 @@
 //! Certificates: an answer with data from which a small program of its own (crate `proof`) sees
 //! that the wiring is valid and that none is better, or that there is none.
 //!
-//! Nothing of the solver's search goes in: the proof is found anew, knowing the answer. It is a
-//! case distinction whose leaves are tolls that every device pays for what it uses; crate `proof`
-//! says why they bound the objective. `docs/proofs.md` describes the text.
+//! A short proof is found anew, knowing the answer: a case distinction whose leaves are tolls that
+//! every device pays for what it uses. Where none is short, the solver searches once more with the
+//! answer as its limit and records how it splits, and by which prices it narrows and closes. Crate
+//! `proof` says why both bound the objective. `docs/proofs.md` describes the text.
 
 mod ascent;
 mod case;
@@ -29,7 +30,7 @@ use write::{Proof, Writer};
 /// Tolls that may be looked up for one certificate: some ten seconds.
 const WORK_MAX: u64 = 1_000_000_000;
 /// Tolls that may be looked up for one that a person can read: some hundredths of a second.
-const WORK_SHORT: u64 = 1;
+const WORK_SHORT: u64 = 3_000_000;
 
 /// What the problem was made of, for whoever has to tell its certificate from others. Each text
 /// has its SHA-256.
@@ -81,19 +82,43 @@ pub fn certify(
     claim: Claim<'_>,
     cancel: Cancel<'_>,
 ) -> Result<String, Uncertified> {
+    of_case(problem, labels, claim, &|problem, labels, answer| {
+        Case { problem, labels, subject, answer, cancel }.certify()
+    })
+}
+
+/// As [`certify`], by the record of the search alone, however short another proof were.
+///
+/// # Errors
+/// [`Uncertified`]; this says nothing about the claim.
+pub fn certify_by_record(
+    problem: &Problem,
+    labels: &Labels,
+    subject: &Subject,
+    claim: Claim<'_>,
+    cancel: Cancel<'_>,
+) -> Result<String, Uncertified> {
+    of_case(problem, labels, claim, &|problem, labels, answer| {
+        Case { problem, labels, subject, answer, cancel }.by_record()
+    })
+}
+
+type Certificate = Result<String, Uncertified>;
+
+/// Leaves out the devices that a claim is not about.
+fn of_case(
+    problem: &Problem,
+    labels: &Labels,
+    claim: Claim<'_>,
+    certify: &dyn Fn(&Problem, &Labels, Option<&Answer>) -> Certificate,
+) -> Certificate {
     match claim {
-        Claim::Best(answer) => {
-            let tasks = tasks(&answer.objective).ok_or(Uncertified::TooLarge)?;
-            Case { problem, labels, subject, answer: Some(answer), cancel }.certify(&tasks)
-        }
+        Claim::Best(answer) => certify(problem, labels, Some(answer)),
         Claim::NoWiring(devices) => {
             let devices: Vec<usize> = devices.iter().map(|device| device.0 as usize).collect();
             let mut part = problem.clone();
             part.devices = labels::pick(&problem.devices, &devices);
-            let labels = labels.with_devices(&devices);
-            let task = Task { of: "existence", weights: Objective::default(), limit: 0, most: 1 };
-            let case = Case { problem: &part, labels: &labels, subject, answer: None, cancel };
-            case.certify(&[task])
+            certify(&part, &labels.with_devices(&devices), None)
         }
     }
 }
@@ -110,27 +135,39 @@ struct Case<'a> {
 impl Case<'_> {
     /// Short proofs first, which a person can read; then the record of the search; where that is not
     /// enough, longer proofs.
-    fn certify(&self, tasks: &[Task]) -> Result<String, Uncertified> {
-        let Self { problem, labels, subject, answer, cancel } = *self;
-        let writer = Writer { problem, labels };
-        let proved = |work: u64| {
-            let proofs = prove(&writer, tasks, &mut Effort { work, cancel })?;
-            let text = writer.certificate(subject, answer, &proofs, None);
-            believed(&text, cancel).map(|()| text)
-        };
-        match proved(WORK_SHORT) {
-            Err(Uncertified::GivenUp) => {}
+    fn certify(&self) -> Certificate {
+        match self.by_tolls(WORK_SHORT) {
+            Err(Uncertified::GivenUp | Uncertified::TooLarge) => {}
             done => return done,
         }
-        if let Some(search) = self.recorded() {
-            let text = writer.certificate(subject, answer, &[], Some(&search));
-            match believed(&text, cancel) {
-                Ok(()) => return Ok(text),
-                Err(Uncertified::Stopped) => return Err(Uncertified::Stopped),
-                Err(why) => eprintln!("DEBUG {why:?}"),
+        match self.by_record() {
+            Err(Uncertified::GivenUp | Uncertified::Refuted(_)) => self.by_tolls(WORK_MAX),
+            done => done,
+        }
+    }
+
+    /// Proofs that are looked for anew, for so many tolls.
+    fn by_tolls(&self, work: u64) -> Certificate {
+        let Self { problem, labels, subject, answer, cancel } = *self;
+        let tasks = match answer {
+            Some(answer) => tasks(&answer.objective).ok_or(Uncertified::TooLarge)?,
+            None => {
+                vec![Task { of: "existence", weights: Objective::default(), limit: 0, most: 1 }]
             }
-        } else { eprintln!("DEBUG no record"); }
-        proved(WORK_MAX)
+        };
+        let writer = Writer { problem, labels };
+        let proofs = prove(&writer, &tasks, &mut Effort { work, cancel })?;
+        let text = writer.certificate(subject, answer, &proofs, None);
+        believed(&text, cancel).map(|()| text)
+    }
+
+    /// The record of the solver's own search.
+    fn by_record(&self) -> Certificate {
+        let Self { problem, labels, subject, answer, cancel } = *self;
+        let unknown = if cancel.is_over() { Uncertified::Stopped } else { Uncertified::GivenUp };
+        let search = self.recorded().ok_or(unknown)?;
+        let text = Writer { problem, labels }.certificate(subject, answer, &[], Some(&search));
+        believed(&text, cancel).map(|()| text)
     }
 
     /// The record of the search; none where it holds more than the format has.

@@ -162,11 +162,8 @@ impl<'a> Text<'a> {
         for step in &record.steps {
             steps.push(text.step(record, step)?.to_string());
         }
-        let facilities: Vec<String> = record
-            .facilities
-            .iter()
-            .map(|facility| text.facility(facility).to_string())
-            .collect();
+        let facilities: Vec<String> =
+            record.facilities.iter().map(|facility| text.facility(facility).to_string()).collect();
         let covers: Vec<Value> = record.covers.iter().map(|cover| text.cover(cover)).collect();
         let swaps: Vec<String> =
             text.swaps.iter().map(|swap| text.swap(swap).to_string()).collect();
@@ -321,12 +318,16 @@ impl<'a> Text<'a> {
         put("pins", by.pins.iter().flat_map(|(p, x)| [at(places.pin(*p)), *x]).collect());
         let resources = by.resources.iter();
         put("resources", resources.flat_map(|(r, x)| [at(places.resource(*r)), *x]).collect());
-        let streams = by.streams.iter().filter(|(stream, _)| places.streams.contains_key(&stream.0));
+        let streams =
+            by.streams.iter().filter(|(stream, _)| places.streams.contains_key(&stream.0));
         put("streams", streams.flat_map(|(s, x)| [at(places.streams[&s.0]), *x]).collect());
         let links = by.links.iter();
         put("links", links.flat_map(|(f, d, x)| [at(*f), at(places.device(*d)), *x]).collect());
         let tickets = by.tickets.iter();
-        put("tickets", tickets.flat_map(|(f, r, x)| [at(*f), at(places.resource(*r)), *x]).collect());
+        put(
+            "tickets",
+            tickets.flat_map(|(f, r, x)| [at(*f), at(places.resource(*r)), *x]).collect(),
+        );
         put("rules", self.rules(by));
         put("covers", by.covers.iter().flat_map(|(c, x)| [at(*c), *x]).collect());
         Value::Object(all)
@@ -347,8 +348,8 @@ impl<'a> Text<'a> {
                 *paid = (*price).max(*paid);
             }
         }
-        all.into_iter().flat_map(|(key, price)| {
-            key.into_iter().map(|place| place as i64).chain([price])
-        }).collect()
+        all.into_iter()
+            .flat_map(|(key, price)| key.into_iter().map(|place| place as i64).chain([price]))
+            .collect()
     }
 }

@@ -7,7 +7,9 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_certify::{AlternativeLabels, Claim, Labels, Subject, certify, sha256};
+use sensedsl_certify::{
+    AlternativeLabels, Claim, Labels, Subject, Uncertified, certify, certify_by_record, sha256,
+};
 use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
 use sensedsl_proof::{Verified, read, verify};
 use sensedsl_solve::problem::{Holder, Problem, RuleId};
@@ -88,6 +90,13 @@ fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
 /// The certificate of what the solver finds with the objective of the wiring; none where no proof
 /// is found.
 fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
+    certificate_by(problem, certify)
+}
+
+/// One of the two ways to make a certificate.
+type By = fn(&Problem, &Labels, &Subject, Claim<'_>, Cancel<'_>) -> Result<String, Uncertified>;
+
+fn certificate_by(problem: &Problem, certify: By) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
     match solve(problem, &Options::default()).expect("a proper problem") {
         Outcome::Solved(answer) => {
@@ -271,16 +280,107 @@ fn certificates_of_random_problems_are_verified() {
 }
 
 #[test]
+fn records_of_searches_are_verified() {
+    let mut without = Vec::new();
+    for seed in 0..60 {
+        let problem = problem(seed, 40 + 7 * (seed % 9), 1 + seed % 8);
+        let Some((text, objective)) = certificate_by(&problem, certify_by_record) else {
+            without.push(seed);
+            continue;
+        };
+        assert!(text.contains("\"search\""), "seed {seed}");
+        let expected = objective.map_or(Verified::NoWiring, Verified::Best);
+        assert_eq!(verify(&read(&text).expect("readable")), Ok(expected), "seed {seed}");
+    }
+    assert!(without.len() <= 3, "no records for {without:?}");
+}
+
+/// The record of devices that float between a board and three equal spare ones, as far as it swaps
+/// boards.
+fn swapped(seed: u64) -> Option<Value> {
+    let table = generate::table(seed, 16 + seed % 8);
+    let on = |spare| (table.as_str(), spare);
+    let tables = [on(false), on(true), on(true), on(true)];
+    let problem = generate::problem(seed, &tables, 8 + seed % 9, Mix::General, false).problem;
+    let (text, _) = certificate_by(&problem, certify_by_record)?;
+    let value: Value = serde_json::from_str(&text).expect("JSON");
+    let swaps = value["search"]["swaps"].as_array().is_some_and(|swaps| !swaps.is_empty());
+    swaps.then_some(value)
+}
+
+fn holds(value: &Value) -> bool {
+    read(&value.to_string()).is_ok_and(|certificate| verify(&certificate).is_ok())
+}
+
+#[test]
+fn a_wrong_permutation_and_boards_that_differ_are_refused() {
+    let found: Vec<Value> = (0..60).filter_map(swapped).take(5).collect();
+    assert!(!found.is_empty(), "no record swaps boards");
+    for value in found {
+        assert!(holds(&value));
+        // Two pins of the swap go where the other one should.
+        let mut wrong = value.clone();
+        let pins = wrong["search"]["swaps"][0]["pins"].as_array_mut().expect("a row");
+        pins.swap(1, 3);
+        assert!(!holds(&wrong), "a wrong permutation of pins passes");
+        // An alternative is left where it is.
+        let mut wrong = value.clone();
+        let ways = wrong["search"]["swaps"][0]["ways"].as_array_mut().expect("a row");
+        ways.drain(..3);
+        assert!(!holds(&wrong), "an alternative that stays behind passes");
+        // One of the boards is no spare one.
+        let mut wrong = value.clone();
+        let board = value["search"]["swaps"][0]["boards"][1].as_u64().expect("a number");
+        let boards = wrong["problem"]["boards"].as_object_mut().expect("boards");
+        *boards.values_mut().nth(board as usize).expect("the board") = Value::Bool(false);
+        assert!(!holds(&wrong), "boards that differ pass");
+    }
+}
+
+#[test]
+fn wrong_multipliers_and_cases_left_out_are_refused() {
+    let (mut emptied, mut shortened) = (0, 0);
+    for seed in 0..40 {
+        let problem = problem(seed, 40 + 7 * (seed % 9), 1 + seed % 8);
+        let Some((text, _)) = certificate_by(&problem, certify_by_record) else { continue };
+        let value: Value = serde_json::from_str(&text).expect("JSON");
+        let steps = value["search"]["steps"].as_array().expect("steps");
+        for at in 0..steps.len().min(20) {
+            let Some(by) = steps[at].get("closed") else { continue };
+            let mut wrong = value.clone();
+            // Prices without what gives them back, and none at all.
+            wrong["search"]["steps"][at]["closed"] = serde_json::json!({ "scale": by["scale"] });
+            emptied += u32::from(!holds(&wrong));
+        }
+        let mut wrong = value.clone();
+        wrong["search"]["steps"].as_array_mut().expect("steps").pop();
+        assert!(!holds(&wrong), "seed {seed}: a case is left out");
+        shortened += 1;
+    }
+    assert!(emptied > 5 && shortened > 30, "{emptied}, {shortened}");
+}
+
+#[test]
 fn what_passes_after_a_change_is_true() {
+    changes("proofs", certify);
+}
+
+#[test]
+fn what_passes_after_a_change_of_a_record_is_true() {
+    changes("search", certify_by_record);
+}
+
+fn changes(proof: &str, certify: By) {
     let (mut refused, mut true_all_the_same) = (0, 0);
     for seed in 1000..1080 {
-        let (text, _) = certificate(&problem(seed, 26, 1 + seed % 3)).expect("a proof");
+        let problem = problem(seed, 26, 1 + seed % 3);
+        let Some((text, _)) = certificate_by(&problem, certify) else { continue };
         let value: Value = serde_json::from_str(&text).expect("JSON");
         let mut rng = Rng(seed);
         for _ in 0..20 {
             let mut value = value.clone();
             // The proof and the answer are small beside the problem.
-            let part = ["problem", "answer", "search"][rng.below(3) as usize];
+            let part = ["problem", "answer", proof][rng.below(3) as usize];
             mutate(&mut value[part], &mut rng);
             let Ok(certificate) = read(&value.to_string()) else { continue };
             let Ok(verified) = verify(&certificate) else {

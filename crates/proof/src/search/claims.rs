@@ -165,8 +165,11 @@ impl Facility {
         let resource = stated.resource.map(|r| below(r, statement.resources.len(), "resource"));
         let users = all_below(&stated.users, statement.users.len(), "user of DMA")?;
         let users: BTreeSet<usize> = users.into_iter().collect();
-        let all = |user: &usize| members.iter().all(|way| statement.ways[*way].users.contains(user));
-        ensure(users.iter().all(all), || "a facility pays for streams that it may not need".into())?;
+        let all =
+            |user: &usize| members.iter().all(|way| statement.ways[*way].users.contains(user));
+        ensure(users.iter().all(all), || {
+            "a facility pays for streams that it may not need".into()
+        })?;
         let slots = all_below(&stated.slots, statement.resources.len(), "resource")?;
         let mut wires = Vec::new();
         for wire in &stated.wires {
@@ -199,22 +202,26 @@ impl Facility {
 
     /// How many of these devices it can serve at most.
     fn room(&self, statement: &Statement, devices: &BTreeSet<usize>) -> usize {
-        let members = self.members.iter().filter(|way| devices.contains(&statement.ways[**way].device));
+        let members =
+            self.members.iter().filter(|way| devices.contains(&statement.ways[**way].device));
         let members: Vec<usize> = members.copied().collect();
         let own = |claims: &[Claim]| {
             claims.iter().any(|claim| claim.holder == 0 && self.slots.contains(&claim.resource))
         };
-        let slotted = members.iter().all(|way| {
-            let of = &statement.ways[*way];
+        let slotted = |way: &&usize| {
+            let of = &statement.ways[**way];
             own(&of.claims)
                 || of.roles.clone().any(|role| {
                     let mut wires = statement.roles[role].wires.clone();
                     wires.all(|wire| own(&statement.wires[wire].claims))
                 })
-        });
-        let slots = if slotted { self.slots.len() } else { usize::MAX };
+        };
         let different: BTreeSet<usize> =
             members.iter().map(|way| statement.ways[*way].device).collect();
+        // Whoever may be here without a slot counts for himself.
+        let loose = members.iter().filter(|way| !slotted(way));
+        let loose: BTreeSet<usize> = loose.map(|way| statement.ways[*way].device).collect();
+        let slots = self.slots.len() + loose.len();
         let places = members.iter().map(|way| statement.ways[*way].roles.len()).min().unwrap_or(0);
         let pins = (0..places).filter_map(|place| pins_at(statement, &members, place)).min();
         slots.min(different.len()).min(pins.unwrap_or(usize::MAX))

@@ -233,8 +233,7 @@ impl Walk<'_> {
         let mut images = vec![asked];
         for number in swaps {
             let swap = &self.swaps[below(*number, self.swaps.len(), "swap")?];
-            let keeps =
-                swap.keeps(&self.decided, facilities) || swap.keeps(&self.left, facilities);
+            let keeps = swap.keeps(&self.decided, facilities) || swap.keeps(&self.left, facilities);
             ensure(keeps || self.left.dead, || format!("step {at} swaps boards that differ"))?;
             match asked {
                 Asked::Way(way) => images.push(Asked::Way(swap.ways[way])),

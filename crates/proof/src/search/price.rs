@@ -61,9 +61,8 @@ impl<'s> Market<'s> {
     ) -> Self {
         let Weights { moved, rule, shared, cost, .. } = weights;
         let even = cost > 0 && [moved, rule, shared].iter().all(|weight| weight % cost == 0);
-        let paying = (0..statement.rules.len()).map(|rule| {
-            if alone(statement, rule) { Paying::Full } else { Paying::Parts }
-        });
+        let paying = (0..statement.rules.len())
+            .map(|rule| if alone(statement, rule) { Paying::Full } else { Paying::Parts });
         let unit = if even { cost } else { 1 };
         Self { statement, facilities, weights, paying: paying.collect(), unit }
     }
@@ -81,9 +80,11 @@ impl<'s> Market<'s> {
         let rules = statement.rules.len() as i128 * weights.rule;
         let role = |role: usize| {
             let wires = &statement.wires[statement.roles[role].wires.clone()];
-            wires.iter().map(|wire| {
-                self.pin(wire.pin) + if wire.moved { weights.moved } else { 0 }
-            }).max().unwrap_or(0)
+            wires
+                .iter()
+                .map(|wire| self.pin(wire.pin) + if wire.moved { weights.moved } else { 0 })
+                .max()
+                .unwrap_or(0)
         };
         let way = |way: usize| statement.ways[way].roles.clone().map(role).sum::<i128>();
         let device = |ways: &std::ops::Range<usize>| ways.clone().map(way).max().unwrap_or(0);
@@ -110,9 +111,7 @@ fn alone(statement: &Statement, rule: usize) -> bool {
     for part in &statement.rules[rule] {
         let (way, role) = match part {
             Part::Way(way) => (*way, None),
-            Part::Wire(wire) => {
-                (statement.wires[*wire].way, Some(statement.wires[*wire].role))
-            }
+            Part::Wire(wire) => (statement.wires[*wire].way, Some(statement.wires[*wire].role)),
         };
         places.entry(way).or_default().insert(role);
     }
@@ -406,8 +405,12 @@ impl Market<'_> {
         }
         cost += wires.iter().sum::<i128>();
         cost += facility.users.iter().map(|user| prices.users[*user]).sum::<i128>();
-        let devices: BTreeSet<usize> =
-            facility.members.iter().filter(|way| alive(way)).map(|way| statement.ways[*way].device).collect();
+        let devices: BTreeSet<usize> = facility
+            .members
+            .iter()
+            .filter(|way| alive(way))
+            .map(|way| statement.ways[*way].device)
+            .collect();
         let links = devices.into_iter().filter_map(|device| prices.links.get(&(number, device)));
         cost -= links.sum::<i128>() + prices.of_tickets[number];
         Some(Opening { cost: cost - prices.savings[number], forced, wires })
@@ -437,7 +440,9 @@ impl Market<'_> {
                 }
                 for role in statement.ways[way].roles.clone() {
                     let left = state.wires(statement, role);
-                    wires.extend(left.filter(|wire| beyond(over + bill.wires[*wire] - bill.roles[role])));
+                    wires.extend(
+                        left.filter(|wire| beyond(over + bill.wires[*wire] - bill.roles[role])),
+                    );
                 }
             }
         }
@@ -449,7 +454,9 @@ impl Market<'_> {
                 continue;
             }
             for (roles, least) in facility.wires.iter().zip(least) {
-                for (_, role) in facility.members.iter().zip(roles).filter(|(way, _)| state.way[**way]) {
+                for (_, role) in
+                    facility.members.iter().zip(roles).filter(|(way, _)| state.way[**way])
+                {
                     let left = state.wires(statement, *role);
                     let dear = |wire: &usize| beyond(over + self.place(&prices, *wire) - least);
                     wires.extend(left.filter(dear));

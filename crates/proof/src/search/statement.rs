@@ -145,9 +145,7 @@ impl<'a> Names<'a> {
             holders,
             signals: numbered(wires().map(|wire| wire.signal.as_str())),
             rules: numbered(violated.flatten().map(String::as_str)),
-            streams: numbered(
-                problem.dma.values().flatten().flatten().map(String::as_str),
-            ),
+            streams: numbered(problem.dma.values().flatten().flatten().map(String::as_str)),
         }
     }
 
@@ -173,7 +171,8 @@ impl<'a> Names<'a> {
                 let wires = way.roles.values().flat_map(|role| role.values());
                 let claims = wires.flat_map(|wire| wire.claims.iter()).chain(way.claims.iter());
                 for (name, holder) in claims {
-                    let (at, holder) = (number(&self.resources, name), number(&self.holders, holder));
+                    let (at, holder) =
+                        (number(&self.resources, name), number(&self.holders, holder));
                     match first[at] {
                         None => first[at] = Some((device, holder)),
                         Some((one, held)) if one == device => {

@@ -171,15 +171,6 @@ impl Dualized {
         price.index().checked_sub(self.first_stream).map(StreamId::new)
     }
 
-    /// The resources that one user at a time holds in a facility.
-    pub(crate) fn slots_of(&self, facility: FacilityId) -> Vec<ResourceId> {
-        let slot = |(_, tie): &(PriceId, Tie)| match tie {
-            Tie::Ticket(of, resource) if *of == facility => Some(*resource),
-            _ => None,
-        };
-        self.ties.iter().filter_map(slot).collect()
-    }
-
     pub(crate) fn resource(&self, resource: ResourceId) -> PriceId {
         PriceId::new(self.first_resource + resource.index())
     }

@@ -48,6 +48,10 @@ pub fn record(
         weights: [weights.moved, weights.rule, weights.shared, weights.cost, 1],
         ..Record::default()
     };
+    if limit == 0 {
+        record.steps.push(Step::Closed(Multipliers::default()));
+        return Ok(Some(record));
+    }
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else {
         record.steps.push(Step::Dead);
         return Ok(Some(record));
@@ -91,7 +95,7 @@ fn facilities(dualized: &Dualized, model: &Model) -> Vec<Facility> {
             })
             .collect(),
         users: facility.users.clone(),
-        slots: dualized.slots_of(id),
+        slots: dualized.slots(model, id),
     };
     dualized.facilities.enumerate().map(stated).collect()
 }
@@ -168,7 +172,10 @@ impl Engine<'_> {
             }
             if Lagrangian::most(dualized, model, domains, limit).is_none() {
                 let shift = dualized.shift;
-                return Recorded::Step(Step::Closed(Multipliers { shift, ..Multipliers::default() }));
+                return Recorded::Step(Step::Closed(Multipliers {
+                    shift,
+                    ..Multipliers::default()
+                }));
             }
         }
         let by = pricing.lagrangian.multipliers(dualized, model, limit);

@@ -4,10 +4,10 @@
 //! L. A. Wolsey, *Capacitated facility location: valid inequalities and facets*, 1995). Without
 //! them the bound opens a fraction of a bus for each device.
 
-use super::{Dualized, Link};
+use super::{Dualized, Link, Tie};
 use crate::index::{FacilityId, IdVec, PriceId};
 use crate::model::{Holding, Model};
-use crate::problem::DeviceId;
+use crate::problem::{DeviceId, ResourceId};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -84,6 +84,33 @@ impl Dualized {
                 self.covers.push(Cover { members, need, small, devices: devices.to_vec() });
             }
         }
+    }
+
+    /// The resources that limit how many a facility can serve: of what each user has for itself there,
+    /// the one that [`Self::capacity`] counts.
+    pub(crate) fn slots(&self, model: &Model, number: FacilityId) -> Vec<ResourceId> {
+        let facility = &self.facilities[number];
+        let tied: BTreeMap<PriceId, ResourceId> = self
+            .ties
+            .iter()
+            .filter_map(|(price, tie)| match tie {
+                Tie::Ticket(of, resource) if *of == number => Some((*price, *resource)),
+                _ => None,
+            })
+            .collect();
+        let link = |prices: &[PriceId]| facility.links.iter().find(|l| prices.contains(&l.0));
+        let mut slots = BTreeSet::new();
+        for &alt in &facility.alts {
+            let mut roles = model.roles.of(alt).iter();
+            let role = roles.find(|role| model.holding[*role] == Holding::Own);
+            let cands = role.map(|role| model.cands.of(role)).unwrap_or_default();
+            let of_cands: Option<Vec<&Link>> =
+                cands.iter().map(|id| link(&self.cand_prices[id])).collect();
+            let links = of_cands.filter(|links| !links.is_empty());
+            let links = links.unwrap_or_else(|| link(&self.alt_prices[alt]).into_iter().collect());
+            slots.extend(links.iter().filter_map(|link| tied.get(&link.0)).copied());
+        }
+        slots.into_iter().collect()
     }
 
     /// Most devices that a facility can serve: as many as its links, and as many as there are pins
