@@ -1,4 +1,5 @@
 //! What a record says beside its steps, and whether it is so: facilities, covers and swaps.
+#![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::state::State;
 use super::statement::{Claim, Part, Statement};
@@ -327,7 +328,8 @@ impl Swap {
             let same = maps.way(statement, way, *image, &mut wires);
             ensure(same, || format!("a swap changes alternative {way}"))?;
         }
-        let boards = (below(one, statement.spare.len(), "board")?, maps.boards[one as usize]);
+        let first = below(one, statement.spare.len(), "board")?;
+        let boards = (first, maps.boards[first]);
         Ok(Self { boards, ways: maps.ways, wires })
     }
 

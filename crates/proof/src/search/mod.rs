@@ -12,6 +12,7 @@
 //! it is when two alike devices, or two boards, change places, then from any wiring of the case
 //! below the limit we get another one by changing them. So if there is none where one of them takes
 //! a choice, there is none where the other one does, and the choice is refused to both.
+#![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 mod claims;
 mod price;
@@ -249,7 +250,7 @@ impl Walk<'_> {
         let device = match asked {
             Asked::Way(way) => statement.ways[way].device,
             Asked::Wire(wire) => statement.wires[wire].device,
-            _ => {
+            Asked::Kept(_) | Asked::Unused(_) | Asked::Open(_) | Asked::Member(_) => {
                 ensure(twins.is_empty(), || format!("step {at} is not about a device"))?;
                 return Ok(images);
             }
@@ -302,7 +303,7 @@ fn twin_of(statement: &Statement, asked: Asked, twin: usize) -> Asked {
             let place = wire - statement.roles[of.role].wires.start;
             Asked::Wire(statement.roles[role].wires.start + place)
         }
-        other => other,
+        Asked::Kept(_) | Asked::Unused(_) | Asked::Open(_) | Asked::Member(_) => asked,
     }
 }
 

@@ -12,6 +12,7 @@
 //! facility or for a rule is given back there. So no wiring weighs less than the sum, whatever the
 //! multipliers are. Of a facility with a cover each opening saves something, and the saving is
 //! added as often as the cover says at least.
+#![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::claims::{Facilities, below, groups, violators};
 use super::state::{Charge, State};

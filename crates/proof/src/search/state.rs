@@ -1,5 +1,6 @@
 //! What can still be taken in a case. It only shrinks; every change is on a trail and taken back
 //! when the case is left.
+#![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use super::statement::{Claim, Part, Statement, agree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -289,7 +290,7 @@ impl State {
                     Part::Wire(wire) if statement.wires[*wire].device != device => {
                         others.insert(*wire);
                     }
-                    _ => {}
+                    Part::Way(_) | Part::Wire(_) => {}
                 }
             }
         }

@@ -1,4 +1,5 @@
 //! The problem in numbers: everything is numbered in the order of names, and found by who uses it.
+#![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 use crate::format::{Alternative, Candidate, Map, OWN, Problem};
 use std::collections::{BTreeMap, BTreeSet};
