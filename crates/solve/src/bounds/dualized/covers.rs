@@ -95,7 +95,7 @@ impl Dualized {
             .iter()
             .filter_map(|(price, tie)| match tie {
                 Tie::Ticket(of, resource) if *of == number => Some((*price, *resource)),
-                _ => None,
+                Tie::Ticket(..) | Tie::Link(..) | Tie::Rule(..) => None,
             })
             .collect();
         let link = |prices: &[PriceId]| facility.links.iter().find(|l| prices.contains(&l.0));
