@@ -57,6 +57,8 @@ pub fn record(
         return Ok(Some(record));
     };
     engine.board_symmetry = boards;
+    // A record does not hold bundles that change places.
+    engine.bundle_symmetry = false;
     engine.goal.limit = limit;
     let done = engine.recorded(&mut record.steps);
     if let Some(pricing) = &engine.pricing {
