@@ -63,7 +63,8 @@ pub fn record(
     let done = engine.recorded(&mut record.steps);
     if let Some(pricing) = &engine.pricing {
         record.facilities = facilities(&pricing.dualized, &model);
-        record.covers = pricing.dualized.covers.iter().map(crate::bounds::dualized::Cover::stated).collect();
+        record.covers =
+            pricing.dualized.covers.iter().map(crate::bounds::dualized::Cover::stated).collect();
     }
     Ok(done.is_ok().then_some(record))
 }
