@@ -14,6 +14,9 @@ use crate::kind::Kind;
 use crate::kind::can::{Can, Mux};
 use crate::words::Words;
 
+/// The bits of a frame that count, and what they are; byte 0 of the frame is the lowest.
+type Bits = (u64, u64);
+
 /// The frames of an identifier: board, bit rate, identifier, whether it has 29 bits.
 type Identifier = (Option<BoardIndex>, u32, u32, bool);
 
@@ -77,7 +80,7 @@ fn outside(device: &Device, can: &Can) -> Option<Diagnostic> {
 
 /// Finds the bits that tell which of the frames of an identifier has a value.
 fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnostic>) {
-    let mut found: Vec<(usize, (u64, u64))> = Vec::new();
+    let mut found: Vec<(usize, Bits)> = Vec::new();
     for index in devices {
         let Some(device) = design.devices.get(*index) else { continue };
         let Some(mux) = device.kind.can().and_then(|can| can.mux.as_ref()) else { continue };
@@ -89,7 +92,7 @@ fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnost
             .collect();
         match selected(device, mux, &others) {
             Ok(bits) => found.push((*index, bits)),
-            Err(report) => diagnostics.push(report),
+            Err(report) => diagnostics.push(*report),
         }
     }
     for (index, bits) in found {
@@ -101,7 +104,7 @@ fn select(design: &mut Design, devices: &[usize], diagnostics: &mut Vec<Diagnost
 }
 
 /// The bits that tell, and what is in them.
-fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<(u64, u64), Diagnostic> {
+fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<Bits, Box<Diagnostic>> {
     let Mux { selector, value, .. } = mux;
     let is_it = |other: &&&Device| {
         let of_part = other.part == device.part && other.coding.reading.is_some();
@@ -117,7 +120,7 @@ fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<(u64, u64)
             names.join(", ")
         };
         let unknown = e0212_unknown_word::unknown_word;
-        return Err(unknown(selector.span, "mux", &selector.value, &list, meant));
+        return Err(unknown(selector.span, "mux", &selector.value, &list, meant).into());
     };
     let place = other.kind.can().zip(Words::of(other));
     let bits = place.as_ref().and_then(|(can, words)| {
@@ -128,7 +131,7 @@ fn selected(device: &Device, mux: &Mux, others: &[&Device]) -> Result<(u64, u64)
         let most = if bits >= 64 { u64::MAX } else { (1 << bits) - 1 };
         let range = format!("0 to {most}, which {} can be", other.name.value);
         let found = value.value.to_string();
-        e0211_out_of_range::out_of_range(value.span, "mux", &found, &range)
+        e0211_out_of_range::out_of_range(value.span, "mux", &found, &range).into()
     })
 }
 
@@ -139,10 +142,10 @@ fn overlap(sent: &[&Device], diagnostics: &mut Vec<Diagnostic>) {
         let selected = can.mux.as_ref().map(|mux| mux.bits);
         Some((Words::of(device)?.in_frame(can.byte), selected))
     };
-    let mut before: Vec<(&Device, u64, Option<(u64, u64)>)> = Vec::new();
+    let mut before: Vec<(&Device, u64, Option<Bits>)> = Vec::new();
     for device in sent {
         let Some((own, selected)) = bits(device) else { continue };
-        let is_beside = |of: &Option<(u64, u64)>| match (of, &selected) {
+        let is_beside = |of: &Option<Bits>| match (of, &selected) {
             (Some((mask, one)), Some((other, another))) => mask == other && one != another,
             (_, _) => false,
         };
