@@ -1,5 +1,6 @@
 //! `sensedsl parts`: which parts and boards can carry a file, what they cost, and the lists.
 
+use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -9,7 +10,7 @@ use serde_json::Value;
 
 /// The lines that `parts` prints for a file.
 fn carriers(file: &str, arguments: &[&str]) -> Vec<Value> {
-    let call = sensedsl(["parts", "--format", "json"]).arg(file);
+    let call = sensedsl(["parts", "--format", "json", "--sort", "cost"]).arg(file);
     let ran = arguments.iter().fold(call, |call, argument| call.arg(argument)).run().exits(0);
     assert_eq!(ran.stderr, "", "a bar is for terminals");
     ran.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -69,6 +70,36 @@ fn parts_that_cannot_carry_the_devices_are_left_out() {
     let none =
         sensedsl(["parts", "--family", "STM32F103", "--target", "none"]).arg(file).run().exits(1);
     assert!(none.stdout.contains("\n0 of "), "{}", none.stdout);
+}
+
+/// Whoever reads a pipe need not wait for the last part. The rows are those of the sorted list, in
+/// the order of the parts, however many cores ask.
+#[test]
+fn a_pipe_gets_each_row_as_it_is_found() {
+    let file = "examples/fig2.sense";
+    let arguments = ["--family", "STM32F40", "--target", "none"];
+    let sorted = carriers(file, &arguments);
+    let call = |format| sensedsl(["parts", "--format", format]).args(arguments).arg(file).run();
+    let text = call("json").exits(0).stdout;
+    let rows: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(rows.len(), sorted.len());
+    assert!(sorted.iter().all(|row| rows.contains(row)));
+    assert_eq!(call("json").exits(0).stdout, text);
+    let human = call("human").exits(0).stdout;
+    assert!(human.contains(&format!("\n{} of ", rows.len())), "{human}");
+
+    let mut parts = Command::new(binary());
+    parts.current_dir(root()).args(["parts", "--target", "none", file]).stdout(Stdio::piped());
+    let mut parts = parts.spawn().unwrap();
+    let mut out = BufReader::new(parts.stdout.take().unwrap());
+    let mut first = String::new();
+    out.read_line(&mut first).unwrap();
+    first.clear();
+    out.read_line(&mut first).unwrap();
+    let is_running = parts.try_wait().unwrap().is_none();
+    parts.kill().unwrap();
+    parts.wait().unwrap();
+    assert!(is_running && first.contains("pins only"), "{first}");
 }
 
 /// What is wrong with the file is told once, not once for each part.

@@ -53,9 +53,10 @@ impl Terminal {
     }
 
     /// A line that is shown before the result is known as a whole.
-    pub(crate) fn passing(&self, line: &str) {
-        // There is nowhere to report that reporting failed; the result will say it.
-        let _ = writeln!(io::stdout().lock(), "{}", visible(line));
+    pub(crate) fn passing(&self, line: &str) -> io::Result<()> {
+        let mut out = io::stdout().lock();
+        writeln!(out, "{}", visible(line))?;
+        out.flush()
     }
 
     /// A result that only people read: dropped when quiet.

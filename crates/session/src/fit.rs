@@ -36,7 +36,9 @@ impl Snapshot {
     #[must_use]
     pub fn fit(&self, cancel: Cancel<'_>) -> Fit {
         let Some(design) = self.design() else { return Fit::Not };
-        match Wiring::within(design, None, cancel).solve_only(false) {
+        let wiring = Wiring::within(design, None, cancel);
+        let Some(best) = wiring.one_of_the_best() else { return Fit::Not };
+        match best {
             // The best so far need not be the best.
             Solved::Wired(wiring) if wiring.bound.is_some() => Fit::Open,
             Solved::Wired(wiring) => {

@@ -22,5 +22,5 @@ pub use check::{Violation, check};
 pub use problem::Problem;
 pub use questions::count::count;
 pub use questions::enumerate::{Answers, enumerate};
-pub use questions::solve::{Options, alike, feasible, solve};
+pub use questions::solve::{Options, alike, feasible, one_of_the_best, solve};
 pub use search::recorded::{equal_boards, record};

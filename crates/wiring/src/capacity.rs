@@ -124,7 +124,8 @@ fn beyond(kind: KindName, by_identifiers: bool) -> Vec<String> {
 }
 
 fn has_wiring(design: &Design, cancel: Cancel<'_>) -> bool {
-    matches!(Wiring::within(design, None, cancel).solve_only(true), Solved::Wired(_))
+    let wiring = Wiring::within(design, None, cancel);
+    !wiring.is_impossible() && matches!(wiring.solve_only(true), Solved::Wired(_))
 }
 
 fn blockers(design: &Design, kind: KindName, cancel: Cancel<'_>) -> Vec<String> {

@@ -192,6 +192,26 @@ impl<'a> Wiring<'a> {
         }
     }
 
+    /// One of the best wirings, which tells what the best costs; nothing where there is none. Neither
+    /// the reason for that is looked for nor which of the best comes first.
+    #[must_use]
+    pub fn one_of_the_best(&self) -> Option<Solved> {
+        let cancelled = Ok(Some(Outcome::Stopped { answer: None, bound: Objective::default() }));
+        let found = if self.formulation.complete {
+            solver::one_of_the_best(&self.formulation.problem, self.cancel)
+        } else {
+            cancelled
+        };
+        match self.named(found.transpose()?) {
+            Meant::Solved(solved) => Some(solved),
+            Meant::NoStreams => match self.with_converters() {
+                Some(wiring) => wiring.one_of_the_best(),
+                None => Some(self.no_streams()),
+            },
+            Meant::Infeasible(_) => None,
+        }
+    }
+
     /// As [`Self::solve`], with the certificate that proves the answer; its absence has its reason.
     /// `of` is what the design was made of.
     #[must_use]

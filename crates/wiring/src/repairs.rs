@@ -1,10 +1,12 @@
 //! What would help where there is no wiring: changes that were each tried by solving.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use sensedsl_board::pin::PinName;
 use sensedsl_board::silicon::PinRole;
 use sensedsl_board::table::{Occupation, release_name};
+use sensedsl_diagnostics::codes::e0404_out_of_time;
 use sensedsl_model::design::{
     Board, BoardIndex, Design, Link, PartIndex, Placement, Spanned, Transport,
 };
@@ -166,10 +168,17 @@ impl Repair {
 /// there are a few dozen.
 const TRIED_MAX: usize = 256;
 
+/// Steps of the search that a change is worth, in the first round and in the second.
+const SHARES: [u64; 2] = [400, 8_000];
+
+/// Steps that all changes are worth together.
+const STEPS_MAX: u64 = 40_000;
+
 /// The repairs that work, the gentlest first: another link where the file asks for none, then
 /// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a
 /// device out; within each the cheapest wiring first. At most [`TRIED_MAX`] are tried: before all
-/// others what concerns a link or one device alone, of which there are three each.
+/// others what concerns a link or one device alone, of which there are three each. Each has its share
+/// of the steps, so that hard ones are left out.
 pub(crate) fn find(
     design: &Design,
     formulation: &Formulation<'_>,
@@ -196,24 +205,31 @@ pub(crate) fn find(
     };
     let mut proposals = proposals(design, parts);
     proposals.sort_by_key(|repair| !is_of_one_device(repair));
-    for repair in proposals.into_iter().take(TRIED_MAX) {
-        if cancel.is_over() {
-            break;
+    proposals.truncate(TRIED_MAX);
+    let mut budget = Budget { steps: STEPS_MAX, cancel };
+    // What is quickly known of each first: a hard one does not cost the others their turn.
+    for share in SHARES {
+        let mut open = Vec::new();
+        for repair in proposals {
+            let likeness = if let Repair::Drop(index) = &repair { likeness(index) } else { None };
+            let known = likeness.and_then(|likeness| dropped.get(&likeness));
+            if let Some(cost) = known {
+                found.extend(cost.map(|cost| Repaired { repair, cost }));
+                continue;
+            }
+            let Some(tried) = budget.tried(design, &repair, share) else {
+                open.push(repair);
+                continue;
+            };
+            if let Some(likeness) = likeness {
+                dropped.insert(likeness, tried);
+            }
+            found.extend(tried.map(|cost| Repaired { repair, cost }));
         }
-        let likeness = if let Repair::Drop(index) = &repair { likeness(index) } else { None };
-        let known = likeness.and_then(|likeness| dropped.get(&likeness));
-        if let Some(cost) = known {
-            found.extend(cost.map(|cost| Repaired { repair, cost }));
-            continue;
-        }
-        let tried = tried(design, repair, cancel);
-        if let Some(likeness) = likeness {
-            dropped.insert(likeness, tried.as_ref().map(|one| one.cost));
-        }
-        found.extend(tried);
+        proposals = open;
     }
     if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
-        found.extend(sharing(design, parts, cancel));
+        found.extend(sharing(design, parts, &mut budget));
     }
     found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
     found
@@ -223,33 +239,53 @@ pub(crate) fn find(
 /// their converters.
 type Likeness = (usize, u32, i8);
 
-fn tried(design: &Design, repair: Repair, cancel: Cancel<'_>) -> Option<Repaired> {
-    if cancel.is_over() {
-        return None;
-    }
-    let changed = repair.applied(design);
-    let wiring = Wiring::within(&changed, None, cancel);
-    if wiring.is_impossible() {
-        return None;
-    }
-    match wiring.solve_only(false) {
-        Solved::Wired(wiring) if wiring.bound.is_none() => {
-            Some(Repaired { repair, cost: wiring.cost })
+/// What may still be spent on repairs. It counts steps of the search, so that the same file gets the
+/// same repairs on every machine; the end of the command bounds it in addition.
+struct Budget<'a> {
+    steps: u64,
+    cancel: Cancel<'a>,
+}
+
+impl Budget<'_> {
+    /// The cost of the best wiring after the change, if there is one; nothing where that is not known
+    /// within the share.
+    fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> Option<Option<u32>> {
+        let share = share.min(self.steps);
+        let spent = AtomicU64::new(0);
+        // What it takes to put the problem is no step.
+        let is_put = AtomicBool::new(false);
+        let over = || {
+            let counts = is_put.load(Ordering::Relaxed);
+            counts && spent.fetch_add(1, Ordering::Relaxed) >= share || self.cancel.is_over()
+        };
+        if share == 0 || self.cancel.is_over() {
+            return None;
         }
-        Solved::Wired(_) | Solved::Infeasible(_) | Solved::Failed(_) => None,
+        let changed = repair.applied(design);
+        let wiring = Wiring::within(&changed, None, Cancel::when(&over));
+        is_put.store(true, Ordering::Relaxed);
+        let best = wiring.one_of_the_best();
+        self.steps -= spent.into_inner().min(share);
+        match best {
+            Some(Solved::Wired(wiring)) if wiring.bound.is_none() => Some(Some(wiring.cost)),
+            Some(Solved::Failed(why)) if why.code != e0404_out_of_time::CODE => Some(None),
+            Some(Solved::Wired(_) | Solved::Failed(_)) => None,
+            None | Some(Solved::Infeasible(_)) => Some(None),
+        }
     }
 }
 
 /// The first two devices, or else all, that would help by sharing a bus.
-fn sharing(design: &Design, parts: &[PartIndex], cancel: Cancel<'_>) -> Option<Repaired> {
+fn sharing(design: &Design, parts: &[PartIndex], budget: &mut Budget<'_>) -> Option<Repaired> {
     let exclusive = |index: &&PartIndex| is_exclusive(design, **index);
     let exclusive: Vec<PartIndex> = parts.iter().filter(exclusive).copied().collect();
     let (first, others) = exclusive.split_first()?;
     let pairs = others.iter().map(|other| vec![*first, *other]);
-    pairs
-        .take(TRIED_MAX)
-        .chain([exclusive.clone()])
-        .find_map(|some| tried(design, Repair::Share(some), cancel))
+    pairs.take(TRIED_MAX).chain([exclusive.clone()]).find_map(|some| {
+        let repair = Repair::Share(some);
+        let cost = budget.tried(design, &repair, SHARES[1]).flatten()?;
+        Some(Repaired { repair, cost })
+    })
 }
 
 fn is_exclusive(design: &Design, part: PartIndex) -> bool {

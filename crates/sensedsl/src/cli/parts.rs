@@ -38,7 +38,8 @@ pub(crate) struct PartsArgs {
     /// Only parts with at least so many KB of RAM
     #[arg(long, value_name = "KB")]
     pub(crate) min_ram: Option<usize>,
-    /// What comes first: of a file the cheapest wiring unless you say otherwise, of a list the names
+    /// What comes first; into a file or a pipe the rows of a file are written as they are found unless
+    /// you ask for an order
     #[arg(long, value_enum)]
     pub(crate) sort: Option<PartsOrder>,
     /// Print so many at most

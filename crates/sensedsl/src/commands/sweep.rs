@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -73,18 +73,31 @@ pub(super) fn sweep(args: &PartsArgs, file: &Path, terminal: &mut Terminal) -> R
         disk: &disk,
         cancel: Cancel::when(&over),
     };
-    let answers = solve_all(&question, &carriers, args, terminal);
+    // Where nobody asked for an order, whoever reads gets each row as soon as it is known.
+    let in_turn = args.sort.is_none() && args.limit.is_none() && !terminal.is_watched();
+    let answers = solve_all(&question, &carriers, args, (terminal, in_turn));
     let failed = answers.iter().filter(|fit| **fit == Fit::Failed).count();
     let open = answers.iter().filter(|fit| **fit == Fit::Open).count();
     let found = sorted(&carriers, &answers, args);
     let fitting = found.len();
+    if in_turn && args.format == TableFormat::Human {
+        let asked = carriers.len() - open;
+        terminal.note(&format!("\n{}", sum(&found, fitting, asked, "")))?;
+    }
     let shown = found.get(..args.limit.unwrap_or(fitting)).unwrap_or(&found);
-    terminal.result(&match args.format {
-        TableFormat::Json => shown.iter().map(|(carrier, worth)| value(carrier, *worth)).collect(),
-        TableFormat::Human => human(shown, fitting, carriers.len() - open),
-    })?;
-    if open > 0 {
+    if !in_turn {
+        terminal.result(&match args.format {
+            TableFormat::Json => {
+                shown.iter().map(|(carrier, worth)| value(carrier, *worth)).collect()
+            }
+            TableFormat::Human => human(shown, fitting, carriers.len() - open),
+        })?;
+    }
+    if open > 0 && over() {
         terminal.aside(&format!("stopped: {open} of {} were not looked at", carriers.len()))?;
+    } else if open > 0 {
+        let all = carriers.len();
+        terminal.aside(&format!("{open} of {all} are not decided: they take too many steps"))?;
     }
     if failed > 0 {
         bail!("the solver failed its own check on {failed} parts");
@@ -162,49 +175,85 @@ struct Question<'a> {
     cancel: Cancel<'a>,
 }
 
+/// Steps of the search that one carrier is worth: a hard one does not block the others, and the same
+/// ones are decided on every machine.
+const STEPS_MAX: u64 = 20_000;
+
 /// The answers in the carriers' order: equal ones are asked once, all cores ask. Where people look,
-/// carriers are shown as they are found.
+/// carriers are shown as they are found; `in_turn` they are printed as soon as all before them are
+/// known.
 fn solve_all(
     question: &Question<'_>,
     carriers: &[(Carrier, String)],
     args: &PartsArgs,
-    terminal: &Terminal,
+    (terminal, in_turn): (&Terminal, bool),
 ) -> Vec<Fit> {
-    let mut alike: BTreeMap<&str, Vec<&Carrier>> = BTreeMap::new();
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut questions: Vec<Vec<&Carrier>> = Vec::new();
     for (carrier, key) in carriers {
-        alike.entry(key).or_default().push(carrier);
+        let number = *numbers.entry(key).or_insert(questions.len());
+        match questions.get_mut(number) {
+            Some(alike) => alike.push(carrier),
+            None => questions.push(vec![carrier]),
+        }
     }
-    let questions: Vec<(&str, Vec<&Carrier>)> = alike.into_iter().collect();
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let is_shown = args.format == TableFormat::Human && terminal.is_watched();
-    let shown = Mutex::new(());
+    let next = AtomicUsize::new(0);
+    let is_human = args.format == TableFormat::Human;
+    let is_shown = is_human && terminal.is_watched();
+    let all = questions.len();
+    let turn = Mutex::new(Turn { known: BTreeMap::new(), next: 0 });
+    // Set when nobody reads any more.
+    let is_closed = AtomicBool::new(false);
+    let say = |line: &str| {
+        is_closed.fetch_or(terminal.passing(line.trim_end()).is_err(), Ordering::Relaxed);
+    };
+    if in_turn && is_human {
+        say(&heads());
+    }
+    let print = |carriers: &[&Carrier], worth: Worth| {
+        let line = |carrier| if is_human { line(carrier, worth) } else { value(carrier, worth) };
+        carriers.iter().for_each(|carrier| say(&line(carrier)));
+    };
     let work = || {
-        let mut answers: Vec<(&str, Fit)> = Vec::new();
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some((key, carriers)) = questions.get(at) else { return answers };
-            let Some(first) = carriers.first() else { continue };
-            let fit = question.ask(&first.name);
-            answers.push((key, fit));
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            // One line at a time; a thread that panicked while it wrote has left none half.
-            let _turn = shown.lock();
-            if let (Fit::Wired(worth), true) = (fit, is_shown) {
-                terminal.progress("parts", questions.len(), questions.len());
-                carriers.iter().for_each(|carrier| terminal.passing(&line(carrier, worth)));
+            let Some(carriers) = questions.get(at) else { return };
+            if is_closed.load(Ordering::Relaxed) {
+                return;
             }
-            terminal.progress("parts", done, questions.len());
+            let fit = carriers.first().map_or(Fit::Failed, |first| question.ask(&first.name));
+            // One line at a time; a thread that panicked while it wrote has left none half.
+            let mut turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
+            turn.known.insert(at, fit);
+            if let (Fit::Wired(worth), true) = (fit, is_shown) {
+                terminal.progress("parts", all, all);
+                print(carriers, worth);
+            }
+            while let Some(fit) = turn.known.get(&turn.next).copied().filter(|_| in_turn) {
+                if let (Fit::Wired(worth), Some(carriers)) = (fit, questions.get(turn.next)) {
+                    print(carriers, worth);
+                }
+                turn.next += 1;
+            }
+            terminal.progress("parts", turn.known.len(), all);
         }
     };
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let answers: BTreeMap<&str, Fit> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        // A worker that panicked leaves its parts unanswered, which counts as failed.
-        workers.into_iter().filter_map(|worker| worker.join().ok()).flatten().collect()
+    thread::scope(|scope| {
+        (0..cores).for_each(|_| drop(scope.spawn(work)));
     });
-    terminal.progress("parts", questions.len(), questions.len());
-    let answer = |(_, key): &(Carrier, String)| answers.get(key.as_str()).copied();
-    carriers.iter().map(|carrier| answer(carrier).unwrap_or(Fit::Failed)).collect()
+    terminal.progress("parts", all, all);
+    let turn = turn.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let answer = |(_, key): &(Carrier, String)| turn.known.get(numbers.get(key.as_str())?).copied();
+    // A worker that panicked leaves its part unanswered, which counts as failed.
+    let unanswered = if is_closed.into_inner() { Fit::Open } else { Fit::Failed };
+    carriers.iter().map(|carrier| answer(carrier).unwrap_or(unanswered)).collect()
+}
+
+/// What is known by the numbers of the questions, and whose turn it is to be printed.
+struct Turn {
+    known: BTreeMap<usize, Fit>,
+    next: usize,
 }
 
 impl Question<'_> {
@@ -213,7 +262,10 @@ impl Question<'_> {
             return Fit::Open;
         }
         let on = On { board: Some(board), target: self.target };
-        self.workspace.snapshot(self.path, on, self.disk).fit(self.cancel)
+        let snapshot = self.workspace.snapshot(self.path, on, self.disk);
+        let steps = AtomicU64::new(0);
+        let over = || steps.fetch_add(1, Ordering::Relaxed) >= STEPS_MAX || self.cancel.is_over();
+        snapshot.fit(Cancel::when(&over))
     }
 }
 
@@ -237,6 +289,21 @@ fn line(carrier: &Carrier, worth: Worth) -> String {
     format!("{cost:>6}  {part:<15}  {place:<23}  {core:<6}  {flash:>5}  {ram:>4}  {known}")
 }
 
+/// The heads above such lines.
+fn heads() -> String {
+    let [cost, part, place] = ["Cost", "Part", "Package or board"];
+    format!("{cost:>6}  {part:<15}  {place:<23}  Core    Flash   RAM  Known")
+}
+
+/// How many can carry the devices, and in what their memories are counted.
+fn sum(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize, cut: &str) -> String {
+    let units = match shown {
+        [] => String::new(),
+        some => format!("{}\n", units(some.iter().map(|(carrier, _)| &carrier.facts))),
+    };
+    format!("{fitting} of {asked} parts and boards can carry the devices{cut}\n{units}")
+}
+
 /// The carriers that are shown, and how many of those looked at can carry the devices.
 fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
     let row = |(carrier, worth): &(&Carrier, Worth)| {
@@ -257,12 +324,7 @@ fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
         all if all == fitting => String::new(),
         some => format!("; the first {some} are shown"),
     };
-    let units = match shown {
-        [] => String::new(),
-        some => format!("{}\n", units(some.iter().map(|(carrier, _)| &carrier.facts))),
-    };
-    let table = table(heads, &rows);
-    format!("{table}\n{fitting} of {asked} parts and boards can carry the devices{cut}\n{units}")
+    format!("{}\n{}", table(heads, &rows), sum(shown, fitting, asked, &cut))
 }
 
 /// A line of JSON.

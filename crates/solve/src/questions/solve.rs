@@ -7,7 +7,7 @@ use crate::check::check;
 use crate::domains::{Pruned, streams};
 use crate::index::Id;
 use crate::model::{Choices, Model};
-use crate::problem::{DmaUserId, Problem};
+use crate::problem::{DeviceId, DmaUserId, Problem};
 use crate::search::{Effort, Engine};
 use std::collections::BTreeSet;
 
@@ -25,44 +25,69 @@ pub struct Options<'a> {
 /// # Errors
 /// [`Fault`] when the problem is not well-formed, or when an answer fails [`check`].
 pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault> {
+    match search(problem, options, true)? {
+        Searched::Ended(outcome) => Ok(outcome),
+        Searched::Infeasible(seed) => conflict::explain(problem, seed, options.cancel),
+    }
+}
+
+/// Finds one of the best answers, whichever comes first; nothing where there is none. What that
+/// saves is most of the time: why there is none, and which of the best comes first in order.
+///
+/// # Errors
+/// As [`solve`].
+pub fn one_of_the_best(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<Outcome>, Fault> {
+    Ok(match search(problem, &Options { any: false, cancel }, false)? {
+        Searched::Ended(outcome) => Some(outcome),
+        Searched::Infeasible(_) => None,
+    })
+}
+
+/// What a search comes to.
+enum Searched {
+    Ended(Outcome),
+    /// No answer, and devices that probably have none by themselves.
+    Infeasible(Option<Vec<DeviceId>>),
+}
+
+fn search(problem: &Problem, options: &Options<'_>, least: bool) -> Result<Searched, Fault> {
     let cancel = options.cancel;
     if cancel.is_over() {
-        return Ok(Outcome::Stopped { answer: None, bound: Objective::default() });
+        let bound = Objective::default();
+        return Ok(Searched::Ended(Outcome::Stopped { answer: None, bound }));
     }
     let model = Model::new(problem)?;
     let Ok(mut engine) = Engine::new(problem, &model, cancel) else {
-        return conflict::explain(problem, None, cancel);
+        return Ok(Searched::Infeasible(None));
     };
     engine.board_symmetry = true;
     if let Err(Pruned) = engine.settle() {
-        let seed = engine.flow.stuck(&model);
-        return conflict::explain(problem, Some(seed), cancel);
+        return Ok(Searched::Infeasible(Some(engine.flow.stuck(&model))));
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
     let proved = model.weights.unpack(engine.goal.proved.max(bound));
-    let stopped = |answer| Outcome::Stopped { answer, bound: proved };
+    let stopped = |answer| Searched::Ended(Outcome::Stopped { answer, bound: proved });
     let Some((weight, choices)) = found else {
-        if engine.progress.stopped {
-            return Ok(stopped(None));
-        }
-        return conflict::explain(problem, None, cancel);
+        let stopped = engine.progress.stopped.then(|| stopped(None));
+        return Ok(stopped.unwrap_or(Searched::Infeasible(None)));
     };
     if options.any || engine.progress.stopped {
         let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
         return Ok(if engine.progress.stopped {
             stopped(Some(answer))
         } else {
-            Outcome::Solved(answer)
+            Searched::Ended(Outcome::Solved(answer))
         });
     }
-    let least = engine.least(weight, choices);
+    let choices = if least { engine.least(weight, choices) } else { choices };
     if engine.progress.stopped {
-        let answer = finish(problem, &model, &least, Optimality::Feasible)?;
+        let answer = finish(problem, &model, &choices, Optimality::Feasible)?;
         let bound = answer.objective;
-        return Ok(Outcome::Stopped { answer: Some(answer), bound });
+        return Ok(Searched::Ended(Outcome::Stopped { answer: Some(answer), bound }));
     }
-    finish(problem, &model, &least, Optimality::Proved).map(Outcome::Solved)
+    let answer = finish(problem, &model, &choices, Optimality::Proved)?;
+    Ok(Searched::Ended(Outcome::Solved(answer)))
 }
 
 /// Whether there is an answer at all; `None` when stopped before that is known. Where there is none
