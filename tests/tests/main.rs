@@ -32,6 +32,7 @@ mod paper;
 mod parts;
 mod prolog;
 mod proof;
+mod shown_values;
 mod silicon;
 mod simulate;
 mod single_files;

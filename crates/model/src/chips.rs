@@ -28,6 +28,7 @@ use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
 use crate::parts::ReadPart;
 use crate::protocol::Protocol;
+use crate::reach;
 use crate::rules;
 use crate::value::Evaluator;
 use crate::words;
@@ -383,8 +384,11 @@ impl Whole<'_> {
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
         let mut coding = coding::coding(&mut fields, given.value, formula);
         coding.reading = Some(given.name.clone());
-        coding.failsafe = coding::failsafe(&mut fields, direction, value.value);
+        let range = reach::of_codes(main.kind, &coding, value.value);
+        coding.failsafe = coding::failsafe(&mut fields, direction, value.value, range);
         let level = devices::level(&mut fields);
+        let mut shown = devices::divided(own.shown, level.as_ref());
+        shown.bare = fields.take_bare();
         drop(fields);
         let kind = of_bus.unwrap_or_else(|| main.read(self, diagnostics).0);
         if let Err(message) = words::check(&kind, &coding, value.value, &self.protocol) {
@@ -412,7 +416,7 @@ impl Whole<'_> {
             prio: own.prio,
             prio_span: own.prio_span,
             group: own.group,
-            shown: devices::divided(own.shown, level.as_ref()),
+            shown,
             coding,
             filter: own.filter,
             connections,

@@ -6,7 +6,7 @@ use sensedsl_diagnostics::codes::{e0211_out_of_range, e0229_wrong_driver};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::Spanned;
-use crate::fields::{Fields, name_or_text, plain_integer, plain_number};
+use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number};
 use crate::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Protocol, TextField,
 };
@@ -91,25 +91,31 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
     }
 }
 
-/// Reads what an actuator falls back to, unless its kind has done so: a value that the type holds.
+/// Reads what an actuator falls back to, unless its kind has done so, as a code: one that the type
+/// holds and the part takes.
 pub(crate) fn failsafe(
     fields: &mut Fields<'_>,
     direction: Direction,
     of: ValueType,
+    range: Option<(f64, f64)>,
 ) -> Option<f64> {
-    if !fields.rest().iter().any(|field| field.name == "failsafe") {
-        return None;
-    }
-    let field = fields.take("failsafe")?;
+    let field = fields.rest().into_iter().find(|field| field.name == "failsafe")?;
     if direction == Direction::Sensor {
+        fields.take("failsafe");
         fields.needs_direction(field.value_span, "failsafe", Direction::Actuator);
         return None;
     }
+    if of.scalar != ScalarType::Bool && !fields.shows_the_code() {
+        let is_whole = of.scalar.integer_range().is_some();
+        let codes = Codes { range, is_whole, pulses_us: None };
+        return fields.code("failsafe", codes).map(|code| code.value);
+    }
+    fields.take("failsafe");
     let word = name_or_text(&field.value);
     let number = match word.as_deref() {
         Some("true") if of.scalar == ScalarType::Bool => Some(1.0),
         Some("false") if of.scalar == ScalarType::Bool => Some(0.0),
-        _ => plain_number(&field.value),
+        _ => fields.plain_or_raw(&field),
     };
     let Some(number) = number else {
         let takes = if of.scalar == ScalarType::Bool { "`true` or `false`" } else { "a number" };
@@ -249,20 +255,25 @@ fn invalid(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
 pub(crate) fn curve(fields: &mut Fields<'_>) -> Vec<(f64, f64)> {
     const TAKES: &str = "a list of pairs such as [[0.4, 80], [1.3, 20]], the first numbers rising";
     let Some(field) = fields.take("curve") else { return Vec::new() };
+    points(&field.value).unwrap_or_else(|| {
+        fields.wrong(&field, TAKES);
+        Vec::new()
+    })
+}
+
+/// The points of a curve; none where they are not pairs whose first numbers rise.
+pub(crate) fn points(value: &Value) -> Option<Vec<(f64, f64)>> {
     let point = |value: &Spanned<Value>| match value.value.list()? {
         [x, y] => Some((plain_number(&x.value)?, plain_number(&y.value)?)),
         _ => None,
     };
     let points: Option<Vec<(f64, f64)>> =
-        field.value.list().and_then(|list| list.iter().map(point).collect());
+        value.list().and_then(|list| list.iter().map(point).collect());
     let rises = |points: &Vec<(f64, f64)>| {
         points.len() >= 2
             && points.iter().zip(points.iter().skip(1)).all(|(one, next)| one.0 < next.0)
     };
-    points.filter(rises).unwrap_or_else(|| {
-        fields.wrong(&field, TAKES);
-        Vec::new()
-    })
+    points.filter(rises)
 }
 
 /// Reads how a chip is started and computed.

@@ -10,6 +10,7 @@ use sensedsl_diagnostics::{Code, FileId, Span};
 use sensedsl_wire::{Checksum, Direction, Item, Schema, ValueType};
 
 use crate::bounds::Bounds;
+pub use crate::fields::Bare;
 use crate::kind::{Kind, Role};
 use crate::protocol::{Coding, Filter, Protocol};
 use crate::volts::{shown_mv, shown_ohm};
@@ -330,6 +331,8 @@ pub struct Presentation {
     pub bounds: [Option<Span>; 2],
     /// Points between which `scale * raw + offset` is interpolated; empty for none.
     pub curve: Vec<(f64, f64)>,
+    /// A bare number that was given as a shown value, where it is another code.
+    pub bare: Option<Bare>,
 }
 
 impl Connection {

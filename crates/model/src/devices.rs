@@ -22,6 +22,7 @@ use crate::kind::{KindName, i2c};
 use crate::parts::ReadPart;
 use crate::placement;
 use crate::protocol::{Filter, Protocol};
+use crate::reach;
 use crate::rules;
 use crate::types;
 use crate::words;
@@ -81,9 +82,11 @@ pub(crate) fn read(
     let own = own(&mut fields);
     let placements = placement::read(&mut fields, &kind, direction, value.value);
     let mut coding = coding::coding(&mut fields, value.value, None);
-    coding.failsafe = coding::failsafe(&mut fields, direction, value.value);
+    let range = reach::of_codes(kind_name.value, &coding, value.value);
+    coding.failsafe = coding::failsafe(&mut fields, direction, value.value, range);
     let level = level(&mut fields);
-    let shown = divided(own.shown, level.as_ref());
+    let mut shown = divided(own.shown, level.as_ref());
+    shown.bare = fields.take_bare();
     if let Err(message) = words::check(&kind, &coding, value.value, &Protocol::default()) {
         fields.say(e0229_wrong_driver::wrong_driver(name.span, &message));
     }
@@ -387,6 +390,7 @@ fn presentation(fields: &mut Fields<'_>) -> Presentation {
         offset: fields.number("offset").map(|number| number.value),
         min: min.map(|one| one.value),
         max: max.map(|one| one.value),
+        bare: None,
         bounds: [min.map(|one| one.span), max.map(|one| one.span)],
         curve: coding::curve(fields),
     }

@@ -5,6 +5,7 @@
 
 mod plain;
 mod quantities;
+mod shown;
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -23,6 +24,8 @@ use crate::design::Spanned;
 use crate::value::{Evaluator, Value};
 use plain::{byte_list, describe};
 pub(crate) use plain::{name_or_text, plain_integer, plain_number};
+pub use shown::Bare;
+pub(crate) use shown::Codes;
 
 /// The span of a syntax range.
 pub(crate) fn span(file: FileId, range: TextRange) -> Span {
@@ -57,6 +60,8 @@ pub(crate) struct Fields<'a> {
     reading: String,
     /// Bytes of a register's number.
     register_bytes: u8,
+    /// The bare number that was taken as a shown value, where it is another code.
+    bare: Option<Bare>,
     /// What the block is, for messages ("an analog device").
     owner: String,
     owner_span: Span,
@@ -84,6 +89,7 @@ impl<'a> Fields<'a> {
             own_layers: 1,
             reading: String::new(),
             register_bytes: 1,
+            bare: None,
             owner,
             owner_span,
             diagnostics,

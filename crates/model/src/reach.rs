@@ -1,15 +1,17 @@
 //! How far a value goes: what the part gives or takes, what the type holds, and both as a host shows
 //! them. A device in, its range out, and reports of what lies beyond it.
 
+use std::collections::BTreeMap;
+
 use sensedsl_board::silicon;
-use sensedsl_diagnostics::Diagnostic;
+use sensedsl_diagnostics::{Diagnostic, FileId};
 use sensedsl_diagnostics::codes::{
-    e0235_analog_over_supply, e0236_bound_out_of_reach, w0611_narrow_command,
+    e0235_analog_over_supply, e0236_bound_out_of_reach, w0611_narrow_command, w0612_shown_not_raw,
 };
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use crate::design::{Board, Design, Device, Presentation};
-use crate::kind::Kind;
+use crate::design::{Bare, Board, Design, Device, Presentation};
+use crate::kind::{Kind, KindName};
 use crate::kind::icu::Mode;
 use crate::protocol::Coding;
 use crate::volts::{divider, shown_mv, shown_ohm};
@@ -27,21 +29,35 @@ pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
         return Some((-FULL, FULL));
     }
     match kind {
-        Kind::Analog(_) | Kind::Dac(_) => Some((0.0, CONVERTED_MAX)),
-        Kind::Pwm(_) => Some((0.0, FULL)),
         Kind::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, FULL)),
+        other => of_kind(other.name()),
+    }
+}
+
+/// The range that all values of a kind have.
+fn of_kind(kind: KindName) -> Option<(f64, f64)> {
+    match kind {
+        KindName::Analog | KindName::Dac => Some((0.0, CONVERTED_MAX)),
+        KindName::Pwm => Some((0.0, FULL)),
         _ => None,
     }
 }
 
+/// The least and the greatest code that can be given for a value: of a part that its type holds.
+pub(crate) fn of_codes(kind: KindName, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
+    let fixed = if coding.drive.is_some() { Some((-FULL, FULL)) } else { of_kind(kind) };
+    let part = fixed.or_else(|| of_bits(coding, value));
+    both(part, of_type(value.scalar))
+}
+
 /// The least and the greatest raw value that a part gives or takes; none where it is not known.
 fn of_part(kind: &Kind, coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
-    if coding.output.is_some() || coding.text.is_some() || coding.bcd {
-        return None;
-    }
-    if let Some(range) = fixed(kind, coding) {
-        return Some(range);
-    }
+    let is_computed = coding.output.is_some() || coding.text.is_some() || coding.bcd;
+    if is_computed { None } else { fixed(kind, coding).or_else(|| of_bits(coding, value)) }
+}
+
+/// What the bits of a word hold.
+fn of_bits(coding: &Coding, value: ValueType) -> Option<(f64, f64)> {
     let scalar = coding.of.unwrap_or(value).scalar;
     let (least, _) = scalar.integer_range()?;
     let bits = coding.bits.map(|(high, low)| high - low + 1).or(coding.packed_bits);
@@ -69,7 +85,10 @@ fn of_type(scalar: ScalarType) -> Option<(f64, f64)> {
 #[must_use]
 pub fn raw(device: &Device) -> Option<(f64, f64)> {
     let value = device.value.value;
-    let (part, held) = (of_part(&device.kind, &device.coding, value), of_type(value.scalar));
+    both(of_part(&device.kind, &device.coding, value), of_type(value.scalar))
+}
+
+fn both(part: Option<(f64, f64)>, held: Option<(f64, f64)>) -> Option<(f64, f64)> {
     match (part, held) {
         (Some(part), Some(held)) => Some((part.0.max(held.0), part.1.min(held.1))),
         (one, other) => one.or(other),
@@ -109,6 +128,30 @@ pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(narrow(device));
         diagnostics.extend(over_supply(design, device).or_else(|| beyond(device)));
     }
+    diagnostics.extend(bare_numbers(design));
+}
+
+/// The bare numbers of each file that were codes before, told once.
+fn bare_numbers(design: &Design) -> Vec<Diagnostic> {
+    let mut of_files: BTreeMap<FileId, Vec<(&Device, &Bare)>> = BTreeMap::new();
+    for device in &design.devices {
+        let Some(bare) = &device.shown.bare else { continue };
+        of_files.entry(bare.span.file).or_default().push((device, bare));
+    }
+    let told = of_files.into_values().filter_map(|mut all| {
+        all.sort_by_key(|(_, bare)| bare.span);
+        let (device, bare) = all.first()?;
+        let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}"));
+        let shown = format!("{}{}", bare.number, unit.unwrap_or_default());
+        let write = match &bare.with_unit {
+            Some(text) => format!("write `{text}` if that is meant"),
+            None => "write `allow W0612 \"the shown value is meant\";` if it is".to_owned(),
+        };
+        let code = bare.code.to_string();
+        let more = all.len() - 1;
+        Some(w0612_shown_not_raw::shown_not_raw(bare.span, &shown, &code, more, &write))
+    });
+    told.collect()
 }
 
 fn narrow(device: &Device) -> Option<Diagnostic> {

@@ -77,29 +77,62 @@ pub(crate) enum Measure {
     Unit(Unit),
     /// Seconds, volts and ohms, each to a power.
     Derived(Dimension),
+    /// A code: what goes over the wire, not what is shown.
+    Raw,
 }
 
-/// The powers of seconds, volts and ohms.
+/// The powers of what units are of. That a number is a code is one of them: it cannot be added to one
+/// that is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Dimension {
     seconds: i8,
     volts: i8,
     ohms: i8,
+    metres: i8,
+    amperes: i8,
+    watts: i8,
+    degrees: i8,
+    celsius: i8,
+    turns: i8,
+    percents: i8,
+    raws: i8,
 }
 
 impl Dimension {
-    pub(crate) const TIME: Self = Self { seconds: 1, volts: 0, ohms: 0 };
-    pub(crate) const FREQUENCY: Self = Self { seconds: -1, volts: 0, ohms: 0 };
-    pub(crate) const VOLTAGE: Self = Self { seconds: 0, volts: 1, ohms: 0 };
-    pub(crate) const RESISTANCE: Self = Self { seconds: 0, volts: 0, ohms: 1 };
-    const NONE: Self = Self { seconds: 0, volts: 0, ohms: 0 };
+    const NONE: Self = Self {
+        seconds: 0,
+        volts: 0,
+        ohms: 0,
+        metres: 0,
+        amperes: 0,
+        watts: 0,
+        degrees: 0,
+        celsius: 0,
+        turns: 0,
+        percents: 0,
+        raws: 0,
+    };
+    pub(crate) const TIME: Self = Self { seconds: 1, ..Self::NONE };
+    pub(crate) const FREQUENCY: Self = Self { seconds: -1, ..Self::NONE };
+    pub(crate) const VOLTAGE: Self = Self { volts: 1, ..Self::NONE };
+    pub(crate) const RESISTANCE: Self = Self { ohms: 1, ..Self::NONE };
+    pub(crate) const RAW: Self = Self { raws: 1, ..Self::NONE };
 
-    fn of(unit: Unit) -> Self {
+    pub(crate) fn of(unit: Unit) -> Self {
         match unit {
             Unit::Microseconds | Unit::Milliseconds | Unit::Seconds => Self::TIME,
             Unit::Hertz | Unit::Kilohertz | Unit::Megahertz => Self::FREQUENCY,
             Unit::Millivolts | Unit::Volts => Self::VOLTAGE,
             Unit::Ohms | Unit::Kiloohms => Self::RESISTANCE,
+            Unit::Percent => Self { percents: 1, ..Self::NONE },
+            Unit::Millimetres | Unit::Centimetres | Unit::Metres => {
+                Self { metres: 1, ..Self::NONE }
+            }
+            Unit::Degrees => Self { degrees: 1, ..Self::NONE },
+            Unit::Celsius => Self { celsius: 1, ..Self::NONE },
+            Unit::Milliamperes | Unit::Amperes => Self { amperes: 1, ..Self::NONE },
+            Unit::Watts => Self { watts: 1, ..Self::NONE },
+            Unit::TurnsPerMinute => Self { turns: 1, ..Self::NONE },
         }
     }
 
@@ -108,19 +141,43 @@ impl Dimension {
             seconds: with(self.seconds, other.seconds),
             volts: with(self.volts, other.volts),
             ohms: with(self.ohms, other.ohms),
+            metres: with(self.metres, other.metres),
+            amperes: with(self.amperes, other.amperes),
+            watts: with(self.watts, other.watts),
+            degrees: with(self.degrees, other.degrees),
+            celsius: with(self.celsius, other.celsius),
+            turns: with(self.turns, other.turns),
+            percents: with(self.percents, other.percents),
+            raws: with(self.raws, other.raws),
         }
     }
 }
 
-/// The factor of a unit to seconds, hertz, volts or ohms.
-fn factor(unit: Unit) -> f64 {
+/// The power of ten from a unit to seconds, hertz, volts, ohms, metres, amperes and the like.
+pub(crate) fn power_of_ten(unit: Unit) -> i32 {
     match unit {
-        Unit::Microseconds => 1e-6,
-        Unit::Milliseconds | Unit::Millivolts => 1e-3,
-        Unit::Seconds | Unit::Hertz | Unit::Volts | Unit::Ohms => 1.0,
-        Unit::Kilohertz | Unit::Kiloohms => 1e3,
-        Unit::Megahertz => 1e6,
+        Unit::Microseconds => -6,
+        Unit::Milliseconds | Unit::Millivolts | Unit::Millimetres | Unit::Milliamperes => -3,
+        Unit::Centimetres => -2,
+        Unit::Seconds
+        | Unit::Hertz
+        | Unit::Volts
+        | Unit::Ohms
+        | Unit::Percent
+        | Unit::Metres
+        | Unit::Degrees
+        | Unit::Celsius
+        | Unit::Amperes
+        | Unit::Watts
+        | Unit::TurnsPerMinute => 0,
+        Unit::Kilohertz | Unit::Kiloohms => 3,
+        Unit::Megahertz => 6,
     }
+}
+
+/// A number times a power of ten, rounded once: powers below one are not exact in binary.
+pub(crate) fn shifted(number: f64, power: i32) -> f64 {
+    if power < 0 { number / 10_f64.powi(-power) } else { number * 10_f64.powi(power) }
 }
 
 impl Number {
@@ -130,14 +187,15 @@ impl Number {
             Measure::Bare => Dimension::NONE,
             Measure::Unit(unit) => Dimension::of(unit),
             Measure::Derived(dimension) => dimension,
+            Measure::Raw => Dimension::RAW,
         }
     }
 
     /// In seconds, hertz, volts or ohms, whichever it is.
     pub(crate) fn in_base_units(&self) -> f64 {
         match self.measure {
-            Measure::Bare | Measure::Derived(_) => self.value,
-            Measure::Unit(unit) => self.value * factor(unit),
+            Measure::Bare | Measure::Derived(_) | Measure::Raw => self.value,
+            Measure::Unit(unit) => shifted(self.value, power_of_ten(unit)),
         }
     }
 
@@ -145,10 +203,22 @@ impl Number {
     pub(crate) fn unit_name(&self) -> String {
         match self.measure {
             Measure::Bare => "no unit".to_owned(),
+            Measure::Raw => "raw".to_owned(),
             Measure::Unit(unit) => unit.name().to_owned(),
             Measure::Derived(dimension) => {
-                let powers =
-                    [("V", dimension.volts), ("Ohm", dimension.ohms), ("s", dimension.seconds)];
+                let powers = [
+                    ("V", dimension.volts),
+                    ("Ohm", dimension.ohms),
+                    ("A", dimension.amperes),
+                    ("W", dimension.watts),
+                    ("m", dimension.metres),
+                    ("deg", dimension.degrees),
+                    ("degC", dimension.celsius),
+                    ("rpm", dimension.turns),
+                    ("%", dimension.percents),
+                    ("raw", dimension.raws),
+                    ("s", dimension.seconds),
+                ];
                 let words = |sign: i8| {
                     let word = move |(unit, power): (&str, i8)| match power.saturating_mul(sign) {
                         ..1 => None,
@@ -332,6 +402,14 @@ fn literal(number: &ast::Number) -> Value {
         (None, _) => Measure::Bare,
         (Some(_), Some(unit)) => Measure::Unit(unit),
         (Some(_), None) => return Value::Unknown,
+    };
+    // `raw 5 ms` is refused wherever it stands: it has no place as a time and none as a code.
+    let measure = match measure {
+        Measure::Bare if number.is_raw() => Measure::Raw,
+        Measure::Unit(unit) if number.is_raw() => {
+            Measure::Derived(Dimension::of(unit).combine(Dimension::RAW, i8::saturating_add))
+        }
+        other => other,
     };
     let (value, integer) = match number.magnitude() {
         Some(Magnitude::Integer(value)) =>

@@ -381,6 +381,10 @@ pub(crate) struct FmtArgs {
     /// Write the identifiers that the tool gives by itself into files without mistakes
     #[arg(long)]
     pub(crate) ids: bool,
+    /// Write what a file of an older version meant: bare numbers for devices with a scale were codes, and
+    /// get `raw` before them. For once; the numbers of a file of today mean what is shown
+    #[arg(long)]
+    pub(crate) migrate: bool,
     #[command(flatten)]
     pub(crate) reach: Reach,
 }

@@ -72,6 +72,8 @@ kinds! {
     ReserveKw,
     ReleaseKw,
     AllowKw,
+    /// Before a number: it is the code, not the shown value.
+    RawKw,
 
     // Nodes.
     SourceFile,
@@ -123,7 +125,7 @@ impl SyntaxKind {
     /// Whether this is a keyword, as recognised by the parser.
     #[must_use]
     pub fn is_keyword(self) -> bool {
-        Self::UseKw <= self && self <= Self::AllowKw
+        Self::UseKw <= self && self <= Self::RawKw
     }
 }
 

@@ -114,8 +114,18 @@ impl<'a> Lexer<'a> {
                 self.bump_while(is_name_continue);
                 SyntaxKind::Ident
             }
+            '%' if self.is_behind_a_number(start) => SyntaxKind::Ident,
             _ => punctuation(first).unwrap_or_else(|| self.unknown(start, first)),
         }
+    }
+
+    /// Whether what begins there can be the unit of a number: `50 %`.
+    fn is_behind_a_number(&self, start: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default().trim_end_matches(' ');
+        // Before an operand it is meant as an operator, which there is not.
+        let behind = self.rest().trim_start_matches(' ');
+        let is_operator = behind.starts_with(|next: char| next.is_alphanumeric() || next == '(');
+        before.ends_with(|last: char| last.is_ascii_digit()) && !is_operator
     }
 
     fn block_comment(&mut self, start: usize) -> SyntaxKind {

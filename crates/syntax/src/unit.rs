@@ -4,7 +4,7 @@ use std::fmt;
 
 use sensedsl_diagnostics::nearest;
 
-/// The unit of a time, a frequency, a voltage or a resistance.
+/// The unit of a time, a frequency, a voltage or a resistance, or of a value that a device shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// `us`
@@ -27,11 +27,31 @@ pub enum Unit {
     Ohms,
     /// `kOhm`
     Kiloohms,
+    /// `%`
+    Percent,
+    /// `mm`
+    Millimetres,
+    /// `cm`
+    Centimetres,
+    /// `m`
+    Metres,
+    /// `deg`
+    Degrees,
+    /// `degC`
+    Celsius,
+    /// `mA`
+    Milliamperes,
+    /// `A`
+    Amperes,
+    /// `W`
+    Watts,
+    /// `rpm`
+    TurnsPerMinute,
 }
 
 impl Unit {
     /// All units.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 20] = [
         Self::Microseconds,
         Self::Milliseconds,
         Self::Seconds,
@@ -42,6 +62,16 @@ impl Unit {
         Self::Volts,
         Self::Ohms,
         Self::Kiloohms,
+        Self::Percent,
+        Self::Millimetres,
+        Self::Centimetres,
+        Self::Metres,
+        Self::Degrees,
+        Self::Celsius,
+        Self::Milliamperes,
+        Self::Amperes,
+        Self::Watts,
+        Self::TurnsPerMinute,
     ];
 
     /// The unit as it is written.
@@ -58,6 +88,16 @@ impl Unit {
             Self::Volts => "V",
             Self::Ohms => "Ohm",
             Self::Kiloohms => "kOhm",
+            Self::Percent => "%",
+            Self::Millimetres => "mm",
+            Self::Centimetres => "cm",
+            Self::Metres => "m",
+            Self::Degrees => "deg",
+            Self::Celsius => "degC",
+            Self::Milliamperes => "mA",
+            Self::Amperes => "A",
+            Self::Watts => "W",
+            Self::TurnsPerMinute => "rpm",
         }
     }
 

@@ -245,8 +245,8 @@ fn cpp_takes_arrays_and_limits_behind_curves() {
     line.hear(4, second);
     line.say(&encode_hello(&board.schema));
     std::thread::sleep(Duration::from_millis(200));
-    let typed = "Escs 1000 1500 2000 65535\nWinch 900\nWinch 3001\nLamps 1 2 0\nEscs 1 2\n\
-                 Lamps true false 1\nWinch 3000\n";
+    let typed = "Escs raw 1000 1500 2000 65535\nWinch raw 900\nWinch raw 3001\nWinch 3001\n\
+                 Lamps 1 2 0\nEscs 1 2\nEscs 0 50 % 101 100\nLamps true false 1\nWinch 100 N\n";
     std::io::Write::write_all(&mut child.stdin.take().unwrap(), typed.as_bytes()).unwrap();
     let mut events = Vec::new();
     let mut decoder = Decoder::new(&board.schema, Direction::Actuator);
@@ -261,8 +261,12 @@ fn cpp_takes_arrays_and_limits_behind_curves() {
     drop(line);
     let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
     for expected in [
-        "not sent: Winch 900: Winch = 900 (-27.5 N) (below the minimum of -25 N)\n",
-        "not sent: Winch 3001: Winch = 3001 (100.1 N) (above the maximum of 100 N)\n",
+        "not sent: Winch raw 900: Winch = 900 (-27.5 N) (below the minimum of -25 N)\n",
+        "not sent: Winch raw 3001: Winch = 3001 (100.1 N) (above the maximum of 100 N)\n",
+        "not sent: Winch 3001: 3001 N (above the maximum of 100 N)\n",
+        "not sent: Escs 0 50 % 101 100: 101 percent is out of reach of the value",
+        "sent: Winch = 3000 (100 N)\n",
+        "sent: Lamps = [true, false, true]\n",
         "not sent: Lamps 1 2 0: 2 is not true, false, 1 or 0\n",
         "not sent: Escs 1 2: Escs takes 4 values\n",
     ] {

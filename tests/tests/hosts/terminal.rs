@@ -184,13 +184,15 @@ fn typed_lines_become_commands() {
     assert_eq!(line.hear(7, second), encode_hello_request(&boards[0].schema));
     line.say(&encode_hello(&boards[0].schema));
     std::thread::sleep(Duration::from_millis(200));
-    let typed = "T0 true\nT2 -0128\nT7 18446744073709551615\nT8 -9223372036854775808\nT9 0.1\n\
-                 B3 1 65535\nT2 128\nT1 -1\nB3 1\nnothing 1\nT6 4e9\nT4 61\nT10 -2.5\n";
+    let typed = "T0 true\nT2 raw -0128\nT7 raw 18446744073709551615\n\
+                 T8 raw -9223372036854775808\nT9 raw 0.1\n\
+                 B3 raw 1 65535\nT2 raw 128\nT1 raw -1\nB3 1\nnothing 1\nT6 raw 4e9\nT4 61\nT4 raw 61\n\
+                 T4 20 m\nT4 40000\nT4 raw 40 deg\nT10 raw -2.5\nT4 -12.5 deg\nT4 raw 50\nT4 20deg\n";
     child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
     let mut events = Vec::new();
     let mut decoder = Decoder::new(&boards[0].schema, Direction::Actuator);
     let start = Instant::now();
-    while events.len() < 7 && start.elapsed() < second {
+    while events.len() < 10 && start.elapsed() < second {
         let bytes = line.hear(1, Duration::from_millis(100));
         decoder.feed(&bytes, |event| events.extend(Some(event).filter(is_command)));
     }
@@ -202,18 +204,28 @@ fn typed_lines_become_commands() {
         (70, vec![Scalar::Float32(0.1)]),
         (94, vec![Scalar::Unsigned(1), Scalar::Unsigned(65_535)]),
         (71, vec![Scalar::Float64(-2.5)]),
+        (65, vec![Scalar::Signed(-25)]),
+        (65, vec![Scalar::Signed(50)]),
+        (65, vec![Scalar::Signed(40)]),
     ];
     assert_eq!(events, expected.map(|value| Event::Report(None, vec![value])));
     assert_eq!(decoder.dropped_bytes(), 0);
     drop(line);
     let errors = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
     for expected in [
-        "not sent: T2 128: 128 is not in the range -128 to 127\n",
-        "not sent: T1 -1: -1 is not in the range 0 to 255\n",
+        "not sent: T2 raw 128: 128 is not in the range -128 to 127\n",
+        "not sent: T1 raw -1: -1 is not in the range 0 to 255\n",
         "not sent: B3 1: B3 takes 2 values\n",
         "not sent: nothing 1: no actuator is called nothing; there are: T0 B0 T1 ",
-        "not sent: T4 61: T4 = 61 (30.5 deg) (above the maximum of 30 deg)\n",
-        "not sent: T6 4e9: 4e9 is not a whole number\n",
+        "not sent: T4 61: 61 deg (above the maximum of 30 deg)\n",
+        "not sent: T4 raw 61: T4 = 61 (30.5 deg) (above the maximum of 30 deg)\n",
+        "not sent: T4 20 m: m is not a unit of the value, which is in deg\n",
+        "not sent: T4 40000: 40000 deg (above the maximum of 30 deg)\n",
+        "not sent: T4 raw 40 deg: 40 is a code, which has no unit: leave out deg\n",
+        "sent: T2 = -128",
+        "sent: T4 = -25 (-12.5 deg)\n",
+        "sent: T4 = 40 (20 deg)\n",
+        "not sent: T6 raw 4e9: 4e9 is not a whole number\n",
     ] {
         assert!(errors.contains(expected), "no {expected:?} in:\n{errors}");
     }

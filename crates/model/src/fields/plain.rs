@@ -43,6 +43,7 @@ pub(super) fn byte_list(value: &Value) -> Option<Vec<i128>> {
 /// What a value is, for messages.
 pub(super) fn describe(value: &Value) -> &'static str {
     match value {
+        Value::Number(number) if number.measure == Measure::Raw => "a code",
         Value::Number(number) if number.measure != Measure::Bare => "a number with a unit",
         Value::Number(number) if number.integer.is_none() => "a number with a fraction",
         Value::Number(_) => "a number",

@@ -167,7 +167,7 @@ impl Fields<'_> {
 fn with_unit(number: &Number, bare: Unit) -> Number {
     match number.measure {
         Measure::Bare => Number { measure: Measure::Unit(bare), ..*number },
-        Measure::Unit(_) | Measure::Derived(_) => *number,
+        Measure::Unit(_) | Measure::Derived(_) | Measure::Raw => *number,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
-use crate::fields::Fields;
+use crate::fields::{Codes, Fields};
 use sensedsl_wire::{Direction, ValueType};
 
 /// What is the same for all devices of this kind.
@@ -20,6 +20,9 @@ pub const SPEC: KindSpec = KindSpec {
     letter: 'D',
 };
 
+/// The code of the reference voltage.
+const CODE_MAX: f64 = 4_095.0;
+
 /// A DAC output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dac {
@@ -28,8 +31,10 @@ pub struct Dac {
 }
 
 impl Properties for Dac {
-    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
-        Self { failsafe: fields.number("failsafe").map(|number| number.value) }
+    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
+        let is_whole = value.scalar.integer_range().is_some();
+        let codes = Codes { range: Some((0.0, CODE_MAX)), is_whole, pulses_us: None };
+        Self { failsafe: fields.code("failsafe", codes).map(|code| code.value) }
     }
 
     fn plain(_: u8) -> Self {

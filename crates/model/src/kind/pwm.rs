@@ -2,7 +2,7 @@
 
 use super::spec::Properties;
 use super::{KindSpec, Role, Sharing, Values};
-use crate::fields::Fields;
+use crate::fields::{Codes, Fields};
 use sensedsl_wire::{Direction, ValueType};
 
 /// What is the same for all devices of this kind.
@@ -22,6 +22,8 @@ pub const SPEC: KindSpec = KindSpec {
 
 /// Pulses per second where the file says nothing: that of a model servo.
 const FREQUENCY_DEFAULT_HZ: u32 = 50;
+/// The value of the pulse `max`.
+const VALUE_MAX: f64 = 10_000.0;
 
 /// A timer output.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +39,7 @@ pub struct Pwm {
 }
 
 impl Properties for Pwm {
-    fn read(fields: &mut Fields<'_>, _: Direction, _: ValueType) -> Self {
+    fn read(fields: &mut Fields<'_>, _: Direction, value: ValueType) -> Self {
         let frequency = fields.frequency_hz("frequency", 1..=1_000_000);
         let frequency_hz = frequency.map_or(FREQUENCY_DEFAULT_HZ, |frequency| frequency.value);
         let period_us = 1_000_000 / frequency_hz.max(1);
@@ -48,12 +50,17 @@ impl Properties for Pwm {
         {
             fields.contradiction(min.span, "max", "`min` is not below `max`");
         }
-        Self {
-            frequency_hz,
-            min_us: min.map(|time| time.value),
-            max_us: max.map(|time| time.value),
-            failsafe: fields.number("failsafe").map(|number| number.value),
-        }
+        let (min_us, max_us) = (min.map(|time| time.value), max.map(|time| time.value));
+        let pulses_us = (min_us.unwrap_or(0).into(), max_us.unwrap_or(period_us).into());
+        // Of a bridge the sign is the direction.
+        let least = if fields.is_of_reading() { -VALUE_MAX } else { 0.0 };
+        let codes = Codes {
+            range: Some((least, VALUE_MAX)),
+            is_whole: value.scalar.integer_range().is_some(),
+            pulses_us: Some(pulses_us),
+        };
+        let failsafe = fields.code("failsafe", codes).map(|code| code.value);
+        Self { frequency_hz, min_us, max_us, failsafe }
     }
 
     fn plain(_: u8) -> Self {

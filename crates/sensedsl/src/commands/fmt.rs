@@ -1,5 +1,7 @@
 //! `sensedsl fmt`: the canonical layout, and the identifiers that a file leaves out.
 
+mod migrate;
+
 use std::path::Path;
 
 use anyhow::Result;
@@ -21,20 +23,15 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
             status = Status::Wrong;
             continue;
         };
-        let wanted = if args.ids {
-            let Some(numbered) = numbered(path, &text, &formatted, args, terminal)? else {
-                status = Status::Wrong;
-                continue;
-            };
-            numbered
-        } else {
-            formatted.clone()
+        let Some(wanted) = rewritten(path, &text, &formatted, args, terminal)? else {
+            status = Status::Wrong;
+            continue;
         };
         if args.check {
             let lacks = if formatted != text {
                 "not laid out canonically"
             } else if wanted != text {
-                "identifiers are not written"
+                if args.migrate { "values are not as they are today" } else { "identifiers are not written" }
             } else {
                 continue;
             };
@@ -44,11 +41,42 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
             terminal.result(&wanted)?;
         } else if wanted != text {
             write_whole(path, wanted.as_bytes())?;
-            let done = if wanted == formatted { "laid out" } else { "identifiers written" };
+            let done = match (wanted == formatted, args.migrate) {
+                (true, _) => "laid out",
+                (false, true) => "values written as they are today",
+                (false, false) => "identifiers written",
+            };
             terminal.note(&format!("{}: {done}\n", visible(&shown(path))))?;
         }
     }
     Ok(status)
+}
+
+/// The text with what is to be written into it, laid out; none where it has mistakes, which are said.
+fn rewritten(
+    path: &Path,
+    text: &str,
+    formatted: &str,
+    args: &FmtArgs,
+    terminal: &Terminal,
+) -> Result<Option<String>> {
+    let mut wanted = (text.to_owned(), formatted.to_owned());
+    if args.migrate {
+        let migrated = match migrate::migrated(path, text, args) {
+            Ok(migrated) => migrated,
+            Err(before) => {
+                terminal.diagnostics(before.diagnostics(), before.sources())?;
+                terminal.aside(&format!("{}: a file with errors stays as it is", shown(path)))?;
+                return Ok(None);
+            }
+        };
+        let Some(formatted) = laid_out(path, &migrated, terminal)? else { return Ok(None) };
+        wanted = (migrated, formatted);
+    }
+    if args.ids {
+        return numbered(path, &wanted.0, &wanted.1, args, terminal);
+    }
+    Ok(Some(wanted.1))
 }
 
 /// The text in its canonical layout; none where it has mistakes, which are said.

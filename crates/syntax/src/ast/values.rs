@@ -141,6 +141,11 @@ impl Number {
     pub fn sign(&self) -> Option<Sign> {
         sign(&self.0)
     }
+    /// Whether it is a code and not the shown value: `raw 307`.
+    #[must_use]
+    pub fn is_raw(&self) -> bool {
+        token(&self.0, SyntaxKind::RawKw).is_some()
+    }
     /// The number without its sign; `None` where it is out of range, which is an error already.
     #[must_use]
     pub fn magnitude(&self) -> Option<Magnitude> {

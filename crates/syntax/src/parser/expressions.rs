@@ -106,6 +106,7 @@ impl<'a> Parser<'a> {
             self.finish();
         }
         match self.kind() {
+            Some(SyntaxKind::Ident) if self.at_raw() => self.number(),
             Some(SyntaxKind::Ident) => self.name_value(),
             Some(SyntaxKind::Str) => {
                 self.start(SyntaxKind::StringValue);
@@ -135,9 +136,19 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A number, at its sign or its digits.
+    /// Whether a code stands here: `raw 307`, `raw -20`.
+    fn at_raw(&self) -> bool {
+        let is_number = |n| self.nth_at(n, SyntaxKind::Int) || self.nth_at(n, SyntaxKind::Float);
+        let is_sign = self.nth_at(1, SyntaxKind::Plus) || self.nth_at(1, SyntaxKind::Minus);
+        self.nth_word(0, "raw") && (is_number(1) || (is_sign && self.touches(2) && is_number(2)))
+    }
+
+    /// A number, at `raw`, its sign or its digits.
     fn number(&mut self) {
         self.start(SyntaxKind::Number);
+        if self.at(SyntaxKind::Ident) {
+            self.bump_as(SyntaxKind::RawKw);
+        }
         if self.at(SyntaxKind::Plus) || self.at(SyntaxKind::Minus) {
             self.bump();
         }

@@ -30,7 +30,8 @@ const EVERY_HOST: [(&str, &str); 16] = [
 ];
 
 /// For C++17.
-pub(super) const BOARD: [(&str, &str); 2] = [shared!("board.hpp"), shared!("handlers.hpp")];
+pub(super) const BOARD: [(&str, &str); 3] =
+    [shared!("board.hpp"), shared!("handlers.hpp"), shared!("typed.hpp")];
 
 /// All that a host of any C++ includes.
 pub(super) fn files() -> FileSet {

@@ -35,9 +35,12 @@ bool send_typed_lines(Board &board, sensedsl::Serial &input, std::string &typed)
     typed.append(bytes.begin(), bytes.end());
     for (auto end = typed.find('\n'); end != std::string::npos; end = typed.find('\n')) {
         const std::string line = typed.substr(0, end);
-        const std::string problem = board.send_line(line);
+        std::string sent;
+        const std::string problem = board.send_line(line, &sent);
         if (!line.empty() && !problem.empty()) {
             std::cerr << "not sent: " << line << ": " << problem << std::endl;
+        } else if (!line.empty()) {
+            std::cerr << "sent: " << sent << std::endl;
         }
         typed.erase(0, end + 1);
     }
@@ -81,7 +84,8 @@ int main(int argc, char **argv) {
     if (options.has("help")) {
         std::cout << "usage: " << argv[0] << " [OPTIONS] DEVICE|FILE|- [RATE]\n\n"
                   << "prints what board " << "Rover" << " says; plays a recorded FILE or standard input\n"
-                  << "a typed line NAME VALUE... goes to the actuator of that name\n"
+                  << "a typed line NAME VALUE... goes to the actuator of that name: values as they are shown, with\n"
+                  << "or without their unit; NAME raw CODE... gives codes of the wire\n"
                   << "\n" << options.help() << "\n" << Board::devices()
                   << "\nexit status: 0 ended by you or the recording; 1 other firmware, or the device is gone;\n"
                   << "2 wrong call, or the device cannot be opened\n";

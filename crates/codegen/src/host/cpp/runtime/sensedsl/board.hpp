@@ -14,11 +14,13 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "sensedsl/connection.hpp"
 #include "sensedsl/handlers.hpp"
 #include "sensedsl/link.hpp"
 #include "sensedsl/text.hpp"
+#include "sensedsl/typed.hpp"
 
 namespace sensedsl {
 
@@ -200,14 +202,16 @@ public:
         return connection_.send(report.frame()) ? Sent::yes : Sent::no_board;
     }
 
-    /// Sends what a line `NAME VALUE...` says. Why it was not sent; empty when it was.
-    std::string send_line(const std::string &line) {
+    /// Sends what a line `NAME VALUE...` says: values as they are shown, codes behind `raw`, a unit behind
+    /// a number. Why it was not sent; empty when it was, and then `sent` is what the line has become.
+    std::string send_line(const std::string &line, std::string *sent = nullptr) {
+        (void)sent;
         std::istringstream words(line);
         std::string name;
         words >> name;
         std::string problem = "no actuator is called " + name + "; there are:";
         ((problem += std::string(" ") + Actuator::name), ...);
-        ((name == Actuator::name ? void(problem = send_words<Actuator>(words)) : void()), ...);
+        ((name == Actuator::name ? void(problem = send_words<Actuator>(words, sent)) : void()), ...);
         return problem;
     }
 
@@ -231,21 +235,27 @@ private:
         }
     }
 
-    template <typename Message> std::string send_words(std::istream &words) {
+    template <typename Message> std::string send_words(std::istream &words, std::string *sent) {
         Message command;
-        std::string word;
+        const std::vector<TypedValue> typed = typed_values(words);
+        if (typed.size() < Message::count) {
+            return std::string(Message::name) + " takes " + std::to_string(Message::count) +
+                   (Message::count == 1 ? " value" : " values");
+        }
         for (std::size_t i = 0; i < Message::count; ++i) {
-            if (!(words >> word)) {
-                return std::string(Message::name) + " takes " + std::to_string(Message::count) + " values";
-            }
-            const std::string problem = read_typed(word, command.data()[i]);
+            const std::string problem = read_value(typed[i], command, i);
             if (!problem.empty()) {
-                return word + " " + problem;
+                return problem;
             }
         }
-        if (words >> word) {
-            return "what is " + word + "? " + Message::name + " takes " +
+        if (typed.size() > Message::count) {
+            return "what is " + typed[Message::count].number + "? " + Message::name + " takes " +
                    std::to_string(Message::count) + (Message::count == 1 ? " value" : " values");
+        }
+        if (sent != nullptr) {
+            std::ostringstream text;
+            text << command;
+            *sent = text.str();
         }
         switch (send(command)) {
         case Sent::no_board:

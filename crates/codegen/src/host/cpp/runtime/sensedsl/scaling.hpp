@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#include <limits>
+
 namespace sensedsl {
 
 /// A point of a curve.
@@ -43,6 +45,29 @@ struct Scaling {
         }
         const Point &to = curve[last + 1];
         return from.y + (x - from.x) * (to.y - from.y) / (to.x - from.x);
+    }
+
+    /// Whether the shown value is the raw one.
+    bool is_plain() const {
+        return point_count == 0 && !(scale < 1.0) && !(scale > 1.0) && !(offset < 0.0) && !(offset > 0.0);
+    }
+
+    /// The raw value, with a fraction, that is shown so; not a number where no value is.
+    double raw_of(double shown) const {
+        double x = shown;
+        bool is_reached = point_count == 0;
+        for (size_t i = 0; i + 1 < point_count && !is_reached; ++i) {
+            const Point &from = curve[i];
+            const Point &to = curve[i + 1];
+            const bool rises = from.y < to.y;
+            is_reached = rises ? shown >= from.y && shown <= to.y : shown <= from.y && shown >= to.y;
+            if (is_reached) {
+                const bool is_level = !(from.y < to.y) && !(from.y > to.y);
+                x = is_level ? from.x : from.x + (shown - from.y) * (to.x - from.x) / (to.y - from.y);
+            }
+        }
+        const double raw = (x - offset) / scale;
+        return is_reached ? raw : std::numeric_limits<double>::quiet_NaN();
     }
 
     double scale;

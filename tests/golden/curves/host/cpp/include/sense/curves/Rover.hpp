@@ -215,6 +215,8 @@ struct Escs {
     [[nodiscard]] uint16_t *data() { return raw.data(); }
     /// An element in its quantity.
     [[nodiscard]] double value(std::size_t element) const { return sensedsl::shown(*this, element); }
+    /// Takes an element in its quantity; false, and nothing is taken, where no code is shown so.
+    [[nodiscard]] bool value(std::size_t element, double shown) { return sensedsl::take_shown(*this, element, shown); }
 };
 
 inline std::ostream &operator<<(std::ostream &out, const ::sense::curves::Escs &message) {
@@ -259,6 +261,8 @@ struct Winch {
     [[nodiscard]] uint16_t *data() { return &raw; }
     /// In its quantity.
     [[nodiscard]] double value() const { return sensedsl::shown(*this, 0); }
+    /// Takes what is shown; false, and nothing is taken, where no code is shown so.
+    [[nodiscard]] bool value(double shown) { return sensedsl::take_shown(*this, 0, shown); }
 };
 
 inline std::ostream &operator<<(std::ostream &out, const ::sense::curves::Winch &message) {
@@ -282,6 +286,8 @@ struct Speed {
     [[nodiscard]] int16_t *data() { return &raw; }
     /// In its quantity.
     [[nodiscard]] double value() const { return sensedsl::shown(*this, 0); }
+    /// Takes what is shown; false, and nothing is taken, where no code is shown so.
+    [[nodiscard]] bool value(double shown) { return sensedsl::take_shown(*this, 0, shown); }
 };
 
 inline std::ostream &operator<<(std::ostream &out, const ::sense::curves::Speed &message) {
