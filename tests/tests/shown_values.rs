@@ -3,12 +3,21 @@
 #![expect(clippy::unwrap_used, reason = "a test reads its data, and a panic is its failure")]
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
-use sensedsl_tests::{files, root, sensedsl};
+use sensedsl_tests::{root, sensedsl};
+
+/// A folder of this test run, empty.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
 
 /// The failsafes in the firmware of a file, in the order of its devices.
-fn failsafes(folder: &str, text: &str) -> Vec<String> {
-    let folder = files::folder(folder);
+fn failsafes(name: &str, text: &str) -> Vec<String> {
+    let folder = folder(name);
     let file = folder.join("robot.sense");
     fs::write(&file, text).unwrap();
     let out = folder.join("out");
@@ -62,13 +71,13 @@ const OLD: &str = "board STM32F407G_DISC1 {
 
 #[test]
 fn a_file_of_before_is_written_as_it_was_meant() {
-    let folder = files::folder("shown-migrated");
+    let folder = folder("shown-migrated");
     let file = folder.join("robot.sense");
     fs::write(&file, OLD).unwrap();
     let ran = sensedsl(["check"]).arg(&file).run().exits(1);
     assert!(ran.stderr.contains("E0234"), "{}", ran.stderr);
     let ran = sensedsl(["fmt", "--migrate", "--check"]).arg(&file).run().exits(1);
-    assert!(ran.stderr.contains("values are not as they are today"), "{}", ran.stderr);
+    assert!(ran.stdout.contains("values are not as they are today"), "{}", ran.stdout);
     let _ = sensedsl(["fmt", "--migrate"]).arg(&file).run().exits(0);
     let migrated = fs::read_to_string(&file).unwrap();
     let expected = OLD.replace("= 307;", "= raw 307;").replace("= 5_000;", "= raw 5_000;");

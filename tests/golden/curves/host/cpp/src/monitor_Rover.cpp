@@ -84,8 +84,8 @@ int main(int argc, char **argv) {
     if (options.has("help")) {
         std::cout << "usage: " << argv[0] << " [OPTIONS] DEVICE|FILE|- [RATE]\n\n"
                   << "prints what board " << "Rover" << " says; plays a recorded FILE or standard input\n"
-                  << "a typed line NAME VALUE... goes to the actuator of that name: values as they are shown, with\n"
-                  << "or without their unit; NAME raw CODE... gives codes of the wire\n"
+                  << "a typed line NAME VALUE... goes to the actuator of that name: values as they\n"
+                  << "are shown, with or without their unit; NAME raw CODE... gives codes of the wire\n"
                   << "\n" << options.help() << "\n" << Board::devices()
                   << "\nexit status: 0 ended by you or the recording; 1 other firmware, or the device is gone;\n"
                   << "2 wrong call, or the device cannot be opened\n";
