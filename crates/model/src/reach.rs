@@ -4,15 +4,15 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::silicon;
-use sensedsl_diagnostics::{Diagnostic, FileId};
 use sensedsl_diagnostics::codes::{
     e0235_analog_over_supply, e0236_bound_out_of_reach, w0611_narrow_command, w0612_shown_not_raw,
 };
+use sensedsl_diagnostics::{Diagnostic, FileId};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::{Bare, Board, Design, Device, Presentation};
-use crate::kind::{Kind, KindName};
 use crate::kind::icu::Mode;
+use crate::kind::{Kind, KindName};
 use crate::protocol::Coding;
 use crate::volts::{divider, shown_mv, shown_ohm};
 

@@ -142,7 +142,8 @@ impl Presentation {
             let part = if rise == 0.0 { 0.0 } else { (shown - from.1) / rise };
             is_here.then_some(from.0 + (to.0 - from.0) * part)
         };
-        let x = if self.curve.is_empty() { Some(shown) } else { pairs.into_iter().find_map(on_curve) };
+        let x =
+            if self.curve.is_empty() { Some(shown) } else { pairs.into_iter().find_map(on_curve) };
         let scale = self.scale.unwrap_or(1.0);
         let raw = (x? - self.offset.unwrap_or(0.0)) / scale;
         raw.is_finite().then_some(raw)
@@ -240,18 +241,29 @@ fn bounded(value: f64, shown: &Presentation) -> Result<(), Misfit> {
     if !is_below && shown.max.is_none_or(|max| value <= max) {
         return Ok(());
     }
-    let (which, bound) = if is_below { ("below `min`", shown.min) } else { ("above `max`", shown.max) };
+    let (which, bound) =
+        if is_below { ("below `min`", shown.min) } else { ("above `max`", shown.max) };
     let bound = with(bound.unwrap_or_default(), unit);
     let message = format!("{} is {which}, {bound}", with(value, unit));
     let help = match unit {
-        Some(unit) => format!("a number is in {unit}, as it is shown: stay within the bounds, or write a code: `raw 307`"),
-        None => "stay within the bounds; a number is as it is shown, and `raw 307` is a code".to_owned(),
+        Some(unit) => format!(
+            "a number is in {unit}, as it is shown: stay within the bounds, or write a code: `raw 307`"
+        ),
+        None => {
+            "stay within the bounds; a number is as it is shown, and `raw 307` is a code".to_owned()
+        }
     };
     Err(Misfit(message, help))
 }
 
 /// A code that is written as one.
-fn held(code: f64, value: f64, before: &str, codes: Codes, unit: Option<String>) -> Result<f64, Misfit> {
+fn held(
+    code: f64,
+    value: f64,
+    before: &str,
+    codes: Codes,
+    unit: Option<String>,
+) -> Result<f64, Misfit> {
     let is_whole = !codes.is_whole || code.fract() == 0.0;
     let is_within = codes.range.is_none_or(|(least, most)| code >= least && code <= most);
     if is_whole && is_within {
@@ -268,7 +280,8 @@ fn held(code: f64, value: f64, before: &str, codes: Codes, unit: Option<String>)
 
 /// Refuses a shown value whose code does not exist.
 fn within(code: f64, codes: Codes, shown: &Presentation, value: String) -> Result<f64, Misfit> {
-    let Some((least, most)) = codes.range.filter(|(least, most)| !(code >= *least && code <= *most))
+    let Some((least, most)) =
+        codes.range.filter(|(least, most)| !(code >= *least && code <= *most))
     else {
         return Ok(code);
     };

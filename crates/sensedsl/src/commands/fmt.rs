@@ -31,7 +31,11 @@ pub(crate) fn run(args: &FmtArgs, terminal: &mut Terminal) -> Result<Status> {
             let lacks = if formatted != text {
                 "not laid out canonically"
             } else if wanted != text {
-                if args.migrate { "values are not as they are today" } else { "identifiers are not written" }
+                if args.migrate {
+                    "values are not as they are today"
+                } else {
+                    "identifiers are not written"
+                }
             } else {
                 continue;
             };
