@@ -31,7 +31,7 @@ impl Clone {
         }
         fs::create_dir_all(scratch.join("home/empty")).unwrap();
         let clone = Self { scratch, output: "build" };
-        clone.file("robot.sense", &design("Robot on STM32F4DiscoveryBoard", &["analog"]));
+        clone.file("robot.sense", design("Robot on STM32F4DiscoveryBoard", &["analog"]));
         for (path, bytes) in made {
             clone.file(&format!("build/{path}"), bytes);
         }

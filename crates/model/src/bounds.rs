@@ -171,7 +171,14 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
     let (property, asked, at) = match &wires.kind {
         Kind::I2c(i2c) => ("speed", i2c.speed_hz, i2c.speed_span?),
         Kind::Spi(spi) => ("clock", spi.clock_hz, spi.clock_span?),
-        _ => return None,
+        Kind::Analog(_)
+        | Kind::Can(_)
+        | Kind::Dac(_)
+        | Kind::Digital(_)
+        | Kind::Encoder(_)
+        | Kind::Icu(_)
+        | Kind::Pwm(_)
+        | Kind::Uart(_) => return None,
     };
     let (asked_words, most_words) = (shown_hz(asked), shown_hz(most));
     let over = e0233_clock_over_part::clock_over_part;
@@ -181,10 +188,10 @@ fn too_fast(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
 /// A frequency for people: `400 kHz`.
 #[must_use]
 pub fn shown_hz(hz: u32) -> String {
-    if hz >= 1_000_000 && hz % 1_000_000 == 0 {
+    if hz >= 1_000_000 && hz.is_multiple_of(1_000_000) {
         return format!("{} MHz", hz / 1_000_000);
     }
-    if hz >= 1_000 && hz % 1_000 == 0 {
+    if hz >= 1_000 && hz.is_multiple_of(1_000) {
         return format!("{} kHz", hz / 1_000);
     }
     format!("{hz} Hz")

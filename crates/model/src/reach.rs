@@ -30,7 +30,16 @@ pub(crate) fn fixed(kind: &Kind, coding: &Coding) -> Option<(f64, f64)> {
     }
     match kind {
         Kind::Icu(icu) if icu.mode == Mode::Duty => Some((0.0, FULL)),
-        other => of_kind(other.name()),
+        Kind::Analog(_)
+        | Kind::Can(_)
+        | Kind::Dac(_)
+        | Kind::Digital(_)
+        | Kind::Encoder(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Pwm(_)
+        | Kind::Spi(_)
+        | Kind::Uart(_) => of_kind(kind.name()),
     }
 }
 
@@ -39,7 +48,13 @@ fn of_kind(kind: KindName) -> Option<(f64, f64)> {
     match kind {
         KindName::Analog | KindName::Dac => Some((0.0, CONVERTED_MAX)),
         KindName::Pwm => Some((0.0, FULL)),
-        _ => None,
+        KindName::Can
+        | KindName::Digital
+        | KindName::Encoder
+        | KindName::I2c
+        | KindName::Icu
+        | KindName::Spi
+        | KindName::Uart => None,
     }
 }
 

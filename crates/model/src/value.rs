@@ -409,7 +409,7 @@ fn literal(number: &ast::Number) -> Value {
         Measure::Unit(unit) if number.is_raw() => {
             Measure::Derived(Dimension::of(unit).combine(Dimension::RAW, i8::saturating_add))
         }
-        other => other,
+        Measure::Bare | Measure::Raw | Measure::Unit(_) | Measure::Derived(_) => measure,
     };
     let (value, integer) = match number.magnitude() {
         Some(Magnitude::Integer(value)) =>

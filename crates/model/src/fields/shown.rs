@@ -173,14 +173,14 @@ fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, M
     let unit = shown.quantity.clone();
     bounded(value, shown)?;
     if shown.is_plain() {
-        return held(value, value, "", codes, unit);
+        return held(value, value, "", codes, unit.as_deref());
     }
     let Some(raw) = shown.raw_of(value) else {
         let message = format!("{} is never shown by this device", with(value, unit.as_deref()));
         return Err(Misfit(message, "write a value that `curve` reaches".to_owned()));
     };
     let code = if codes.is_whole { raw.round() } else { raw };
-    within(code, codes, shown, with(value, unit.as_deref()))
+    within(code, codes, shown, &with(value, unit.as_deref()))
 }
 
 /// Percents and pulses of a pwm output that shows nothing else.
@@ -190,10 +190,14 @@ fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
     let found = with(number.value, Some(&number.unit_name()));
     let code = match number.measure {
         Measure::Unit(Unit::Percent) => number.value * CODES_OF_PERCENT,
-        _ if number.dimension() == Dimension::TIME => {
+        Measure::Bare | Measure::Derived(_) | Measure::Raw | Measure::Unit(_)
+            if number.dimension() == Dimension::TIME =>
+        {
             CODES * (shifted_us(number) - least) / (most - least)
         }
-        _ => return Err(Misfit(format!("{found} is not a value of a pwm output"), help)),
+        Measure::Bare | Measure::Derived(_) | Measure::Raw | Measure::Unit(_) => {
+            return Err(Misfit(format!("{found} is not a value of a pwm output"), help));
+        }
     };
     if codes.range.is_some_and(|(least, most)| !(code >= least && code <= most)) {
         return Err(Misfit(format!("{found} is out of reach"), help));
@@ -262,14 +266,14 @@ fn held(
     value: f64,
     before: &str,
     codes: Codes,
-    unit: Option<String>,
+    unit: Option<&str>,
 ) -> Result<f64, Misfit> {
     let is_whole = !codes.is_whole || code.fract() == 0.0;
     let is_within = codes.range.is_none_or(|(least, most)| code >= least && code <= most);
     if is_whole && is_within {
         return Ok(code);
     }
-    let message = format!("{before}{} is not a value of this device", with(value, unit.as_deref()));
+    let message = format!("{before}{} is not a value of this device", with(value, unit));
     let kind = if codes.is_whole { "whole numbers" } else { "numbers" };
     let help = match codes.range {
         Some((least, most)) => format!("its codes are {kind} from {least} to {most}"),
@@ -279,7 +283,7 @@ fn held(
 }
 
 /// Refuses a shown value whose code does not exist.
-fn within(code: f64, codes: Codes, shown: &Presentation, value: String) -> Result<f64, Misfit> {
+fn within(code: f64, codes: Codes, shown: &Presentation, value: &str) -> Result<f64, Misfit> {
     let Some((least, most)) =
         codes.range.filter(|(least, most)| !(code >= *least && code <= *most))
     else {

@@ -146,7 +146,14 @@ fn start(one: &JobDevice<'_>) -> Option<f64> {
     match &one.device.kind {
         Kind::Pwm(own) => own.failsafe,
         Kind::Dac(own) => own.failsafe,
-        _ => None,
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Can(_) => None,
     }
 }
 
@@ -206,7 +213,14 @@ fn bridge(
     {
         Kind::Digital(own) => Some(level(*at, wire, 0, own, input != 0.0)),
         Kind::Pwm(own) => Some(pulses(*at, wire, 0, own, input)),
-        _ => None,
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
     };
     all.filter_map(each).collect()
 }
@@ -221,7 +235,14 @@ fn write(
     let number = match &one.device.kind {
         Kind::I2c(own) => own.register,
         Kind::Spi(own) => own.register,
-        _ => return None,
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => return None,
     };
     let chip = job.design.part(one.device.part)?.chip.as_ref();
     let is_wide = chip.is_some_and(|chip| chip.register_bytes == 2);

@@ -87,7 +87,7 @@ impl Recorder {
     pub(crate) fn connect(&mut self, index: ConnectionIndex, one: &JobConnection<'_>) {
         let is_output = matches!(one.connection.kind, Kind::Pwm(_) | Kind::Dac(_));
         let signal = one.pad(Role::Out).and_then(|pad| pad.usage).map(|usage| &usage.signal);
-        match signal.filter(|_| is_output).map(|signal| signal.function()) {
+        match signal.filter(|_| is_output).map(sensedsl_board::signal::Signal::function) {
             Some(Function::Timer { unit, channel, line }) => {
                 let Some(timer) = number_of(unit.as_str()) else { return };
                 let is_complement = *line == TimerLine::Inverted;

@@ -90,8 +90,7 @@ fn numbers(one: &JobDevice<'_>, turn: usize) -> Vec<Vec<Scalar>> {
         }
         list
     };
-    let lists: Vec<Vec<f64>> =
-        (0..one.device.value.value.count()).map(|place| element(place)).collect();
+    let lists: Vec<Vec<f64>> = (0..one.device.value.value.count()).map(element).collect();
     let steps = lists.first().map_or(0, Vec::len);
     let step = |step: usize| {
         let value = |(place, list): (usize, &Vec<f64>)| {
@@ -109,7 +108,14 @@ fn range(one: &JobDevice<'_>) -> (f64, f64) {
         Kind::Pwm(_) if one.device.coding.drive.is_some() => Some((-FULL_LEVEL, FULL_LEVEL)),
         Kind::Pwm(_) => Some((0.0, FULL_LEVEL)),
         Kind::Dac(_) => Some((0.0, FULL_CODE)),
-        _ => Words::of(one.device).as_ref().and_then(words::range),
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Can(_) => Words::of(one.device).as_ref().and_then(words::range),
     };
     let held = one.device.value.value.scalar.integer_range();
     let held = held.map(|(least, most)| (whole(least), whole(most)));

@@ -321,7 +321,12 @@ fn settles_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
         // A bus looks after its chips in turns, and waits for those that measure.
         Kind::I2c(_) | Kind::Spi(_) => cycle_ns + cycle_ns / 2 + measuring_ns(job, one),
         Kind::Uart(own) => 20_000_000_000 * 64 / u64::from(own.baud.max(1)),
-        _ => 0,
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => 0,
     };
     SETTLE_NS + link_ns(job) + own_ns
 }
@@ -332,7 +337,14 @@ fn measuring_ns(job: &BoardJob<'_>, one: &JobDevice<'_>) -> u64 {
     let wait_us = |other: &JobDevice<'_>| match &other.device.kind {
         Kind::I2c(own) => own.wait_us,
         Kind::Spi(own) => own.wait_us,
-        _ => 0,
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => 0,
     };
     on_bus.map(|other| 1_000 * u64::from(wait_us(other))).sum::<u64>() + 40 * MS
 }

@@ -94,7 +94,14 @@ fn of_chip(job: &BoardJob<'_>, one: &JobDevice<'_>, cycle_ns: u64) -> (u64, u64)
         let (trigger, wait_us) = match &of.device.kind {
             Kind::I2c(own) => (&own.trigger, own.wait_us),
             Kind::Spi(own) => (&own.trigger, own.wait_us),
-            _ => continue,
+            Kind::Analog(_)
+            | Kind::Icu(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => continue,
         };
         let wait_ns = 1_000 * u64::from(wait_us);
         if !trigger.is_empty() && !asked.contains(&(trigger, wait_ns)) {

@@ -43,7 +43,14 @@ fn of_element(
         }
         Mode::Width => match Line::of_capture(icu, 0, element, subject) {
             Line::Width { period_ns, .. } if has_pulse => Some((period_ns, period_ns)),
-            _ => None,
+            Line::Level { .. }
+            | Line::Count { .. }
+            | Line::Track { .. }
+            | Line::Width { .. }
+            | Line::Echo { .. }
+            | Line::Period { .. }
+            | Line::Duty { .. }
+            | Line::Train { .. } => None,
         },
         Mode::Period | Mode::Frequency => {
             let unit = if icu.mode == Mode::Period { Unit::Ticks(tick_ns) } else { Unit::Hertz };

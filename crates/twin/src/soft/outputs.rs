@@ -227,7 +227,14 @@ fn begins(one: &JobDevice<'_>) -> Option<f64> {
     match &one.device.kind {
         Kind::Pwm(own) => own.failsafe,
         Kind::Dac(own) => own.failsafe,
-        _ => None,
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Can(_) => None,
     }
 }
 
@@ -271,7 +278,13 @@ fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
             Drives::Pulses { period_ns, least_ns, most_ns }
         }
         Kind::Dac(_) => Drives::Volts,
-        _ => return None,
+        Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Can(_) => return None,
     };
     Some(Pin { at, element: usize::from(wire.element()), what })
 }

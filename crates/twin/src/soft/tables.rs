@@ -222,7 +222,15 @@ pub(super) fn value(scalar: Scalar, number: f64) -> Vec<u8> {
     match scalar {
         Scalar::Float32 => (number as f32).to_be_bytes().to_vec(),
         Scalar::Float64 => number.to_be_bytes().to_vec(),
-        _ => {
+        Scalar::Bool
+        | Scalar::Uint8
+        | Scalar::Int8
+        | Scalar::Uint16
+        | Scalar::Int16
+        | Scalar::Uint32
+        | Scalar::Int32
+        | Scalar::Uint64
+        | Scalar::Int64 => {
             let whole = if number < 0.0 { (number as i64).cast_unsigned() } else { number as u64 };
             let from = 8 - scalar.bytes().min(8);
             whole.to_be_bytes().get(from..).unwrap_or_default().to_vec()
