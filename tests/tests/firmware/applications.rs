@@ -197,7 +197,7 @@ fn a_failsafe_is_a_value_of_the_type() {
         actuator Relays accepts bool[2] { driver = relay_active_low; initial = true; failsafe = false; }
         actuator Level accepts uint16 { type = i2c; address = 0x20; register = 1; failsafe = 300; }
         actuator Torque accepts int16 { type = can; frame = 0x121; failsafe = -5; }
-        chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 { failsafe = 7; } }
+        chip Left { driver = gearmotor_tb6612; actuator Speed accepts int16 { failsafe = raw 7; } }
         actuator Voltage accepts float32 { type = spi; failsafe = 0.5; }
         actuator Free accepts bool { type = digital; }
     }";

@@ -50,13 +50,15 @@ impl Writer {
     }
 
     fn properties(&mut self, draw: &mut Draw<'_>, kind: &Kind, line: &mut impl FnMut(String)) {
+        let has_driver = draw.chance(64) && !kind.drivers.is_empty();
+        // A part answers to its own addresses only, which stand with its driver.
         for property in kind.needs {
-            if !self.wrong(draw) {
+            if !has_driver && !self.wrong(draw) {
                 line(self.property(draw, property));
             }
         }
-        if draw.chance(64) && !kind.drivers.is_empty() {
-            line(format!("driver = {};", draw.word(kind.drivers)));
+        if has_driver {
+            line(draw.word(kind.drivers).to_owned());
         } else if self.manner != Manner::Plain && draw.chance(16) {
             self.own = (self.own + 1).min(2);
             line(format!("driver = Own{};", self.own - 1));

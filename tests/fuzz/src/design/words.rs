@@ -16,6 +16,7 @@ pub(super) struct Kind {
     pub(super) may: &'static [Property],
     /// Roles that fix a pin, with plausible pins.
     pub(super) roles: &'static [&'static str],
+    /// Drivers of the library, each with what it needs.
     pub(super) drivers: &'static [&'static str],
 }
 
@@ -86,7 +87,7 @@ pub(super) const KINDS: &[Kind] = &[
             ("pulse", &["10 us", "1 ms", "10 ms"], &["0", "1 s", "10 Hz"]),
         ],
         roles: &["pin", "trigger"],
-        drivers: &["hcsr04", "rc_channel"],
+        drivers: &["driver = hcsr04;", "driver = rc_channel;"],
     },
     Kind {
         name: "i2c",
@@ -108,7 +109,16 @@ pub(super) const KINDS: &[Kind] = &[
             ("order", &["big", "little"], &["middle"]),
         ],
         roles: &["scl", "sda"],
-        drivers: &["srf08", "srf10", "srf02", "mpu6050_rate", "as5600", "cmps03", "lm75", "tmp102"],
+        drivers: &[
+            "driver = srf08; address = 0x70;",
+            "driver = srf10; address = 0xE2;",
+            "driver = srf02; address = 0x71;",
+            "driver = mpu6050_rate; address = 0x68;",
+            "driver = as5600; address = 0x36;",
+            "driver = cmps03; address = 0x60;",
+            "driver = lm75; address = 0x48;",
+            "driver = tmp102; address = 0x4A;",
+        ],
     },
     Kind {
         name: "digital",
@@ -181,7 +191,7 @@ pub(super) const KINDS: &[Kind] = &[
             ("failsafe", &["0", "5000", "-1", "0.5"], &["true"]),
         ],
         roles: &["pin"],
-        drivers: &["servo"],
+        drivers: &["driver = servo;"],
     },
     Kind {
         name: "dac",
@@ -219,8 +229,8 @@ pub(super) const COMMON: &[Property] = &[
     ("quantity", &["cm", "\"°C\"", "\"%d\"", "\"*/\""], &["7"]),
     ("scale", &["1", "0.5", "-1.5e-3", "1e308", "0"], &["1e999", "x"]),
     ("offset", &["0", "-273.15", "1e-308"], &["[0]"]),
-    ("min", &["0", "-5"], &["a"]),
-    ("max", &["100", "1e9"], &["b"]),
+    ("min", &["0", "1"], &["a", "-5"]),
+    ("max", &["100", "90"], &["b", "1e9"]),
     // From here on a plain design has none.
     ("level", &["3.3 V", "5 V", "5000 mV", "12.6"], &["5 kHz", "0"]),
     ("divider", &["[10 kOhm, 20 kOhm]", "[0.82 kOhm, 1000]"], &["[1 kOhm]", "[1 V, 2]"]),
