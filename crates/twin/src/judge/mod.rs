@@ -146,6 +146,13 @@ impl Judge {
         }
     }
 
+    /// The board has answered its host, with a hello or with its health, in place of a report that was due.
+    pub fn answered(&mut self) {
+        for sensor in &mut self.devices {
+            sensor.answered();
+        }
+    }
+
     /// The board has said how it and its devices are.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
         for row in &health.devices {

@@ -33,6 +33,8 @@ pub(super) struct Pace {
     pub(super) most_ns: u64,
     /// By how much two may be closer or further apart than that.
     pub(super) jitter_ns: u64,
+    /// What a report waits for while the board answers its host.
+    pub(super) turn_ns: u64,
     /// Whether the board's own clock says when.
     pub(super) is_regular: bool,
 }
@@ -77,7 +79,8 @@ impl Pace {
         let is_regular = least_ns == most_ns && own_ns == 0;
         let most_ns = most_ns.max(reporter_ns);
         let jitter_ns = 2 * reporter_ns + own_ns;
-        Some(Self { least_ns: least_ns.min(most_ns), most_ns, jitter_ns, is_regular })
+        let least_ns = least_ns.min(most_ns);
+        Some(Self { least_ns, most_ns, jitter_ns, turn_ns: reporter_ns, is_regular })
     }
 
     /// The longest silence that means nothing.
@@ -124,6 +127,8 @@ pub(super) struct Paced {
     times: u64,
     /// The first and the last report of the times that count.
     last_ns: Option<u64>,
+    /// How often the board answered its host meanwhile.
+    answers: u64,
 }
 
 impl Paced {
@@ -134,6 +139,11 @@ impl Paced {
             self.times += 1;
         }
         self.last_ns = Some(now_ns);
+    }
+
+    /// The board has answered its host: a report that was due had to wait.
+    pub(super) fn answered(&mut self) {
+        self.answers += u64::from(self.last_ns.is_some());
     }
 
     /// What comes next says nothing about its distance from what came before.
@@ -150,7 +160,8 @@ impl Paced {
     pub(super) fn differs(&self, now_ns: u64, pace: &Pace, may_be_slow: bool) -> Option<Wrong> {
         let got_ns = self.mean_ns()?;
         let jitter_ns = pace.jitter_ns / self.times.max(1);
-        let slowest_ns = pace.most_ns + pace.most_ns * PERCENT / 100 + jitter_ns;
+        let answers_ns = self.answers * pace.turn_ns / self.times.max(1);
+        let slowest_ns = pace.most_ns + pace.most_ns * PERCENT / 100 + jitter_ns + answers_ns;
         let fastest_ns = pace.least_ns - pace.least_ns * PERCENT / 100;
         let is_slow = got_ns > slowest_ns && !may_be_slow;
         let is_fast = got_ns + jitter_ns < fastest_ns;

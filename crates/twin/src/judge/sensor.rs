@@ -128,6 +128,10 @@ impl SensorJudge {
         }
     }
 
+    pub(super) fn answered(&mut self) {
+        self.paced.answered();
+    }
+
     pub(super) fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
         self.silence(now_ns);
         let before_ns = self.last_ns.replace(now_ns).unwrap_or(0);

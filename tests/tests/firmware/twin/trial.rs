@@ -201,10 +201,14 @@ pub(super) fn run_job(
                 reported.extend(values.into_iter().map(|(id, value)| (ms, id, value)));
             }
             Event::Hello(hash) => {
+                judge.answered();
                 assert_eq!(hash, job.schema.hash());
                 greeted.get_or_insert(reported.len());
             }
-            Event::Health(found) => health.push((ms, found)),
+            Event::Health(found) => {
+                judge.answered();
+                health.push((ms, found));
+            }
             Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
         });
         told.extend(board.events());

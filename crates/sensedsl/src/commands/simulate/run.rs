@@ -134,8 +134,14 @@ impl<'a> Session<'a> {
                     line.push_str(&screen.line(now_ns, &values));
                 }
             }
-            Event::Hello(told) => (*is_known, *is_stranger) = (true, told != hash),
-            Event::Health(health) => *last = Some(health),
+            Event::Hello(told) => {
+                judge.answered();
+                (*is_known, *is_stranger) = (true, told != hash);
+            }
+            Event::Health(health) => {
+                judge.answered();
+                *last = Some(health);
+            }
             Event::OtherHealth(_) | Event::HelloRequest | Event::HealthRequest => {}
         });
         for (index, value) in self.board.received() {
