@@ -172,7 +172,7 @@ fn rangers_take_turns() {
         let ranger = |number: usize| {
             let driver = if number == 3 { "icu; driver = hcsr04;" } else { "i2c; driver = srf08;" };
             let address =
-                if number == 3 { String::new() } else { format!("address = 0x{}0;", 6 + number) };
+                if number == 3 { String::new() } else { format!("address = 0x7{number};") };
             sensor(number, "uint16", &format!("{driver} {address} delay = {delay_ms}; {extra}"))
         };
         (1..=3).map(ranger).collect()
