@@ -12,7 +12,7 @@ use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
-use crate::bench::number_of;
+use crate::bench::Units;
 use crate::parts::{message, words};
 
 /// The value of the longest pulse.
@@ -72,6 +72,11 @@ pub(super) fn wires<'j, 'a>(
     own.filter_map(found).collect()
 }
 
+/// The number of a wire's unit on the bench.
+fn number(job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<u8> {
+    wire.unit.and_then(|name| Units::new(job).number(name))
+}
+
 /// The levels that no value ever changes, such as that of a standby input.
 pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
     let places = job.wiring.connections.iter().map(|wiring| wiring.connection);
@@ -105,7 +110,7 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
             Kind::I2c(_) | Kind::Spi(_) => write(job, (*at, wire), one, raw),
             Kind::Uart(own) => {
                 let body = words::bytes(&Words::of(one.device)?, raw);
-                let unit = wire.unit.and_then(number_of)?;
+                let unit = number(job, wire)?;
                 let what = What::Message(unit, message::framed(own, &body));
                 Some(expected(*at, wire, 0, what))
             }
@@ -290,7 +295,7 @@ fn frame(
         *target = byte;
     }
     let sent = Sent {
-        unit: wire.unit.and_then(number_of).unwrap_or(0),
+        unit: number(job, wire)?,
         identifier: own.frame_id,
         is_extended: own.is_extended,
         length: u8::try_from(length.min(FRAME_BYTES)).ok()?,

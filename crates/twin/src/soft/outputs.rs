@@ -15,7 +15,7 @@ use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
 use super::tables;
-use crate::bench::{Bench, number_of};
+use crate::bench::{Bench, Units};
 use crate::surroundings::{CanFrame, Surroundings as _};
 
 const FULL_CODE: u64 = 4_095;
@@ -243,7 +243,8 @@ fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
     let own = job.wires_of(one.device);
     if let Kind::Uart(_) = &one.device.kind {
         let plan = tables?.message.as_ref()?.commands.iter().find(|of| of.field == one.name())?;
-        return Some(Sink::Message(one.unit.and_then(number_of)?, tables::compose(plan)));
+        let unit = one.unit.and_then(|name| Units::new(job).number(name))?;
+        return Some(Sink::Message(unit, tables::compose(plan)));
     }
     let all = wires(job, |wire| own.iter().any(|one| std::ptr::eq(*one, wire)));
     // In the order in which the value goes over them.
@@ -292,8 +293,10 @@ fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
 /// What goes into frames of CAN, by place in the schema.
 fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
     let mut all = BTreeMap::new();
+    let units = Units::new(job);
     for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
-        let unit = number_of(bus.unit).unwrap_or(0);
+        // By the board's name of it: a profile may have another one.
+        let unit = bus.first.unit.and_then(|name| units.number(name)).unwrap_or(0);
         for frame in &bus.frames {
             for value in &frame.values {
                 let coding = tables::coding(&value.how);
