@@ -16,6 +16,7 @@ mod drivers;
 mod drivers_pages;
 mod embassy;
 mod examples;
+mod false_alarms;
 mod firmware;
 mod generate;
 mod golden;
