@@ -16,8 +16,9 @@
  *   feed BYTES                        comes on the serial port
  *   raw FIELD NUMBER                  what the hardware has measured
  *   edges COUNT US...                 from one edge to the next
+ *   frame FIELD BYTES                 comes in a frame of CAN that has the field
  *   command FIELD COUNT NUMBERS...    prints `written BYTES`, or `output NUMBER VALUE` for each
- *                                     write and `commanded`
+ *                                     write and `commanded`, or `frame BYTES`: eight of them
  *   end                               prints what became of each field, the fault, and `end`
  *
  * Bytes are hexadecimal, all other numbers decimal.
@@ -33,6 +34,7 @@
 #include "up_filter.h"
 #include "up_message.h"
 #include "up_ppm.h"
+#include "up_value.h"
 
 /* What a device has beside the tables of its part; NULL where it has none. */
 typedef struct {
@@ -44,6 +46,8 @@ typedef struct {
   uint8_t output;
   const up_ppm_config_t *train;
   const up_drive_t *bridge;
+  const up_value_t *can;
+  uint8_t can_byte;
 } unit_field_t;
 
 typedef struct {
@@ -460,6 +464,20 @@ static void raw(void) {
   on_value(NULL, index, result, value);
 }
 
+static void frame(void) {
+  uint64_t value[VALUE_BYTES_MAX / 8U];
+  uint16_t index;
+  const up_field_t *field = ask_field(&index);
+  const unit_field_t *how = &test.unit->fields[index];
+  block_t block;
+
+  ask_bytes(&block);
+  check(how->can != NULL && block.count > how->can_byte, "no frame has it");
+  memset(value, 0, sizeof value);
+  on_value(NULL, index,
+           up_value_decode(how->can, field, &block.bytes[how->can_byte], block.count - how->can_byte, value), value);
+}
+
 static void edges(void) {
   up_ppm_raw_t train;
   uint64_t value[VALUE_BYTES_MAX / 8U];
@@ -500,6 +518,18 @@ static void command(void) {
       printf("output %u %" PRIu32 "\n", (unsigned)writes[i].output, writes[i].value);
     }
     printf("commanded\n");
+    return;
+  }
+  if (test.unit->fields[index].can != NULL) {
+    const unit_field_t *how = &test.unit->fields[index];
+    uint8_t data[8] = {0};
+    check(up_value_encode(how->can, field, value, &data[how->can_byte], sizeof data - how->can_byte) > 0U,
+          "the value does not fit its frame");
+    printf("frame ");
+    for (i = 0U; i < sizeof data; i++) {
+      printf("%02X", (unsigned)data[i]);
+    }
+    printf("\n");
     return;
   }
   check(chip != NULL, "nothing takes the command");
@@ -604,6 +634,8 @@ int main(void) {
       feed();
     } else if (strcmp(word, "raw") == 0) {
       raw();
+    } else if (strcmp(word, "frame") == 0) {
+      frame();
     } else if (strcmp(word, "edges") == 0) {
       edges();
     } else if (strcmp(word, "command") == 0) {

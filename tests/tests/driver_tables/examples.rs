@@ -5,13 +5,27 @@ use sensedsl_wiring::{Solved, Wiring};
 
 use super::library::{NoFiles, examples};
 
+/// No pin of the board can be a wire of it, which is no finding of a check: the solver says it (E0401).
+const NO_UNIT: &str = "";
+
 /// Boards of different families, and the drivers that they cannot carry, with the reason's code: an RP2040 decodes no
 /// quadrature, and its pins stand no 5 V (the message names the resistors that help); the serial ports of F1 and F4 do not
 /// invert.
 const BOARDS: [(&str, &[(&str, &str)]); 4] = [
     ("NUCLEO_F446RE", &[("sbus", "E0320"), ("maxsonar_serial", "E0320")]),
     ("NUCLEO_G474RE", &[]),
-    ("BLUEPILL_F103C8", &[("sbus", "E0320"), ("maxsonar_serial", "E0320")]),
+    (
+        "BLUEPILL_F103C8",
+        &[
+            ("sbus", "E0320"),
+            ("maxsonar_serial", "E0320"),
+            ("vesc", NO_UNIT),
+            ("vesc_duty", NO_UNIT),
+            ("vesc_current", NO_UNIT),
+            ("canopen_pdo", NO_UNIT),
+            ("canopen_nmt", NO_UNIT),
+        ],
+    ),
     (
         "RASPBERRYPI_PICO",
         &[
@@ -22,6 +36,11 @@ const BOARDS: [(&str, &[(&str, &str)]); 4] = [
             ("maxsonar_pw", "E0321"),
             ("maxsonar_serial", "E0321"),
             ("hrxl_maxsonar_serial", "E0321"),
+            ("vesc", NO_UNIT),
+            ("vesc_duty", NO_UNIT),
+            ("vesc_current", NO_UNIT),
+            ("canopen_pdo", NO_UNIT),
+            ("canopen_nmt", NO_UNIT),
         ],
     ),
 ];

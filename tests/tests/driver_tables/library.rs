@@ -3,7 +3,9 @@
 use sensedsl_codegen::part::has_coding;
 use sensedsl_model::design::{Design, Device, Part};
 use sensedsl_model::kind::KindName;
+use sensedsl_model::kind::can::Can;
 use sensedsl_model::protocol::Protocol;
+use sensedsl_model::words::Words;
 use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
@@ -197,6 +199,20 @@ impl Unit {
 
     pub fn is_coded(&self, field: usize) -> bool {
         has_coding(&self.design.devices[field], self.part())
+    }
+
+    /// Bytes of a frame: as far as its last value, unless the driver says so.
+    pub fn frame_bytes(&self, of: &Can) -> usize {
+        let own = self.devices().filter_map(|device| Some((device, device.kind.can()?)));
+        let own = own.filter(|(_, can)| {
+            (can.frame_id, can.is_extended) == (of.frame_id, of.is_extended)
+        });
+        let end = |(device, can): (&Device, &Can)| {
+            let bytes = Words::of(device).unwrap().wire_bytes();
+            usize::from(can.byte) + usize::from(bytes)
+        };
+        let end = own.map(end).max().unwrap();
+        of.length.map_or(end, usize::from)
     }
 
     /// What the vectors call a value.

@@ -18,6 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_codegen::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::can::Can;
 use sensedsl_wire::Direction;
 
 use library::{Unit, others, units};
@@ -202,6 +203,15 @@ fn given_line(unit: &Unit, given: &Given) -> String {
             let (field, device) = sensors.next().unwrap();
             format!("raw {field} {}", measured(device, what, *number))
         }
+        Given::Frame(name, bytes) => {
+            let fits = |can: &Can| frame_name(can) == *name && usize::from(can.byte) < bytes.len();
+            let is_in = |device: &Device| {
+                device.direction == Direction::Sensor && device.kind.can().is_some_and(fits)
+            };
+            let own = unit.devices().enumerate().filter(|(_, device)| is_in(device));
+            let lines = own.map(|(field, _)| format!("frame {field} {}", hex(bytes)));
+            lines.collect::<Vec<_>>().join("\n")
+        }
         Given::Edges(times) => {
             let times: Vec<String> = times.iter().map(u32::to_string).collect();
             format!("edges {} {}", times.len(), times.join(" "))
@@ -302,6 +312,13 @@ fn effects<'a>(
             levels.insert(name, value.parse().unwrap());
         }
         levels.iter().map(|(name, level)| format!("{name} = {level}")).collect()
+    } else if let Some(can) = device.kind.can() {
+        let data = written.next().into_iter().flatten();
+        data.map(|data| {
+            let length = unit.frame_bytes(can);
+            format!("frame {}: {}", frame_name(can), &data[..3 * length - 1])
+        })
+        .collect()
     } else if has_coding(device, unit.part()) {
         written.next().into_iter().flatten().cloned().collect()
     } else {
@@ -310,6 +327,11 @@ fn effects<'a>(
     let missing =
         command.effects.iter().filter(|effect| !found.contains(&effect.replace("written ", "")));
     missing.map(|effect| format!("{}: {found:?}, not {effect}", command.name)).collect()
+}
+
+/// An identifier with three digits, or with eight where it has 29 bits.
+fn frame_name(can: &Can) -> String {
+    if can.is_extended { format!("{:08X}", can.frame_id) } else { format!("{:03X}", can.frame_id) }
 }
 
 /// What an output makes of a value without any code of ours.

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-use sensedsl_codegen::part::{PartPlan, Wiring, formula_in_c};
+use sensedsl_codegen::part::{PartPlan, ValuePlan, Wiring, formula_in_c};
 use sensedsl_model::design::{Device, PartIndex};
+use sensedsl_model::words::{Code, Words};
 use sensedsl_tests::{files, has, root};
 use sensedsl_wire::{Direction, ScalarType};
 
@@ -103,11 +104,38 @@ fn unit_fields(unit: &Unit) -> String {
     let part = &unit.part().name.value;
     let plan = plan(unit);
     let one = |device: &Device| match &plan {
-        Some(plan) => format!("  {{{}}},\n", unit_field(plan, &device.name.value)),
-        None => "  {NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL},\n".to_owned(),
+        Some(plan) => {
+            let (own, can) = (unit_field(plan, &device.name.value), in_frame(device, part));
+            format!("  {{{own}, {can}}},\n")
+        }
+        None => {
+            let can = in_frame(device, part);
+            format!("  {{NULL, NULL, 0U, NULL, NULL, 0U, NULL, NULL, {can}}},\n")
+        }
     };
     let all: String = unit.devices().map(one).collect();
-    format!("static const unit_field_t unit_fields_{part}[] = {{\n{all}}};\n")
+    let codings: String = unit.devices().filter_map(|one| frame_coding(one, part)).collect();
+    format!("{codings}static const unit_field_t unit_fields_{part}[] = {{\n{all}}};\n")
+}
+
+/// How a value of CAN is coded, as a constant.
+fn frame_coding(device: &Device, part: &str) -> Option<String> {
+    device.kind.can()?;
+    let how = ValuePlan::new(&Words::of(device)?);
+    assert!(how.elements.is_empty() && how.crc.is_none(), "no driver in a frame has that yet");
+    assert_eq!(how.code, Code::Integer, "no driver in a frame has that yet");
+    let (size, low, bits) = (how.word_bytes, how.low, how.bits);
+    Some(format!(
+        "static const up_value_t can_{part}_{} = {{.word_bytes = {size}U, .low = {low}U, .bits = {bits}U, .is_signed = {}, .little_endian = {}}};\n",
+        device.name.value, how.is_signed, how.is_little_endian
+    ))
+}
+
+/// The same as it is named.
+fn in_frame(device: &Device, part: &str) -> String {
+    device.kind.can().map_or("NULL, 0U".to_owned(), |can| {
+        format!("&can_{part}_{}, {}U", device.name.value, can.byte)
+    })
 }
 
 fn unit_field(plan: &PartPlan, name: &str) -> String {
@@ -183,6 +211,7 @@ pub fn read(answer: &str) -> Outcome {
         let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
         match word {
             "written" => outcome.written.push(vec![spaced(rest)]),
+            "frame" => outcome.written.push(vec![spaced(rest)]),
             "output" => outputs.push(rest.to_owned()),
             "commanded" => outcome.written.push(std::mem::take(&mut outputs)),
             "identity" => outcome.is_wrong_identity = Some(rest == "wrong"),

@@ -256,6 +256,7 @@ pub fn answer(units: &[(Unit, Tables)], request: &str) -> String {
             "later" => run.told.now_ms += ask().parse::<u32>().unwrap(),
             "feed" => run.feed(&unhex(ask())),
             "raw" => run.raw(ask().parse().unwrap(), ask().parse().unwrap()),
+            "frame" => run.frame(ask().parse().unwrap(), &unhex(ask())),
             "edges" => {
                 let count: usize = ask().parse().unwrap();
                 run.edges((0..count).map(|_| ask().parse().unwrap()).collect());
@@ -356,6 +357,14 @@ impl Run<'_> {
         self.tell(index, outcome, &mut value);
     }
 
+    fn frame(&mut self, index: usize, bytes: &[u8]) {
+        let (_, mut value) = self.empty(index);
+        let (how, byte) = self.tables.own[index].can.unwrap();
+        let item = &self.tables.schema.items[index];
+        let outcome = how.decode(item, &bytes[usize::from(byte)..], &mut value);
+        self.tell(index, outcome, &mut value);
+    }
+
     fn edges(&mut self, times_us: Vec<u32>) {
         let index = self.tables.own.iter().position(|own| own.train.is_some()).unwrap();
         let config = self.tables.own[index].train.unwrap();
@@ -380,6 +389,13 @@ impl Run<'_> {
                 writeln!(self.out, "output {} {}", write.output, write.value).unwrap();
             }
             self.out.push_str("commanded\n");
+            return;
+        }
+        if let Some((how, byte)) = self.tables.own[index].can {
+            let mut data = [0; 8];
+            let item = &self.tables.schema.items[index];
+            assert!(how.encode(item, &value, &mut data[usize::from(byte)..]) > 0);
+            writeln!(self.out, "frame {}", upper(&data)).unwrap();
             return;
         }
         let table: &'static ChipTable = self.tables.chip.unwrap();

@@ -9,6 +9,7 @@ use sensedsl_codegen::part::{
     self, BridgePlan, BusPlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
     PartPlan, TrainPlan, ValuePlan,
 };
+use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;
 use sensedsl_model::protocol::{self, Drive, Format};
 use sensedsl_model::words;
@@ -23,6 +24,8 @@ pub struct Own {
     pub formula: Option<(Formula, &'static [i32], u8)>,
     pub train: Option<TrainConfig>,
     pub bridge: Option<Bridge>,
+    /// Of a value in a frame of CAN, and its first byte there.
+    pub can: Option<(Coding, u8)>,
 }
 
 /// All tables of a unit.
@@ -231,7 +234,13 @@ fn own(plan: &PartPlan, name: &str) -> Own {
             .map(|one| (formula(one.formula), &*one.parameters.clone().leak(), one.output)),
         train: plan.trains.iter().find(|one| one.field == name).map(train),
         bridge: plan.bridges.iter().find(|one| one.field == name).map(bridge),
+        can: None,
     }
+}
+
+fn in_frame(device: &Device) -> Option<(Coding, u8)> {
+    let words = words::Words::of(device)?;
+    device.kind.can().map(|can| (coding(&ValuePlan::new(&words)), can.byte))
 }
 
 impl Tables {
@@ -261,9 +270,12 @@ impl Tables {
             schema,
             chip: table,
             message: port.map(|port| fixed(message(port, index))),
-            own: names
-                .iter()
-                .map(|name| plan.map_or(Own::default(), |plan| own(plan, name)))
+            own: unit
+                .devices()
+                .map(|device| {
+                    let own = plan.map_or(Own::default(), |plan| own(plan, &device.name.value));
+                    Own { can: in_frame(device), ..own }
+                })
                 .collect(),
         }
     }

@@ -21,6 +21,8 @@ pub enum Given {
     Answer(Option<Vec<u8>>, Vec<u8>),
     Exchange(Vec<u8>, Vec<u8>),
     Stream(Vec<u8>),
+    /// A frame of CAN: its identifier as `frame_name` writes it.
+    Frame(String, Vec<u8>),
     /// `analog`, `level`, `pulse`, `frequency`, `counts`: what the hardware has measured.
     Raw(String, i64),
     Edges(Vec<u32>),
@@ -90,6 +92,9 @@ impl Case {
             "pulse" | "frequency" => {
                 let raw = rest.rsplit(' ').next()?.parse().ok()?;
                 self.given.push(Given::Raw(word.to_owned(), raw));
+            }
+            "frame" if self.commands.is_empty() => {
+                self.given.push(Given::Frame(head.to_owned(), bytes(tail)?));
             }
             "edges" => {
                 let times = rest.strip_prefix("us")?.split_whitespace();

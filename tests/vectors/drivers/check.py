@@ -25,6 +25,7 @@ class Case:
     def __init__(self, driver, name, lines):
         self.driver, self.name = driver, name
         self.image, self.after, self.plain, self.exchanges = {}, {}, None, {}
+        self.frames = {}
         self.stream, self.input, self.wrong, self.type = None, None, None, None
         self.expects, self.shown, self.commands, self.seen = [], [], [], set()
         for line in lines:
@@ -52,6 +53,8 @@ class Case:
             self.exchanges[bytes.fromhex("".join(words[1:]))] = bytes.fromhex(rest)
         elif words[0] == "bytes":
             self.stream = (self.stream or b"") + bytes.fromhex("".join(words[1:]))
+        elif words[0] == "frame" and not self.commands:
+            self.frames[words[1]] = bytes.fromhex(rest)
         elif words[0] == "text":
             text = line.partition('"')[2].rpartition('"')[0]
             self.stream = (self.stream or b"") + text.encode().decode("unicode_escape").encode("latin-1")
@@ -71,7 +74,7 @@ class Case:
         elif words[0] == "command":
             name, _, values = line[7:].partition("=")
             self.commands.append([name.strip(), [int(v) for v in values.split()], []])
-        elif words[0] in ("written", "width") or len(words) > 2 and words[1] == "=":
+        elif words[0] in ("written", "width", "frame") or len(words) > 2 and words[1] == "=":
             self.commands[-1][2].append(line)
         else:
             raise SyntaxError(line)
@@ -145,6 +148,8 @@ class Case:
                     default = part["count"] * SIZES[part["type"]]
                     value = decode(part, driver, body[first:first + part["properties"].get("length", default)])
             return value if isinstance(value, str) else judged(part, driver, value)
+        if self.frames:
+            return self.received(part)
         if self.input:
             return judged(part, driver, self.captured(part))
         formula = driver["properties"].get("compensate")
@@ -162,6 +167,31 @@ class Case:
     def output(part, values):
         name = part["properties"].get("output", part["name"])
         return [values[name]] if name in values else "invalid"
+
+    # Frames of CAN.
+
+    def frame_name(self, part):
+        number, long = get(part, self.driver, "frame"), get(part, self.driver, "extended")
+        return f"{number:08X}" if number > 0x7FF or long == "true" else f"{number:03X}"
+
+    def place(self, part):
+        """Where a value begins in its frame, and its bytes there."""
+        return get(part, self.driver, "byte", 0), part["count"] * SIZES[part["type"]]
+
+    def received(self, part):
+        first, length = self.place(part)
+        data = self.frames.get(self.frame_name(part), b"")[first:first + length]
+        return judged(part, self.driver, decode(part, self.driver, data)) if len(data) == length else "nothing"
+
+    def sent(self, part, values):
+        own = [one for one in self.driver["parts"].values()
+               if one["what"] == "command" and self.frame_name(one) == self.frame_name(part)]
+        length = get(part, self.driver, "length", max(sum(self.place(one)) for one in own))
+        first, width = self.place(part)
+        order = "little" if get(part, self.driver, "order") == "little" else "big"
+        width //= part["count"]
+        data = b"".join((value & (1 << 8 * width) - 1).to_bytes(width, order) for value in values)
+        return [f"frame {self.frame_name(part)}: {data.rjust(first + len(data), bytes(1)).ljust(length, bytes(1)).hex(' ').upper()}"]
 
     def captured(self, part):
         what, values = self.input
@@ -202,6 +232,8 @@ class Case:
             return [f"{via[0]} = {abs(value)}", f"{via[1]} = {int(value > 0)}", f"{via[2]} = {int(value < 0)}"]
         if isinstance(via, list):
             return [f"{via[0]} = {max(values[0], 0)}", f"{via[1]} = {max(-values[0], 0)}"]
+        if driver["kind"] == "can":
+            return self.sent(part, values)
         if driver["kind"] == "pwm":
             give = driver["properties"].get
             low, high = give("min", 0), give("max", 1 / give("frequency"))
