@@ -204,9 +204,8 @@ impl Unit {
     /// Bytes of a frame: as far as its last value, unless the driver says so.
     pub fn frame_bytes(&self, of: &Can) -> usize {
         let own = self.devices().filter_map(|device| Some((device, device.kind.can()?)));
-        let own = own.filter(|(_, can)| {
-            (can.frame_id, can.is_extended) == (of.frame_id, of.is_extended)
-        });
+        let own =
+            own.filter(|(_, can)| (can.frame_id, can.is_extended) == (of.frame_id, of.is_extended));
         let end = |(device, can): (&Device, &Can)| {
             let bytes = Words::of(device).unwrap().wire_bytes();
             usize::from(can.byte) + usize::from(bytes)
