@@ -114,6 +114,10 @@ fn built(program: &str) -> Option<PathBuf> {
     command.current_dir(root()).args(["build", "--quiet", "--workspace", "--bin", program]);
     command.args(["--test", "help", "--profile", if release { "release" } else { "test" }]);
     command.args(["--message-format", "json-render-diagnostics", "--target-dir"]).arg(target);
+    if cfg!(feature = "machine") {
+        // Images are run as users do it as well.
+        command.args(["--features", "sensedsl-tests/machine,sensedsl/twin"]);
+    }
     let output = command.stderr(Stdio::inherit()).output().unwrap();
     let messages = String::from_utf8_lossy(&output.stdout).into_owned();
     messages.lines().find_map(|line| {

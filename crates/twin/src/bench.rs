@@ -15,18 +15,19 @@ use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line};
-use crate::parts::registers::{Reading, Registers};
-use crate::parts::sleep::Sleep;
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
 use crate::surroundings::{Pad, TimerOutput};
 use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
 
+mod chips;
 mod mcu;
 mod recorded;
 mod units;
 
+use chips::Chip;
+pub use chips::Unasked;
 pub(crate) use units::Units;
 pub use units::number_of;
 
@@ -70,19 +71,6 @@ struct Analog {
     subject: usize,
     element: usize,
     thermistor: Option<(sensedsl_model::protocol::Formula, Vec<i32>)>,
-}
-
-/// A chip on a bus.
-#[derive(Clone, Debug)]
-struct Chip {
-    part: PartIndex,
-    unit: u8,
-    /// On I2C.
-    address: Option<u8>,
-    /// On SPI: the connection whose chip select it is.
-    connection: ConnectionIndex,
-    is_selected: bool,
-    registers: Registers,
 }
 
 #[derive(Clone, Debug)]
@@ -409,55 +397,6 @@ impl Bench {
             text: device.coding.text.clone(),
             is_latitude: reading.contains("lat"),
         })
-    }
-
-    fn chip(
-        &self,
-        job: &BoardJob<'_>,
-        index: ConnectionIndex,
-        one: &JobConnection<'_>,
-        unit: u8,
-    ) -> Chip {
-        let part = one.connection.part;
-        let protocol = one.part.chip.clone().unwrap_or_default();
-        let sleep = one.part.driver.as_deref().and_then(Sleep::of);
-        let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
-            let device = of.device;
-            let subject = self.subject(device)?;
-            let (trigger, wait_us, register, select) = match &device.kind {
-                Kind::I2c(own) => (own.trigger.clone(), own.wait_us, own.register, Vec::new()),
-                Kind::Spi(own) => {
-                    (own.trigger.clone(), own.wait_us, own.register, own.read.clone())
-                }
-                Kind::Analog(_)
-                | Kind::Icu(_)
-                | Kind::Encoder(_)
-                | Kind::Digital(_)
-                | Kind::Uart(_)
-                | Kind::Pwm(_)
-                | Kind::Dac(_)
-                | Kind::Can(_) => return None,
-            };
-            Some(Reading {
-                subject,
-                trigger,
-                wait_ns: 1_000 * u64::from(wait_us),
-                register,
-                select,
-                exchange: device.coding.exchange.clone(),
-                byte: device.coding.byte,
-                words: Words::of(device).filter(|_| device.coding.output.is_none()),
-                output: device.coding.output,
-            })
-        });
-        Chip {
-            part,
-            unit,
-            address: one.connection.kind.i2c().map(|own| own.address),
-            connection: index,
-            is_selected: false,
-            registers: Registers::new(protocol, readings.collect(), sleep),
-        }
     }
 }
 

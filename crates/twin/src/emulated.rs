@@ -168,11 +168,6 @@ impl EmulatedBoard {
     /// Compares pads and ports with the plan, when it is time.
     fn look(&mut self, now_ns: u64) {
         let Some(look) = self.look.as_mut().filter(|look| look.at_ns <= now_ns) else { return };
-        self.unwatched = self.unwatched.take().or_else(|| match self.machine.watchdog_ns() {
-            None => Some("does not run".to_owned()),
-            Some(ns) if ns > WATCHDOG_NS => Some(format!("bites after {} s only", ns / SECOND_NS)),
-            Some(_) => None,
-        });
         let mut now = misled(&self.planned, &self.machine.pads());
         now.extend(ports::misled(&self.ports, &self.machine.ports()));
         let still = match look.wrong.take() {
@@ -187,6 +182,11 @@ impl EmulatedBoard {
         }
         self.look = None;
         self.misled.extend(still);
+        self.unwatched = match self.machine.watchdog_ns() {
+            None => Some("does not run".to_owned()),
+            Some(ns) if ns > WATCHDOG_NS => Some(format!("bites after {} s only", ns / SECOND_NS)),
+            Some(_) => None,
+        };
     }
 
     /// The pads and ports that are not as planned, since the last call.
@@ -203,6 +203,12 @@ impl EmulatedBoard {
     #[must_use]
     pub fn outputs(&self) -> crate::commands::outputs::Outputs {
         self.bench().outputs().clone()
+    }
+
+    /// The parts on buses that the board has read without asking who they are.
+    #[must_use]
+    pub fn unasked(&self) -> Vec<crate::bench::Unasked> {
+        self.bench().unasked()
     }
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.

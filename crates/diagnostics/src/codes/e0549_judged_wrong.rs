@@ -27,7 +27,7 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn disagrees(span: Span, name: &str, what: &str, wrong: u64, all: u64) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("`{name}` disagrees with the world: {what}"))
-        .help(format!("{wrong} of {all} reports of the board's sensors are wrong; the table has each of them"))
+        .help(format!("{wrong} findings in {all} reports of the board's sensors; the table has each of them"))
 }
 
 /// Nothing was reported at all.

@@ -23,5 +23,5 @@ pub const CODE: Code = Code(&INFO);
 #[must_use]
 pub fn no_watchdog(span: Span, found: &str, seconds: &str) -> Diagnostic {
     Diagnostic::new(CODE, span, format!("the watchdog {found} after {seconds} s"))
-        .help("a program that hangs would hang for ever: build the firmware of this file with `sensedsl build`")
+        .help("a program that hangs would hang for ever: build the firmware of this file with `sensedsl build`; `make` alone builds for development, without a watchdog")
 }

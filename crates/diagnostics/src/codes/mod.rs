@@ -137,6 +137,7 @@ codes! {
     e0550_pad_not_as_planned,
     e0552_command_not_done,
     e0553_no_watchdog,
+    e0555_identity_not_asked,
     w0601_unused_property,
     w0602_slower_than_asked,
     w0603_narrow_type,

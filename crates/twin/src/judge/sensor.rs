@@ -84,7 +84,10 @@ impl SensorJudge {
         let filter = &device.filter;
         let period_ns = bench.period_ns(device.part).unwrap_or(0);
         let delay_ns = MS * u64::from(device.delay_ms);
-        let age_ns = SLACK_NS + link_ns(job) + measured_ns(one, subject, period_ns);
+        let age_ns = SLACK_NS
+            + link_ns(job)
+            + measured_ns(one, subject, period_ns)
+            + bench.held_ns(device.part);
         let smooth_ns = MS * u64::from(filter.smooth_ms);
         let memory_ns =
             age_ns + SETTLED * smooth_ns + u64::from(filter.median) * delay_ns.max(period_ns);

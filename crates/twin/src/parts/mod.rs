@@ -5,6 +5,7 @@ pub(crate) mod formula;
 pub(crate) mod line;
 pub(crate) mod message;
 pub(crate) mod pulses;
+pub(crate) mod ranges;
 pub(crate) mod registers;
 pub(crate) mod sleep;
 pub(crate) mod words;

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use sensedsl_model::protocol::{Formula, Protocol};
 use sensedsl_model::words::Words;
 
+use super::ranges::Ranges;
 use super::sleep::Sleep;
 use super::{formula, words};
 use crate::truth::Subject;
@@ -36,6 +37,8 @@ pub(crate) struct Reading {
     pub(crate) words: Option<Words>,
     /// Which output of the formula it is.
     pub(crate) output: Option<u8>,
+    /// What the part's registers make of it.
+    pub(crate) ranges: Ranges,
 }
 
 /// A measurement that was started.
@@ -63,6 +66,9 @@ pub(crate) struct Registers {
     answer: Vec<u8>,
     at: usize,
     began_ns: u64,
+    /// Its identity was read; something else was.
+    is_asked: bool,
+    is_used: bool,
 }
 
 impl Registers {
@@ -79,13 +85,39 @@ impl Registers {
             answer: Vec::new(),
             at: 0,
             began_ns: 0,
+            is_asked: false,
+            is_used: false,
         }
     }
 
     /// The supply was gone.
     pub(crate) fn reset(&mut self) {
         let readings = std::mem::take(&mut self.readings);
-        *self = Self::new(self.protocol.clone(), readings, self.sleep);
+        let (is_asked, is_used) = (self.is_asked, self.is_used);
+        let new = Self::new(self.protocol.clone(), readings, self.sleep);
+        *self = Self { is_asked, is_used, ..new };
+    }
+
+    /// Whether the driver says what its identity is, where the part was read and not asked for it.
+    pub(crate) fn is_unasked(&self) -> Option<bool> {
+        (self.is_used && !self.is_asked).then_some(self.protocol.identity.is_some())
+    }
+
+    /// From one measurement to the next, as the design sets it up.
+    pub(crate) fn held_ns(&self) -> u64 {
+        self.readings.iter().map(|one| one.ranges.planned_ns()).max().unwrap_or(0)
+    }
+
+    /// A byte of the answer is taken.
+    fn note(&mut self, place: usize) {
+        let place = u16::try_from(place).unwrap_or(u16::MAX);
+        let register = self.pointer.map(|first| first.saturating_add(place));
+        let identity = self.protocol.identity.as_ref();
+        if register.is_some() && register == identity.map(|one| one.register) {
+            self.is_asked = true;
+        } else {
+            self.is_used = true;
+        }
     }
 
     /// Whether it measures and does not answer. A part that is set up first, or is asked for several things, has a
@@ -116,6 +148,7 @@ impl Registers {
     /// The master takes a byte.
     pub(crate) fn read(&mut self) -> u8 {
         let byte = self.answer.get(self.at).copied().unwrap_or(0);
+        self.note(self.at);
         self.at += 1;
         byte
     }
@@ -155,6 +188,7 @@ impl Registers {
             let same: Vec<&Reading> =
                 self.readings.iter().filter(|one| one.exchange == first.exchange).collect();
             let bytes = merged(&self.bytes_of(&same, subjects, now_ns));
+            self.is_used = true;
             return place.checked_sub(1).and_then(|at| bytes.get(at)).copied().unwrap_or(0);
         }
         let selected = |one: &&Reading| {
@@ -162,7 +196,9 @@ impl Registers {
         };
         if let Some(one) = self.readings.iter().find(selected) {
             let bytes = merged(&self.bytes_of(&[one], subjects, now_ns));
-            return bytes.get(place - one.select.len() - 1).copied().unwrap_or(0);
+            let first = one.select.len();
+            self.is_used = true;
+            return bytes.get(place - first - 1).copied().unwrap_or(0);
         }
         let width = self.width();
         if place <= width {
@@ -174,6 +210,11 @@ impl Registers {
             let mask = u16::from(self.protocol.read_mask) << (8 * (width - 1));
             self.pointer = Some(number & !mask);
             self.answer = self.answer(subjects, now_ns);
+        }
+        // Whoever writes gets bytes as well, which mean nothing.
+        let first = self.sent.first().copied().unwrap_or(0);
+        if first & self.protocol.read_mask != 0 || self.protocol.read_mask == 0 {
+            self.note(place - width - 1);
         }
         self.answer.get(place - width - 1).copied().unwrap_or(0)
     }
@@ -291,12 +332,21 @@ impl Registers {
         let of = |one: &&Reading| {
             let measured = self.measurement.as_ref().filter(|_| !one.trigger.is_empty());
             let at_ns = measured.map_or(now_ns, |measured| measured.began_ns);
+            let at_ns = match one.ranges.period_ns(&self.controls) {
+                Some(period_ns) => at_ns - at_ns % period_ns.max(1),
+                None => at_ns,
+            };
+            let factor = one.ranges.factor(&self.controls);
+            if factor == 0.0 {
+                return None;
+            }
             let bytes = match (one.output, self.protocol.formula, &one.words) {
                 (Some(_), Some(formula), _) => self.computed(formula, subjects, at_ns),
                 (_, _, Some(coded)) => {
                     let subject = subjects.get(one.subject)?;
                     let elements = 0..subject.signals.len();
-                    let raw: Vec<f64> = elements.map(|one| subject.raw(one, at_ns)).collect();
+                    let raw: Vec<f64> =
+                        elements.map(|one| factor * subject.raw(one, at_ns)).collect();
                     words::bytes(coded, &raw)
                 }
                 (_, _, None) => return None,
@@ -312,7 +362,9 @@ impl Registers {
     /// The raw bytes of all outputs of the formula.
     fn computed(&self, of: Formula, subjects: &[Subject], at_ns: u64) -> Vec<u8> {
         let wanted = [0, 1, 2].map(|output| {
-            let one = self.readings.iter().find(|one| one.output == Some(output))?;
+            let measures = |one: &&Reading| one.ranges.factor(&self.controls) > 0.0;
+            let own = self.readings.iter().find(|one| one.output == Some(output));
+            let one = own.filter(measures)?;
             Some(subjects.get(one.subject)?.raw(0, at_ns))
         });
         formula::raw(of, &self.protocol.parameters, wanted)

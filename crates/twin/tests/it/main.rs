@@ -13,5 +13,6 @@ mod commanded;
 mod judged;
 mod library;
 mod mistakes;
+mod ranges;
 mod run;
 mod worlds;

@@ -12,6 +12,7 @@ mod kinds;
 mod seeded;
 mod seeded_profiles;
 mod seeded_rust;
+mod silent;
 mod trial;
 
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_diagnostics::{Diagnostic, Span};
-use sensedsl_twin::bench::Bench;
+use sensedsl_twin::bench::{Bench, Unasked};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::soft::SoftBoard;
 
@@ -24,6 +24,8 @@ pub(super) trait Board {
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic>;
     /// What a user wants to hear of since the last call.
     fn news(&mut self) -> Vec<String>;
+    /// The parts on buses that it has read without asking who they are.
+    fn unasked(&self) -> Vec<Unasked>;
     /// Instructions that the firmware has executed, where they are counted.
     fn instructions(&self) -> Option<u64>;
 }
@@ -60,6 +62,10 @@ impl Board for SoftBoard {
 
     fn news(&mut self) -> Vec<String> {
         Vec::new()
+    }
+
+    fn unasked(&self) -> Vec<Unasked> {
+        self.bench().unasked()
     }
 
     fn instructions(&self) -> Option<u64> {

@@ -3,7 +3,7 @@
 use sensedsl_diagnostics::codes::e0550_pad_not_as_planned::not_as_planned;
 use sensedsl_diagnostics::codes::e0553_no_watchdog::no_watchdog;
 use sensedsl_diagnostics::{Diagnostic, Span};
-use sensedsl_twin::bench::seconds;
+use sensedsl_twin::bench::{Unasked, seconds};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::machine::{Event, ResetCause};
@@ -33,6 +33,10 @@ impl Board for EmulatedBoard {
 
     fn halted(&self) -> Option<(u64, String)> {
         self.halt().map(|lockup| (u64::from(lockup.pc), lockup.why))
+    }
+
+    fn unasked(&self) -> Vec<Unasked> {
+        EmulatedBoard::unasked(self)
     }
 
     fn instructions(&self) -> Option<u64> {

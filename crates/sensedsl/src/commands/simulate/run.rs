@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+use sensedsl_diagnostics::codes::e0555_identity_not_asked::not_asked;
 use sensedsl_diagnostics::codes::{
     e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
 };
 use sensedsl_model::design::Transport;
-use sensedsl_twin::bench::{Bench, seconds};
+use sensedsl_twin::bench::{Bench, Unasked, seconds};
 use sensedsl_twin::commands::Commands;
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_wire::{
@@ -350,6 +351,7 @@ impl<'a> Session<'a> {
         scenery.terminal.result(&text)?;
         let tried = commands.map(Commands::finish).unwrap_or_default();
         let is_done = commands::verdict(scenery, &tried)?;
+        let is_asked = identities(scenery, &board.unasked())?;
         let all: u64 = judged.iter().map(|one| one.reports).sum();
         let wrong: u64 = judged.iter().map(|one| one.wrong).sum();
         let off = |one: &&Judged| one.worst.as_ref().map_or(0.0, |worst| worst.off);
@@ -376,8 +378,26 @@ impl<'a> Session<'a> {
             );
             scenery.terminal.note(&text)?;
         }
-        Ok(if is_wrong || !is_done { Status::Wrong } else { Status::Done })
+        Ok(if is_wrong || !is_done || !is_asked { Status::Wrong } else { Status::Done })
     }
+}
+
+/// Says of which parts the board has not asked who they are; false where it should have.
+fn identities(scenery: &Scenery<'_>, unasked: &[Unasked]) -> Result<bool> {
+    let names = |is_known: bool| -> Vec<&str> {
+        let own = unasked.iter().filter(|one| one.is_known == is_known);
+        own.map(|one| one.name.as_str()).collect()
+    };
+    let unknown = names(false);
+    if !unknown.is_empty() {
+        let all = unknown.join(", ");
+        let why = "another part at the same place would not be noticed";
+        scenery.terminal.aside(&format!("the identity of {all} is not asked: {why}"))?;
+    }
+    for name in names(true) {
+        scenery.say(not_asked(scenery.at, name))?;
+    }
+    Ok(names(true).is_empty())
 }
 
 fn status(of: HealthStatus) -> &'static str {

@@ -1,0 +1,107 @@
+//! The chips on a board's buses.
+
+use sensedsl_codegen::job::{BoardJob, JobConnection};
+use sensedsl_model::design::{ConnectionIndex, PartIndex};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::words::Words;
+
+use super::Bench;
+use crate::parts::ranges::Ranges;
+use crate::parts::registers::{Reading, Registers};
+use crate::parts::sleep::Sleep;
+
+/// A chip on a bus.
+#[derive(Clone, Debug)]
+pub(super) struct Chip {
+    pub(super) part: PartIndex,
+    name: String,
+    pub(super) unit: u8,
+    /// On I2C.
+    pub(super) address: Option<u8>,
+    /// On SPI: the connection whose chip select it is.
+    pub(super) connection: ConnectionIndex,
+    pub(super) is_selected: bool,
+    pub(super) registers: Registers,
+}
+
+/// A part whose identity the board has not asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unasked {
+    /// Its name.
+    pub name: String,
+    /// Its driver says who it is, so that the board should have asked.
+    pub is_known: bool,
+}
+
+impl Bench {
+    /// The parts on buses that the board has read without asking who they are.
+    #[must_use]
+    pub fn unasked(&self) -> Vec<Unasked> {
+        let all = self.chips.iter().filter_map(|one| {
+            let is_known = one.registers.is_unasked()?;
+            Some(Unasked { name: one.name.clone(), is_known })
+        });
+        all.collect()
+    }
+
+    /// From one measurement of a part to the next, where it measures at a pace of its own; otherwise 0.
+    pub(crate) fn held_ns(&self, part: PartIndex) -> u64 {
+        let own = self.chips.iter().filter(|one| one.part == part);
+        own.map(|one| one.registers.held_ns()).max().unwrap_or(0)
+    }
+
+    pub(super) fn chip(
+        &self,
+        job: &BoardJob<'_>,
+        index: ConnectionIndex,
+        one: &JobConnection<'_>,
+        unit: u8,
+    ) -> Chip {
+        let part = one.connection.part;
+        let protocol = one.part.chip.clone().unwrap_or_default();
+        let driver = one.part.driver.as_deref();
+        let sleep = driver.and_then(Sleep::of);
+        let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
+            let device = of.device;
+            let subject = self.subject(device)?;
+            let (trigger, wait_us, register, select) = match &device.kind {
+                Kind::I2c(own) => (own.trigger.clone(), own.wait_us, own.register, Vec::new()),
+                Kind::Spi(own) => {
+                    (own.trigger.clone(), own.wait_us, own.register, own.read.clone())
+                }
+                Kind::Analog(_)
+                | Kind::Icu(_)
+                | Kind::Encoder(_)
+                | Kind::Digital(_)
+                | Kind::Uart(_)
+                | Kind::Pwm(_)
+                | Kind::Dac(_)
+                | Kind::Can(_) => return None,
+            };
+            Some(Reading {
+                subject,
+                trigger,
+                wait_ns: 1_000 * u64::from(wait_us),
+                register,
+                select,
+                exchange: device.coding.exchange.clone(),
+                byte: device.coding.byte,
+                words: Words::of(device).filter(|_| device.coding.output.is_none()),
+                output: device.coding.output,
+                ranges: driver
+                    .map(|driver| Ranges::of(driver, device.coding.reading.as_deref(), &protocol))
+                    .unwrap_or_default(),
+            })
+        });
+        let readings = readings.collect();
+        Chip {
+            part,
+            name: one.part.name.value.clone(),
+            unit,
+            address: one.connection.kind.i2c().map(|own| own.address),
+            connection: index,
+            is_selected: false,
+            registers: Registers::new(protocol, readings, sleep),
+        }
+    }
+}
