@@ -6,6 +6,7 @@
 mod alloy;
 mod boards;
 mod boards_page;
+mod can_peer;
 mod command_line;
 mod corpus;
 mod crash;

@@ -23,11 +23,13 @@ use crate::world::{Fault, FaultKind, World, usual};
 
 mod chips;
 mod mcu;
+mod peer;
 mod recorded;
 mod units;
 
 use chips::Chip;
 pub use chips::Unasked;
+pub use peer::Peer;
 pub(crate) use units::Units;
 pub use units::number_of;
 
@@ -55,6 +57,8 @@ pub struct Bench {
     /// The part of each fault's device, and the units of its wires.
     broken: Vec<(Option<PartIndex>, Vec<String>)>,
     units: Units,
+    /// Who is on the CAN buses in place of the world's stations.
+    peer: Option<Peer>,
     seed: u64,
 }
 
@@ -97,6 +101,7 @@ impl Bench {
             faults: world.faults.clone(),
             broken: Vec::new(),
             units: Units::new(job),
+            peer: None,
             seed,
         };
         for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {

@@ -41,6 +41,10 @@ pub(crate) struct SimulateArgs {
     /// Write all bytes that the board sends to a file
     #[arg(long, value_name = "FILE")]
     pub(crate) frames: Option<PathBuf>,
+    /// Make an adapter (slcan) of each CAN bus on a pseudo-terminal, and leave the devices on it to
+    /// whoever opens it
+    #[arg(long, conflicts_with_all = ["judge", "stdout"])]
+    pub(crate) can: bool,
     #[command(flatten)]
     pub(crate) reach: Reach,
 }

@@ -120,10 +120,16 @@ impl Surroundings for Bench {
     }
 
     fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
+        if let Some(peer) = &self.peer {
+            peer.sent(unit, frame);
+        }
         self.recorder.frame(unit, frame, now_ns);
     }
 
     fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
+        if let Some(peer) = &self.peer {
+            return peer.next(unit);
+        }
         let faults: Vec<PartIndex> = self
             .faults
             .iter()

@@ -143,7 +143,7 @@ impl Channel for Link {
 struct Side<'a> {
     core: &'a mut Core,
     buses: &'a mut Vec<Bus>,
-    outputs: &'a Outputs,
+    outputs: &'a mut Outputs,
     owed: &'a mut Vec<(usize, Vec<u8>)>,
     received: &'a mut Vec<(u64, usize, Vec<u8>)>,
     now_ms: u64,
@@ -171,8 +171,10 @@ impl Host for Side<'_> {
     }
 
     fn failsafe(&mut self) {
-        for (index, value) in self.outputs.safe() {
-            self.put(index, value);
+        self.outputs.hush();
+        let safe: Vec<_> = self.outputs.safe().map(|(index, of)| (index, of.to_vec())).collect();
+        for (index, value) in safe {
+            self.put(index, &value);
         }
     }
 
@@ -277,6 +279,7 @@ impl SoftBoard {
         for (index, value) in std::mem::take(owed) {
             outputs.set(index, &value, &mut self.bench, now_ms * MS_NS);
         }
+        outputs.repeat(&mut self.bench, now_ms * MS_NS);
     }
 
     /// What the line carries in a millisecond.

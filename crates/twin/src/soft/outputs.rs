@@ -80,6 +80,10 @@ enum Drives {
 struct Frame {
     unit: u8,
     frame: CanFrame,
+    /// It is sent again so long after it was commanded; 0: never.
+    resend_ns: u64,
+    /// When it was sent last, once it was commanded.
+    sent_ns: Option<u64>,
 }
 
 impl Outputs {
@@ -126,6 +130,22 @@ impl Outputs {
         }
     }
 
+    /// Sends what is to be repeated.
+    pub(super) fn repeat(&mut self, bench: &mut Bench, now_ns: u64) {
+        for Frame { unit, frame, resend_ns, sent_ns } in &mut self.frames {
+            let due = sent_ns.filter(|_| *resend_ns > 0).map(|sent| sent + *resend_ns);
+            if due.is_some_and(|due| due <= now_ns) {
+                bench.can_out(*unit, *frame, now_ns);
+                *sent_ns = due;
+            }
+        }
+    }
+
+    /// The host is silent: nothing is repeated until it is set again, by a failsafe or by the host.
+    pub(super) fn hush(&mut self) {
+        self.frames.iter_mut().for_each(|frame| frame.sent_ns = None);
+    }
+
     /// What is set when the host is silent.
     pub(super) fn safe(&self) -> impl Iterator<Item = (usize, &[u8])> {
         self.safe.iter().map(|(index, value)| (*index, value.as_slice()))
@@ -157,7 +177,8 @@ impl Outputs {
                 }
             }
             Sink::Frame(own) => {
-                let Some(Frame { unit, frame }) = self.frames.get_mut(own.place) else { return };
+                let Some(own_frame) = self.frames.get_mut(own.place) else { return };
+                let Frame { unit, frame, .. } = own_frame;
                 let mut coded = [0; 8];
                 let room = coded.get_mut(own.byte..).unwrap_or_default();
                 if own.coding.encode(item, value, room) == 0 {
@@ -168,6 +189,7 @@ impl Outputs {
                 frame.data = bits.to_le_bytes();
                 if !own.is_quiet {
                     bench.can_out(*unit, *frame, now_ns);
+                    own_frame.sent_ns = Some(now_ns);
                 }
             }
         }
@@ -297,8 +319,8 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
     for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
         // By the board's name of it: a profile may have another one.
         let unit = bus.first.unit.and_then(|name| units.number(name)).unwrap_or(0);
-        for frame in &bus.frames {
-            for value in &frame.values {
+        for repeated in &bus.frames {
+            for value in &repeated.values {
                 let coding = tables::coding(&value.how);
                 let words = Words::of(value.device.device);
                 let mask = words.map_or(0, |words| words.in_frame(value.byte));
@@ -306,11 +328,17 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
                 let sink = Sink::Frame(InFrame { place, byte, coding, mask, is_quiet });
                 all.insert(value.index, sink);
             }
-            let length = u8::try_from(frame.bytes).unwrap_or(8);
-            let (id, extended) = (frame.identifier, frame.is_extended);
-            let frame =
-                CanFrame { id, extended, remote: false, length, data: frame.start.to_le_bytes() };
-            frames.push(Frame { unit, frame });
+            let length = u8::try_from(repeated.bytes).unwrap_or(8);
+            let (id, extended) = (repeated.identifier, repeated.is_extended);
+            let frame = CanFrame {
+                id,
+                extended,
+                remote: false,
+                length,
+                data: repeated.start.to_le_bytes(),
+            };
+            let resend_ns = 1_000_000 * u64::from(repeated.resend_ms);
+            frames.push(Frame { unit, frame, resend_ns, sent_ns: None });
         }
     }
     all

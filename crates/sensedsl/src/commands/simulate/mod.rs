@@ -1,6 +1,8 @@
 //! `sensedsl simulate`: a board without hardware, whose sensors measure a simulated world.
 
 mod board;
+#[cfg(unix)]
+mod can;
 mod commands;
 #[cfg(feature = "twin")]
 mod emulated;
@@ -8,6 +10,8 @@ mod emulated;
 mod pty;
 mod run;
 mod screen;
+#[cfg(unix)]
+mod slcan;
 
 use std::path::{Path, PathBuf};
 
@@ -102,17 +106,18 @@ fn simulate(
     let scenery = Scenery { args, terminal, job, at: input::place(job.design), sources };
     let Some(world) = world(args, terminal, job)? else { return Ok(Status::Wrong) };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
-    let bench = Bench::new(job, &world, seed);
+    let mut bench = Bench::new(job, &world, seed);
+    let peer = args.can.then(|| bench.open_can(job));
     let Some(firmware) = &args.firmware else {
         explain(&scenery, &SOFT)?;
         let board = board::soft(job, bench.clone());
-        return run::run(&scenery, &bench, board);
+        return run::run(&scenery, &bench, board, peer);
     };
     let image = read_bytes(firmware, What::Image)?;
     match machine(&scenery, bench.clone(), firmware, &image) {
         Ok(board) => {
             explain(&scenery, &EMULATED)?;
-            run::run(&scenery, &bench, board)
+            run::run(&scenery, &bench, board, peer)
         }
         Err(why) => {
             scenery.say(*why)?;

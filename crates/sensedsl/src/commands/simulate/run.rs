@@ -10,7 +10,7 @@ use sensedsl_diagnostics::codes::{
     e0546_image_refused, e0548_locked_up, e0549_judged_wrong as judged_wrong,
 };
 use sensedsl_model::design::Transport;
-use sensedsl_twin::bench::{Bench, Unasked, seconds};
+use sensedsl_twin::bench::{Bench, Peer, Unasked, seconds};
 use sensedsl_twin::commands::Commands;
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_wire::{
@@ -20,6 +20,8 @@ use sensedsl_wire::{
 
 use super::Scenery;
 use super::board::Board;
+#[cfg(unix)]
+use super::can::Adapters;
 use super::commands;
 #[cfg(unix)]
 use super::pty::Pty;
@@ -38,8 +40,14 @@ const REFRESH: Duration = Duration::from_millis(200);
 /// How long the board gets to answer how it is.
 const HEALTH_NS: u64 = 500 * MS;
 
-pub(super) fn run(scenery: &Scenery<'_>, bench: &Bench, board: Box<dyn Board>) -> Result<Status> {
+pub(super) fn run(
+    scenery: &Scenery<'_>,
+    bench: &Bench,
+    board: Box<dyn Board>,
+    peer: Option<Peer>,
+) -> Result<Status> {
     let mut session = Session::new(scenery, bench, board);
+    session.peer = peer;
     let args = scenery.args;
     let status = if args.judge {
         session.hurry(false)?
@@ -72,6 +80,8 @@ struct Session<'a> {
     /// What sets actuators, before a judge.
     commands: Option<Commands<'a>>,
     screen: Screen,
+    /// Who is on the CAN buses, where it is not the world.
+    peer: Option<Peer>,
     frames: Vec<u8>,
     now_ns: u64,
     /// The board has said who it is.
@@ -93,6 +103,7 @@ impl<'a> Session<'a> {
             judge: Judge::new(job, bench),
             commands: None,
             screen: Screen::new(job),
+            peer: None,
             frames: Vec::new(),
             now_ns: 0,
             is_known: false,
@@ -231,6 +242,8 @@ impl<'a> Session<'a> {
             terminal.note(&format!("the board is at {}\n", pty.name()))?;
             terminal.aside("a host application takes it for the board's device; Ctrl-C ends it")?;
         }
+        let adapters = self.peer.as_ref().map(|peer| Adapters::open(peer, terminal));
+        let mut adapters = adapters.transpose()?;
         let stop = interruption()?;
         let end_ns = self.end_ns(None);
         let (began, mut shown) = (Instant::now(), Instant::now());
@@ -242,6 +255,9 @@ impl<'a> Session<'a> {
                     false
                 }
             };
+            if let Some(adapters) = &mut adapters {
+                adapters.turn();
+            }
             let due = u64::try_from(began.elapsed().as_nanos()).unwrap_or(u64::MAX);
             let due = end_ns.map_or(due, |end| due.min(end));
             while self.now_ns + MS <= due && !stop.load(Ordering::Relaxed) {

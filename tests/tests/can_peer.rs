@@ -1,0 +1,153 @@
+//! A motor controller that somebody else is: `simulate --can` with python-can and cantools on its bus, which know a DBC
+//! file and none of our code.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use sensedsl_tests::{binary, missing, root, sensedsl};
+use sensedsl_wire::{
+    Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType, encode_report,
+};
+
+const DESIGN: &str = "tests/can/vesc.sense";
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Ended with the test, whatever becomes of it.
+struct Running {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn lines(out: ChildStdout) -> Receiver<String> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        let all = BufReader::new(out).lines().map_while(Result::ok);
+        all.take_while(|line| sender.send(line.clone()).is_ok()).count()
+    });
+    receiver
+}
+
+impl Running {
+    fn new(command: &mut Command) -> Self {
+        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
+        let lines = lines(child.stdout.take().unwrap());
+        Self { child, lines }
+    }
+
+    /// The first line that is wanted, and what was said before it.
+    fn wait(&self, wanted: impl Fn(&str) -> bool) -> String {
+        let (end, mut said) = (Instant::now() + PATIENCE, Vec::new());
+        while let Ok(line) = self.lines.recv_timeout(end.saturating_duration_since(Instant::now()))
+        {
+            if wanted(&line) {
+                return line;
+            }
+            said.push(line);
+        }
+        panic!("only {said:#?}");
+    }
+}
+
+fn has_peer() -> bool {
+    let mut python = Command::new("python3");
+    let ran = python.args(["-c", "import can, cantools, serial"]).stderr(Stdio::null()).status();
+    let is_there = ran.is_ok_and(|status| status.success());
+    if !is_there {
+        missing("python-can, cantools and pyserial");
+    }
+    is_there
+}
+
+fn schema() -> Schema {
+    let item = |name: &str, id, direction, scalar| Item {
+        id,
+        name: name.to_owned(),
+        direction,
+        value: ValueType { scalar, length: None },
+    };
+    let (sensor, actuator) = (Direction::Sensor, Direction::Actuator);
+    let items = vec![
+        item("Rpm", 1, sensor, ScalarType::Int32),
+        item("Current", 2, sensor, ScalarType::Int16),
+        item("Voltage", 3, sensor, ScalarType::Int16),
+        item("Speed", 4, actuator, ScalarType::Int32),
+        item("Throttle", 5, actuator, ScalarType::Int32),
+    ];
+    Schema { items, stamp: false, checksum: Checksum::None }
+}
+
+/// What the host hears until each sensor has said what the peer sends.
+fn hear(link: &mut std::fs::File) {
+    let schema = schema();
+    let mut decoder = Decoder::new(&schema, Direction::Sensor);
+    // The raw numbers of -4321 erpm, 12.3 A and 46.5 V.
+    let mut missing = vec![(1, vec![Scalar::Signed(-4321)]), (2, vec![Scalar::Signed(123)])];
+    missing.push((3, vec![Scalar::Signed(465)]));
+    let end = Instant::now() + PATIENCE;
+    while !missing.is_empty() {
+        assert!(Instant::now() < end, "{missing:?} never arrives");
+        let mut bytes = [0; 256];
+        let count = link.read(&mut bytes).unwrap();
+        decoder.feed(&bytes[..count], |event| {
+            if let Event::Report(_, values) = event {
+                missing.retain(|one| !values.contains(one));
+            }
+        });
+    }
+}
+
+/// A board, its host and its peer: each command in the one direction, each status in the other.
+fn between_host_and_peer(simulate: &mut Command) {
+    simulate.args(["--can", "--seconds", "120"]).current_dir(root()).stderr(Stdio::null());
+    let board = Running::new(simulate);
+    let place = |start: &'static str| {
+        let line = board.wait(|line| line.starts_with(start));
+        line.strip_prefix(start).unwrap().to_owned()
+    };
+    let link = place("the board is at ");
+    let bus = place("CAN1 is at ");
+    let mut link = std::fs::File::options().read(true).write(true).open(link).unwrap();
+    let mut python = Command::new("python3");
+    python.arg(root().join("tests/can/peer.py")).arg(root().join("tests/can/vesc.dbc")).arg(bus);
+    let peer = Running::new(&mut python);
+    let _ = peer.wait(|line| line == "on the bus");
+    hear(&mut link);
+    let mut set = |id: u8, value: i64, seen: &str| {
+        let frame =
+            encode_report(&schema(), Direction::Actuator, &[(id, vec![Scalar::Signed(value)])]);
+        link.write_all(&frame.unwrap()).unwrap();
+        let _ = peer.wait(|line| line == seen);
+    };
+    set(4, 2500, "VESC_SetRpm Set_Rpm=2500");
+    // The frame is repeated, as the host says nothing more: a VESC would release its motor.
+    for _ in 0..3 {
+        let _ = peer.wait(|line| line == "VESC_SetRpm Set_Rpm=2500");
+    }
+    set(5, -37_500, "VESC_SetDuty Set_Duty=-37.5");
+    set(4, -70_000, "VESC_SetRpm Set_Rpm=-70000");
+}
+
+#[test]
+fn a_vesc_is_moved_by_an_independent_peer() {
+    if has_peer() {
+        between_host_and_peer(Command::new(binary()).args(["simulate", DESIGN]));
+    }
+}
+
+/// A bus has one peer: the world, which is what a judge compares with, or whoever opens it.
+#[test]
+fn a_judge_has_no_other_peer() {
+    for other in ["--judge", "--stdout"] {
+        let ran = sensedsl(["simulate", DESIGN, "--can", other]).run().exits(2);
+        assert!(ran.stderr.contains("--can"), "{}", ran.stderr);
+    }
+}
