@@ -14,7 +14,7 @@ use sensedsl_wire::Direction;
 use crate::arith::{chance, number};
 use crate::commands::Command;
 use crate::commands::outputs::Recorder;
-use crate::parts::line::{Edges, Line};
+use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
 use crate::surroundings::{Pad, TimerOutput};
@@ -22,6 +22,7 @@ use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
 
 mod chips;
+mod log;
 mod mcu;
 mod peer;
 mod recorded;
@@ -60,6 +61,7 @@ pub struct Bench {
     /// Who is on the CAN buses in place of the world's stations.
     peer: Option<Peer>,
     seed: u64,
+    log: Option<log::Log>,
 }
 
 /// A connection and what is behind it.
@@ -103,6 +105,7 @@ impl Bench {
             units: Units::new(job),
             peer: None,
             seed,
+            log: None,
         };
         for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
             bench.add(job, wiring.connection, one);
@@ -374,7 +377,9 @@ impl Bench {
                 (Line::Count { subject, element, edges }, None)
             }
             Kind::Digital(own) => {
-                (Line::Level { subject, element, is_active_low: own.active_low }, None)
+                let spikes = Spikes::below(1_000 * u64::from(own.debounce_us));
+                let is_active_low = own.active_low;
+                (Line::Level { subject, element, is_active_low, spikes }, None)
             }
             Kind::Icu(icu) => {
                 (Line::of_capture(icu, subject, element, self.subjects.get(subject)?), None)

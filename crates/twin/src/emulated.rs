@@ -19,6 +19,8 @@ const MS_NS: u64 = 1_000_000;
 const SECOND_NS: u64 = 1_000 * MS_NS;
 /// A watchdog that bites no sooner is none.
 const WATCHDOG_NS: u64 = 10 * SECOND_NS;
+/// When the watchdog is looked at: so long after a start. A link over USB is plugged in before it is started.
+const WATCHED_NS: u64 = 2_500 * MS_NS;
 /// When pads and ports are looked at: so long after a start, and so often at such a distance. A bus that is being freed has its
 /// pads to itself for a moment.
 const LOOK_NS: u64 = 1_000 * MS_NS;
@@ -38,7 +40,9 @@ pub struct EmulatedBoard {
     is_off: bool,
     look: Option<Look>,
     misled: Vec<Misled>,
-    /// What is wrong with the watchdog.
+    /// When the watchdog is looked at next.
+    watchdog_at_ns: Option<u64>,
+    /// What is wrong with it.
     unwatched: Option<String>,
     events: Vec<Event>,
     resets: u32,
@@ -85,6 +89,7 @@ impl EmulatedBoard {
             is_off: false,
             look: Some(Look::after(0)),
             misled: Vec::new(),
+            watchdog_at_ns: Some(WATCHED_NS),
             unwatched: None,
             events: Vec::new(),
             resets: 0,
@@ -126,6 +131,7 @@ impl EmulatedBoard {
             self.garbage.extend(garbage);
             self.follow();
             self.look(now_ns);
+            self.look_at_watchdog(now_ns);
         }
         self.machine.run_until(until_ns);
         self.follow();
@@ -138,6 +144,7 @@ impl EmulatedBoard {
             self.is_off = is_off;
             self.machine.power(!is_off);
             self.look = None;
+            self.watchdog_at_ns = None;
             if !is_off {
                 self.bench().power_up();
             }
@@ -149,6 +156,7 @@ impl EmulatedBoard {
         for event in self.machine.events() {
             if let Event::Reset { at_ns, cause } = &event {
                 self.look = Some(Look::after(*at_ns));
+                self.watchdog_at_ns = Some(at_ns + WATCHED_NS);
                 self.resets = if *cause == ResetCause::Power { 0 } else { self.resets + 1 };
                 if self.resets >= RESETS_MAX && self.loops.is_none() {
                     let whom = match cause {
@@ -182,6 +190,14 @@ impl EmulatedBoard {
         }
         self.look = None;
         self.misled.extend(still);
+    }
+
+    /// Whether the watchdog runs, when it is time.
+    fn look_at_watchdog(&mut self, now_ns: u64) {
+        if self.watchdog_at_ns.is_none_or(|at_ns| now_ns < at_ns) {
+            return;
+        }
+        self.watchdog_at_ns = None;
         self.unwatched = match self.machine.watchdog_ns() {
             None => Some("does not run".to_owned()),
             Some(ns) if ns > WATCHDOG_NS => Some(format!("bites after {} s only", ns / SECOND_NS)),
@@ -209,6 +225,12 @@ impl EmulatedBoard {
     #[must_use]
     pub fn unasked(&self) -> Vec<crate::bench::Unasked> {
         self.bench().unasked()
+    }
+
+    /// What has come out of the MCU, where the bench writes it down.
+    #[must_use]
+    pub fn take_log(&self) -> Option<String> {
+        self.bench().take_log()
     }
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.

@@ -45,6 +45,9 @@ pub(crate) struct SimulateArgs {
     /// whoever opens it
     #[arg(long, conflicts_with_all = ["judge", "stdout"])]
     pub(crate) can: bool,
+    /// Write all that comes out of the MCU's pads and buses to a file (CSV), with its time
+    #[arg(long, value_name = "FILE", requires = "firmware")]
+    pub(crate) wires: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) reach: Reach,
 }

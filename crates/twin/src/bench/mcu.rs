@@ -29,12 +29,95 @@ impl Surroundings for Bench {
     }
 
     fn driven(&mut self, pad: Pad, level: Option<bool>, now_ns: u64) {
+        let what = level.map_or("released", |is_high| if is_high { "high" } else { "low" });
+        self.note(now_ns, pad, what);
         if let Some((connection, role)) = self.pads.get(&pad).copied() {
             self.drive_at(connection, role, level, now_ns);
         }
     }
 
     fn i2c(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
+        let reply = self.reply(unit, event, now_ns);
+        self.note_i2c(unit, event, reply, now_ns);
+        reply
+    }
+
+    fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
+        self.note(now_ns, format_args!("SPI{unit}"), format_args!("0x{out:02X}"));
+        let selected = |one: &Chip| one.unit == unit && one.is_selected && one.address.is_none();
+        let Some(place) = self.chips.iter().position(selected) else { return 0xFF };
+        let part = self.chips.get(place).map(|one| one.part);
+        if part.is_none_or(|part| self.has(FaultKind::Torn, part, now_ns)) {
+            return 0xFF;
+        }
+        let Some(chip) = self.chips.get_mut(place) else { return 0xFF };
+        self.recorder.shifted(chip.connection, out);
+        chip.registers.exchange(out, &self.subjects)
+    }
+
+    fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
+        let part = self.talkers.get(&unit)?.part;
+        let is_cut = [FaultKind::Torn, FaultKind::Silent]
+            .into_iter()
+            .any(|kind| self.has(kind, part, now_ns));
+        let talking = self.talkers.get_mut(&unit)?;
+        let byte = talking.talker.next(&self.subjects, now_ns);
+        if is_cut {
+            talking.talker.torn();
+            return None;
+        }
+        byte
+    }
+
+    fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, now_ns: u64) {
+        let TimerOutput { timer, channel, is_complement } = output;
+        let end = if is_complement { "N" } else { "" };
+        let place = format_args!("TIM{timer}_CH{channel}{end}");
+        self.note(now_ns, place, format_args!("{width_ns} of {period_ns} ns"));
+        self.waves.insert(output, (period_ns, width_ns));
+        self.recorder.timer(output, period_ns, width_ns);
+    }
+
+    fn dac(&mut self, channel: u8, millivolts: f64, now_ns: u64) {
+        self.note(now_ns, format_args!("DAC{channel}"), format_args!("{millivolts:.1} mV"));
+        self.recorder.converter(channel, millivolts);
+    }
+
+    fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
+        self.note(now_ns, format_args!("USART{unit}"), format_args!("0x{byte:02X}"));
+        self.recorder.sent(unit, byte, now_ns);
+    }
+
+    fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
+        if let Some(peer) = &self.peer {
+            peer.sent(unit, frame);
+        }
+        self.note_frame(unit, &frame, now_ns);
+        self.recorder.frame(unit, frame, now_ns);
+    }
+
+    fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
+        if let Some(peer) = &self.peer {
+            return peer.next(unit);
+        }
+        let faults: Vec<PartIndex> = self
+            .faults
+            .iter()
+            .zip(&self.broken)
+            .filter(|(fault, _)| {
+                matches!(fault.kind, FaultKind::Torn | FaultKind::Silent) && fault.is_there(now_ns)
+            })
+            .filter_map(|(_, (part, _))| *part)
+            .collect();
+        let senders = self.senders.get_mut(&unit)?;
+        let mut due = senders.iter_mut();
+        due.find_map(|(part, sender)| sender.next(&self.subjects, now_ns, faults.contains(part)))
+    }
+}
+
+impl Bench {
+    /// What an I2C bus answers.
+    fn reply(&mut self, unit: u8, event: I2cEvent, now_ns: u64) -> I2cReply {
         if self.is_held(FaultKind::StuckSda, unit, now_ns) {
             return I2cReply::Stuck;
         }
@@ -78,69 +161,5 @@ impl Surroundings for Bench {
             (I2cEvent::Write(_), None) | (I2cEvent::Start { .. }, _) => I2cReply::Nack,
             (I2cEvent::Read { .. }, None) => I2cReply::Byte(0xFF),
         }
-    }
-
-    fn spi(&mut self, unit: u8, out: u8, now_ns: u64) -> u8 {
-        let selected = |one: &Chip| one.unit == unit && one.is_selected && one.address.is_none();
-        let Some(place) = self.chips.iter().position(selected) else { return 0xFF };
-        let part = self.chips.get(place).map(|one| one.part);
-        if part.is_none_or(|part| self.has(FaultKind::Torn, part, now_ns)) {
-            return 0xFF;
-        }
-        let Some(chip) = self.chips.get_mut(place) else { return 0xFF };
-        self.recorder.shifted(chip.connection, out);
-        chip.registers.exchange(out, &self.subjects)
-    }
-
-    fn uart_in(&mut self, unit: u8, now_ns: u64) -> Option<u8> {
-        let part = self.talkers.get(&unit)?.part;
-        let is_cut = [FaultKind::Torn, FaultKind::Silent]
-            .into_iter()
-            .any(|kind| self.has(kind, part, now_ns));
-        let talking = self.talkers.get_mut(&unit)?;
-        let byte = talking.talker.next(&self.subjects, now_ns);
-        if is_cut {
-            talking.talker.torn();
-            return None;
-        }
-        byte
-    }
-
-    fn pwm(&mut self, output: TimerOutput, period_ns: u64, width_ns: u64, _: u64) {
-        self.waves.insert(output, (period_ns, width_ns));
-        self.recorder.timer(output, period_ns, width_ns);
-    }
-
-    fn dac(&mut self, channel: u8, millivolts: f64, _: u64) {
-        self.recorder.converter(channel, millivolts);
-    }
-
-    fn uart_out(&mut self, unit: u8, byte: u8, now_ns: u64) {
-        self.recorder.sent(unit, byte, now_ns);
-    }
-
-    fn can_out(&mut self, unit: u8, frame: CanFrame, now_ns: u64) {
-        if let Some(peer) = &self.peer {
-            peer.sent(unit, frame);
-        }
-        self.recorder.frame(unit, frame, now_ns);
-    }
-
-    fn can_in(&mut self, unit: u8, now_ns: u64) -> Option<CanFrame> {
-        if let Some(peer) = &self.peer {
-            return peer.next(unit);
-        }
-        let faults: Vec<PartIndex> = self
-            .faults
-            .iter()
-            .zip(&self.broken)
-            .filter(|(fault, _)| {
-                matches!(fault.kind, FaultKind::Torn | FaultKind::Silent) && fault.is_there(now_ns)
-            })
-            .filter_map(|(_, (part, _))| *part)
-            .collect();
-        let senders = self.senders.get_mut(&unit)?;
-        let mut due = senders.iter_mut();
-        due.find_map(|(part, sender)| sender.next(&self.subjects, now_ns, faults.contains(part)))
     }
 }

@@ -5,6 +5,12 @@ use crate::commands::Command;
 use crate::commands::outputs::{Outputs, Recorder};
 
 impl Bench {
+    /// Whether the world does something to the board itself or to its link.
+    #[must_use]
+    pub fn is_disturbed(&self) -> bool {
+        self.faults.iter().any(|one| one.kind.is_of_board())
+    }
+
     /// What the board puts out.
     #[must_use]
     pub const fn outputs(&self) -> &Outputs {

@@ -9,9 +9,16 @@ use crate::surroundings::CanFrame;
 /// How many bytes of a transfer are shown.
 const SHOWN: usize = 24;
 
+/// How late the first of repeated frames may be.
+const FIRST_NS: u64 = 40_000_000;
+
 /// What is there in place of what must be; none where it is as it must be. Transfers, messages and frames count since
 /// a time.
-pub(super) fn differs(one: &Expected, outputs: &Outputs, since_ns: u64) -> Option<String> {
+pub(super) fn differs(
+    one: &Expected,
+    outputs: &Outputs,
+    (since_ns, now_ns): (u64, u64),
+) -> Option<String> {
     match &one.what {
         What::Level(role, high) => {
             let found = outputs.level(one.at, *role);
@@ -36,7 +43,9 @@ pub(super) fn differs(one: &Expected, outputs: &Outputs, since_ns: u64) -> Optio
             let last = found.len().saturating_sub(bytes.len());
             (!is_there).then(|| hex(found.get(last..).unwrap_or_default()))
         }
-        What::Frame(sent) => frame(sent, outputs, since_ns),
+        What::Frame(sent) => {
+            frame(sent, outputs, since_ns).or_else(|| too_seldom(sent, outputs, (since_ns, now_ns)))
+        }
     }
 }
 
@@ -81,6 +90,18 @@ fn frame(sent: &Sent, outputs: &Outputs, since_ns: u64) -> Option<String> {
     };
     let is_right = found.length == sent.length && bits(found) & sent.bits.0 == sent.bits.1;
     (!is_right).then(|| data(found))
+}
+
+/// A frame that is repeated, but not as often as it must be.
+fn too_seldom(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> Option<String> {
+    let span_ns = now_ns.saturating_sub(since_ns + FIRST_NS);
+    let wanted = (span_ns / 10 * 9).checked_div(sent.resend_ns)?;
+    let own = outputs
+        .frames(sent.unit, since_ns)
+        .filter(|frame| (frame.id, frame.extended) == (sent.identifier, sent.is_extended));
+    let found = u64::try_from(own.count()).unwrap_or(u64::MAX);
+    let span_ms = (now_ns - since_ns) / 1_000_000;
+    (found < wanted).then(|| format!("only {found} times in {span_ms} ms"))
 }
 
 /// What must be there, for people.

@@ -57,6 +57,8 @@ pub(super) struct Sent {
     pub(super) bits: (u64, u64),
     /// The bits that say in which of the frames of an identifier it is.
     pub(super) select: (u64, u64),
+    /// It is sent again after so long; 0: not.
+    pub(super) resend_ns: u64,
 }
 
 /// A device's wires with their places in the wiring.
@@ -273,6 +275,7 @@ fn frame(
     let mask = words.in_frame(own.byte);
     let select = own.mux.as_ref().map(|mux| mux.bits);
     let mut length = own.length.map_or(0, u16::from);
+    let mut resend_ms = u32::MAX;
     for other in job.devices.iter().filter(|other| other.unit == one.unit) {
         let is_set = other.device.direction == Direction::Actuator;
         let Some(can) = other.device.kind.can().filter(|_| is_set) else { continue };
@@ -283,6 +286,9 @@ fn frame(
         if select.is_none() && others.is_some_and(|(of, _)| of & mask != 0) {
             // It only says which of the frames others are in.
             return None;
+        }
+        if can.resend_ms > 0 && select.is_none() {
+            resend_ms = resend_ms.min(can.resend_ms);
         }
         if others.is_none() || select.is_none() || others == select {
             let ends = u16::from(can.byte) + Words::of(other.device)?.wire_bytes();
@@ -301,6 +307,7 @@ fn frame(
         length: u8::try_from(length.min(FRAME_BYTES)).ok()?,
         bits: (mask, u64::from_le_bytes(data) & mask),
         select: select.unwrap_or_default(),
+        resend_ns: if resend_ms == u32::MAX { 0 } else { 1_000_000 * u64::from(resend_ms) },
     };
     Some(expected(at, wire, 0, What::Frame(sent)))
 }

@@ -200,13 +200,13 @@ impl<'a> Commands<'a> {
     }
 
     fn speak(&mut self, now_ns: u64) -> Vec<u8> {
+        // What is told at the same time is in one frame.
+        let next = |actor: &mut Actor| actor.next(now_ns).map(|value| (actor.id, value));
+        let values: Vec<(u8, Vec<Scalar>)> = self.actors.iter_mut().filter_map(next).collect();
         let mut bytes = Vec::new();
-        for actor in &mut self.actors {
-            if let Some(value) = actor.next(now_ns) {
-                let values = [(actor.id, value)];
-                let frame = encode_report(&self.job.schema, Direction::Actuator, &values);
-                bytes.extend(frame.unwrap_or_default());
-            }
+        if !values.is_empty() {
+            let frame = encode_report(&self.job.schema, Direction::Actuator, &values);
+            bytes.extend(frame.unwrap_or_default());
         }
         let keeps_ns = self.silence_ns.map_or(u64::MAX, |ns| (ns / 3).min(100 * MS));
         if bytes.is_empty() && now_ns - self.sent_ns >= keeps_ns {

@@ -75,7 +75,7 @@ impl Tried {
         }
         self.looks += 1;
         let wrong = all.iter().find_map(|one| {
-            let got = compare::differs(one, outputs, since_ns)?;
+            let got = compare::differs(one, outputs, (since_ns, at_ns))?;
             let (element, wire) = (one.element, one.wire.clone());
             let (after, expected) = (after.to_owned(), compare::shown(one));
             Some(Amiss { at_ns, element, wire, after, expected, got })
@@ -223,7 +223,8 @@ impl Actor {
     pub(super) fn look_held(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
         let Some((since_ns, value)) = self.told.clone() else { return };
         let after = format!("after {}, and before the silence counts", self.shown(&value));
-        self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, is_lasting);
+        let counts = |one: &Expected| is_lasting(one) || is_repeated(one);
+        self.compare(job, (&raw(&value), outputs), (since_ns, now_ns), &after, counts);
     }
 
     /// The host has been silent for too long.
@@ -309,6 +310,11 @@ fn raw(value: &[Scalar]) -> Vec<f64> {
 /// What is still there without being sent again.
 fn is_lasting(one: &Expected) -> bool {
     matches!(one.what, What::Level(..) | What::Pulses(_) | What::Millivolts(_))
+}
+
+/// What is sent again while the host speaks.
+fn is_repeated(one: &Expected) -> bool {
+    matches!(&one.what, What::Frame(sent) if sent.resend_ns > 0)
 }
 
 /// How long a device takes to do what it is told, at the most.

@@ -3,7 +3,7 @@
 //! A device with which nothing is wrong must not fail, and nothing may be counted against it.
 
 use sensedsl_codegen::job::{BoardJob, JobDevice};
-use sensedsl_wire::{Causes, DeviceHealth, NEVER_MS, Status};
+use sensedsl_wire::{Causes, DeviceHealth, Health, NEVER_MS, ResetCause, Status};
 
 use super::{Finding, Judged, MS, Wrong};
 use crate::bench::Bench;
@@ -81,6 +81,36 @@ const fn times(count: u16) -> &'static str {
     if count == 1 { "reading" } else { "readings" }
 }
 
+/// How far a board's clock may be off, and how long it may take to begin.
+const CLOCK_MS: u64 = 500;
+/// Reports on their way when the board counts them.
+const UNDERWAY: u64 = 2;
+
+/// What disagrees of what a board says of itself, that nothing in the world has disturbed.
+pub(super) fn board_differs(health: &Health, now_ns: u64, heard: u64) -> Option<String> {
+    let (now_ms, up_ms) = (now_ns / MS, u64::from(health.uptime_ms));
+    if up_ms > now_ms + now_ms / 100 || up_ms + CLOCK_MS + now_ms / 100 < now_ms {
+        return Some(format!("it runs for {up_ms} ms, and not for {now_ms} ms"));
+    }
+    match health.reset_cause {
+        ResetCause::Unknown | ResetCause::Power | ResetCause::Pin => {}
+        ResetCause::Software
+        | ResetCause::Watchdog
+        | ResetCause::WindowWatchdog
+        | ResetCause::LowPower
+        | ResetCause::Halt
+        | ResetCause::Other(_) => return Some("it was started anew".to_owned()),
+    }
+    if health.reset_device != 0 {
+        return Some(format!("device {} hung before it started", health.reset_device));
+    }
+    let sent = u64::from(health.reports_sent);
+    if !(heard..=heard + UNDERWAY).contains(&sent) {
+        return Some(format!("it has sent {sent} reports, of which {heard} came"));
+    }
+    (health.stack_left_bytes == 0).then(|| "a stack is full".to_owned())
+}
+
 /// A finding of what the board said.
 pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
     Wrong { at_ns, finding: Finding::Health(what), off: 100_000.0 }
@@ -110,5 +140,37 @@ impl OtherJudge {
             halves: 0,
         };
         self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_board_says_of_itself_is_compared_with_what_came() {
+        let right = Health {
+            uptime_ms: 6_000,
+            reset_cause: ResetCause::Power,
+            reset_device: 0,
+            reports_sent: 100,
+            reports_refused: 1,
+            load_percent: 20,
+            stack_left_bytes: 200,
+            devices: Vec::new(),
+        };
+        let now_ns = 6_000 * MS;
+        assert_eq!(board_differs(&right, now_ns, 100), None);
+        for wrong in [
+            Health { uptime_ms: 600, ..right.clone() },
+            Health { uptime_ms: 60_000, ..right.clone() },
+            Health { reset_cause: ResetCause::Watchdog, ..right.clone() },
+            Health { reset_device: 4, ..right.clone() },
+            Health { reports_sent: 50, ..right.clone() },
+            Health { reports_sent: 200, ..right.clone() },
+            Health { stack_left_bytes: 0, ..right.clone() },
+        ] {
+            assert!(board_differs(&wrong, now_ns, 100).is_some(), "{wrong:?}");
+        }
     }
 }

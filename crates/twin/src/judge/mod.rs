@@ -98,6 +98,10 @@ pub struct Judge {
     devices: Vec<SensorJudge>,
     /// The actuators, of which only their health is known here.
     others: Vec<OtherJudge>,
+    /// The board's name, where nothing in the world disturbs it.
+    undisturbed: Option<String>,
+    /// Reports that came.
+    heard: u64,
 }
 
 impl Judged {
@@ -134,11 +138,18 @@ impl Judge {
             |subject: &Subject| Some(SensorJudge::new(job, bench, find(subject)?, subject));
         let devices = bench.subjects().iter().filter_map(sensor).collect();
         let others = job.devices.iter().filter(|one| one.device.direction == Direction::Actuator);
-        Self { devices, others: others.map(|one| OtherJudge::new(job, bench, one)).collect() }
+        let name = job.board.name.value.clone();
+        Self {
+            devices,
+            others: others.map(|one| OtherJudge::new(job, bench, one)).collect(),
+            undisturbed: (!bench.is_disturbed()).then_some(name),
+            heard: 0,
+        }
     }
 
     /// A report has arrived.
     pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
+        self.heard += 1;
         for (id, elements) in values {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == *id) {
                 sensor.take(now_ns, elements);
@@ -155,6 +166,12 @@ impl Judge {
 
     /// The board has said how it and its devices are.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
+        if let Some(board) = &self.undisturbed
+            && let Some(what) = health::board_differs(health, now_ns, self.heard)
+        {
+            let board = board.clone();
+            self.say_of_board(now_ns, &board, what);
+        }
         for row in &health.devices {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == row.id) {
                 sensor.health(now_ns, row);
@@ -167,8 +184,12 @@ impl Judge {
 
     /// The board was asked how it is, and did not say it.
     pub fn no_health(&mut self, now_ns: u64, board: &str) {
+        self.say_of_board(now_ns, board, "nothing, though it was asked".to_owned());
+    }
+
+    fn say_of_board(&mut self, now_ns: u64, board: &str, what: String) {
         let mut judged = Judged::new(board.to_owned(), None);
-        judged.note(Some(health::wrong(now_ns, "nothing, though it was asked".to_owned())));
+        judged.note(Some(health::wrong(now_ns, what)));
         self.others.push(OtherJudge { id: 0, judged, is_well: false });
     }
 

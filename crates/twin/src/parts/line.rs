@@ -26,14 +26,18 @@ const MARK_NS: u64 = 300_000;
 /// The longest channel of a train, and the pause after all of them.
 const CHANNEL_NS: u64 = 2_100_000;
 const TRAIN_REST_NS: u64 = 6_000_000;
+/// Spikes on the wire of a contact: how long, how often.
+const SPIKE_NS: u64 = 6_000_000;
+const SPIKE_MIN_NS: u64 = 500_000;
+const SPIKES_NS: u64 = 171_000_000;
 /// How long a signal without a frequency is left alone.
 const IDLE_NS: u64 = 10_000_000;
 
 /// What happens on a wire.
 #[derive(Clone, Debug)]
 pub(crate) enum Line {
-    /// A level: on or off.
-    Level { subject: usize, element: usize, is_active_low: bool },
+    /// A level: on or off, with spikes that are too short to count.
+    Level { subject: usize, element: usize, is_active_low: bool, spikes: Spikes },
     /// So many edges since the start.
     Count { subject: usize, element: usize, edges: Edges },
     /// A track of an encoder.
@@ -55,6 +59,38 @@ pub(crate) enum Line {
     Duty { subject: usize, element: usize, is_low: bool },
     /// All channels of a model receiver.
     Train { subject: usize, tick_ns: f64, is_low: bool },
+}
+
+/// What a contact's wire catches: the other level for a moment, now and then.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spikes {
+    every_ns: u64,
+    for_ns: u64,
+}
+
+impl Spikes {
+    /// Those that a contact which must last so long is not to see; none where any level counts.
+    pub(crate) const fn below(lasting_ns: u64) -> Self {
+        let longest_ns = lasting_ns / 4;
+        let for_ns = if longest_ns < SPIKE_NS { longest_ns } else { SPIKE_NS };
+        let often_ns = 8 * lasting_ns;
+        let every_ns = if often_ns > SPIKES_NS { often_ns } else { SPIKES_NS };
+        Self { every_ns, for_ns: if for_ns < SPIKE_MIN_NS { 0 } else { for_ns } }
+    }
+
+    const fn is_there(&self, now_ns: u64) -> bool {
+        self.for_ns > 0 && now_ns % self.every_ns >= self.every_ns - self.for_ns
+    }
+
+    /// The first beginning or end of one after a moment.
+    fn next(&self, after_ns: u64) -> Option<u64> {
+        if self.for_ns == 0 {
+            return None;
+        }
+        let end_ns = (after_ns / self.every_ns + 1) * self.every_ns;
+        let start_ns = end_ns - self.for_ns;
+        Some(if start_ns > after_ns { start_ns } else { end_ns })
+    }
 }
 
 /// Which edges count.
@@ -131,8 +167,9 @@ impl Line {
     pub(crate) fn level(&mut self, subjects: &[Subject], now_ns: u64) -> bool {
         self.follow(subjects, now_ns);
         match self {
-            Self::Level { subject, element, is_active_low } => {
-                is_on(raw(subjects, *subject, *element, now_ns)) != *is_active_low
+            Self::Level { subject, element, is_active_low, spikes } => {
+                let is_on = is_on(raw(subjects, *subject, *element, now_ns));
+                is_on != (*is_active_low != spikes.is_there(now_ns))
             }
             Self::Count { subject, element, edges } => {
                 counted(*edges, steps(*edges, raw(subjects, *subject, *element, now_ns)))
@@ -154,10 +191,11 @@ impl Line {
     /// The first edge after a moment, and the level from then on.
     pub(crate) fn next_edge(&mut self, subjects: &[Subject], after_ns: u64) -> Option<(u64, bool)> {
         match self {
-            Self::Level { subject, element, is_active_low } => {
+            Self::Level { subject, element, spikes, .. } => {
                 let of = |raw: f64| f64::from(u8::from(is_on(raw)));
-                let (at, step) = crossing(subjects, *subject, *element, after_ns, of)?;
-                Some((at, (step > 0.5) != *is_active_low))
+                let own = crossing(subjects, *subject, *element, after_ns, of).map(|one| one.0);
+                let at = own.into_iter().chain(spikes.next(after_ns)).min()?;
+                Some((at, self.level(subjects, at)))
             }
             Self::Count { subject, element, edges } => {
                 let edges = *edges;

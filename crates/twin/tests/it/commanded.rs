@@ -4,7 +4,7 @@
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::commands::{Commands, Tried};
 use sensedsl_twin::soft::SoftBoard;
-use sensedsl_wire::encode_hello_request;
+use sensedsl_wire::{Decoder, Direction, Event, encode_hello_request};
 
 use crate::run::{read, with_job};
 
@@ -22,6 +22,7 @@ const RIGHT: &str = "board STM32F407G_DISC1 {
     actuator Lamps accepts uint16[2] { id = 7; type = i2c; address = 0x22; register = 0x10; length = 4; delay = 20 ms; failsafe = 3; }
     actuator Dial accepts int16 { id = 8; type = spi; clock = 1 MHz; register = 0x20; length = 2; delay = 20 ms; }
     actuator Demand accepts int16 { id = 9; type = can; bitrate = 500 kHz; frame = 0x120; failsafe = 7; }
+    actuator Pace accepts uint16 { id = 12; type = can; bitrate = 500 kHz; frame = 0x121; resend = 20 ms; }
     actuator Limit accepts uint8 { id = 10; type = can; bitrate = 500 kHz; frame = 0x120; byte = 4; }
     actuator Say accepts uint16 { id = 11; type = uart; baud = 9600; start = [0x55, 0xAA]; length = 2; checksum = xor8; end = [0x0D]; failsafe = 1; }
 }";
@@ -65,7 +66,7 @@ fn what_is_right_is_found_right() {
         assert_eq!((one.wrong, one.left, one.is_silence_left), (0, 0, false), "{one:#?}");
         assert!(one.looks >= 5 && (one.commands >= 5 || !one.is_set), "{one:#?}");
     }
-    assert_eq!(all.iter().filter(|one| one.is_set).count(), 11);
+    assert_eq!(all.iter().filter(|one| one.is_set).count(), 12);
     // STBY of one bridge, the enables of the other.
     assert_eq!(all.iter().filter(|one| !one.is_set).count(), 3);
 }
@@ -87,6 +88,7 @@ fn each_mistake_is_noticed_where_it_is() {
         ("register = 0x20", "register = 0x21", "Dial"),
         ("byte = 4", "byte = 5", "Limit"),
         ("failsafe = 7", "failsafe = 8", "Demand"),
+        ("resend = 20 ms", "resend = 200 ms", "Pace"),
         ("0xAA", "0xAB", "Say"),
         ("checksum = xor8", "checksum = sum8", "Say"),
         ("end = [0x0D]", "end = [0x0A]", "Say"),
@@ -95,6 +97,33 @@ fn each_mistake_is_noticed_where_it_is() {
         let found = amiss(from, to);
         assert!(found.iter().any(|one| one == name), "{from} -> {to}: {found:?}");
     }
+}
+
+/// What is told at the same time is in one frame: a board that takes only the first value of a frame is wrong.
+#[test]
+fn several_actuators_are_told_at_once() {
+    with_job(RIGHT, |job| {
+        let (world, _) = read(job, "", 7);
+        let bench = Bench::new(job, &world, 7);
+        let mut commands = Commands::new(job, &bench, 10_000 * MS);
+        let mut board = SoftBoard::new(job, bench);
+        let mut decoder = Decoder::new(&job.schema, Direction::Actuator);
+        let mut most = 0;
+        for ms in 0..10_000 {
+            let bytes = commands.host(ms * MS, ms >= 600);
+            decoder.feed(&bytes, |event| {
+                if let Event::Report(_, values) = event {
+                    most = values.len().max(most);
+                }
+            });
+            board.link_write(&bytes);
+            board.run_until((ms + 1) * MS);
+            if commands.looks((ms + 1) * MS) {
+                commands.look((ms + 1) * MS, board.bench().outputs());
+            }
+        }
+        assert_eq!(most, 12);
+    });
 }
 
 #[test]

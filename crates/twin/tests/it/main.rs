@@ -15,4 +15,6 @@ mod library;
 mod mistakes;
 mod ranges;
 mod run;
+#[cfg(feature = "machine")]
+mod watched;
 mod worlds;

@@ -145,3 +145,17 @@ fn a_part_that_is_not_woken_is_seen() {
     let asleep = mistaken(&right, &board("init = [[0x31, 0x0B], [0x2C, 0x0A]];"), "", 5);
     assert!(!asleep.wrong().is_empty());
 }
+
+/// The wire of a contact has spikes that are shorter than `debounce`.
+#[test]
+fn a_contact_that_is_not_debounced_is_seen() {
+    let text = |debounce: &str| {
+        format!(
+            "board STM32F407G_DISC1 {{ sensor Bumper returns bool {{ id = 1; type = digital; debounce = {debounce}; delay = 50 ms; }} }}"
+        )
+    };
+    let run = mistaken(&text("20 ms"), &text("0 ms"), "", 10);
+    assert_eq!(run.wrong().len(), 1, "{:#?}", run.wrong());
+    let right = mistaken(&text("20 ms"), &text("20 ms"), "", 10);
+    assert!(right.wrong().is_empty(), "{:#?}", right.wrong());
+}

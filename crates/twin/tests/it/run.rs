@@ -104,7 +104,7 @@ fn run(
         let mut board = SoftBoard::new(board, bench);
         let mut decoder = Decoder::new(&job.schema, Direction::Sensor);
         let (mut all, mut reports) = (Vec::new(), Vec::new());
-        let (end_ms, mut health) = (seconds * 1_000, None);
+        let (end_ms, mut is_healthy) = (seconds * 1_000, false);
         for ms in 1..=end_ms + 100 {
             if ms == end_ms {
                 board.link_write(&encode_health_request(&job.schema));
@@ -118,16 +118,18 @@ fn run(
                     judge.take(ms * 1_000_000, &values);
                     reports.push((ms * 1_000_000, values));
                 }
-                Event::Health(said) => health = Some(said),
+                Event::Health(said) => {
+                    judge.health(ms * 1_000_000, &said);
+                    is_healthy = true;
+                }
                 Event::Hello(_)
                 | Event::OtherHealth(_)
                 | Event::HelloRequest
                 | Event::HealthRequest => {}
             });
         }
-        match &health {
-            Some(health) => judge.health(board.now_ns(), health),
-            None => judge.no_health(board.now_ns(), "the board"),
+        if !is_healthy {
+            judge.no_health(board.now_ns(), "the board");
         }
         let judged = judge.finish(board.now_ns());
         Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes() }

@@ -28,6 +28,8 @@ pub(super) trait Board {
     fn unasked(&self) -> Vec<Unasked>;
     /// Instructions that the firmware has executed, where they are counted.
     fn instructions(&self) -> Option<u64>;
+    /// What has come out of the MCU, where it is written down.
+    fn log(&self) -> Option<String>;
 }
 
 impl Board for SoftBoard {
@@ -69,6 +71,10 @@ impl Board for SoftBoard {
     }
 
     fn instructions(&self) -> Option<u64> {
+        None
+    }
+
+    fn log(&self) -> Option<String> {
         None
     }
 }

@@ -43,6 +43,10 @@ impl Board for EmulatedBoard {
         Some(EmulatedBoard::instructions(self))
     }
 
+    fn log(&self) -> Option<String> {
+        EmulatedBoard::take_log(self)
+    }
+
     fn wrongs(&mut self, at: Span) -> Vec<Diagnostic> {
         let now = format!("{:.3}", seconds(self.now_ns()));
         let told = self.misled().into_iter();

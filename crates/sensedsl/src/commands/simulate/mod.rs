@@ -108,6 +108,9 @@ fn simulate(
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
     let peer = args.can.then(|| bench.open_can(job));
+    if args.wires.is_some() {
+        bench.start_log();
+    }
     let Some(firmware) = &args.firmware else {
         explain(&scenery, &SOFT)?;
         let board = board::soft(job, bench.clone());

@@ -64,6 +64,9 @@ pub(super) fn run(
     if let Some(path) = &args.frames {
         write_whole(path, &session.frames)?;
     }
+    if let Some((path, log)) = args.wires.as_ref().zip(session.board.log()) {
+        write_whole(path, log.as_bytes())?;
+    }
     match status {
         Status::Done if args.judge => session.verdict(),
         Status::Done if session.is_wrong => Ok(Status::Wrong),
@@ -303,10 +306,16 @@ impl<'a> Session<'a> {
     /// Asks the board how it is; the judge hears the answer as well.
     fn ask_health(&mut self) -> Result<Option<Health>> {
         self.last = None;
-        self.board.link_write(&encode_health_request(&self.scenery.job.schema));
-        let end_ns = self.now_ns + HEALTH_NS;
-        while self.last.is_none() && self.now_ns < end_ns {
-            self.step(None)?;
+        // The answer may have met garbage: a host asks again.
+        for _ in 0..2 {
+            if self.last.is_some() {
+                break;
+            }
+            self.board.link_write(&encode_health_request(&self.scenery.job.schema));
+            let end_ns = self.now_ns + HEALTH_NS;
+            while self.last.is_none() && self.now_ns < end_ns {
+                self.step(None)?;
+            }
         }
         match &self.last {
             Some(health) => self.judge.health(self.now_ns, health),

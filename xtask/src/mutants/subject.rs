@@ -1,0 +1,234 @@
+//! A design for a target: its generated folder, how it is built, and what the program without a mistake does.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use anyhow::{Context as _, Result, ensure};
+
+use super::draw::{self, Site};
+
+/// A program that runs in circles is ended after so many seconds.
+const PATIENCE_S: &str = "60";
+/// The board whose MCU is emulated.
+const EMULATED: &str = "STM32F407G_DISC1";
+const TRIPLE: &str = "thumbv7em-none-eabihf";
+
+/// What all of them have in common.
+pub(super) struct Settings {
+    /// The `sensedsl` with an emulated MCU.
+    pub(super) program: PathBuf,
+    pub(super) seconds: String,
+    pub(super) scratch: PathBuf,
+}
+
+/// One design for one target.
+pub(super) struct Subject<'a> {
+    settings: &'a Settings,
+    /// For the table.
+    pub(super) name: String,
+    design: PathBuf,
+    /// A world with faults, for what changes nothing where all is well.
+    world: Option<PathBuf>,
+    pub(super) is_rust: bool,
+    pub(super) board: PathBuf,
+    /// Generated files, and the runtime.
+    pub(super) groups: [Vec<Site>; 2],
+    right: Vec<u8>,
+    /// What it does in the usual world, and in its own.
+    seen: Vec<Vec<u8>>,
+}
+
+/// What the command says, and what came out of the MCU.
+struct Run {
+    said: Option<String>,
+    seen: Vec<u8>,
+}
+
+impl<'a> Subject<'a> {
+    /// Generates, builds and runs it.
+    pub(super) fn new(settings: &'a Settings, file: &Path, is_rust: bool) -> Result<Self> {
+        let stem = file.file_stem().context("a design has a name")?.to_string_lossy().into_owned();
+        let folder = settings.scratch.join(format!("{stem}-{}", target(is_rust)));
+        std::fs::create_dir_all(&folder)?;
+        let design = folder.join(format!("{stem}.sense"));
+        std::fs::write(&design, on_emulated(&std::fs::read_to_string(file)?))?;
+        let short = stem.strip_prefix("miniature_").unwrap_or(&stem);
+        let world = file.with_file_name("worlds").join(format!("{short}.toml"));
+        let world = world.is_file().then_some(world);
+        let mut subject = Self {
+            settings,
+            name: stem,
+            design,
+            world,
+            is_rust,
+            board: PathBuf::new(),
+            groups: Default::default(),
+            right: Vec::new(),
+            seen: Vec::new(),
+        };
+        subject.board = subject.generate(&folder)?;
+        let built = subject.build()?;
+        ensure!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        subject.right = subject.flash()?;
+        subject.groups = subject.sites()?;
+        let runs: Result<Vec<Run>> =
+            subject.worlds().into_iter().map(|world| subject.run(world)).collect();
+        for run in runs? {
+            let name = &subject.name;
+            ensure!(run.said.is_none(), "{name}: a false alarm: {}", run.said.unwrap_or_default());
+            subject.seen.push(run.seen);
+        }
+        Ok(subject)
+    }
+
+    /// The usual world, and the example's own.
+    fn worlds(&self) -> Vec<Option<&Path>> {
+        let own = self.world.as_deref().map(Some);
+        [None].into_iter().chain(own).collect()
+    }
+
+    /// The generated folder of the design's first board.
+    fn generate(&self, folder: &Path) -> Result<PathBuf> {
+        let folder = folder.join("out");
+        let mut generate = Command::new(&self.settings.program);
+        generate.arg("generate").arg(&self.design).args(["--target", target(self.is_rust), "-o"]);
+        let output = generate.arg(&folder).output()?;
+        ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = std::fs::read_to_string(&self.design)?;
+        let board = text.lines().find_map(|line| line.strip_prefix("board "));
+        let board = board.and_then(|rest| rest.split([' ', '{']).next());
+        Ok(folder.join("firmware").join(board.context("a design has a board")?))
+    }
+
+    fn build(&self) -> Result<Output> {
+        if !self.is_rust {
+            let tree = std::env::var("CHIBIOS").context("CHIBIOS names the tree")?;
+            let mut make = Command::new("make");
+            make.args(["-j2", "UP_MODE=production", "USE_LTO=no"]).arg(format!("CHIBIOS={tree}"));
+            return Ok(make.current_dir(&self.board).output()?);
+        }
+        // All projects have one name: cargo would take another's program for this one's.
+        let main = std::fs::File::options().append(true).open(self.board.join("src/main.rs"))?;
+        main.set_modified(std::time::SystemTime::now())?;
+        let mut cargo = Command::new("cargo");
+        cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]);
+        let linker = format!("target.{TRIPLE}.linker=\"arm-none-eabi-ld\"");
+        cargo.arg(Path::new("target/embassy-build").canonicalize()?);
+        // As the tests build it: what is optimised at link time takes long and does the same.
+        for setting in [&linker, "profile.release.lto=false", "profile.release.codegen-units=16"] {
+            cargo.args(["--config", setting]);
+        }
+        cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", "/usr/bin/rustc").env_remove("RUSTFLAGS");
+        Ok(cargo.current_dir(&self.board).output()?)
+    }
+
+    fn image(&self) -> Result<PathBuf> {
+        if !self.is_rust {
+            return Ok(self.board.join("build/production/sense.elf"));
+        }
+        let built = Path::new("target/embassy-build").join(TRIPLE).join("release/firmware");
+        let image = self.design.with_extension("elf");
+        let _ = std::fs::copy(built, &image)?;
+        Ok(image)
+    }
+
+    /// What is written to the flash.
+    fn flash(&self) -> Result<Vec<u8>> {
+        let to = self.design.with_extension("bin");
+        let mut copy = Command::new("arm-none-eabi-objcopy");
+        copy.args(["-O", "binary"]).arg(self.image()?).arg(&to);
+        ensure!(copy.status()?.success(), "objcopy failed");
+        Ok(std::fs::read(to)?)
+    }
+
+    /// The command in a world; it says nothing where all is well.
+    fn run(&self, world: Option<&Path>) -> Result<Run> {
+        let [wires, frames] = ["wires", "frames"].map(|name| self.design.with_extension(name));
+        let mut simulate = Command::new("timeout");
+        simulate.arg(PATIENCE_S).arg(&self.settings.program).arg("simulate").arg(&self.design);
+        simulate.args(["--target", target(self.is_rust), "--judge"]);
+        simulate.args(["--seconds", &self.settings.seconds]);
+        simulate.arg("--wires").arg(&wires).arg("--frames").arg(&frames);
+        if let Some(world) = world {
+            simulate.arg("--world").arg(world);
+        }
+        for file in [&wires, &frames] {
+            let _ = std::fs::remove_file(file);
+        }
+        let output = simulate.arg("--firmware").arg(self.image()?).output()?;
+        let mut seen = Vec::new();
+        for file in [&wires, &frames] {
+            seen.extend(std::fs::read(file).unwrap_or_default());
+        }
+        if output.status.success() {
+            return Ok(Run { said: None, seen });
+        }
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        let first = text.lines().find(|line| line.starts_with("error"));
+        let said = Some(first.unwrap_or("it never ended").to_owned());
+        Ok(Run { said, seen })
+    }
+
+    /// All places: those of generated files, and those of the runtime.
+    fn sites(&self) -> Result<[Vec<Site>; 2]> {
+        let board = &self.board;
+        if !self.is_rust {
+            let of = |folder: &str| draw::below(&board.join(folder), "c");
+            return Ok([of("generated")?, of("uproxy")?]);
+        }
+        let (runtime, own): (Vec<Site>, Vec<Site>) = draw::below(&board.join("src"), "rs")?
+            .into_iter()
+            .partition(|one| one.file.starts_with(board.join("src/rt")));
+        let shared = draw::below(&board.join("sense-rt/src"), "rs")?;
+        Ok([own, runtime.into_iter().chain(shared).collect()])
+    }
+
+    /// What comes of a mistake: a class and what was said.
+    pub(super) fn outcome(&self, site: &Site) -> Result<(&'static str, String)> {
+        let text = std::fs::read_to_string(&site.file)?;
+        std::fs::write(&site.file, site.made(&text))?;
+        let came = self.tried();
+        std::fs::write(&site.file, text)?;
+        came
+    }
+
+    fn tried(&self) -> Result<(&'static str, String)> {
+        let built = self.build()?;
+        let said = String::from_utf8_lossy(&built.stderr).into_owned();
+        if !built.status.success() || said.contains("warning") {
+            return Ok(("compiler", String::new()));
+        }
+        if self.flash()? == self.right {
+            return Ok(("same program", String::new()));
+        }
+        for (world, right) in self.worlds().into_iter().zip(&self.seen) {
+            let run = self.run(world)?;
+            match run.said {
+                Some(said) if world.is_none() => return Ok(("command", said)),
+                Some(said) => return Ok(("nobody", format!("in the example's world: {said}"))),
+                None if run.seen != *right => return Ok(("nobody", String::new())),
+                None => {}
+            }
+        }
+        Ok(("same behaviour", String::new()))
+    }
+}
+
+pub(super) const fn target(is_rust: bool) -> &'static str {
+    if is_rust { "embassy" } else { "chibios" }
+}
+
+/// A design on the board whose MCU is emulated.
+fn on_emulated(text: &str) -> String {
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let moved = line.split_once(" on ").filter(|_| line.starts_with("board "));
+        match moved {
+            Some((board, _)) => lines.push(format!("{board} on {EMULATED} {{")),
+            // Its link is USB, which has no pace.
+            None if line.trim_start().starts_with("link { baud") => {}
+            None => lines.push(line.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n"
+}
