@@ -46,3 +46,4 @@ mod timing;
 mod traceability;
 mod web;
 mod wiring;
+mod wrong_designs;

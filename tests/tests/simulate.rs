@@ -178,3 +178,28 @@ fn a_generated_host_reads_the_pseudo_terminal() {
     }
     assert!(missing.is_empty(), "{missing:?} in {read:#?}");
 }
+
+/// A board that waits for somebody to open its terminal sleeps meanwhile: it asked 35,000 times a second once.
+#[test]
+#[cfg(target_os = "linux")]
+fn nobody_opens_the_terminal() {
+    let scratch = Scratch::new("alone");
+    let file = scratch.write(
+        "alone.sense",
+        "board STM32F407G_DISC1 { sensor A returns uint16 { id = 1; type = analog; delay = 1 s; } }",
+    );
+    let mut command = Command::new(binary());
+    command.arg("simulate").arg(file);
+    let board = Running::new(command.stderr(Stdio::null()));
+    let cpu_ticks = || -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", board.0.id())).unwrap();
+        let (_, rest) = stat.rsplit_once(") ").unwrap();
+        rest.split(' ').skip(11).take(2).map(|ticks| ticks.parse::<u64>().unwrap()).sum()
+    };
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let before = cpu_ticks();
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let spent = cpu_ticks() - before;
+    // Of 200; a loop without a pause takes all that the machine has.
+    assert!(spent < 40, "{spent} hundredths of a second of processor in 2 s");
+}

@@ -31,14 +31,14 @@ impl Refused {
 /// Bytes that are inflated at a time.
 const PIECE_BYTES: usize = 32 << 10;
 
-/// Counts what is in the XML files of a workbook.
-pub(crate) fn check(bytes: &[u8]) -> Result<(), Refused> {
+/// Counts what is in the XML files of a workbook. Gives the bytes of the largest one, which any sheet may name.
+pub(crate) fn check(bytes: &[u8]) -> Result<usize, Refused> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| Refused::why(&error))?;
     if archive.len() > MEMBERS_MAX {
         return Err(Refused::TooMuch("files", MEMBERS_MAX));
     }
     let mut left = INFLATED_BYTES_MAX;
-    let mut elements = 0;
+    let (mut elements, mut largest) = (0, 0);
     for at in 0..archive.len() {
         let member = archive.by_index(at).map_err(|error| Refused::why(&error))?;
         let name = member.name().map_err(|error| Refused::why(&error))?.to_ascii_lowercase();
@@ -46,10 +46,12 @@ pub(crate) fn check(bytes: &[u8]) -> Result<(), Refused> {
             continue;
         }
         let mut scan = Scan { elements, ..Scan::new(XML_ELEMENTS_MAX) };
+        let before = left;
         pieces(member, &mut left, &mut scan)?;
         elements = scan.elements;
+        largest = largest.max(before - left);
     }
-    Ok(())
+    Ok(largest)
 }
 
 fn pieces(mut member: impl Read, left: &mut usize, scan: &mut Scan) -> Result<(), Refused> {

@@ -11,7 +11,7 @@ use std::ops::Range;
 use calamine::{Data, Dimensions, Reader as _, Xlsx, open_workbook_from_rs};
 use sensedsl_board::table::Role;
 use sensedsl_diagnostics::Span;
-use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, MERGED_MAX};
+use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, INFLATED_BYTES_MAX, MERGED_MAX, SHEETS_MAX};
 
 use crate::log::Log;
 use crate::package::{self, Refused};
@@ -21,6 +21,9 @@ use crate::{Format, Made, Source, ods, tabular};
 /// Sheets of pins are far smaller; cells beyond are stray.
 const ROWS_MAX: u32 = 20_000;
 const SHEET_COLUMNS_MAX: u32 = 512;
+
+/// So many times the bytes of a workbook its sheets may have, where several name one file in it.
+const SHARED: usize = 4;
 
 /// A cell by row and column, from 0.
 type At = (u32, u32);
@@ -45,8 +48,10 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         Some(Format::Xlsx) => false,
         _ => crate::detect(source.bytes) == Some(Format::Ods),
     };
-    let read = package::check(source.bytes)
-        .and_then(|()| if is_ods { ods::sheets(source.bytes) } else { xlsx(source.bytes) });
+    let read = package::check(source.bytes).and_then(|largest| match is_ods {
+        true => ods::sheets(source.bytes),
+        false => xlsx(source.bytes, largest),
+    });
     let read = read.and_then(|sheets| {
         let texts = sheets.iter().map(Text::new).collect::<Result<Vec<_>, _>>()?;
         Ok((sheets, texts))
@@ -315,11 +320,20 @@ fn is_beyond((row, column): At) -> bool {
     row >= ROWS_MAX || column >= SHEET_COLUMNS_MAX
 }
 
-fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, Refused> {
+fn xlsx(bytes: &[u8], largest: usize) -> Result<Vec<Sheet>, Refused> {
     let book: Result<Xlsx<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
     let mut book = book.map_err(|error| Refused::why(&error))?;
     let mut sheets = Vec::new();
-    for name in book.sheet_names() {
+    // Several sheets may name one part: what they hold together is counted.
+    let (mut cells_left, mut bytes_left) = (CELLS_MAX, CELL_TEXT_BYTES_MAX);
+    let names = book.sheet_names();
+    if names.len() > SHEETS_MAX {
+        return Err(Refused::TooMuch("sheets", SHEETS_MAX));
+    }
+    if names.len().saturating_mul(largest) > SHARED * INFLATED_BYTES_MAX {
+        return Err(Refused::TooMuch("bytes in all its sheets", SHARED * INFLATED_BYTES_MAX));
+    }
+    for name in names {
         let mut sheet = Sheet::new(name.clone());
         // A sheet of another type, such as a chart, has no cells.
         let Ok(mut cells) = book.worksheet_cells_reader(&name) else { continue };
@@ -328,8 +342,16 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, Refused> {
         {
             sheet.put(cell.pos, Data::from(cell.value))?;
             sheet.put_formula(cell.pos, &cell.formula.unwrap_or_default())?;
+            if sheet.cells.len() > cells_left {
+                return Err(Refused::TooMuch("cells in all sheets", CELLS_MAX));
+            }
+            if sheet.bytes > bytes_left {
+                let what = "bytes of text in the cells of all sheets";
+                return Err(Refused::TooMuch(what, CELL_TEXT_BYTES_MAX));
+            }
         }
         drop(cells);
+        (cells_left, bytes_left) = (cells_left - sheet.cells.len(), bytes_left - sheet.bytes);
         let merged = book.merge_cells_by_sheet_name(&name);
         for range in merged.map_err(|error| Refused::why(&error))? {
             sheet.put_merged(range)?;

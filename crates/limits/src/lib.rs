@@ -17,6 +17,8 @@ pub const SOURCE_TEXT_BYTES_MAX: usize = 4 << 20;
 pub const ANSWER_BYTES_MAX: usize = 2 << 20;
 /// Bytes of a world for `simulate`, and of a file with samples.
 pub const WORLD_BYTES_MAX: usize = 4 << 20;
+/// Tables and lists of a world, those in others included.
+pub const WORLD_TABLES_MAX: usize = 20_000;
 /// Bytes of an image of firmware for `simulate`.
 pub const IMAGE_BYTES_MAX: usize = 16 << 20;
 /// Bytes of all files that one call reads.
@@ -68,6 +70,8 @@ pub const TABLES_BYTES_MAX: usize = 16 << 20;
 
 /// Files in a workbook.
 pub const MEMBERS_MAX: usize = 1_000;
+/// Sheets of a workbook, which may all name one file in it.
+pub const SHEETS_MAX: usize = 256;
 /// Bytes of a workbook after decompression.
 pub const INFLATED_BYTES_MAX: usize = 32 << 20;
 /// Elements of XML in a workbook.
@@ -123,6 +127,7 @@ limits! {
     SOURCE_TEXT_BYTES_MAX: "bytes of a source of `import` that is text or XML", "E0807";
     ANSWER_BYTES_MAX: "bytes of an answer for `--keep` or `diff`", "E0112";
     WORLD_BYTES_MAX: "bytes of a world for `simulate`, and of a file with samples", "E0112";
+    WORLD_TABLES_MAX: "tables and lists of a world, those in others included", "E0551";
     IMAGE_BYTES_MAX: "bytes of an image of firmware for `simulate`", "E0112";
     TOTAL_BYTES_MAX: "bytes of all files that one call reads", "E0112";
     TOKENS_MAX: "words, numbers, signs, spaces and comments of a design", "E0116";
@@ -146,6 +151,7 @@ limits! {
     PIN_USAGES_MAX: "usages of one pin", "E0317";
     USAGES_MAX: "usages of all pins of a table", "E0317";
     MEMBERS_MAX: "files in a workbook", "E0807";
+    SHEETS_MAX: "sheets of a workbook", "E0807";
     INFLATED_BYTES_MAX: "bytes of a workbook after decompression", "E0807";
     XML_ELEMENTS_MAX: "elements of XML in a workbook", "E0807";
     XML_NODES_MAX: "elements of XML in the description of an MCU", "E0807";

@@ -15,6 +15,7 @@ mod sources;
 mod tables;
 mod texts;
 mod workbooks;
+mod worlds;
 
 use std::fs::{self, File};
 use std::path::Path;

@@ -28,6 +28,12 @@ fn archive(name: &str, files: &[(&str, &str)], status: i32, code: &str) {
 /// A workbook of one sheet.
 #[track_caller]
 fn xlsx(sheet: &str, strings: Option<&str>, status: i32, code: &str) {
+    xlsx_of(1, sheet, strings, status, code);
+}
+
+/// A workbook with so many sheets, which are all the same file in it.
+#[track_caller]
+fn xlsx_of(count: usize, sheet: &str, strings: Option<&str>, status: i32, code: &str) {
     let types = "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\"/>";
     let relations = |kind: &str, target: &str| {
         let package = "http://schemas.openxmlformats.org/package/2006/relationships";
@@ -36,10 +42,10 @@ fn xlsx(sheet: &str, strings: Option<&str>, status: i32, code: &str) {
              Type=\"{RELATION}/{kind}\" Target=\"{target}\"/></Relationships>"
         )
     };
-    let book = format!(
-        "<workbook {MAIN} xmlns:r=\"{RELATION}\"><sheets><sheet name=\"S\" sheetId=\"1\" \
-         r:id=\"rId1\"/></sheets></workbook>"
-    );
+    let sheets =
+        repeat(count, |at| format!("<sheet name=\"S{at}\" sheetId=\"{}\" r:id=\"rId1\"/>", at + 1));
+    let book =
+        format!("<workbook {MAIN} xmlns:r=\"{RELATION}\"><sheets>{sheets}</sheets></workbook>");
     let (first, second) = (
         relations("officeDocument", "xl/workbook.xml"),
         relations("worksheet", "worksheets/sheet1.xml"),
@@ -120,6 +126,23 @@ fn cells_and_attributes() {
     let full =
         |row| ('A'..='Z').map(|column| format!("<c r=\"{column}{row}\"><v>1</v></c>")).collect();
     xlsx(&sheet(19_000, full), None, 1, "E0807");
+}
+
+/// 33 kB that were 962 MB.
+#[test]
+fn sheets_that_are_all_one_file() {
+    let row =
+        |row| ('A'..='T').map(|column| format!("<c r=\"{column}{row}\"><v>1</v></c>")).collect();
+    xlsx_of(1_000, &sheet(100, row), None, 1, "E0807");
+    xlsx_of(200, &sheet(2_000, row), None, 1, "E0807");
+    xlsx_of(200, &sheet(200, row), None, 1, "E0807");
+    xlsx_of(
+        250,
+        &format!("<worksheet {MAIN}>{}</worksheet>", "<a/>".repeat(900_000)),
+        None,
+        1,
+        "E0807",
+    );
 }
 
 #[test]

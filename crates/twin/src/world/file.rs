@@ -3,8 +3,10 @@
 use sensedsl_diagnostics::codes::{
     e0540_world_unreadable as unreadable, e0541_world_unknown as unknown,
     e0542_world_value as value, e0543_world_time as time, e0544_world_fault as fault_code,
+    e0551_world_too_large, e0554_world_too_fast,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_limits::WORLD_TABLES_MAX;
 use sensedsl_model::design::{Design, Device, DeviceIndex, Transport};
 use sensedsl_wire::Direction;
 use toml::Spanned;
@@ -21,6 +23,10 @@ use crate::truth::Scale;
 const RESET_NS: u64 = 100_000_000;
 /// How long garbage arrives.
 const GARBAGE_NS: u64 = 20_000_000;
+/// Edges a second that are simulated.
+const EDGES_A_SECOND_MAX: f64 = 1_000_000.0;
+/// The shortest period that is simulated.
+const PERIOD_NS_MIN: u64 = 10_000;
 
 /// What a world is read for.
 pub struct Scene<'a> {
@@ -40,6 +46,11 @@ pub struct Scene<'a> {
 #[must_use]
 pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnostic>) {
     let mut reader = Reader { file, scene, said: Vec::new(), world: World::default() };
+    if let Some(at) = beyond(text) {
+        let span = Span::new(file, at..at);
+        reader.said.push(e0551_world_too_large::too_large(span, WORLD_TABLES_MAX));
+        return (reader.world, reader.said);
+    }
     match DeTable::parse(text) {
         Ok(table) => reader.read(table.get_ref()),
         Err(error) => {
@@ -50,6 +61,27 @@ pub fn read(file: FileId, text: &str, scene: &Scene<'_>) -> (World, Vec<Diagnost
     }
     reader.world.faults.sort_by_key(|one| one.at_ns);
     (reader.world, reader.said)
+}
+
+/// Where a text has more tables and lists than are read, which each take a hundred times their text. A bracket in a text
+/// or a comment counts as well, and a dot of a head, which makes a table of its own.
+fn beyond(text: &str) -> Option<usize> {
+    let mut left = WORLD_TABLES_MAX;
+    let mut is_key = true;
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'\n' => is_key = true,
+            b'=' => is_key = false,
+            _ => {}
+        }
+        if matches!(byte, b'[' | b'{') || (byte == b'.' && is_key) {
+            left = match left.checked_sub(1) {
+                Some(left) => left,
+                None => return Some(at),
+            };
+        }
+    }
+    None
 }
 
 /// Reading one text.
@@ -273,6 +305,9 @@ fn is_turning(device: &Device) -> bool {
 /// Why a device cannot do what a signal wants.
 fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
     let name = &device.name.value;
+    if let Some(said) = too_fast(device, signal, span) {
+        return Some(said);
+    }
     if is_counter(&device.kind, device) && signal.falls() {
         return Some(value::falls(span, name));
     }
@@ -297,6 +332,24 @@ fn impossible(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic
     let unit = device.shown.quantity.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
     let range = format!("{} to {}{unit}", short(low), short(high));
     Some(value::out_of_range(span, name, &short(wrong), &range))
+}
+
+/// Why a signal cannot be followed: each edge is a step of the simulation.
+fn too_fast(device: &Device, signal: &Signal, span: Span) -> Option<Diagnostic> {
+    let name = &device.name.value;
+    let most = short(EDGES_A_SECOND_MAX);
+    if let Some(period_ns) = signal.period_ns().filter(|period_ns| *period_ns < PERIOD_NS_MIN) {
+        let wanted = short(1e9 / crate::arith::number(period_ns.max(1)));
+        let what = format!("{wanted} changes a second");
+        return Some(e0554_world_too_fast::too_fast(span, name, &what, "100000"));
+    }
+    let scale = Scale::of(&device.shown);
+    let each = (scale.shown(1.0) - scale.shown(0.0)).abs().max(f64::MIN_POSITIVE);
+    let wanted = signal.fastest() / each;
+    (is_turning(device) && wanted > EDGES_A_SECOND_MAX).then(|| {
+        let what = format!("{} edges a second", short(wanted));
+        e0554_world_too_fast::too_fast(span, name, &what, &most)
+    })
 }
 
 /// A number for people: six digits that count.

@@ -155,6 +155,41 @@ impl Signal {
         }
     }
 
+    /// The period of what repeats.
+    #[must_use]
+    pub const fn period_ns(&self) -> Option<u64> {
+        match self.shape {
+            Shape::Sine { period_ns, .. } | Shape::Square { period_ns, .. } => Some(period_ns),
+            Shape::Constant(_)
+            | Shape::Ramp { .. }
+            | Shape::Rate { .. }
+            | Shape::Points { .. }
+            | Shape::Visits { .. } => None,
+        }
+    }
+
+    /// By how much it changes in a second at most, up or down, jumps left out.
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        let a_second = |from: f64, to: f64, ns: u64| ((to - from) / number(ns.max(1))).abs() * 1e9;
+        let shape = match &self.shape {
+            Shape::Rate { a_second, .. } => a_second.abs(),
+            Shape::Ramp { from, to, over_ns } => a_second(*from, *to, *over_ns),
+            Shape::Sine { amplitude, period_ns, .. } => {
+                a_second(0.0, *amplitude, *period_ns) * std::f64::consts::TAU
+            }
+            Shape::Points { points, .. } => points
+                .windows(2)
+                .filter_map(|pair| match pair {
+                    [one, next] => Some(a_second(one.1, next.1, next.0.saturating_sub(one.0))),
+                    _ => None,
+                })
+                .fold(0.0, f64::max),
+            Shape::Constant(_) | Shape::Square { .. } | Shape::Visits { .. } => 0.0,
+        };
+        shape + a_second(0.0, 2.0 * self.noise, NOISE_NS)
+    }
+
     /// Whether it ever becomes less.
     #[must_use]
     pub fn falls(&self) -> bool {

@@ -1,0 +1,28 @@
+//! E0551: a world holds more than is read.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "E0551",
+    severity: Severity::Error,
+    title: "a world holds too much",
+    explanation: r#"Each table and each list of a world takes far more memory than its text, so their number is bounded, those within
+others included ([limits.md](limits.md)).
+
+Way out: long courses of values belong in a file of samples: `Speed = { csv = "drive.csv", column = "speed" }`.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The place of the first table or list that is too much.
+#[must_use]
+pub fn too_large(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("the world has more than {most} tables and lists"))
+        .here("the first one beyond")
+        .help("put long courses of values into a file: `Speed = { csv = \"drive.csv\", column = \"speed\" }`")
+}
