@@ -19,6 +19,7 @@ mod embassy;
 mod examples;
 mod false_alarms;
 mod firmware;
+mod foreseen;
 mod generate;
 mod golden;
 mod hosts;

@@ -121,8 +121,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
 }
 
 fn judge(tool: &Path, board: &'static str, mcu: &'static str) -> Result<Done> {
-    let is_covered = matches!(profile::find(profile::DEFAULT, mcu), Ok(Target::Profile(_)));
-    let target = if is_covered { profile::DEFAULT } else { "embassy" };
+    let target = profile::usual(mcu);
     let (mut taken, mut left_out) = (Vec::new(), Vec::new());
     for (name, device) in DEMAND {
         taken.push(device);

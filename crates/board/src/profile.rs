@@ -24,8 +24,11 @@ pub(crate) use types::{pin, pins};
 /// The target without an operating system: only pins and signals count.
 pub const NONE: &str = "none";
 
-/// The target that is meant when none is named.
+/// The target that is meant when none is named, where it covers the MCU.
 pub const DEFAULT: &str = "chibios";
+
+/// The target that is meant where [`DEFAULT`] does not cover the MCU.
+const SECOND: &str = "embassy";
 
 /// What a target name and an MCU lead to.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +100,13 @@ pub fn covered_by(target: &str, mcu: &str) -> Option<&'static str> {
     let name = mcu::normalise(mcu);
     let parts = TARGETS.iter().filter(|entry| entry.target == target).flat_map(|entry| entry.parts);
     parts.copied().filter(|part| starts(&name, part)).max_by_key(|part| part.len())
+}
+
+/// The target that is meant for an MCU when none is named: [`DEFAULT`] also where no target covers it.
+#[must_use]
+pub fn usual(mcu: &str) -> &'static str {
+    let is_second = covered_by(DEFAULT, mcu).is_none() && covered_by(SECOND, mcu).is_some();
+    if is_second { SECOND } else { DEFAULT }
 }
 
 /// Finds the profile of an MCU under a target.

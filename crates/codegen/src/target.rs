@@ -7,7 +7,7 @@
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target};
+use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware};
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::Assignment;
@@ -123,19 +123,51 @@ pub fn firmware(design: &Design, wiring: &Assignment) -> Result<FileSet, Vec<Dia
     let mut files = FileSet::default();
     let mut diagnostics = Vec::new();
     for job in jobs(design, wiring) {
-        diagnostics.extend(gaps(&job));
-        let Ok(target) = serving(job.profile, job.board.facts.as_ref()) else { continue };
-        diagnostics.extend(sensedsl_timing::refusals_of(design, job.board, job.wiring));
-        match target.generate(&job) {
+        match of_board(&job) {
             Ok(one) => files.merge_under(&job.board.name.value, one),
-            Err(reports) if reports.is_empty() => {
-                let (name, why) = (&job.board.name, "a name that it needs is not in its profile");
-                let report =
-                    e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why);
-                diagnostics.push(report);
-            }
             Err(reports) => diagnostics.extend(reports),
         }
     }
     if diagnostics.is_empty() { Ok(files) } else { Err(diagnostics) }
+}
+
+/// The firmware of one board.
+fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+    let mut diagnostics = gaps(job);
+    let Ok(target) = serving(job.profile, job.board.facts.as_ref()) else {
+        return Err(diagnostics);
+    };
+    diagnostics.extend(sensedsl_timing::refusals_of(job.design, job.board, job.wiring));
+    match target.generate(job) {
+        Ok(files) if diagnostics.is_empty() => return Ok(files),
+        Ok(_) => {}
+        Err(reports) if reports.is_empty() => {
+            let (name, why) = (&job.board.name, "a name that it needs is not in its profile");
+            let report = e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why);
+            diagnostics.push(report);
+        }
+        Err(reports) => diagnostics.extend(reports),
+    }
+    Err(diagnostics)
+}
+
+/// What [`firmware`] would refuse, as warnings for whoever does not generate yet. A board whose target is `none` has
+/// asked for no firmware; what is in `known` is said already.
+#[must_use]
+pub fn foreseen(
+    design: &Design,
+    wiring: &Assignment,
+    known: &[Diagnostic],
+) -> Vec<Diagnostic> {
+    let is_known = |gap: &Diagnostic| {
+        known.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
+    };
+    let mut found = Vec::new();
+    for job in jobs(design, wiring) {
+        let Some(profile) = job.profile else { continue };
+        let gaps = of_board(&job).err().unwrap_or_default();
+        let gaps = gaps.into_iter().filter(|gap| !is_known(gap));
+        found.extend(gaps.map(|gap| w0615_no_firmware::no_firmware(gap, profile.system())));
+    }
+    found
 }

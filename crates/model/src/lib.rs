@@ -47,7 +47,7 @@ pub use files::{Files, Unread, Wanted, What, stays_inside};
 pub use library::LIBRARY;
 pub use numbered::with_ids;
 pub use resolve::{Request, Resolved, resolve, sort};
-pub use rules::apply_allows;
+pub use rules::{apply_allows, drop_allowed};
 pub use sensedsl_syntax::Parse as SyntaxTree;
 pub use sound::Partial;
 pub use sources::normal as normal_path;

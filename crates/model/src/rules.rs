@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use sensedsl_diagnostics::codes::{
     e0101_unexpected_token, e0110_misplaced_item, e0201_unknown_property, e0209_wrong_value,
-    e0212_unknown_word, w0604_unused_rule,
+    e0212_unknown_word, w0604_unused_rule, w0615_no_firmware,
 };
 use sensedsl_diagnostics::{Code, Diagnostic, FileId, Severity, Span, nearest};
 use sensedsl_syntax::TextRange;
@@ -183,19 +183,36 @@ fn allow(
 /// Removes the warnings and hints that are allowed, and reports an `allow` that allowed nothing.
 /// Wants all diagnostics of a run, those of later stages included.
 pub fn apply_allows(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
-    let of_boards = design.boards.iter().flat_map(|board| &board.allows);
-    let of_parts = design.parts.iter().flat_map(|part| &part.allows);
-    let allows: Vec<&Allow> = of_boards.chain(of_parts).collect();
-    let covered = covered(&allows, diagnostics);
-    let mut at = 0..;
-    diagnostics.retain(|_| at.next().is_none_or(|at| !covered.contains_key(&at)));
-    let used: BTreeSet<usize> = covered.into_values().collect();
+    let allows = allows(design);
+    let used = drop_covered(&allows, diagnostics);
+    // What `check` alone foresees is told after this.
+    let is_due = |allow: &Allow| allow.code != w0615_no_firmware::CODE;
     let unused = allows.iter().enumerate().filter(|(index, _)| !used.contains(index));
+    let unused = unused.filter(|(_, allow)| is_due(allow));
     diagnostics.extend(unused.map(|(_, allow)| {
         let rule = format!("allow {}", allow.code);
         let why = "nothing of the kind would be said here";
         w0604_unused_rule::unused_rule(allow.span, &rule, why)
     }));
+}
+
+/// Removes what is allowed of diagnostics that come after [`apply_allows`].
+pub fn drop_allowed(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
+    drop_covered(&allows(design), diagnostics);
+}
+
+fn allows(design: &Design) -> Vec<&Allow> {
+    let of_boards = design.boards.iter().flat_map(|board| &board.allows);
+    let of_parts = design.parts.iter().flat_map(|part| &part.allows);
+    of_boards.chain(of_parts).collect()
+}
+
+/// Removes what is allowed, and returns the rules that allowed it by their index.
+fn drop_covered(allows: &[&Allow], diagnostics: &mut Vec<Diagnostic>) -> BTreeSet<usize> {
+    let covered = covered(allows, diagnostics);
+    let mut at = 0..;
+    diagnostics.retain(|_| at.next().is_none_or(|at| !covered.contains_key(&at)));
+    covered.into_values().collect()
 }
 
 /// For each diagnostic that is allowed the first rule that allows it, both by their index.

@@ -69,7 +69,7 @@ pub(crate) fn find(
         diagnostics.push(no_firmware(why));
         return None;
     };
-    match profile::find(asked.unwrap_or(profile::DEFAULT), mcu) {
+    match profile::find(asked.unwrap_or_else(|| profile::usual(mcu)), mcu) {
         Ok(target) => Some(target),
         Err(NoProfile::UnknownTarget { known, .. }) => {
             let known = known.join(", ");

@@ -154,6 +154,7 @@ codes! {
     w0612_shown_not_raw,
     w0613_level_over_part,
     w0614_several_repeated,
+    w0615_no_firmware,
     e0620_clock_out_of_reach,
     e0621_too_often,
     e0622_link_too_slow,

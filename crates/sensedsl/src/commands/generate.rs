@@ -13,7 +13,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
 use sensedsl_model::design::Design;
-use sensedsl_model::{apply_allows, sort};
+use sensedsl_model::{drop_allowed, sort};
 use sensedsl_report::human;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_wiring::assignment::Assignment;
@@ -65,8 +65,8 @@ pub(super) fn made(
     let files = match files(args, design, assignment) {
         Ok(files) => files,
         Err(mut reports) => {
+            drop_allowed(design, &mut reports);
             diagnostics.append(&mut reports);
-            apply_allows(design, &mut diagnostics);
             sort(&mut diagnostics);
             terminal.diagnostics(&diagnostics, sources)?;
             return Ok(input::status(&diagnostics, &args.on));

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &PartsArgs, terminal: &mut Terminal) -> Result<Status> {
         return Ok(Status::Done);
     }
     if let Some(name) = &args.profile {
-        let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
+        let target = args.target.as_deref().unwrap_or_else(|| profile::usual(name));
         let Some(text) = profile::text(target, name) else {
             bail!("there is no profile of {name} for the target {target}");
         };

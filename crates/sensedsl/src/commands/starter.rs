@@ -24,7 +24,7 @@ pub(crate) fn robot(board: &catalog::Entry, system: Option<&str>) -> Option<Stri
     let mut sections = template.split("\n\n");
     let (head, first) = sections.next()?.split_once("{\n")?;
     let mut text = format!("{head}{{\n");
-    let is_usual = |system: &str| profile::full_name(profile::DEFAULT) == Some(system);
+    let is_usual = |system: &str| profile::full_name(profile::usual(board.mcu)) == Some(system);
     if let Some((name, _)) =
         system.filter(|one| !is_usual(one)).and_then(|one| one.rsplit_once('-'))
     {

@@ -135,11 +135,15 @@ fn sorted<'a>(
 
 /// All carriers, with the key under which their wirings are equal.
 fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
-    let target = args.target.as_deref().unwrap_or(profile::DEFAULT);
+    let target = |mcu: &str| match args.target.as_deref() {
+        Some(target) => target.to_owned(),
+        None => profile::usual(mcu).to_owned(),
+    };
     let of_part = |(part, facts): (Part, Facts)| {
         let name = part.name();
-        let covered = profile::covered_by(target, &name).unwrap_or_default();
-        let key = format!("{covered}\n{}", Sheet::of(part).key());
+        let target = target(&name);
+        let covered = profile::covered_by(&target, &name).unwrap_or_default();
+        let key = format!("{target} {covered}\n{}", Sheet::of(part).key());
         let carrier = Carrier {
             mcu: name.clone(),
             name,
@@ -158,7 +162,7 @@ fn carriers(args: &PartsArgs) -> Vec<(Carrier, String)> {
             mcu: entry.mcu.to_owned(),
             facts,
             is_board: true,
-            has_profile: profile::covered_by(target, entry.mcu).is_some(),
+            has_profile: profile::covered_by(&target(entry.mcu), entry.mcu).is_some(),
         };
         suits.then(|| (carrier, format!("board {}", entry.name)))
     };

@@ -23,7 +23,7 @@ use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
 use sensedsl_diagnostics::codes::e0547_no_machine;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
-use sensedsl_model::{What, apply_allows};
+use sensedsl_model::What;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
@@ -58,10 +58,9 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
     let snapshot = input::load(&args.file, &on);
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = input::wired(&answer, &snapshot, &on, terminal)?;
-    let mut diagnostics = answer.diagnostics.clone();
-    apply_allows(design, &mut diagnostics);
-    terminal.diagnostics(&diagnostics, snapshot.sources())?;
-    if has_errors(&diagnostics) {
+    let diagnostics = &answer.diagnostics;
+    terminal.diagnostics(diagnostics, snapshot.sources())?;
+    if has_errors(diagnostics) {
         return Ok(Status::Wrong);
     }
     let all: Vec<BoardJob<'_>> = jobs(design, wiring).collect();
