@@ -7,7 +7,9 @@
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_diagnostics::codes::{e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware};
+use sensedsl_diagnostics::codes::{
+    e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware,
+};
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
 use sensedsl_wiring::assignment::Assignment;
@@ -154,11 +156,7 @@ fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
 /// What [`firmware`] would refuse, as warnings for whoever does not generate yet. A board whose target is `none` has
 /// asked for no firmware; what is in `known` is said already.
 #[must_use]
-pub fn foreseen(
-    design: &Design,
-    wiring: &Assignment,
-    known: &[Diagnostic],
-) -> Vec<Diagnostic> {
+pub fn foreseen(design: &Design, wiring: &Assignment, known: &[Diagnostic]) -> Vec<Diagnostic> {
     let is_known = |gap: &Diagnostic| {
         known.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
     };

@@ -1,8 +1,8 @@
 //! `sensedsl check`: what is wrong, and whether there is a wiring.
 
 use anyhow::Result;
-use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
 use sensedsl_codegen::target;
+use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
 use sensedsl_model::{drop_allowed, sort};
 use sensedsl_session::{Answer, has_errors};
 use sensedsl_wiring::Solved;
