@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sensedsl_tests::{binary, missing, root, sensedsl};
+use sensedsl_tests::{Scratch, binary, missing, root, sensedsl};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType, encode_report,
 };
@@ -44,7 +44,7 @@ impl Running {
     }
 
     /// The first line that is wanted, and what was said before it.
-    fn wait(&self, wanted: impl Fn(&str) -> bool) -> String {
+    fn wait(&self, mut wanted: impl FnMut(&str) -> bool) -> String {
         let (end, mut said) = (Instant::now() + PATIENCE, Vec::new());
         while let Ok(line) = self.lines.recv_timeout(end.saturating_duration_since(Instant::now()))
         {
@@ -140,6 +140,59 @@ fn between_host_and_peer(simulate: &mut Command) {
 fn a_vesc_is_moved_by_an_independent_peer() {
     if has_peer() {
         between_host_and_peer(Command::new(binary()).args(["simulate", DESIGN]));
+    }
+}
+
+/// What a row of the table shows: the device, its value, and half of the last digit.
+fn row(line: &str) -> Option<(String, f64, f64)> {
+    let mut words = line.split_whitespace();
+    let (name, value) = (words.next()?, words.next()?);
+    let value = match value {
+        "true" => "1",
+        "false" => "0",
+        other => other,
+    };
+    let digits = value.split_once('.').map_or(0, |(_, digits)| digits.len());
+    let slack = 0.51 * 10_f64.powi(-i32::try_from(digits).ok()?);
+    Some((name.to_owned(), value.parse().ok()?, slack))
+}
+
+/// Signals with 11 and 29 bits of identifier, in both orders, across bytes, signed, scaled, multiplexed and as floats:
+/// what cantools puts into their frames is what the user is shown.
+#[test]
+fn values_of_an_imported_file_are_those_of_cantools() {
+    if !has_peer() {
+        return;
+    }
+    let (scratch, dbc) = (Scratch::new("dbc"), root().join("tests/can/vehicle.dbc"));
+    let import = sensedsl(["import", "tests/can/vehicle.dbc", "--node", "Gateway", "-o"]);
+    let _ = import.arg(scratch.join("vehicle.sense")).run().exits(0);
+    let text = "use \"vehicle.sense\";\nboard OLIMEX_STM32_E407 {}\n";
+    let design = scratch.write("car.sense", text).display().to_string();
+    let judged = sensedsl(["simulate", &design, "--judge", "--seconds", "4"]).run().exits(0);
+    assert!(judged.stdout.contains("agree with the world"), "{}", judged.stdout);
+    for seed in ["1", "2"] {
+        let mut simulate = Command::new(binary());
+        simulate.args(["simulate", &design, "--can", "--seconds", "6"]).stderr(Stdio::null());
+        let board = Running::new(&mut simulate);
+        let bus = board.wait(|line| line.starts_with("CAN1 is at "));
+        let mut python = Command::new("python3");
+        python.arg(root().join("tests/can/play.py")).arg(&dbc);
+        let peer = Running::new(python.arg(bus.trim_start_matches("CAN1 is at ")).arg(seed));
+        let mut wanted = Vec::new();
+        let _ = peer.wait(|line| {
+            wanted.extend(line.split_once(' ').map(|(name, value)| {
+                (name.to_owned(), value.parse::<f64>().unwrap())
+            }));
+            line == "all"
+        });
+        let shown: Vec<_> = board.lines.iter().filter_map(|line| row(&line)).collect();
+        assert!(wanted.len() == 14, "{wanted:?}");
+        for (name, value) in wanted {
+            let found = shown.iter().find(|(of, ..)| *of == name);
+            let is_right = found.is_some_and(|(_, shown, slack)| (shown - value).abs() <= *slack);
+            assert!(is_right, "seed {seed}: {name} is {value}, and shown as {found:?}");
+        }
     }
 }
 
