@@ -181,9 +181,10 @@ fn values_of_an_imported_file_are_those_of_cantools() {
         let peer = Running::new(python.arg(bus.trim_start_matches("CAN1 is at ")).arg(seed));
         let mut wanted = Vec::new();
         let _ = peer.wait(|line| {
-            wanted.extend(line.split_once(' ').map(|(name, value)| {
-                (name.to_owned(), value.parse::<f64>().unwrap())
-            }));
+            wanted.extend(
+                line.split_once(' ')
+                    .map(|(name, value)| (name.to_owned(), value.parse::<f64>().unwrap())),
+            );
             line == "all"
         });
         let shown: Vec<_> = board.lines.iter().filter_map(|line| row(&line)).collect();
