@@ -65,3 +65,27 @@ fn a_rule_that_allowed_something_is_not_called_unused() {
     let said = sensedsl(["simulate", "-", "--seconds", "0.01"]).stdin(text).run().stderr;
     assert!(!said.contains("W0604"), "{said}");
 }
+
+#[test]
+fn rules_about_nothing_are_told() {
+    let text = "board R on NUCLEO_F446RE {\n    avoid pin = PZ9;\n    \
+        sensor A returns uint16 { type = analog; avoid unit = TIM99; prefer side = middle; avoid unit = ADC1; }\n}\n";
+    let said = sensedsl(["check", "-"]).stdin(text).run().exits(0).stderr;
+    for rule in ["avoid pin = PZ9", "avoid unit = TIM99", "prefer side = middle"] {
+        assert!(said.contains(&format!("`{rule}` has no effect")), "{rule}: {said}");
+    }
+    assert!(said.contains("did you mean `TIM9`?"), "{said}");
+    assert_eq!(said.matches("W0604").count(), 3, "{said}");
+}
+
+#[test]
+fn a_repair_names_its_board_among_several() {
+    let pins = "Pin,ADC\nPA0,ADC1_IN0\n";
+    let scratch = Scratch::new("unreserve");
+    scratch.write("a.csv", pins);
+    let text = "board One on \"a.csv\" { reserve PA0; }\nboard Two on \"a.csv\" { reserve PA0; \
+        sensor A returns uint16 { type = analog; } }\n";
+    let file = scratch.write("two.sense", text).display().to_string();
+    let said = sensedsl(["check", &file]).run().exits(1).stderr;
+    assert!(said.contains("do not reserve PA0 of Two"), "{said}");
+}

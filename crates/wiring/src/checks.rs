@@ -2,6 +2,7 @@
 //! exist, on-board parts that are touched.
 
 mod arrays;
+mod nowhere;
 mod silicon;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -462,6 +463,7 @@ pub(crate) fn rules(design: &Design) -> Vec<Diagnostic> {
         }
         diagnostics.extend(arrays::without_unit(wires));
     }
+    diagnostics.extend(nowhere::nowhere(design));
     diagnostics
 }
 

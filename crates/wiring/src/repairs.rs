@@ -94,6 +94,9 @@ impl Repair {
             }
             Self::Retune(index, hz) => format!("run {} at {hz} Hz", device(index)),
             Self::Move(index, to) => format!("move {} to {}", device(index), board(to)),
+            Self::Unreserve(on, name) if design.boards.len() > 1 => {
+                format!("do not reserve {name} of {}", board(on))
+            }
             Self::Unreserve(_, name) => format!("do not reserve {name}"),
             Self::Release(on, part) => match needed(design, *on, part) {
                 Some(role) => format!("release {part}, a pin of {}", role.describe()),

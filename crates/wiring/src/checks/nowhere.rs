@@ -1,0 +1,76 @@
+//! Wishes that speak of nothing that any board has.
+
+use std::collections::BTreeSet;
+
+use sensedsl_diagnostics::codes::w0604_unused_rule;
+use sensedsl_diagnostics::{Diagnostic, nearest};
+use sensedsl_model::design::{Board, BoardIndex, Design, Wish, WishFor};
+
+/// Wishes for a pin, unit, side or header that is on none of the boards that they are for.
+pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
+    let boards: Vec<(BoardIndex, &Board)> =
+        design.boards.iter().enumerate().map(|(at, board)| (BoardIndex(at), board)).collect();
+    let mut found = Vec::new();
+    for of_board in &boards {
+        let on = std::slice::from_ref(of_board);
+        found.extend(of_board.1.wishes.iter().filter_map(|wish| useless(wish, on)));
+    }
+    // The connections of a part have their rules in common.
+    let mut told = BTreeSet::new();
+    for wires in &design.connections {
+        if told.insert(wires.part) {
+            let may_be_on = |(index, _): &&(BoardIndex, &Board)| {
+                wires.board.is_none_or(|board| board == *index)
+            };
+            let on: Vec<_> = boards.iter().filter(may_be_on).copied().collect();
+            found.extend(wires.wishes.iter().filter_map(|wish| useless(wish, &on)));
+        }
+    }
+    found
+}
+
+fn useless(wish: &Wish, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
+    let pins = || boards.iter().flat_map(|(_, board)| &board.table.pins);
+    let is = |one: &str, other: &str| one.eq_ignore_ascii_case(other);
+    let (name, known): (&str, BTreeSet<&str>) = match &wish.what {
+        WishFor::Pin(_, pin) => {
+            if boards.iter().any(|(index, _)| pin.on(*index).is_some()) {
+                return None;
+            }
+            (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect())
+        }
+        WishFor::Unit(unit) => (unit, BTreeSet::new()),
+        WishFor::Side(side) => (side, pins().filter_map(|pin| pin.side.as_deref()).collect()),
+        WishFor::Header(name) => (name, pins().filter_map(|pin| pin.header.as_deref()).collect()),
+        WishFor::Together(_) | WishFor::Sequence => return None,
+    };
+    if let WishFor::Unit(unit) = &wish.what {
+        return no_unit(wish, unit, boards);
+    }
+    let exists = known.iter().any(|one| is(one, name));
+    (!exists).then(|| report(wish, name, nearest(name, known.iter().copied())))
+}
+
+fn no_unit(wish: &Wish, unit: &str, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
+    let mut known = BTreeSet::new();
+    for (_, board) in boards {
+        let usages = board.table.pins.iter().flat_map(|pin| &pin.usages);
+        for one in usages.flat_map(|usage| usage.signal.function().units()) {
+            if board.same_unit(unit, one.as_str()) {
+                return None;
+            }
+            known.insert(one.as_str().to_owned());
+        }
+    }
+    Some(report(wish, unit, nearest(unit, known.iter().map(String::as_str))))
+}
+
+fn report(wish: &Wish, name: &str, meant: Option<&str>) -> Diagnostic {
+    let why = format!("no board that it is for has `{name}`");
+    let rule = crate::labels::describe(wish);
+    let unused = w0604_unused_rule::unused_rule(wish.span, &rule, &why);
+    match meant {
+        Some(meant) => unused.help(format!("did you mean `{meant}`? Otherwise remove the line")),
+        None => unused,
+    }
+}
