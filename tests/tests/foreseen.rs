@@ -13,7 +13,7 @@ fn bridges(rules: &str) -> String {
 #[test]
 fn check_warns_of_what_generate_refuses() {
     let scratch = Scratch::new("foreseen");
-    let file = scratch.write("robot.sense", &bridges("")).display().to_string();
+    let file = scratch.write("robot.sense", bridges("")).display().to_string();
     let out = scratch.join("build").display().to_string();
     let refused = sensedsl(["generate", &file, "-o", &out]).run().exits(1).stderr;
     assert!(refused.contains("error[E0501]"), "{refused}");

@@ -57,5 +57,5 @@ fn channels_of_a_radio() {
         format!("board STM32F407G_DISC1 {{\n{channels}}}\n")
     };
     let (right, other) = (radio(["PE5", "PE9", "PB4"]), radio(["PC6", "PA15", "PD12"]));
-    of_both("silent_radio", &other, &right, &["error[E0549]: `Channel", "nothing for"]);
+    of_both("silent_radio", &other, &right, &["error[E0549]: `Channel", "never read"]);
 }
