@@ -136,10 +136,10 @@ fn drivers() -> Vec<String> {
     let ran = sensedsl(["drivers", "--quiet", "--format", "json"]).run().exits(0);
     let json = ran.json();
     let all = json["drivers"].as_array().unwrap();
-    all.iter().map(part).collect()
+    (1..).zip(all).map(|(node, one)| part(one, node)).collect()
 }
 
-fn part(one: &serde_json::Value) -> String {
+fn part(one: &serde_json::Value, node: usize) -> String {
     let name = one["name"].as_str().unwrap();
     let values = one["values"].as_array().unwrap();
     if values.len() == 1 && values[0]["name"].is_null() {
@@ -149,7 +149,11 @@ fn part(one: &serde_json::Value) -> String {
     }
     let address = one["addresses"].get(0).filter(|_| one["address"].is_null());
     let address = address.map(|first| format!("address = {first};")).unwrap_or_default();
-    format!("    chip Part_{name} {{ driver = {name}; {address} delay = 100 ms; }}\n")
+    // Controllers of one make are told apart by a number that each has for itself.
+    let notes = one["notes"].as_array().map_or(&[][..], Vec::as_slice);
+    let is_numbered = notes.iter().any(|note| note.as_str().unwrap().contains("`node` is"));
+    let node = if is_numbered { format!("node = {node};") } else { String::new() };
+    format!("    chip Part_{name} {{ driver = {name}; {address} {node} delay = 100 ms; }}\n")
 }
 
 fn of_parts(parts: &[String]) -> String {

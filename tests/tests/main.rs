@@ -45,6 +45,7 @@ mod strangers;
 mod tidy;
 mod timing;
 mod traceability;
+mod ways_out;
 mod web;
 mod wiring;
 mod wrong_designs;

@@ -128,7 +128,7 @@ fn earlier_names_of_units_are_understood() {
     let table = scratch.write("pico.csv", table).display().to_string();
     for unit in ["TIM1", "PWM1"] {
         let text = file(PICO, "", &[&format!("pwm; unit = {unit}")]);
-        let solved = ["solve", "-", "-q", "--format", "csv", "--board", &table];
+        let solved = ["solve", "-", "-q", "--target", "none", "--format", "csv", "--board", &table];
         let shown = sensedsl(solved).stdin(text).run().exits(0).stdout;
         assert!(shown.contains("GP2,TIM1_CH1"), "{shown}");
     }

@@ -31,8 +31,16 @@ impl Refused {
 /// Bytes that are inflated at a time.
 const PIECE_BYTES: usize = 32 << 10;
 
-/// Counts what is in the XML files of a workbook. Gives the bytes of the largest one, which any sheet may name.
-pub(crate) fn check(bytes: &[u8]) -> Result<usize, Refused> {
+/// What a workbook's package has.
+pub(crate) struct Contents {
+    /// Its files of all types.
+    pub(crate) files: usize,
+    /// Bytes of the largest XML file, which any sheet may name.
+    pub(crate) largest: usize,
+}
+
+/// Counts what is in the XML files of a workbook.
+pub(crate) fn check(bytes: &[u8]) -> Result<Contents, Refused> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| Refused::why(&error))?;
     if archive.len() > MEMBERS_MAX {
         return Err(Refused::TooMuch("files", MEMBERS_MAX));
@@ -51,7 +59,7 @@ pub(crate) fn check(bytes: &[u8]) -> Result<usize, Refused> {
         elements = scan.elements;
         largest = largest.max(before - left);
     }
-    Ok(largest)
+    Ok(Contents { files: archive.len(), largest })
 }
 
 fn pieces(mut member: impl Read, left: &mut usize, scan: &mut Scan) -> Result<(), Refused> {

@@ -14,7 +14,7 @@ use sensedsl_diagnostics::Span;
 use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, INFLATED_BYTES_MAX, MERGED_MAX, SHEETS_MAX};
 
 use crate::log::Log;
-use crate::package::{self, Refused};
+use crate::package::{self, Contents, Refused};
 use crate::place::a1;
 use crate::{Format, Made, Source, ods, tabular};
 
@@ -48,9 +48,9 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         Some(Format::Xlsx) => false,
         _ => crate::detect(source.bytes) == Some(Format::Ods),
     };
-    let read = package::check(source.bytes).and_then(|largest| match is_ods {
+    let read = package::check(source.bytes).and_then(|contents| match is_ods {
         true => ods::sheets(source.bytes),
-        false => xlsx(source.bytes, largest),
+        false => xlsx(source.bytes, &contents),
     });
     let read = read.and_then(|sheets| {
         let texts = sheets.iter().map(Text::new).collect::<Result<Vec<_>, _>>()?;
@@ -320,7 +320,7 @@ fn is_beyond((row, column): At) -> bool {
     row >= ROWS_MAX || column >= SHEET_COLUMNS_MAX
 }
 
-fn xlsx(bytes: &[u8], largest: usize) -> Result<Vec<Sheet>, Refused> {
+fn xlsx(bytes: &[u8], contents: &Contents) -> Result<Vec<Sheet>, Refused> {
     let book: Result<Xlsx<_>, _> = open_workbook_from_rs(Cursor::new(bytes));
     let mut book = book.map_err(|error| Refused::why(&error))?;
     let mut sheets = Vec::new();
@@ -330,7 +330,11 @@ fn xlsx(bytes: &[u8], largest: usize) -> Result<Vec<Sheet>, Refused> {
     if names.len() > SHEETS_MAX {
         return Err(Refused::TooMuch("sheets", SHEETS_MAX));
     }
-    if names.len().saturating_mul(largest) > SHARED * INFLATED_BYTES_MAX {
+    // Each sheet has a file of its own, unless somebody made the workbook to be read many times.
+    if names.len() > contents.files {
+        return Err(Refused::TooMuch("sheets, which is the number of its files", contents.files));
+    }
+    if names.len().saturating_mul(contents.largest) > SHARED * INFLATED_BYTES_MAX {
         return Err(Refused::TooMuch("bytes in all its sheets", SHARED * INFLATED_BYTES_MAX));
     }
     for name in names {

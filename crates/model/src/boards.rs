@@ -132,7 +132,7 @@ fn pins(
         return if is_path {
             from_file(context, path, name.span, true)
         } else {
-            built_in(context, &as_name)
+            built_in(context, &as_name, false)
         };
     }
     match node.on() {
@@ -140,10 +140,10 @@ fn pins(
             let target = beside(context.sources.name(file), &path.value());
             from_file(context, &target, span(file, path.range()), false)
         }
-        Some(BoardSource::Name(on)) => built_in(context, &whole(file, &on)),
+        Some(BoardSource::Name(on)) => built_in(context, &whole(file, &on), false),
         None => {
             let own = node.name().map(|own| whole(file, &own));
-            built_in(context, own.as_ref().unwrap_or(name))
+            built_in(context, own.as_ref().unwrap_or(name), true)
         }
     }
 }
@@ -155,8 +155,8 @@ fn whole(file: FileId, name: &ast::Name) -> Spanned<String> {
     Spanned { value, span: span(file, range) }
 }
 
-fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
-    let Some(entry) = catalog::find(&name.value) else { return part(context, name) };
+fn built_in(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> Option<Pins> {
+    let Some(entry) = catalog::find(&name.value) else { return part(context, name, is_own) };
     let shown = format!("boards/{}/pins.csv", entry.name);
     let file = context.sources.find(&shown);
     let file = file.unwrap_or_else(|| context.sources.add(shown, entry.csv()));
@@ -165,11 +165,12 @@ fn built_in(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
 }
 
 /// The pins of a bare MCU.
-fn part(context: &mut Context<'_>, name: &Spanned<String>) -> Option<Pins> {
+fn part(context: &mut Context<'_>, name: &Spanned<String>, is_own: bool) -> Option<Pins> {
     let Some(found) = sensedsl_parts::find(&name.value) else {
         let meant = catalog::nearest_name(&name.value).map(str::to_owned);
         let meant = meant.or_else(|| sensedsl_parts::nearest_name(&name.value));
-        let unknown = e0301_unknown_board::unknown_board(name.span, &name.value, meant.as_deref());
+        let unknown =
+            e0301_unknown_board::unknown_board(name.span, &name.value, meant.as_deref(), is_own);
         context.diagnostics.push(unknown);
         return None;
     };

@@ -379,6 +379,7 @@ impl Whole<'_> {
         fields.inherit(values::shared(self.driver).filter(of_value), self.driver.file);
         fields.set_reading(&given.name);
         fields.set_register_bytes(self.protocol.register_bytes);
+        fields.set_addresses(Bounds::of(Some(self.driver), self.known).addresses);
         let of_bus = is_bus.then(|| main.kind.read(&mut fields, direction, given.value));
         let own = devices::own(&mut fields);
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));

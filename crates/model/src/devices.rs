@@ -18,7 +18,7 @@ use crate::design::{
 };
 use crate::drivers::{DEFAULT_RANGER, Driver, Drivers, RANGER_ADDRESSES};
 use crate::fields::{Field, Fields, name_or_text, span};
-use crate::kind::{KindName, i2c};
+use crate::kind::{KindName, Role, i2c};
 use crate::parts::ReadPart;
 use crate::placement;
 use crate::protocol::{Filter, Protocol};
@@ -75,7 +75,7 @@ pub(crate) fn read(
     let mut fields = Fields::new(node.properties(), file, &owner, name.span, said);
     let kind_name = kind_name(&mut fields, direction, known.drivers)?;
     fields.rename_owner(kind_name.value.with_article());
-    let driver = take_driver(&mut fields, kind_name.value, known.drivers, &name.value);
+    let driver = take_driver(&mut fields, kind_name.value, known, &name.value);
     let value = value?;
     accept(&mut fields, kind_name.value, value)?;
     let kind = kind_name.value.read(&mut fields, direction, value.value);
@@ -281,17 +281,17 @@ fn check_direction(fields: &mut Fields<'_>, written: Spanned<KindName>, directio
 fn take_driver(
     fields: &mut Fields<'_>,
     kind: KindName,
-    drivers: &Drivers,
+    known: Known<'_>,
     device: &str,
 ) -> Option<String> {
     let driver = if fields.has("driver") {
         let wanted = fields.name("driver", "the name of a driver")?;
         let mut reports = Vec::new();
-        let driver = drivers.find_for(&wanted, kind, &mut reports);
+        let driver = known.drivers.find_for(&wanted, kind, &mut reports);
         reports.into_iter().for_each(|report| fields.say(report));
         driver?
     } else if kind == KindName::I2c && is_bare_ranger(fields) {
-        let driver = drivers.library(DEFAULT_RANGER)?;
+        let driver = known.drivers.library(DEFAULT_RANGER)?;
         let at = fields.value_span("address")?;
         fields.say(h0703_default_protocol::default_protocol(at, device, DEFAULT_RANGER));
         driver
@@ -303,6 +303,7 @@ fn take_driver(
     let properties = driver.node.properties().filter(|one| !about(one));
     fields.drivers_follow();
     fields.inherit(properties, driver.file);
+    fields.set_addresses(Bounds::of(Some(driver), known).addresses);
     Some(driver.name.value.clone())
 }
 
@@ -435,10 +436,17 @@ pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
         let meant = nearest(name, known);
         return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
     }
+    // Whoever fixes `pin` of a kind with several wires means one of these.
+    let of_a_wire = |word: &&&str| Role::ALL.iter().any(|role| role.property() == **word);
+    let instead: Vec<&str> = match name {
+        "pin" => own.iter().filter(of_a_wire).copied().collect(),
+        _ => Vec::new(),
+    };
     e0213_property_of_other_kind::property_of_other_kind(
         at,
         name,
         &kind.with_article(),
         &others.join(", "),
+        &instead,
     )
 }

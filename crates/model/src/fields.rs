@@ -60,6 +60,8 @@ pub(crate) struct Fields<'a> {
     reading: String,
     /// Bytes of a register's number.
     register_bytes: u8,
+    /// The addresses that the part can have, of 7 bits; none where its driver does not say.
+    addresses: Vec<u8>,
     /// The bare number that was taken as a shown value, where it is another code.
     bare: Option<Bare>,
     /// What the block is, for messages ("an analog device").
@@ -89,6 +91,7 @@ impl<'a> Fields<'a> {
             own_layers: 1,
             reading: String::new(),
             register_bytes: 1,
+            addresses: Vec::new(),
             bare: None,
             owner,
             owner_span,
@@ -179,6 +182,16 @@ impl<'a> Fields<'a> {
     /// See [`Self::set_register_bytes`].
     pub(crate) const fn register_bytes(&self) -> u8 {
         self.register_bytes
+    }
+
+    /// Tells which addresses the part can have, of 7 bits.
+    pub(crate) fn set_addresses(&mut self, addresses: Vec<u8>) {
+        self.addresses = addresses;
+    }
+
+    /// See [`Self::set_addresses`].
+    pub(crate) fn addresses(&self) -> &[u8] {
+        &self.addresses
     }
 
     /// See [`Self::set_reading`].

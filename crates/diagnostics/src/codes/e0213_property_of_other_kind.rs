@@ -19,10 +19,20 @@ Way out: remove the line, or change the device's `type`.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `kinds` lists the kinds that have the property.
+/// `kinds` lists the kinds that have the property, and `instead` what this kind has in its place.
 #[must_use]
-pub fn property_of_other_kind(span: Span, name: &str, kind: &str, kinds: &str) -> Diagnostic {
+pub fn property_of_other_kind(
+    span: Span,
+    name: &str,
+    kind: &str,
+    kinds: &str,
+    instead: &[&str],
+) -> Diagnostic {
+    let help = match instead {
+        [] => "remove the line, or change the device's `type`".to_owned(),
+        words => format!("name each wire: write `{} = …;`", words.join(" = …;` or `")),
+    };
     Diagnostic::new(CODE, span, format!("`{name}` means nothing for {kind}"))
         .here(format!("only for {kinds}"))
-        .help("remove the line, or change the device's `type`")
+        .help(help)
 }

@@ -29,8 +29,8 @@ pub fn unknown_driver(span: Span, name: &str, meant: Option<&str>) -> Diagnostic
             .help(format!("write `{meant}` (`sensedsl drivers {meant}` shows it; `sensedsl drivers` lists all)"))
             .replace(format!("change to `{meant}`"), span, meant),
         None => diagnostic.help(
-            "`sensedsl drivers` lists those of the library; define another with `driver NAME for KIND { … }`, or \
-             bring it in with `use`",
+            "`sensedsl drivers --search WORD` looks for a part that measures the same, such as `temperature`; define \
+             another with `driver NAME for KIND { … }`, or bring it in with `use`",
         ),
     }
 }

@@ -20,16 +20,20 @@ Way out: correct the name, or say which table is meant.
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// `meant` is the nearest built-in board or part; it is shown as a file has to spell it.
+/// `meant` is the nearest built-in board or part; it is shown as a file has to spell it. `is_own` tells
+/// that the block says nothing with `on`, and its own name was looked for.
 #[must_use]
-pub fn unknown_board(span: Span, name: &str, meant: Option<&str>) -> Diagnostic {
+pub fn unknown_board(span: Span, name: &str, meant: Option<&str>, is_own: bool) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(CODE, span, format!("there is no built-in board or part `{name}`"));
     match meant.map(|meant| meant.replace('-', "_")) {
         Some(meant) => diagnostic
             .here(format!("did you mean `{meant}`?"))
             .help(format!("write `{meant}`, or name a table: `on \"table.csv\"` or `--board table.csv`")),
+        None if is_own => diagnostic
+            .here("a name of your own needs a board")
+            .help(format!("write `board {name} on BOARD {{`, where `sensedsl boards` and `sensedsl parts --list` list what BOARD can be; or name a table of your own: `on \"table.csv\"`")),
         None => diagnostic
-            .help("`sensedsl boards` and `sensedsl parts --list` list them; name a table of your own with `on \"table.csv\"` or `--board table.csv`"),
+            .help("`sensedsl boards` and `sensedsl parts --list` list what is supported; for another MCU name a table of its pins with `on \"table.csv\"` or `--board table.csv`, which gives the wiring without firmware"),
     }
 }

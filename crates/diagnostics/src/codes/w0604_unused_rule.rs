@@ -10,9 +10,10 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Warning,
     title: "a rule has no effect",
     explanation: r#"The rule speaks of something that cannot happen here: an `allow` for a warning that is not given, a
-`release` of a pin without an on-board part, a `prefer` that no pin can fulfil.
+`release` of a pin without an on-board part, a `prefer` that no pin can fulfil, an `avoid` of a pin, unit or place
+that the board does not have.
 
-Way out: remove the rule.
+Way out: correct the name, or remove the rule.
 "#,
 };
 

@@ -8,6 +8,7 @@ use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use super::{Given, Whole};
+use crate::bounds::Bounds;
 use crate::design::{DeviceIndex, Level, Placement, Spanned};
 use crate::devices;
 use crate::drivers::{Driver, kind_of};
@@ -150,6 +151,7 @@ impl Socket {
             fields.set_reading("value");
         }
         fields.set_register_bytes(whole.protocol.register_bytes);
+        fields.set_addresses(Bounds::of(Some(whole.driver), whole.known).addresses);
         let kind = self.kind.read(&mut fields, self.direction, self.value);
         let placements = placement::read(&mut fields, &kind, self.direction, whole_value());
         let level = devices::level(&mut fields);

@@ -135,9 +135,11 @@ pub(super) fn order(fields: &mut Fields<'_>) -> ByteOrder {
 }
 
 fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
-    // A driver knows its part: some have an address that the specification reserves (MT6701).
+    // A driver knows its part: some have an address that the specification reserves.
     let is_own = fields.own_span("address").is_some();
-    let written = fields.required_integer("address", 0..=255, "address = 0x73;")?;
+    let of_part = fields.addresses().to_vec();
+    let example = format!("address = 0x{:02X};", of_part.first().unwrap_or(&0x73));
+    let written = fields.required_integer("address", 0..=255, &example)?;
     let Spanned { value, span } = written;
     let byte = u8::try_from(value).ok()?;
     let seven_bit = if byte >= 0x80 { byte >> 1 } else { byte };
@@ -147,7 +149,7 @@ fn read_address(fields: &mut Fields<'_>) -> Option<Spanned<u8>> {
         fields.say(e0215_bad_address::bad_address(span, &text, why));
         return None;
     }
-    if is_own && !ADDRESSES.contains(&seven_bit) {
+    if is_own && !ADDRESSES.contains(&seven_bit) && !of_part.contains(&seven_bit) {
         let why = format!("0x{seven_bit:02X} is reserved by the I2C specification");
         fields.say(e0215_bad_address::bad_address(span, &text, &why));
         return None;

@@ -4,8 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sensedsl_board::pin::PinName;
+use sensedsl_board::profile;
 use sensedsl_board::silicon::{PinRole, pin_roles};
 use sensedsl_board::table::Role;
+use sensedsl_model::design::Transport;
 use sensedsl_wiring::{Solved, Wiring};
 
 use super::designs;
@@ -26,6 +28,10 @@ fn five_outputs(on: &str, target: Option<&str>) -> (Option<BTreeSet<PinName>>, B
     let held = if tells { needed(mcu) } else { pin_roles(mcu).into_keys().collect() };
     let clean = table.pins.iter();
     let clean = clean.filter(|pin| pin.onboard.is_none() && !held.contains(&pin.name));
+    let link = &design.boards[0].link;
+    let usb = design.boards[0].profile().filter(|_| link.transport == Transport::Usb);
+    let of_link = usb.map_or(&[][..], |profile| profile.link_pins(profile::Transport::Usb, None));
+    let clean = clean.filter(|pin| !of_link.contains(&pin.name));
     let clean = clean.map(|pin| pin.name.clone()).collect();
     let pins = match Wiring::new(&design, None).solve(&Default::default()) {
         Solved::Wired(assignment) => {

@@ -7,6 +7,7 @@ use sensedsl_diagnostics::codes::{e0322_array_too_long, w0604_unused_rule};
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::{BoardIndex, Connection, ConnectionIndex, Design, Together, WishFor};
 use sensedsl_model::kind::Kind;
+use sensedsl_wire::Direction;
 
 use super::relaxed;
 use crate::converters::units_of;
@@ -41,13 +42,16 @@ type Place = (BoardIndex, String);
 struct Room {
     pins: BTreeSet<usize>,
     signals: BTreeSet<String>,
+    /// The interrupt lines of the pins, where each element takes one.
+    lines: BTreeSet<u8>,
 }
 
 impl Room {
     /// No more elements than that find their wire there.
     fn most(&self) -> usize {
         let signals = if self.signals.is_empty() { usize::MAX } else { self.signals.len() };
-        self.pins.len().min(signals)
+        let lines = if self.lines.is_empty() { usize::MAX } else { self.lines.len() };
+        self.pins.len().min(signals).min(lines)
     }
 }
 
@@ -67,6 +71,7 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
         if most >= asked {
             continue;
         }
+        let by_lines = places.values().any(|room| room.lines.len() == most);
         let names: Vec<&str> = places
             .iter()
             .filter(|(_, room)| room.most() == most)
@@ -75,11 +80,16 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
         let roles = first.kind.roles(first.direction).first().map_or("wire", |role| role.name());
         let pins = format!("`{roles}` pins of {}", first.kind.name().with_article());
         let most = match tie {
-            None => format!("the board has {most}"),
-            Some(what) if names.is_empty() => format!("no pin of the board has a {}", what.name()),
+            None if by_lines => {
+                format!("the board has only {most} interrupt lines, one for each number of a pin")
+            }
+            None => format!("the board has only {most} {pins}"),
+            Some(what) if names.is_empty() => {
+                format!("the board's table names no {} for the {pins}", what.name())
+            }
             Some(what) => {
                 let what = what.name();
-                format!("no {what} has more than {most} ({})", names.join(", "))
+                format!("no {what} has more than {most} ({}) {pins}", names.join(", "))
             }
         };
         let help = if tie.is_some() {
@@ -87,9 +97,8 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
         } else {
             "make the array shorter, or take another board: `sensedsl parts FILE` lists those that can carry it"
         };
-        let what = format!("{most} {pins}").replace("the board has", "the board has only");
         let report = e0322_array_too_long::array_too_long;
-        return Some(report(device.value.span, &device.name.value, asked, &what, help));
+        return Some(report(device.value.span, &device.name.value, asked, &most, help));
     }
     None
 }
@@ -102,12 +111,15 @@ fn places(
     tie: Option<Together>,
 ) -> BTreeMap<Place, Room> {
     let fixed = first.placement.unit.as_ref().map(|unit| unit.value.as_str());
+    let by_interrupt = first.direction == Direction::Sensor
+        && matches!(&first.kind, Kind::Digital(digital) if digital.edge.is_some());
     let mut places: BTreeMap<Place, Room> = BTreeMap::new();
     for meaning in meanings {
         let Some(board) = design.board(meaning.board) else { continue };
         for at in meaning.roles.first().into_iter().flatten() {
             let Some(pin) = board.table.pins.get(at.pin) else { continue };
             let usage = at.usage.and_then(|usage| pin.usages.get(usage));
+            let line = board.profile().and_then(|profile| profile.exti_group(&pin.name));
             let names: Vec<String> = match tie {
                 None => vec![String::new()],
                 Some(Together::Header) => {
@@ -125,6 +137,7 @@ fn places(
             for name in names {
                 let room = places.entry((meaning.board, name)).or_default();
                 room.pins.insert(at.pin);
+                room.lines.extend(line.filter(|_| by_interrupt));
                 room.signals.extend(usage.map(|usage| usage.signal.name().to_owned()));
             }
         }
