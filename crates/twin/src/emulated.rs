@@ -227,6 +227,20 @@ impl EmulatedBoard {
         self.bench().unasked()
     }
 
+    /// The parts on buses with which the board has done something that their drivers do not say, and what.
+    #[must_use]
+    pub fn odd_transfers(&self) -> Vec<(String, String)> {
+        self.bench().odd_transfers()
+    }
+
+    /// For how long the core has worked so far.
+    #[must_use]
+    pub fn worked_ns(&self) -> u64 {
+        let hz = self.machine.core_hz().max(1);
+        let (whole, rest) = (self.cycles_worked() / hz, self.cycles_worked() % hz);
+        whole.saturating_mul(SECOND_NS).saturating_add(rest * SECOND_NS / hz)
+    }
+
     /// What has come out of the MCU, where the bench writes it down.
     #[must_use]
     pub fn take_log(&self) -> Option<String> {

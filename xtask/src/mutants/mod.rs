@@ -2,7 +2,8 @@
 //! run as a user does it: `sensedsl simulate FILE --firmware IMAGE --judge`. Who notices?
 //!
 //! A number becomes another one, an operator its opposite, two rows of a table change places, a line is left out. Each
-//! is one object that is compiled again and a program that is linked again. Each mistake is a line of a file that grows
+//! is one object that is compiled again and a program that is linked again. Images are kept in the scratch folder, so that
+//! another judge needs no compiler; `--build` makes nothing but images. Each mistake is a line of a file that grows
 //! (`--into`), of which `--page` makes Markdown.
 
 mod draw;
@@ -20,7 +21,7 @@ use subject::{Settings, Subject, target};
 
 const USAGE: &str = "[CHIBIOS=FOLDER] cargo xtask mutants --program SENSEDSL [--design FILE]... \
                      [--target chibios|embassy] [--count N] [--seed N] [--seconds N] [--scratch FOLDER] \
-                     [--into FILE], or --page FILE";
+                     [--into FILE] [--build], or --page FILE";
 const EXAMPLES: [&str; 8] = [
     "all_kinds",
     "fig2",
@@ -49,6 +50,7 @@ impl Options {
             program: PathBuf::new(),
             seconds: "6".to_owned(),
             scratch: "target/mutants".into(),
+            is_building: false,
         };
         let mut options = Self {
             settings,
@@ -60,6 +62,10 @@ impl Options {
         };
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
+            if word == "--build" {
+                options.settings.is_building = true;
+                continue;
+            }
             let next = words.next().context(USAGE)?;
             match word.as_str() {
                 "--program" => options.settings.program = Path::new(next).canonicalize()?,
@@ -129,7 +135,7 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
         let place = site.file.strip_prefix(&subject.board).unwrap_or(&site.file).display();
         let place = format!("{place}:{}", site.line);
         let (target, told) = (target(subject.is_rust), site.told(&text));
-        let cells = [target, &subject.name, site.sort, &place, &told, class, &said];
+        let cells = [target, &subject.name, site.sort, &place, &told, &class, &said];
         writeln!(into, "{}", cells.map(|cell| cell.replace('\t', " ")).join("\t"))?;
     }
     say(&page::page(&std::fs::read_to_string(&options.into)?))

@@ -1,5 +1,6 @@
 //! A design for a target: its generated folder, how it is built, and what the program without a mistake does.
 
+use std::hash::{Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -11,6 +12,8 @@ use super::draw::{self, Site};
 const PATIENCE_S: &str = "60";
 /// The board whose MCU is emulated.
 const EMULATED: &str = "STM32F407G_DISC1";
+/// The class of what is to be run.
+const IMAGE: &str = "image";
 const TRIPLE: &str = "thumbv7em-none-eabihf";
 
 /// What all of them have in common.
@@ -19,6 +22,8 @@ pub(super) struct Settings {
     pub(super) program: PathBuf,
     pub(super) seconds: String,
     pub(super) scratch: PathBuf,
+    /// Images are built and kept, and nothing is run.
+    pub(super) is_building: bool,
 }
 
 /// One design for one target.
@@ -71,8 +76,10 @@ impl<'a> Subject<'a> {
         ensure!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
         subject.right = subject.flash()?;
         subject.groups = subject.sites()?;
+        let image = subject.image()?;
+        let worlds = if settings.is_building { Vec::new() } else { subject.worlds() };
         let runs: Result<Vec<Run>> =
-            subject.worlds().into_iter().map(|world| subject.run(world)).collect();
+            worlds.into_iter().map(|world| subject.run(world, &image)).collect();
         for run in runs? {
             let name = &subject.name;
             ensure!(run.said.is_none(), "{name}: a false alarm: {}", run.said.unwrap_or_default());
@@ -142,7 +149,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The command in a world; it says nothing where all is well.
-    fn run(&self, world: Option<&Path>) -> Result<Run> {
+    fn run(&self, world: Option<&Path>, image: &Path) -> Result<Run> {
         let [wires, frames] = ["wires", "frames"].map(|name| self.design.with_extension(name));
         let mut simulate = Command::new("timeout");
         simulate.arg(PATIENCE_S).arg(&self.settings.program).arg("simulate").arg(&self.design);
@@ -155,7 +162,7 @@ impl<'a> Subject<'a> {
         for file in [&wires, &frames] {
             let _ = std::fs::remove_file(file);
         }
-        let output = simulate.arg("--firmware").arg(self.image()?).output()?;
+        let output = simulate.arg("--firmware").arg(image).output()?;
         let mut seen = Vec::new();
         for file in [&wires, &frames] {
             seen.extend(std::fs::read(file).unwrap_or_default());
@@ -184,25 +191,52 @@ impl<'a> Subject<'a> {
     }
 
     /// What comes of a mistake: a class and what was said.
-    pub(super) fn outcome(&self, site: &Site) -> Result<(&'static str, String)> {
-        let text = std::fs::read_to_string(&site.file)?;
-        std::fs::write(&site.file, site.made(&text))?;
-        let came = self.tried();
-        std::fs::write(&site.file, text)?;
-        came
+    pub(super) fn outcome(&self, site: &Site) -> Result<(String, String)> {
+        let kept = self.kept(site)?;
+        let class = kept.with_extension("class");
+        if !class.is_file() {
+            let text = std::fs::read_to_string(&site.file)?;
+            std::fs::write(&site.file, site.made(&text))?;
+            let made = self.made(&kept);
+            std::fs::write(&site.file, text)?;
+            std::fs::write(&class, made?)?;
+        }
+        let class = std::fs::read_to_string(class)?;
+        if class != IMAGE || self.settings.is_building {
+            return Ok((class, String::new()));
+        }
+        let (class, said) = self.tried(&kept)?;
+        Ok((class.to_owned(), said))
     }
 
-    fn tried(&self) -> Result<(&'static str, String)> {
+    /// Where the image with a mistake is kept: what judges changes more often than what is judged.
+    fn kept(&self, site: &Site) -> Result<PathBuf> {
+        let mut hasher = std::hash::DefaultHasher::new();
+        std::fs::read_to_string(&site.file)?.hash(&mut hasher);
+        format!("{site:?}").hash(&mut hasher);
+        let folder = self.settings.scratch.join("images");
+        std::fs::create_dir_all(&folder)?;
+        let name = format!("{}-{}-{:016x}.elf", self.name, target(self.is_rust), hasher.finish());
+        Ok(folder.join(name))
+    }
+
+    /// Builds what has a mistake in it, and keeps the image. Gives what came of it.
+    fn made(&self, kept: &Path) -> Result<&'static str> {
         let built = self.build()?;
         let said = String::from_utf8_lossy(&built.stderr).into_owned();
         if !built.status.success() || said.contains("warning") {
-            return Ok(("compiler", String::new()));
+            return Ok("compiler");
         }
         if self.flash()? == self.right {
-            return Ok(("same program", String::new()));
+            return Ok("same program");
         }
+        let _ = std::fs::copy(self.image()?, kept)?;
+        Ok(IMAGE)
+    }
+
+    fn tried(&self, image: &Path) -> Result<(&'static str, String)> {
         for (world, right) in self.worlds().into_iter().zip(&self.seen) {
-            let run = self.run(world)?;
+            let run = self.run(world, image)?;
             match run.said {
                 Some(said) if world.is_none() => return Ok(("command", said)),
                 Some(said) => return Ok(("nobody", format!("in the example's world: {said}"))),

@@ -44,6 +44,13 @@ impl Bench {
         all.collect()
     }
 
+    /// The parts on buses with which the board has done something that their drivers do not say, and what.
+    #[must_use]
+    pub fn odd_transfers(&self) -> Vec<(String, String)> {
+        let all = self.chips.iter();
+        all.filter_map(|one| Some((one.name.clone(), one.registers.odd()?.to_owned()))).collect()
+    }
+
     /// From one measurement of a part to the next, where it measures at a pace of its own; otherwise 0.
     pub(crate) fn held_ns(&self, part: PartIndex) -> u64 {
         let own = self.chips.iter().filter(|one| one.part == part);
@@ -64,10 +71,13 @@ impl Bench {
         let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
             let device = of.device;
             let subject = self.subject(device)?;
-            let (trigger, wait_us, register, select) = match &device.kind {
-                Kind::I2c(own) => (own.trigger.clone(), own.wait_us, own.register, Vec::new()),
+            let (trigger, wait_us, register, select, length) = match &device.kind {
+                Kind::I2c(own) => {
+                    (own.trigger.clone(), own.wait_us, own.register, Vec::new(), own.length_bytes)
+                }
                 Kind::Spi(own) => {
-                    (own.trigger.clone(), own.wait_us, own.register, own.read.clone())
+                    let select = own.read.clone();
+                    (own.trigger.clone(), own.wait_us, own.register, select, own.length_bytes)
                 }
                 Kind::Analog(_)
                 | Kind::Icu(_)
@@ -86,6 +96,7 @@ impl Bench {
                 select,
                 exchange: device.coding.exchange.clone(),
                 byte: device.coding.byte,
+                length,
                 words: Words::of(device).filter(|_| device.coding.output.is_none()),
                 output: device.coding.output,
                 ranges: driver

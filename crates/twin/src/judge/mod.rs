@@ -9,6 +9,7 @@
 mod age;
 mod filtered;
 mod health;
+mod load;
 mod pace;
 mod sensor;
 mod silence;
@@ -21,6 +22,7 @@ use sensedsl_wire::{Direction, Health, Scalar};
 use crate::bench::Bench;
 use crate::truth::Subject;
 use health::OtherJudge;
+use load::Load;
 use sensor::SensorJudge;
 
 const MS: u64 = 1_000_000;
@@ -69,6 +71,8 @@ pub enum Finding {
     },
     /// What the board says of the device, though nothing in the world is wrong with it.
     Health(String),
+    /// What the board does with the part on its bus.
+    Transfer(String),
 }
 
 /// What was found out about a device.
@@ -102,6 +106,9 @@ pub struct Judge {
     undisturbed: Option<String>,
     /// Reports that came.
     heard: u64,
+    /// When the first of them came.
+    first_ns: Option<u64>,
+    load: Load,
 }
 
 impl Judged {
@@ -144,16 +151,26 @@ impl Judge {
             others: others.map(|one| OtherJudge::new(job, bench, one)).collect(),
             undisturbed: (!bench.is_disturbed()).then_some(name),
             heard: 0,
+            first_ns: None,
+            load: Load::default(),
         }
     }
 
     /// A report has arrived.
     pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
         self.heard += 1;
+        let first_ns = *self.first_ns.get_or_insert(now_ns);
         for (id, elements) in values {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == *id) {
-                sensor.take(now_ns, elements);
+                sensor.take(now_ns, first_ns, elements);
             }
+        }
+    }
+
+    /// For how long the board's processor has worked, where that is known.
+    pub fn worked(&mut self, now_ns: u64, worked_ns: Option<u64>) {
+        if let Some(worked_ns) = worked_ns {
+            self.load.take(now_ns, worked_ns);
         }
     }
 
@@ -166,11 +183,12 @@ impl Judge {
 
     /// The board has said how it and its devices are.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
-        if let Some(board) = &self.undisturbed
-            && let Some(what) = health::board_differs(health, now_ns, self.heard)
-        {
-            let board = board.clone();
-            self.say_of_board(now_ns, &board, what);
+        if let Some(board) = self.undisturbed.clone() {
+            let what = health::board_differs(health, now_ns, self.heard);
+            let load = self.load.differs(health).filter(|_| what.is_none());
+            for what in what.into_iter().chain(load) {
+                self.say_of_board(now_ns, &board, what);
+            }
         }
         for row in &health.devices {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == row.id) {
@@ -185,6 +203,16 @@ impl Judge {
     /// The board was asked how it is, and did not say it.
     pub fn no_health(&mut self, now_ns: u64, board: &str) {
         self.say_of_board(now_ns, board, "nothing, though it was asked".to_owned());
+    }
+
+    /// What the board has done with parts on buses that their drivers do not say.
+    pub fn transfers(&mut self, now_ns: u64, odd: &[(String, String)]) {
+        for (part, what) in odd {
+            let mut judged = Judged::new(part.clone(), None);
+            let finding = Finding::Transfer(what.clone());
+            judged.note(Some(Wrong { at_ns: now_ns, finding, off: 50.0 }));
+            self.others.push(OtherJudge { id: 0, judged, is_well: false });
+        }
     }
 
     fn say_of_board(&mut self, now_ns: u64, board: &str, what: String) {

@@ -21,8 +21,8 @@ const MEASURING_NS: u64 = 3 * MS;
 const TIMES_MIN: u64 = 3;
 /// What a pace may be off, in per cent.
 const PERCENT: u64 = 10;
-/// What comes so early is what waited for the host.
-const EARLY_NS: u64 = 500 * MS;
+/// The same of a pace that the board's own clock makes.
+const REGULAR_PER_MILLE: u64 = 10;
 
 /// From one report to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,8 +71,10 @@ impl Pace {
                 let is_asked = icu.mode == Mode::Width && icu.pulse_us.is_some();
                 let count = u64::try_from(subject.signals.len()).unwrap_or(1);
                 let waits_ns = count * 1_000 * u64::from(icu.wait_us).max(1_000);
-                let asked_ns = if is_asked { cycle_ns.max(waits_ns) } else { 0 };
-                (shortest_ns.max(asked_ns), longest_ns.max(asked_ns), 2 * longest_ns)
+                // `wait` is the longest that an echo can take: most come sooner.
+                let (least_ns, most_ns) =
+                    if is_asked { (cycle_ns, cycle_ns.max(waits_ns)) } else { (0, 0) };
+                (shortest_ns.max(least_ns), longest_ns.max(most_ns), 2 * longest_ns)
             }
             Kind::Pwm(_) | Kind::Dac(_) => return None,
         };
@@ -132,13 +134,14 @@ pub(super) struct Paced {
 }
 
 impl Paced {
-    /// A report has come; what lies between it and the one before counts unless something explains its length.
-    pub(super) fn take(&mut self, now_ns: u64, counts: bool) {
-        if let Some(last_ns) = self.last_ns.filter(|last_ns| counts && *last_ns >= EARLY_NS) {
+    /// A report has come; what lies between it and the one before counts unless something explains its length. What has
+    /// waited for its host says nothing about when the next one comes.
+    pub(super) fn take(&mut self, now_ns: u64, counts: bool, has_waited: bool) {
+        if let Some(last_ns) = self.last_ns.filter(|_| counts) {
             self.sum_ns += now_ns - last_ns;
             self.times += 1;
         }
-        self.last_ns = Some(now_ns);
+        self.last_ns = (!has_waited).then_some(now_ns);
     }
 
     /// The board has answered its host: a report that was due had to wait.
@@ -161,8 +164,10 @@ impl Paced {
         let got_ns = self.mean_ns()?;
         let jitter_ns = pace.jitter_ns / self.times.max(1);
         let answers_ns = self.answers * pace.turn_ns / self.times.max(1);
-        let slowest_ns = pace.most_ns + pace.most_ns * PERCENT / 100 + jitter_ns + answers_ns;
-        let fastest_ns = pace.least_ns - pace.least_ns * PERCENT / 100;
+        let per_mille = if pace.is_regular { REGULAR_PER_MILLE } else { 10 * PERCENT };
+        let off = |ns: u64| ns.saturating_mul(per_mille) / 1_000;
+        let slowest_ns = pace.most_ns + off(pace.most_ns) + jitter_ns + answers_ns;
+        let fastest_ns = pace.least_ns - off(pace.least_ns);
         let is_slow = got_ns > slowest_ns && !may_be_slow;
         let is_fast = got_ns + jitter_ns < fastest_ns;
         let ratio =
@@ -174,5 +179,21 @@ impl Paced {
             // It explains values that are too old, and not the other way round.
             off: 1_000.0 * ratio.max(1.0 / ratio),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_waited_for_its_host_says_nothing_of_the_pace() {
+        let mut paced = Paced::default();
+        for (at_ms, has_waited) in
+            [(1_320, true), (2_000, false), (3_000, false), (4_000, false), (5_000, false)]
+        {
+            paced.take(at_ms * MS, true, has_waited);
+        }
+        assert_eq!(paced.mean_ns(), Some(SECOND));
     }
 }

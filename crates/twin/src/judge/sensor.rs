@@ -135,7 +135,8 @@ impl SensorJudge {
         self.paced.answered();
     }
 
-    pub(super) fn take(&mut self, now_ns: u64, elements: &[Scalar]) {
+    /// A value has come; the board's first report came at `first_ns`.
+    pub(super) fn take(&mut self, now_ns: u64, first_ns: u64, elements: &[Scalar]) {
         self.silence(now_ns);
         let before_ns = self.last_ns.replace(now_ns).unwrap_or(0);
         let raw: Vec<f64> = elements.iter().map(|one| real(*one)).collect();
@@ -151,7 +152,8 @@ impl SensorJudge {
         }
         self.judged.reports += 1;
         let is_mute = self.reasons.is_mute(&self.subject, (before_ns, now_ns));
-        self.paced.take(now_ns, !is_mute);
+        let has_waited = self.pace.is_some_and(|pace| now_ns <= first_ns + 2 * pace.turn_ns);
+        self.paced.take(now_ns, !is_mute, has_waited);
         if is_mute {
             self.forget_filters(now_ns);
         }

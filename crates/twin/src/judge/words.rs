@@ -27,6 +27,7 @@ impl Judged {
                 shown(*got),
                 shown(*before)
             ),
+            Finding::Transfer(what) => what.clone(),
             Finding::Health(what) => format!("the board says of it at {at}: {what}"),
         }
     }

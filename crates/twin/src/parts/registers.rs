@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_model::protocol::{Formula, Protocol};
+use sensedsl_model::protocol::{Formula, InitStep, Protocol};
 use sensedsl_model::words::Words;
 
 use super::ranges::Ranges;
@@ -33,6 +33,8 @@ pub(crate) struct Reading {
     pub(crate) exchange: Vec<u8>,
     /// Where its bytes begin behind the register.
     pub(crate) byte: u16,
+    /// Bytes of a transfer that reads it.
+    pub(crate) length: u16,
     /// How it is coded; none where the formula makes it.
     pub(crate) words: Option<Words>,
     /// Which output of the formula it is.
@@ -69,6 +71,9 @@ pub(crate) struct Registers {
     /// Its identity was read; something else was.
     is_asked: bool,
     is_used: bool,
+    /// How much of what sets it up was written, and what the board has done that its driver does not say.
+    begun: usize,
+    odd: Option<String>,
 }
 
 impl Registers {
@@ -87,15 +92,72 @@ impl Registers {
             began_ns: 0,
             is_asked: false,
             is_used: false,
+            begun: 0,
+            odd: None,
         }
     }
 
     /// The supply was gone.
     pub(crate) fn reset(&mut self) {
         let readings = std::mem::take(&mut self.readings);
-        let (is_asked, is_used) = (self.is_asked, self.is_used);
+        let (is_asked, is_used, odd) = (self.is_asked, self.is_used, self.odd.take());
         let new = Self::new(self.protocol.clone(), readings, self.sleep);
-        *self = Self { is_asked, is_used, ..new };
+        *self = Self { is_asked, is_used, odd, ..new };
+    }
+
+    /// What the board has done first that the part's driver does not say; none where there is no such thing.
+    pub(crate) fn odd(&self) -> Option<&str> {
+        self.odd.as_deref()
+    }
+
+    /// A value is read: what sets the part up must have been written.
+    fn used(&mut self) {
+        self.is_used = true;
+        let mut writes = self.init();
+        if let Some(missing) = writes.nth(self.begun) {
+            let missing = hex(missing);
+            drop(writes);
+            self.tell(|| format!("values are read before {missing} is written, which sets it up"));
+        }
+    }
+
+    /// The transfers that set it up. A part that is read while it is written has none that can be told from it.
+    fn init(&self) -> impl Iterator<Item = &[u8]> {
+        let is_told = self.readings.iter().all(|one| one.exchange.is_empty());
+        self.protocol.init.iter().filter(move |_| is_told).filter_map(|step| match step {
+            InitStep::Write(bytes) => Some(bytes.as_slice()),
+            InitStep::Wait { .. } => None,
+        })
+    }
+
+    fn tell(&mut self, what: impl FnOnce() -> String) {
+        if self.odd.is_none() {
+            self.odd = Some(what());
+        }
+    }
+
+    /// Behind which byte, from a register on, the driver says nothing; none where nothing is known of the register.
+    fn end_of(&self, pointer: Option<u16>) -> Option<u16> {
+        let behind = |register: Option<u16>, length: u16| {
+            let first = match (pointer, register) {
+                (Some(pointer), Some(register)) => register.checked_sub(pointer)?,
+                (None, None) => 0,
+                (Some(_), None) | (None, Some(_)) => return None,
+            };
+            Some(first.saturating_add(length))
+        };
+        let values = self
+            .readings
+            .iter()
+            .filter_map(|one| behind(one.register, one.byte.saturating_add(one.length)));
+        let identity =
+            self.protocol.identity.iter().filter_map(|one| {
+                behind(Some(one.register), u16::try_from(one.expected.len()).ok()?)
+            });
+        let calibration = self.protocol.calibration.iter();
+        let calibration =
+            calibration.filter_map(|(register, count)| behind(Some(*register), *count));
+        values.chain(identity).chain(calibration).max()
     }
 
     /// Whether the driver says what its identity is, where the part was read and not asked for it.
@@ -116,7 +178,12 @@ impl Registers {
         if register.is_some() && register == identity.map(|one| one.register) {
             self.is_asked = true;
         } else {
-            self.is_used = true;
+            self.used();
+        }
+        if let Some(end) = self.end_of(self.pointer).filter(|end| *end <= place) {
+            let from = self.pointer.map(|at| format!(" from register 0x{at:02X} on"));
+            let from = from.unwrap_or_default();
+            self.tell(|| format!("more is read{from} than {end} bytes, which is all there is"));
         }
     }
 
@@ -188,7 +255,7 @@ impl Registers {
             let same: Vec<&Reading> =
                 self.readings.iter().filter(|one| one.exchange == first.exchange).collect();
             let bytes = merged(&self.bytes_of(&same, subjects, now_ns));
-            self.is_used = true;
+            self.used();
             return place.checked_sub(1).and_then(|at| bytes.get(at)).copied().unwrap_or(0);
         }
         let selected = |one: &&Reading| {
@@ -197,7 +264,7 @@ impl Registers {
         if let Some(one) = self.readings.iter().find(selected) {
             let bytes = merged(&self.bytes_of(&[one], subjects, now_ns));
             let first = one.select.len();
-            self.is_used = true;
+            self.used();
             return bytes.get(place - first - 1).copied().unwrap_or(0);
         }
         let width = self.width();
@@ -229,6 +296,9 @@ impl Registers {
         let sent = std::mem::take(&mut self.sent);
         if sent.is_empty() {
             return;
+        }
+        if self.init().nth(self.begun) == Some(sent.as_slice()) {
+            self.begun += 1;
         }
         let width = self.width();
         let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
@@ -372,6 +442,10 @@ impl Registers {
 }
 
 /// Bytes at their places in one piece.
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<String>>().join(" ")
+}
+
 fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
     let end = all.iter().flatten().map(|(place, _)| place + 1).max().unwrap_or(0);
     let mut bytes = vec![0; end];
@@ -381,4 +455,63 @@ fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
         }
     }
     bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The part of a driver that writes `6B 00` and reads two bytes from `3B` on.
+    fn part() -> Registers {
+        let init = vec![InitStep::Write(vec![0x6B, 0x00])];
+        let reading = Reading {
+            subject: 0,
+            trigger: Vec::new(),
+            wait_ns: 0,
+            register: Some(0x3B),
+            select: Vec::new(),
+            exchange: Vec::new(),
+            byte: 0,
+            length: 2,
+            words: None,
+            output: None,
+            ranges: Ranges::default(),
+        };
+        let protocol = Protocol { init, register_bytes: 1, ..Protocol::default() };
+        Registers::new(protocol, vec![reading], None)
+    }
+
+    fn write(part: &mut Registers, bytes: &[u8]) {
+        part.start(false, &[], 0);
+        bytes.iter().for_each(|byte| part.write(*byte));
+    }
+
+    fn read(part: &mut Registers, count: usize) {
+        write(part, &[0x3B]);
+        part.start(true, &[], 0);
+        (0..count).for_each(|_| {
+            let _ = part.read();
+        });
+        part.stop(0);
+    }
+
+    #[test]
+    fn a_part_is_set_up_and_read_as_its_driver_says() {
+        let mut right = part();
+        write(&mut right, &[0x6B, 0x00]);
+        right.stop(0);
+        read(&mut right, 2);
+        assert_eq!(right.odd(), None);
+        read(&mut right, 3);
+        assert!(
+            right.odd().unwrap().starts_with("more is read from register 0x3B on than 2 bytes")
+        );
+        for bytes in [&[][..], &[0x6B, 0x01], &[0x6B]] {
+            let mut other = part();
+            write(&mut other, bytes);
+            other.stop(0);
+            read(&mut other, 2);
+            assert!(other.odd().unwrap().contains("before 6B 00 is written"), "{bytes:02X?}");
+        }
+    }
 }

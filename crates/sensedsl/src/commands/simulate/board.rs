@@ -26,6 +26,10 @@ pub(super) trait Board {
     fn news(&mut self) -> Vec<String>;
     /// The parts on buses that it has read without asking who they are.
     fn unasked(&self) -> Vec<Unasked>;
+    /// The parts on buses with which it has done something that their drivers do not say, and what.
+    fn odd_transfers(&self) -> Vec<(String, String)>;
+    /// For how long its processor has worked so far, where that is known.
+    fn worked_ns(&self) -> Option<u64>;
     /// Instructions that the firmware has executed, where they are counted.
     fn instructions(&self) -> Option<u64>;
     /// What has come out of the MCU, where it is written down.
@@ -68,6 +72,14 @@ impl Board for SoftBoard {
 
     fn unasked(&self) -> Vec<Unasked> {
         self.bench().unasked()
+    }
+
+    fn odd_transfers(&self) -> Vec<(String, String)> {
+        self.bench().odd_transfers()
+    }
+
+    fn worked_ns(&self) -> Option<u64> {
+        None
     }
 
     fn instructions(&self) -> Option<u64> {

@@ -39,6 +39,14 @@ impl Board for EmulatedBoard {
         EmulatedBoard::unasked(self)
     }
 
+    fn odd_transfers(&self) -> Vec<(String, String)> {
+        EmulatedBoard::odd_transfers(self)
+    }
+
+    fn worked_ns(&self) -> Option<u64> {
+        Some(EmulatedBoard::worked_ns(self))
+    }
+
     fn instructions(&self) -> Option<u64> {
         Some(EmulatedBoard::instructions(self))
     }

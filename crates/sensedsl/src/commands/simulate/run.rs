@@ -140,6 +140,7 @@ impl<'a> Session<'a> {
         let hash = self.scenery.job.schema.hash();
         let (is_known, is_stranger, last, reports) =
             (&mut self.is_known, &mut self.is_stranger, &mut self.last, &mut self.reports);
+        judge.worked(now_ns, self.board.worked_ns());
         self.decoder.feed(&bytes, |event| match event {
             Event::Report(_, values) => {
                 *reports += 1;
@@ -358,7 +359,8 @@ impl<'a> Session<'a> {
 
     /// What the judge has found out.
     fn verdict(self) -> Result<Status> {
-        let Self { scenery, board, judge, commands, now_ns, reports, is_wrong, .. } = self;
+        let Self { scenery, board, mut judge, commands, now_ns, reports, is_wrong, .. } = self;
+        judge.transfers(now_ns, &board.odd_transfers());
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();
         let heads = [
