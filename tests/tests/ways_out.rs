@@ -29,7 +29,7 @@ fn an_mcu_that_is_not_supported_can_be_a_table() {
 fn a_kind_with_several_wires_names_each() {
     let said = on_nucleo("sensor G returns uint8 { type = uart; pin = PA3; }");
     assert!(said.contains("write `tx = …;` or `rx = …;`"), "{said}");
-    // What has no wires of a name of their own keeps the first advice.
+    // A kind whose wires have no names of their own is still advised to remove the line.
     let said = on_nucleo("sensor A returns uint16 { type = analog; address = 0x40; }");
     assert!(said.contains("remove the line"), "{said}");
 }
@@ -64,7 +64,10 @@ fn an_array_longer_than_a_timer_reads_well() {
     let said = on_nucleo(
         "actuator A accepts uint16[6] { type = pwm; frequency = 50 Hz; together = unit; }",
     );
-    assert!(said.contains("`A` needs 6, and no unit has more than 4"), "{said}");
+    assert!(
+        said.contains("`A` needs 6, and no unit has more than 4 `out` pins of a pwm device (TIM1"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -48,9 +48,8 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         Some(Format::Xlsx) => false,
         _ => crate::detect(source.bytes) == Some(Format::Ods),
     };
-    let read = package::check(source.bytes).and_then(|contents| match is_ods {
-        true => ods::sheets(source.bytes),
-        false => xlsx(source.bytes, &contents),
+    let read = package::check(source.bytes).and_then(|contents| {
+        if is_ods { ods::sheets(source.bytes) } else { xlsx(source.bytes, &contents) }
     });
     let read = read.and_then(|sheets| {
         let texts = sheets.iter().map(Text::new).collect::<Result<Vec<_>, _>>()?;
@@ -332,7 +331,10 @@ fn xlsx(bytes: &[u8], contents: &Contents) -> Result<Vec<Sheet>, Refused> {
     }
     // Each sheet has a file of its own, unless somebody made the workbook to be read many times.
     if names.len() > contents.files {
-        return Err(Refused::TooMuch("sheets, which is the number of its files", contents.files));
+        return Err(Refused::TooMuch(
+            "sheets, and no more files that could hold them",
+            contents.files,
+        ));
     }
     if names.len().saturating_mul(contents.largest) > SHARED * INFLATED_BYTES_MAX {
         return Err(Refused::TooMuch("bytes in all its sheets", SHARED * INFLATED_BYTES_MAX));

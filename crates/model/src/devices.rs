@@ -437,11 +437,9 @@ pub(crate) fn unknown(name: &str, at: Span, kind: KindName) -> Diagnostic {
         return e0201_unknown_property::unknown_property(at, name, &kind.with_article(), meant);
     }
     // Whoever fixes `pin` of a kind with several wires means one of these.
-    let of_a_wire = |word: &&&str| Role::ALL.iter().any(|role| role.property() == **word);
-    let instead: Vec<&str> = match name {
-        "pin" => own.iter().filter(of_a_wire).copied().collect(),
-        _ => Vec::new(),
-    };
+    let is_wire =
+        |word: &&str| name == "pin" && Role::ALL.iter().any(|role| role.property() == *word);
+    let instead: Vec<&str> = own.iter().copied().filter(is_wire).collect();
     e0213_property_of_other_kind::property_of_other_kind(
         at,
         name,

@@ -5,7 +5,7 @@ use sensedsl_wiring::{Solved, Wiring};
 
 use super::library::{NoFiles, examples};
 
-/// No pin of the board can be a wire of it, which is no finding of a check: the solver says it (E0401).
+/// The board has no unit for it. No check reports that; the solver does (E0401).
 const NO_UNIT: &str = "";
 
 /// Boards of different families, and the drivers that they cannot carry, with the reason's code: an RP2040 decodes no

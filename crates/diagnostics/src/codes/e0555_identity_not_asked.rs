@@ -1,4 +1,4 @@
-//! E0555: a part was read without being asked who it is.
+//! E0555: the board read a part and not its identity.
 
 use crate::codes::{Code, CodeInfo};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -8,10 +8,10 @@ use crate::source::Span;
 pub const INFO: CodeInfo = CodeInfo {
     code: "E0555",
     severity: Severity::Error,
-    title: "a part was not asked who it is",
-    explanation: r#"The driver of a part says which register tells it from others (`identity`), and firmware that `generate` makes
-reads that register before anything else. In a run of `simulate --judge` the part was read and that register was not:
-with another part at the same address, wrong values would be reported as good.
+    title: "the identity of a part was not read",
+    explanation: r#"The driver of a part names the register that tells it from other parts (`identity`), and generated firmware
+reads that register before anything else. In a run of `simulate --judge` the board read the part and not that register.
+With another part at the same address it would report wrong values as good ones.
 
 Way out: build the firmware of this very file (`sensedsl build FILE`).
 "#,
@@ -23,6 +23,6 @@ pub const CODE: Code = Code(&INFO);
 /// The part's name.
 #[must_use]
 pub fn not_asked(span: Span, name: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{name}` was read without being asked who it is"))
+    Diagnostic::new(CODE, span, format!("the board read `{name}` and not its identity"))
         .help("another part at the same address would not be noticed: build the firmware of this file with `sensedsl build`")
 }

@@ -2,7 +2,6 @@
 
 use sensedsl_codegen::job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, PartIndex};
-use sensedsl_model::kind::Kind;
 use sensedsl_model::words::Words;
 
 use super::Bench;
@@ -71,22 +70,12 @@ impl Bench {
         let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
             let device = of.device;
             let subject = self.subject(device)?;
-            let (trigger, wait_us, register, select, length) = match &device.kind {
-                Kind::I2c(own) => {
-                    (own.trigger.clone(), own.wait_us, own.register, Vec::new(), own.length_bytes)
-                }
-                Kind::Spi(own) => {
-                    let select = own.read.clone();
-                    (own.trigger.clone(), own.wait_us, own.register, select, own.length_bytes)
-                }
-                Kind::Analog(_)
-                | Kind::Icu(_)
-                | Kind::Encoder(_)
-                | Kind::Digital(_)
-                | Kind::Uart(_)
-                | Kind::Pwm(_)
-                | Kind::Dac(_)
-                | Kind::Can(_) => return None,
+            let (trigger, wait_us, register, select, length) = if let Some(own) = device.kind.i2c() {
+                (own.trigger.clone(), own.wait_us, own.register, Vec::new(), own.length_bytes)
+            } else {
+                let own = device.kind.spi()?;
+                let select = own.read.clone();
+                (own.trigger.clone(), own.wait_us, own.register, select, own.length_bytes)
             };
             Some(Reading {
                 subject,

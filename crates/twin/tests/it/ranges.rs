@@ -64,6 +64,20 @@ fn another_range_is_seen() {
     }
 }
 
+/// A board that was built from a driver without `identity` reads the part and not who it is.
+#[test]
+fn an_identity_that_is_not_read_is_seen() {
+    let board = |driver: &str| {
+        format!("board STM32F407G_DISC1 {{ chip Part {{ driver = {driver}; delay = 20 ms; }} }}")
+    };
+    let other = changed("bmp280", "identity = [0xD0, 0x58];", "");
+    let run = mistaken(&board("bmp280"), &format!("{other}\n{}", board("mistaken_part")), "", 3);
+    let found: Vec<_> = run.unasked.iter().map(|one| (one.name.as_str(), one.is_known)).collect();
+    assert_eq!(found, [("Part", true)]);
+    let right = mistaken(&board("bmp280"), &board("bmp280"), "", 3);
+    assert!(right.unasked.is_empty(), "{:?}", right.unasked);
+}
+
 #[test]
 fn another_rate_is_seen() {
     let world = "[devices]\nPartAcceleration = { sine = 1.5, offset = 0, period = \"1 s\" }\n";

@@ -4,7 +4,7 @@ use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
-use sensedsl_twin::bench::Bench;
+use sensedsl_twin::bench::{Bench, Unasked};
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene, World};
@@ -26,6 +26,7 @@ pub(crate) struct Run {
     pub(crate) reports: Vec<(u64, Values)>,
     pub(crate) judged: Vec<Judged>,
     pub(crate) dropped: u64,
+    pub(crate) unasked: Vec<Unasked>,
 }
 
 impl Run {
@@ -132,7 +133,8 @@ fn run(
             judge.no_health(board.now_ns(), "the board");
         }
         let judged = judge.finish(board.now_ns());
-        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes() }
+        let unasked = board.bench().unasked();
+        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes(), unasked }
     }
 }
 

@@ -71,7 +71,8 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
         if most >= asked {
             continue;
         }
-        let by_lines = places.values().any(|room| room.lines.len() == most);
+        let by_lines =
+            places.values().any(|room| room.lines.len() == most && room.pins.len() > most);
         let names: Vec<&str> = places
             .iter()
             .filter(|(_, room)| room.most() == most)
@@ -89,7 +90,7 @@ fn array(design: &Design, formulation: &Formulation<'_>, first: &Connection) -> 
             }
             Some(what) => {
                 let what = what.name();
-                format!("no {what} has more than {most} ({}) {pins}", names.join(", "))
+                format!("no {what} has more than {most} {pins} ({})", names.join(", "))
             }
         };
         let help = if tie.is_some() {

@@ -31,23 +31,17 @@ pub(super) fn nowhere(design: &Design) -> Vec<Diagnostic> {
 
 fn useless(wish: &Wish, boards: &[(BoardIndex, &Board)]) -> Option<Diagnostic> {
     let pins = || boards.iter().flat_map(|(_, board)| &board.table.pins);
-    let is = |one: &str, other: &str| one.eq_ignore_ascii_case(other);
     let (name, known): (&str, BTreeSet<&str>) = match &wish.what {
-        WishFor::Pin(_, pin) => {
-            if boards.iter().any(|(index, _)| pin.on(*index).is_some()) {
-                return None;
-            }
-            (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect())
+        WishFor::Pin(_, pin) if boards.iter().any(|(index, _)| pin.on(*index).is_some()) => {
+            return None;
         }
-        WishFor::Unit(unit) => (unit, BTreeSet::new()),
+        WishFor::Pin(_, pin) => (&pin.spelled, pins().map(|pin| pin.name.as_str()).collect()),
+        WishFor::Unit(unit) => return no_unit(wish, unit, boards),
         WishFor::Side(side) => (side, pins().filter_map(|pin| pin.side.as_deref()).collect()),
         WishFor::Header(name) => (name, pins().filter_map(|pin| pin.header.as_deref()).collect()),
         WishFor::Together(_) | WishFor::Sequence => return None,
     };
-    if let WishFor::Unit(unit) = &wish.what {
-        return no_unit(wish, unit, boards);
-    }
-    let exists = known.iter().any(|one| is(one, name));
+    let exists = known.iter().any(|one| one.eq_ignore_ascii_case(name));
     (!exists).then(|| report(wish, name, nearest(name, known.iter().copied())))
 }
 

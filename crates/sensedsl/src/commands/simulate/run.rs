@@ -409,7 +409,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// Says of which parts the board has not asked who they are; false where it should have.
+/// Names the parts whose identity the board has not read; false where it should have.
 fn identities(scenery: &Scenery<'_>, unasked: &[Unasked]) -> Result<bool> {
     let names = |is_known: bool| -> Vec<&str> {
         let own = unasked.iter().filter(|one| one.is_known == is_known);
@@ -418,8 +418,8 @@ fn identities(scenery: &Scenery<'_>, unasked: &[Unasked]) -> Result<bool> {
     let unknown = names(false);
     if !unknown.is_empty() {
         let all = unknown.join(", ");
-        let why = "another part at the same place would not be noticed";
-        scenery.terminal.aside(&format!("the identity of {all} is not asked: {why}"))?;
+        let why = "another part at the same address would not be noticed";
+        scenery.terminal.aside(&format!("no driver reads the identity of {all}: {why}"))?;
     }
     for name in names(true) {
         scenery.say(not_asked(scenery.at, name))?;
