@@ -70,7 +70,8 @@ impl Bench {
         let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
             let device = of.device;
             let subject = self.subject(device)?;
-            let (trigger, wait_us, register, select, length) = if let Some(own) = device.kind.i2c() {
+            let (trigger, wait_us, register, select, length) = if let Some(own) = device.kind.i2c()
+            {
                 (own.trigger.clone(), own.wait_us, own.register, Vec::new(), own.length_bytes)
             } else {
                 let own = device.kind.spi()?;
