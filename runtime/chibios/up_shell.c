@@ -210,7 +210,7 @@ static void command_link(BaseSequentialStream *out, int argc, char *argv[]) {
   (void)argc;
   (void)argv;
   chprintf(out, "schema 0x%08lx, checksum %s" SHELL_NEWLINE_STR, (unsigned long)up_config.schema->hash,
-           up_config.schema->checksum_crc16 ? "crc16" : "none");
+           up_config.schema->checksum);
   chprintf(out, "sent %lu reports, kept back %lu, torn %lu frames, too old %lu values" SHELL_NEWLINE_STR,
            (unsigned long)reporter->counts.reports_sent, (unsigned long)reporter->counts.reports_refused,
            (unsigned long)reporter->counts.frames_torn, (unsigned long)reporter->counts.values_dropped);
@@ -276,7 +276,7 @@ static void command_schema(BaseSequentialStream *out, int argc, char *argv[]) {
 
   (void)argc;
   (void)argv;
-  chprintf(out, "checksum %s" SHELL_NEWLINE_STR, schema->checksum_crc16 ? "crc16" : "none");
+  chprintf(out, "checksum %s" SHELL_NEWLINE_STR, schema->checksum);
   if (sense_reports.has_stamp) {
     chprintf(out, "stamp" SHELL_NEWLINE_STR);
   }

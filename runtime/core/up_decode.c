@@ -8,11 +8,6 @@
 #define HELLO_REQUEST_BYTES 1U
 #define HEALTH_REQUEST_BYTES 2U
 #define STAMP_BYTES 6U
-#define CHECKSUM_BYTES 3U
-
-static size_t checksum_bytes(const up_wire_t *wire) {
-  return UP_WIRE_HAS_CHECKSUM(wire) ? CHECKSUM_BYTES : 0U;
-}
 
 static void restart(up_decoder_t *decoder) {
   decoder->payload_start = 0U;
@@ -65,8 +60,8 @@ static up_verdict_t read_length(up_decoder_t *decoder, const uint8_t *bytes, siz
   size_t i;
 
   for (i = 0U; i < size; i++) {
-    if (bytes[i] == (uint8_t)':' && length > checksum_bytes(decoder->wire)) {
-      const size_t values_bytes = length - checksum_bytes(decoder->wire);
+    if (bytes[i] == (uint8_t)':' && length > UP_WIRE_CHECKSUM_BYTES(decoder->wire)) {
+      const size_t values_bytes = length - UP_WIRE_CHECKSUM_BYTES(decoder->wire);
       decoder->payload_start = i + 1U;
       decoder->items_start = i + 1U;
       decoder->at = i + 1U;
@@ -217,20 +212,24 @@ static up_verdict_t walk(up_decoder_t *decoder, const uint8_t *bytes, size_t siz
 
 static up_verdict_t compare_checksum(up_decoder_t *decoder, const uint8_t *bytes, size_t size) {
   const size_t end = decoder->values_end;
-  uint16_t crc;
+  up_register_t crc;
+  uint8_t number[4];
+  size_t number_bytes;
 
   if (!UP_WIRE_HAS_CHECKSUM(decoder->wire) || decoder->checksum_right) {
     return UP_VERDICT_COMPLETE;
   }
-  if (size < end + CHECKSUM_BYTES) {
+  if (size < end + UP_WIRE_CHECKSUM_BYTES(decoder->wire)) {
     return UP_VERDICT_INCOMPLETE;
   }
   if (UP_WIRE_HAS_MEMO(decoder->wire)) {
     crc = decoder->wire->memo->crc(decoder, bytes, decoder->payload_start, end);
   } else {
-    crc = up_crc16(UP_CRC16_INIT, &bytes[decoder->payload_start], end - decoder->payload_start);
+    crc = up_register_add(decoder->wire, up_register_init(decoder->wire), &bytes[decoder->payload_start],
+                          end - decoder->payload_start);
   }
-  decoder->checksum_right = bytes[end + 1U] == (uint8_t)(crc >> 8) && bytes[end + 2U] == (uint8_t)crc;
+  number_bytes = (size_t)(up_register_put(decoder->wire, crc, number) - number);
+  decoder->checksum_right = memcmp(&bytes[end + 1U], number, number_bytes) == 0;
   /* Values that have not been walked through may still hold what is not a bool. */
   if (!decoder->checksum_right || decoder->at == end) {
     decoder->looked_at = end;

@@ -20,6 +20,22 @@ uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size) {
   return crc;
 }
 
+/* Half a byte goes in at once: the table is of 64 bytes. */
+uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
+  static const uint32_t of_nibble[16] = {
+      0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU, 0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
+      0xEDB88320U, 0xF00F9344U, 0xD6D6A3E8U, 0xCB61B38CU, 0x9B64C2B0U, 0x86D3D2D4U, 0xA00AE278U, 0xBDBDF21CU,
+  };
+  size_t i;
+
+  for (i = 0U; i < size; i++) {
+    crc ^= bytes[i];
+    crc = (crc >> 4) ^ of_nibble[crc & 15U];
+    crc = (crc >> 4) ^ of_nibble[crc & 15U];
+  }
+  return crc;
+}
+
 /* Where the payload begins; NULL when the longest frame would not fit. */
 static uint8_t *open_frame(const up_wire_t *wire, uint8_t *frame, size_t frame_bytes) {
   return (frame_bytes < UP_WIRE_FRAME_BYTES(wire)) ? NULL : &frame[wire->head_bytes];
@@ -33,8 +49,8 @@ static size_t close_frame(const up_wire_t *wire, uint8_t *frame, uint8_t *end) {
   size_t rest, bytes;
 
   if (UP_WIRE_HAS_CHECKSUM(wire)) {
-    const uint16_t crc = up_crc16(UP_CRC16_INIT, payload, (size_t)(end - payload));
-    end = up_put_16(up_put_8(end, UP_ID_CHECKSUM), crc);
+    const up_register_t crc = up_register_add(wire, up_register_init(wire), payload, (size_t)(end - payload));
+    end = up_register_put(wire, crc, up_put_8(end, UP_ID_CHECKSUM));
   }
   rest = (size_t)(end - payload);
   *end = (uint8_t)',';

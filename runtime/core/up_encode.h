@@ -14,6 +14,31 @@
 #define UP_CRC16_INIT 0xFFFFU
 uint16_t up_crc16(uint16_t crc, const uint8_t *bytes, size_t size);
 
+/* CRC-32/ISO-HDLC, that of Ethernet and zlib, as a register: start with UP_CRC32_INIT, and invert it at the end. */
+#define UP_CRC32_INIT 0xFFFFFFFFU
+uint32_t up_crc32(uint32_t crc, const uint8_t *bytes, size_t size);
+
+/* The register of any checksum that a link of the program has. */
+#if UP_USES_CRC32
+typedef uint32_t up_register_t;
+#else
+typedef uint16_t up_register_t;
+#endif
+
+static inline up_register_t up_register_init(const up_wire_t *wire) {
+  return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? UP_CRC32_INIT : UP_CRC16_INIT);
+}
+
+static inline up_register_t up_register_add(const up_wire_t *wire, up_register_t crc, const uint8_t *bytes,
+                                            size_t size) {
+  return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? up_crc32(crc, bytes, size) : up_crc16((uint16_t)crc, bytes, size));
+}
+
+/* Writes the number that it comes to and returns what is behind it. */
+static inline uint8_t *up_register_put(const up_wire_t *wire, up_register_t crc, uint8_t *at) {
+  return UP_WIRE_HAS_CRC32(wire) ? up_put_32(at, ~(uint32_t)crc) : up_put_16(at, (uint16_t)crc);
+}
+
 /* What a report begins with where the link has stamps. */
 typedef struct {
   uint32_t time_us; /* since the start; wraps */

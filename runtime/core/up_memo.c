@@ -9,38 +9,47 @@
 
 /* Of the stream up to where a block begins. */
 typedef struct {
-  uint16_t crc;   /* register, from a start of 0 somewhere before */
-  uint16_t bools; /* how many whole blocks before are bools without a gap */
+  up_register_t crc; /* register, from a start of 0 somewhere before */
+  uint16_t bools;    /* how many whole blocks before are bools without a gap */
 } sums_t;
 
-/* Of two registers as polynomials over GF(2), modulo the one of the CRC. */
-static uint16_t product(uint16_t left, uint16_t right) {
-  uint32_t result = 0U;
-  unsigned bit;
+/* The register that multiplies by 1: CRC-32 has its highest power in the lowest bit. */
+static up_register_t one(const up_wire_t *wire) {
+  return (up_register_t)(UP_WIRE_HAS_CRC32(wire) ? 0x80000000U : 1U);
+}
 
-  for (bit = 16U; bit > 0U; bit--) {
-    result = (result << 1) ^ (0x11021U & (0U - ((result >> 15) & 1U)));
-    result ^= left & (0U - (((uint32_t)right >> (bit - 1U)) & 1U));
+/* Of two registers as polynomials over GF(2), modulo the one of the CRC. */
+static up_register_t product(const up_wire_t *wire, up_register_t left, up_register_t right) {
+  const bool is_32 = UP_WIRE_HAS_CRC32(wire);
+  const unsigned bits = is_32 ? 32U : 16U;
+  uint32_t result = 0U;
+  unsigned i;
+
+  for (i = 0U; i < bits; i++) {
+    const unsigned bit = is_32 ? i : bits - 1U - i;
+    result = is_32 ? (result >> 1) ^ (0xEDB88320U & (0U - (result & 1U)))
+                   : (result << 1) ^ (0x11021U & (0U - ((result >> 15) & 1U)));
+    result ^= left & (0U - (((uint32_t)right >> bit) & 1U));
   }
-  return (uint16_t)result;
+  return (up_register_t)result;
 }
 
 /* What `blocks` blocks of zeros multiply a register by. */
 static uint8_t *power_of(const up_decoder_t *decoder, size_t blocks) {
-  return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(uint16_t)];
+  return &decoder->sums[decoder->ring_bytes / BLOCK_BYTES * sizeof(sums_t) + blocks * sizeof(up_register_t)];
 }
 
 static void init(up_decoder_t *decoder, size_t frame_bytes) {
   static const uint8_t zeros[BLOCK_BYTES];
   const size_t blocks = UP_DECODER_BLOCKS(frame_bytes);
-  uint16_t power = 1U;
+  up_register_t power = one(decoder->wire);
   size_t i;
 
   decoder->sums = &decoder->buffer[decoder->buffer_bytes];
   decoder->ring_bytes = blocks * BLOCK_BYTES;
   for (i = 0U; i < blocks; i++) {
     memcpy(power_of(decoder, i), &power, sizeof power);
-    power = up_crc16(power, zeros, sizeof zeros);
+    power = up_register_add(decoder->wire, power, zeros, sizeof zeros);
   }
 #if UP_DECODER_WALKS > 0U
   for (i = 0U; i < UP_DECODER_WALKS; i++) {
@@ -86,7 +95,7 @@ static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
   while (decoder->summed < *last) {
     const uint8_t *block = &bytes[decoder->summed];
     const bool is_whole = count_bools(block, BLOCK_BYTES) == BLOCK_BYTES;
-    sums.crc = up_crc16(sums.crc, block, BLOCK_BYTES);
+    sums.crc = up_register_add(decoder->wire, sums.crc, block, BLOCK_BYTES);
     sums.bools = is_whole ? (uint16_t)(sums.bools + (sums.bools < BLOCKS_MAX)) : 0U;
     decoder->summed += BLOCK_BYTES;
     memcpy(sums_at(decoder, decoder->summed), &sums, sizeof sums);
@@ -95,21 +104,21 @@ static bool in_blocks(up_decoder_t *decoder, const uint8_t *bytes, size_t from, 
 }
 
 /* A CRC is linear: what stood before a block shifts through it. */
-static uint16_t crc_of(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
-  uint16_t crc = UP_CRC16_INIT;
+static up_register_t crc_of(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {
+  up_register_t crc = up_register_init(decoder->wire);
   size_t first, last;
 
   if (in_blocks(decoder, bytes, from, to, &first, &last)) {
     sums_t before, sums;
-    uint16_t power;
+    up_register_t power;
     memcpy(&before, sums_at(decoder, first), sizeof before);
     memcpy(&sums, sums_at(decoder, last), sizeof sums);
     memcpy(&power, power_of(decoder, (last - first) / BLOCK_BYTES), sizeof power);
-    crc = up_crc16(crc, &bytes[from], first - from);
-    crc = (uint16_t)(sums.crc ^ product((uint16_t)(crc ^ before.crc), power));
+    crc = up_register_add(decoder->wire, crc, &bytes[from], first - from);
+    crc = (up_register_t)(sums.crc ^ product(decoder->wire, (up_register_t)(crc ^ before.crc), power));
     from = last;
   }
-  return up_crc16(crc, &bytes[from], to - from);
+  return up_register_add(decoder->wire, crc, &bytes[from], to - from);
 }
 
 static bool are_bools(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to) {

@@ -16,8 +16,8 @@ typedef struct up_memo {
   /* Behind the buffer of the decoder, whose size is set. */
   void (*init)(up_decoder_t *decoder, size_t frame_bytes);
 
-  /* The checksum of the bytes [from, to) of the candidate, and whether all of them are bools. */
-  uint16_t (*crc)(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to);
+  /* The register behind the bytes [from, to) of the candidate, and whether all of them are bools. */
+  up_register_t (*crc)(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to);
   bool (*bools)(up_decoder_t *decoder, const uint8_t *bytes, size_t from, size_t to);
 
   /* To the end of the values by a walk of others, when one has an identifier where the candidate stands. */

@@ -61,7 +61,7 @@ typedef struct {
 typedef struct {
   const up_field_t *fields;
   uint8_t fields_count;
-  bool checksum_crc16;
+  const char *checksum; /* `none`, or which one frames end with */
   uint32_t hash; /* what the hello says */
 } up_schema_t;
 

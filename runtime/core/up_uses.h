@@ -5,6 +5,9 @@
 #ifndef UP_USES_H
 #define UP_USES_H
 
+#ifndef UP_USES_CRC32
+#define UP_USES_CRC32 1 /* links whose frames end with a CRC-32 */
+#endif
 #ifndef UP_USES_REALS
 #define UP_USES_REALS 1 /* fields of float32 and float64 */
 #endif

@@ -26,6 +26,9 @@
 
 struct up_memo;
 
+/* What payloads end with, by the bytes of its number. */
+typedef enum { UP_LINK_NONE = 0, UP_LINK_CRC16 = 2, UP_LINK_CRC32 = 4 } up_link_checksum_t;
+
 /* Whether an identifier travels this way, and what stands behind it. */
 typedef uint16_t up_item_t;
 #define UP_ITEM(bytes, is_bool) ((up_item_t)(((bytes) << 1) | ((is_bool) ? 1U : 0U)))
@@ -41,7 +44,7 @@ typedef struct {
   uint16_t payload_bytes_max; /* of any, with its checksum */
   uint8_t head_bytes;         /* of the longest length and its colon */
   uint8_t direction;          /* up_direction_t */
-  bool has_checksum;
+  uint8_t checksum;           /* up_link_checksum_t */
   bool has_stamp; /* payloads of values begin with one: never towards the board */
   /* Packs the values whose bit is set in `due` (bit i of byte i/8 is fields[i]); returns the bytes. */
   size_t (*put)(const uint8_t *due, const void *values, uint8_t *payload);
@@ -58,7 +61,12 @@ typedef struct {
 #define UP_WIRE_PLAIN_BYTES 96U
 #define UP_WIRE_PLAIN_ITEMS 16U
 
-#define UP_WIRE_HAS_CHECKSUM(wire) ((UP_WIRE_CHECKSUMS) != 0 && (wire)->has_checksum)
+#define UP_WIRE_HAS_CHECKSUM(wire) ((UP_WIRE_CHECKSUMS) != 0 && (wire)->checksum != (uint8_t)UP_LINK_NONE)
+#define UP_WIRE_HAS_CRC32(wire) \
+  ((UP_WIRE_CHECKSUMS) != 0 && (UP_USES_CRC32) != 0 && (wire)->checksum == (uint8_t)UP_LINK_CRC32)
+/* With its identifier. */
+#define UP_WIRE_CHECKSUM_BYTES(wire) \
+  (UP_WIRE_HAS_CRC32(wire) ? (size_t)5U : UP_WIRE_HAS_CHECKSUM(wire) ? (size_t)3U : (size_t)0U)
 #define UP_WIRE_HAS_STAMP(wire) ((UP_WIRE_STAMPS) != 0 && (wire)->has_stamp)
 #define UP_WIRE_HAS_MEMO(wire) ((UP_WIRE_MEMO) != 0 && (wire)->memo != NULL)
 

@@ -109,7 +109,9 @@ static void read_schema(const decoders_input_t *input, up_wire_t *wire) {
   memset(wire, 0, sizeof *wire);
   memset(item_of, 0, sizeof item_of);
   wire->direction = is_to_board ? UP_TO_BOARD : UP_TO_HOST;
-  wire->has_checksum = (input->schema[0] & 1U) != 0U;
+  wire->checksum = (uint8_t)(((input->schema[0] & 1U) != 0U)   ? UP_LINK_CRC16
+                             : ((input->schema[0] & 8U) != 0U) ? UP_LINK_CRC32
+                                                               : UP_LINK_NONE);
   wire->has_stamp = !is_to_board && (input->schema[0] & 4U) != 0U;
   for (at = 1U; at + 5U <= input->schema_bytes && devices < UP_FIELDS_MAX; at += 5U, devices++) {
     const uint8_t type = input->schema[at + 1U];
@@ -124,7 +126,7 @@ static void read_schema(const decoders_input_t *input, up_wire_t *wire) {
   wire->health_bytes = (uint16_t)(is_to_board ? 0U : UP_HEALTH_BOARD_BYTES + UP_HEALTH_DEVICE_BYTES * devices);
   payload_bytes = (values_bytes > payload_bytes) ? values_bytes : payload_bytes;
   payload_bytes = (wire->health_bytes > payload_bytes) ? wire->health_bytes : payload_bytes;
-  payload_bytes += wire->has_checksum ? 3U : 0U;
+  payload_bytes += UP_WIRE_CHECKSUM_BYTES(wire);
   wire->payload_bytes_max = (uint16_t)payload_bytes;
   wire->head_bytes = (uint8_t)(digits_of(payload_bytes) + 1U);
   wire->item = item;

@@ -94,7 +94,9 @@ extern "C" void decoders_cpp(const decoders_input_t *input, decoders_out_t out, 
             values_bytes += 1 + item.size_bytes();
         }
     }
-    const bool has_checksum = (input->schema[0] & 1U) != 0;
+    const sensedsl::Checksum checksum = (input->schema[0] & 1U) != 0   ? sensedsl::checksum_crc16
+                                        : (input->schema[0] & 8U) != 0 ? sensedsl::checksum_crc32
+                                                                       : sensedsl::checksum_none;
     const bool has_stamp = (input->schema[0] & 4U) != 0;
     values_bytes += has_stamp && !to_board && values_bytes > 0 ? sensedsl::stamp_bytes : 0;
     const size_t asked_bytes = to_board ? 2 : 5;
@@ -102,9 +104,9 @@ extern "C" void decoders_cpp(const decoders_input_t *input, decoders_out_t out, 
     const size_t health_bytes = to_board ? 0 : 19 + 17 * ids.size();
     const sensedsl::Direction direction = {
         items.empty() ? NULL : &items[0], items.size(),
-        (short_bytes > health_bytes ? short_bytes : health_bytes) + (has_checksum ? 3 : 0), short_bytes,
+        (short_bytes > health_bytes ? short_bytes : health_bytes) + sensedsl::Crc(checksum).size_bytes(), short_bytes,
         static_cast<size_t>(to_board ? 1 : 5)};
-    const sensedsl::Schema schema = {0,         has_checksum, has_stamp, direction, direction, ids.empty() ? NULL : &ids[0],
+    const sensedsl::Schema schema = {0,         checksum, has_stamp, direction, direction, ids.empty() ? NULL : &ids[0],
                                      ids.size()};
     sensedsl::Decoder decoder(schema, direction, log);
     size_t piece = 0;

@@ -136,10 +136,14 @@ static void add_item(const char *line) {
 }
 
 static void set_checksum(const char *line) {
-  const bool has_checksum = strstr(line, "crc16") != NULL;
+  const up_link_checksum_t checksum = (strstr(line, "crc16") != NULL)   ? UP_LINK_CRC16
+                                      : (strstr(line, "crc32") != NULL) ? UP_LINK_CRC32
+                                                                        : UP_LINK_NONE;
+  char text[32];
 
-  CHECK(vector.codec->reports->has_checksum == has_checksum && vector.codec->commands->has_checksum == has_checksum);
-  append(vector.canonical, sizeof vector.canonical, has_checksum ? "checksum crc16\n" : "checksum none\n");
+  CHECK(vector.codec->reports->checksum == (uint8_t)checksum && vector.codec->commands->checksum == (uint8_t)checksum);
+  sprintf(text, "%.20s\n", line);
+  append(vector.canonical, sizeof vector.canonical, text);
 }
 
 static void set_stamp(void) {

@@ -134,7 +134,7 @@ fn stated_link(
     let transport = fields.word("transport", &transports);
     let unit = fields.name("unit", "a peripheral such as USART2");
     let baud = fields.integer("baud", 1_200..=10_000_000);
-    let checksums = [("none", Checksum::None), ("crc16", Checksum::Crc16)];
+    let checksums = Checksum::ALL.map(|checksum| (checksum.name(), checksum));
     let checksum = fields.word("checksum", &checksums);
     let stamp_span = fields.own_span("stamp");
     let stamp = fields.boolean("stamp").is_some_and(|stamp| stamp.value);

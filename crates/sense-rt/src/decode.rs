@@ -12,7 +12,6 @@ use core::ops::{Deref, DerefMut};
 
 use crate::bits::Bits;
 use crate::bytes::{at, copy, move_down, part, part_mut, word};
-use crate::checksum::crc16;
 use crate::encode::Stamp;
 use crate::scalar::Scalar;
 use crate::schema::{
@@ -136,7 +135,7 @@ impl Candidate {
         if has_comma && at(bytes, self.frame_bytes.wrapping_sub(1)) != b',' {
             return Verdict::Invalid;
         }
-        let has_checksum = rules.schema.checksum;
+        let has_checksum = rules.schema.checksum.is_some();
         if has_checksum && bytes.get(self.values_end).is_some_and(|byte| *byte != ID_CHECKSUM) {
             return Verdict::Invalid;
         }
@@ -145,12 +144,12 @@ impl Candidate {
             return verdict;
         }
         if has_checksum {
-            let Some([high, low]) = bytes.get(self.values_end + 1..).and_then(<[u8]>::first_chunk)
-            else {
+            let end = self.values_end + rules.checksum_bytes();
+            let Some(sent) = bytes.get(self.values_end..end) else {
                 return Verdict::Incomplete;
             };
             let payload = bytes.get(self.payload_start..self.values_end).unwrap_or_default();
-            if crc16(payload) != u16::from_be_bytes([*high, *low]) {
+            if !rules.schema.checksum.behind(payload).starts_with(sent) {
                 return Verdict::Invalid;
             }
         }

@@ -5,10 +5,9 @@
 
 use crate::bits::Bits;
 use crate::bytes::{Writer, move_down};
-use crate::checksum::crc16;
 use crate::health::{BoardHealth, HealthRow};
 use crate::schema::{
-    Direction, HEALTH_REQUEST, ID_CHECKSUM, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
+    Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
 };
 
 /// The version of health that is written.
@@ -133,9 +132,9 @@ fn frame_of(
     if out.size <= empty_bytes {
         return 0;
     }
-    if schema.checksum {
-        let [high, low] = crc16(out.written()).to_be_bytes();
-        out.put(&[ID_CHECKSUM, high, low]);
+    if schema.checksum.is_some() {
+        let behind = schema.checksum.behind(out.written());
+        out.put(behind.get(..schema.checksum_bytes()).unwrap_or_default());
     }
     let payload_bytes = out.size;
     out.put(b",");

@@ -53,7 +53,7 @@ mod watch;
 
 pub use bits::Bits;
 pub use capture::{Capture, CaptureConfig, CaptureMode, Captured};
-pub use checksum::{crc8, crc16, sum8, sum16, xor8};
+pub use checksum::{Checksum, crc8, crc16, crc32, sum8, sum16, xor8};
 pub use chip::{
     Calibration, Chip, ChipCounts, ChipTable, Command, Identity, InitStep, Reading, Step, Transfer,
 };

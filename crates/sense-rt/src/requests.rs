@@ -1,19 +1,23 @@
 //! What a board without actuators hears of its host: two requests, each of them always the same bytes.
 
+use crate::checksum::Checksum;
 use crate::decode::Frame;
 use crate::schema::Schema;
 
-const HELLO: &[u8] = b"1:\0,";
-const HEALTH: &[u8] = b"2:\0\x01,";
-/// With a checksum.
-const HELLO_CHECKED: &[u8] = b"4:\0\xFF\xE1\xF0,";
-const HEALTH_CHECKED: &[u8] = b"5:\0\x01\xFF\x0D\x2E,";
+/// The request for a hello and the one for health.
+const fn requests(checksum: Checksum) -> (&'static [u8], &'static [u8]) {
+    match checksum {
+        Checksum::None => (b"1:\0,", b"2:\0\x01,"),
+        Checksum::Crc16 => (b"4:\0\xFF\xE1\xF0,", b"5:\0\x01\xFF\x0D\x2E,"),
+        Checksum::Crc32 => (b"6:\0\xFF\xD2\x02\xEF\x8D,", b"7:\0\x01\xFF\x36\xDE\x22\x69,"),
+    }
+}
 
 /// Finds the requests in a stream. A [`crate::Decoder`] finds the same where the schema has no
 /// actuator, and is six times as long.
 #[derive(Clone, Copy, Debug)]
 pub struct Requests {
-    has_checksum: bool,
+    checksum: Checksum,
     /// So many bytes of each request are the last ones of the stream.
     hello: usize,
     health: usize,
@@ -33,13 +37,12 @@ impl Requests {
     /// At the start.
     #[must_use]
     pub const fn new(schema: &Schema) -> Self {
-        Self { has_checksum: schema.checksum, hello: 0, health: 0, frames: 0 }
+        Self { checksum: schema.checksum, hello: 0, health: 0, frames: 0 }
     }
 
     /// Takes the next bytes of the stream and hands on each request.
     pub fn feed(&mut self, bytes: &[u8], on_frame: &mut dyn FnMut(Frame<'_>)) {
-        let (hello, health) =
-            if self.has_checksum { (HELLO_CHECKED, HEALTH_CHECKED) } else { (HELLO, HEALTH) };
+        let (hello, health) = requests(self.checksum);
         for byte in bytes {
             let frame = if follow(hello, &mut self.hello, *byte) {
                 Frame::HelloRequest

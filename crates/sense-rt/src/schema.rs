@@ -1,5 +1,6 @@
 //! What is on the wire of one board: a constant table that a generator prints.
 
+use crate::checksum::Checksum;
 use crate::scalar::Scalar;
 
 /// Identifier of the link's hello, and of the stamp that a report may begin with.
@@ -14,7 +15,6 @@ pub(crate) const HEALTH_REQUEST: u8 = 1;
 pub(crate) const HELLO_BYTES: usize = 5;
 pub(crate) const HEALTH_REQUEST_BYTES: usize = 2;
 pub(crate) const STAMP_BYTES: usize = 6;
-pub(crate) const CHECKSUM_BYTES: usize = 3;
 pub(crate) const HEALTH_HEAD_BYTES: usize = 19;
 pub(crate) const HEALTH_DEVICE_BYTES: usize = 17;
 
@@ -75,8 +75,8 @@ pub struct Schema {
     pub hash: u32,
     /// Whether reports begin with the board's time and a counter.
     pub stamp: bool,
-    /// Whether payloads end with a CRC-16.
-    pub checksum: bool,
+    /// What payloads end with.
+    pub checksum: Checksum,
 }
 
 impl Schema {
@@ -160,7 +160,7 @@ impl Schema {
     }
 
     pub(crate) const fn checksum_bytes(&self) -> usize {
-        if self.checksum { CHECKSUM_BYTES } else { 0 }
+        self.checksum.bytes()
     }
 
     /// Bytes of the longest payload in a direction, with its checksum.

@@ -4,6 +4,8 @@
 
 /// Values that the host sets.
 pub(crate) const ACTUATORS: bool = cfg!(feature = "actuators");
+/// Links whose payloads end with a CRC-32.
+pub(crate) const CRC32: bool = cfg!(feature = "crc32");
 /// Values of float32 and float64.
 pub(crate) const REALS: bool = cfg!(feature = "reals");
 /// Words that are floats, BCD or packed.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sense_rt::{
-    Channel, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable, Health,
+    Channel, Checksum, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable, Health,
     Host, InitStep, Item, MessageStart, Number, Outcome, Record, Reporter, ReporterConfig,
     Requests, Scalar, Schema, Status, Step, Store, Watch, encode_health_request,
     encode_hello_request,
@@ -13,7 +13,7 @@ static SCHEMA: Schema = Schema {
     items: &[Item::sensor(17, Scalar::Uint16, 1), Item::actuator(33, Scalar::Int16, 1)],
     hash: 1,
     stamp: false,
-    checksum: false,
+    checksum: Checksum::None,
 };
 
 #[test]
@@ -173,7 +173,7 @@ fn a_host_has_the_store_for_one_value_at_a_time() {
         Item::sensor(18, Scalar::Uint16, 1),
         Item::sensor(19, Scalar::Uint16, 1),
     ];
-    static THREE: Schema = Schema { items: ITEMS, hash: 1, stamp: false, checksum: false };
+    static THREE: Schema = Schema { items: ITEMS, hash: 1, stamp: false, checksum: Checksum::None };
     struct Locked(Store<[u8; 6]>, Health<[Record; 3]>, usize);
     impl Host for Locked {
         fn with(&mut self, task: &mut dyn FnMut(&mut Store, &mut Health)) {
@@ -203,22 +203,23 @@ fn a_host_has_the_store_for_one_value_at_a_time() {
 /// With sensors alone: streams of pieces of requests, and of what only looks like one.
 #[test]
 fn requests_are_what_a_decoder_finds() {
-    const fn schema(checksum: bool) -> Schema {
+    const fn schema(checksum: Checksum) -> Schema {
         const ITEMS: &[Item] = &[Item::sensor(17, Scalar::Uint16, 1)];
         Schema { items: ITEMS, hash: 1, stamp: false, checksum }
     }
-    static SCHEMAS: [Schema; 2] = [schema(false), schema(true)];
+    static SCHEMAS: [Schema; 3] =
+        [schema(Checksum::None), schema(Checksum::Crc16), schema(Checksum::Crc32)];
     for schema in &SCHEMAS {
-        let mut pieces = vec![b"4".to_vec(), b"5:".to_vec(), b":\0\x01".to_vec(), b",".to_vec()];
+        let mut pieces = vec![b"4".to_vec(), b"5:".to_vec(), b"6:".to_vec(), b":\0\x01".to_vec(), b",".to_vec()];
         for encode in [encode_hello_request, encode_health_request] {
-            let mut frame = [0; 8];
+            let mut frame = [0; 10];
             let size = encode(schema, &mut frame);
             pieces.push(frame[..size].to_vec());
             pieces.push(frame[..size - 1].to_vec());
             pieces.push(frame[1..size].to_vec());
         }
         let mut requests = Requests::new(schema);
-        let mut decoder: Decoder<[u8; 8]> = Decoder::new(schema, Direction::ToBoard);
+        let mut decoder: Decoder<[u8; 10]> = Decoder::new(schema, Direction::ToBoard);
         let mut seed = 1_u64;
         for _ in 0..20_000 {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use sense_rt::{
-    Bits, BoardHealth, Cause, Decoder, Direction, FRAME_BYTES_LIMIT, Fault, Frame, HealthRow, Item,
+    Bits, BoardHealth, Cause, Checksum, Decoder, Direction, FRAME_BYTES_LIMIT, Fault, Frame, HealthRow, Item,
     Scalar, Schema, Stamp, Status, encode_health, encode_health_request, encode_hello,
     encode_hello_request, encode_values,
 };
@@ -228,7 +228,7 @@ fn fixed(schema: Schema, items: &[Item]) -> &'static Schema {
 
 fn run(path: &Path) -> usize {
     let text = std::fs::read_to_string(path).unwrap();
-    let empty = Schema { items: &[], hash: 0, stamp: false, checksum: false };
+    let empty = Schema { items: &[], hash: 0, stamp: false, checksum: Checksum::None };
     let mut draft = empty;
     let mut items: Vec<Item> = Vec::new();
     let mut schema = fixed(draft, &items);
@@ -242,7 +242,9 @@ fn run(path: &Path) -> usize {
                 draft = empty;
                 items.clear();
             }
-            ["checksum", which] => draft.checksum = *which == "crc16",
+            ["checksum", "none"] => {}
+            ["checksum", "crc16"] => draft.checksum = Checksum::Crc16,
+            ["checksum", "crc32"] => draft.checksum = Checksum::Crc32,
             ["stamp", "on"] => draft.stamp = true,
             ["item", id, direction, _, value] => {
                 let (name, count) = value.split_once('[').unwrap_or((value, "1]"));
@@ -301,13 +303,13 @@ fn every_vector_passes() {
 fn hello_and_requests_are_these_bytes() {
     const ITEMS: &[Item] =
         &[Item::sensor(17, Scalar::Uint16, 1), Item::actuator(33, Scalar::Int16, 1)];
-    let plain = Schema { items: ITEMS, hash: 0x0102_0304, stamp: false, checksum: false };
+    let plain = Schema { items: ITEMS, hash: 0x0102_0304, stamp: false, checksum: Checksum::None };
     let mut frame = [0; 96];
     let size = encode_hello(&plain, &mut frame);
     assert_eq!(&frame[..size], b"5:\0\x01\x02\x03\x04,");
     let size = encode_hello_request(&plain, &mut frame);
     assert_eq!(&frame[..size], b"1:\0,");
-    let summed = Schema { checksum: true, ..plain };
+    let summed = Schema { checksum: Checksum::Crc16, ..plain };
     let size = encode_health_request(&summed, &mut frame);
     // CRC-16/CCITT-FALSE of 00 01, worked out bit by bit.
     assert_eq!(&frame[..size], b"5:\0\x01\xFF\x0D\x2E,".as_slice());

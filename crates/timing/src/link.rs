@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_model::design::{Device, Transport};
-use sensedsl_wire::{Checksum, Direction, STAMP_BYTES};
+use sensedsl_wire::{Direction, STAMP_BYTES};
 
 use crate::buses::i2c_period_ms;
 use crate::ports::exact_baud;
@@ -96,10 +96,7 @@ pub(crate) fn reports(context: &Context<'_>) -> Reports {
 
 /// Bytes around values of so many.
 fn frame_bytes(context: &Context<'_>, payload: u64) -> u64 {
-    let checksum = match context.board.link.checksum {
-        Checksum::None => 0,
-        Checksum::Crc16 => Checksum::Crc16.size_bytes() as u64,
-    };
+    let checksum = context.board.link.checksum.size_bytes() as u64;
     let stamp = if context.board.link.stamp { STAMP_BYTES as u64 } else { 0 };
     let digits = u64::from((payload + checksum + stamp).checked_ilog10().unwrap_or(0)) + 1;
     digits + 2 + checksum + stamp

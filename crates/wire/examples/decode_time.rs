@@ -45,7 +45,11 @@ fn cpu_ns() -> Option<u64> {
 
 fn read_schema(bytes: &[u8]) -> Schema {
     let (flags, items) = bytes.split_first().unwrap_or((&0, &[]));
-    let checksum = if flags & 1 == 0 { Checksum::None } else { Checksum::Crc16 };
+    let checksum = match flags & 9 {
+        0 => Checksum::None,
+        1 => Checksum::Crc16,
+        _ => Checksum::Crc32,
+    };
     let items = items.as_chunks::<5>().0.iter().map(|&[id, scalar, direction, high, low]| Item {
         id,
         name: String::new(),

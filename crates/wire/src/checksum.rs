@@ -1,4 +1,116 @@
-//! The two checksums of the wire.
+//! The checksums of the wire. What they are is in the functions of [`Checksum`] alone: whoever else
+//! needs one asks it.
+
+use alloc::vec::Vec;
+
+use crate::schema::{Checksum, ID_CHECKSUM};
+
+/// Bytes of a number that holds any checksum.
+const NUMBER_BYTES: usize = size_of::<u32>();
+
+impl Checksum {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::None, Self::Crc16, Self::Crc32];
+
+    /// The word of the language.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Crc16 => "crc16",
+            Self::Crc32 => "crc32",
+        }
+    }
+
+    /// The one of that name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|checksum| checksum.name() == name)
+    }
+
+    /// Bits of its number.
+    #[must_use]
+    pub const fn bits(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Crc16 => 16,
+            Self::Crc32 => 32,
+        }
+    }
+
+    /// Whether there is one.
+    #[must_use]
+    pub const fn is_some(self) -> bool {
+        self.bits() > 0
+    }
+
+    /// Bytes it adds to each payload: its identifier and its number.
+    #[must_use]
+    pub const fn size_bytes(self) -> usize {
+        if self.is_some() { 1 + self.bits() / 8 } else { 0 }
+    }
+
+    /// Its number of a payload.
+    #[must_use]
+    pub fn of(self, payload: &[u8]) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Crc16 => u32::from(crc16_ccitt_false(payload)),
+            Self::Crc32 => crc32_iso_hdlc(payload),
+        }
+    }
+
+    /// Puts it behind a payload.
+    pub fn append(self, payload: &mut Vec<u8>) {
+        if self.is_some() {
+            let number = self.of(payload).to_be_bytes();
+            payload.push(ID_CHECKSUM);
+            payload.extend(number.get(NUMBER_BYTES - self.bits() / 8..).unwrap_or_default());
+        }
+    }
+
+    /// Its number as it stands in the bytes behind its identifier; none where some of them are missing.
+    pub(crate) fn read(self, bytes: &[u8]) -> Option<u32> {
+        let number = bytes.get(..self.bits() / 8)?;
+        Some(number.iter().fold(0, |number, byte| number << 8 | u32::from(*byte)))
+    }
+
+    /// What a register starts with, and what it is XORed with at the end.
+    pub(crate) const fn ends(self) -> (u32, u32) {
+        match self {
+            Self::None => (0, 0),
+            Self::Crc16 => (0xFFFF, 0),
+            Self::Crc32 => (u32::MAX, u32::MAX),
+        }
+    }
+
+    /// The register that multiplies by one.
+    pub(crate) const fn one(self) -> u32 {
+        match self {
+            Self::None | Self::Crc16 => 1,
+            Self::Crc32 => 1 << 31,
+        }
+    }
+
+    /// The register behind one more byte.
+    #[inline]
+    pub(crate) fn step(self, register: u32, byte: u8) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Crc16 => u32::from(crc16_step(register as u16, byte)),
+            Self::Crc32 => crc32_step(register, byte),
+        }
+    }
+
+    /// The product of two registers as polynomials over GF(2), modulo the one of the CRC.
+    pub(crate) fn product(self, left: u32, right: u32) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Crc16 => u32::from(crc16_product(left as u16, right as u16)),
+            Self::Crc32 => crc32_product(left, right),
+        }
+    }
+}
 
 /// What a byte in the upper half of the register does to a CRC-16/CCITT-FALSE, and the same with
 /// one, two and three zero bytes behind it.
@@ -25,15 +137,42 @@ const fn crc16_tables() -> [[u16; 256]; 4] {
     tables
 }
 
-/// The register behind one more byte.
+/// The same of CRC-32, whose bytes come in at the lower end.
+const CRC32_TABLES: [[u32; 256]; 4] = crc32_tables();
+
+#[expect(clippy::indexing_slicing, reason = "in a constant, where the compiler sees each index")]
+const fn crc32_tables() -> [[u32; 256]; 4] {
+    let mut tables = [[0; 256]; 4];
+    let mut byte = 0;
+    while byte < 256 {
+        let mut crc = byte as u32;
+        let mut table = 0;
+        while table < 4 {
+            let mut bit = 0;
+            while bit < 8 {
+                crc = crc32_shifted(crc);
+                bit += 1;
+            }
+            tables[table][byte] = crc;
+            table += 1;
+        }
+        byte += 1;
+    }
+    tables
+}
+
+const fn crc32_shifted(crc: u32) -> u32 {
+    if crc & 1 == 0 { crc >> 1 } else { (crc >> 1) ^ 0xEDB8_8320 }
+}
+
 #[inline]
-pub(crate) fn crc16_step(crc: u16, byte: u8) -> u16 {
+fn crc16_step(crc: u16, byte: u8) -> u16 {
     let [one, ..] = &CRC16_TABLES;
     (crc << 8) ^ entry(one, crc.to_be_bytes()[0] ^ byte)
 }
 
 #[inline]
-fn entry(table: &[u16; 256], byte: u8) -> u16 {
+fn entry<T: Copy + Default>(table: &[T; 256], byte: u8) -> T {
     // A byte is always below 256; the compiler sees it and checks nothing.
     table.get(usize::from(byte)).copied().unwrap_or_default()
 }
@@ -50,9 +189,7 @@ pub fn crc16_ccitt_false(bytes: &[u8]) -> u16 {
     rest.iter().fold(crc, |crc, &byte| crc16_step(crc, byte))
 }
 
-/// The product of two registers as polynomials over GF(2), modulo the one of the CRC.
-#[must_use]
-pub(crate) fn crc16_product(left: u16, right: u16) -> u16 {
+fn crc16_product(left: u16, right: u16) -> u16 {
     (0..16).rev().fold(0, |product: u16, bit| {
         let carry = if product & 0x8000 == 0 { 0 } else { 0x1021 };
         let term = if (right >> bit) & 1 == 0 { 0 } else { left };
@@ -60,17 +197,32 @@ pub(crate) fn crc16_product(left: u16, right: u16) -> u16 {
     })
 }
 
-/// CRC-32/ISO-HDLC (the one of zlib): of the schema's canonical text it is the schema hash.
+/// The highest power stands in the lowest bit.
+fn crc32_product(left: u32, right: u32) -> u32 {
+    (0..32).fold(0, |product: u32, bit| {
+        let term = if (right >> bit) & 1 == 0 { 0 } else { left };
+        crc32_shifted(product) ^ term
+    })
+}
+
+#[inline]
+fn crc32_step(crc: u32, byte: u8) -> u32 {
+    let [one, ..] = &CRC32_TABLES;
+    let [low, ..] = crc.to_le_bytes();
+    (crc >> 8) ^ entry(one, low ^ byte)
+}
+
+/// CRC-32/ISO-HDLC (the one of Ethernet and zlib): polynomial 0x04C11DB7, start 0xFFFFFFFF, reflected,
+/// inverted at the end. Of the schema's canonical text it is the schema hash.
 #[must_use]
 pub fn crc32_iso_hdlc(bytes: &[u8]) -> u32 {
-    let mut crc = 0xFFFF_FFFF_u32;
-    for &byte in bytes {
-        crc ^= u32::from(byte);
-        for _ in 0..8 {
-            crc = if crc & 1 == 0 { crc >> 1 } else { (crc >> 1) ^ 0xEDB8_8320 };
-        }
-    }
-    !crc
+    let [one, two, three, four] = &CRC32_TABLES;
+    let (fours, rest) = bytes.as_chunks::<4>();
+    let crc = fours.iter().fold(u32::MAX, |crc, &[a, b, c, d]| {
+        let [low, second, third, high] = crc.to_le_bytes();
+        entry(four, a ^ low) ^ entry(three, b ^ second) ^ entry(two, c ^ third) ^ entry(one, d ^ high)
+    });
+    !rest.iter().fold(crc, |crc, &byte| crc32_step(crc, byte))
 }
 
 #[cfg(test)]
@@ -83,15 +235,43 @@ mod tests {
         assert_eq!(crc16_ccitt_false(b""), 0xFFFF);
         assert_eq!(crc16_ccitt_false(b"A"), 0xB915);
         assert_eq!(crc32_iso_hdlc(b"123456789"), 0xCBF4_3926);
+        assert_eq!(crc32_iso_hdlc(b""), 0);
+        assert_eq!(crc32_iso_hdlc(b"a"), 0xE8B7_BE43);
+    }
+
+    #[test]
+    fn behind_a_payload() {
+        let framed = |checksum: Checksum| {
+            let mut payload = b"123456789".to_vec();
+            checksum.append(&mut payload);
+            assert_eq!(payload.len(), 9 + checksum.size_bytes());
+            assert_eq!(Checksum::of_name(checksum.name()), Some(checksum));
+            payload.split_off(9)
+        };
+        assert_eq!(framed(Checksum::None), []);
+        assert_eq!(framed(Checksum::Crc16), [255, 0x29, 0xB1]);
+        assert_eq!(framed(Checksum::Crc32), [255, 0xCB, 0xF4, 0x39, 0x26]);
+        assert_eq!(Checksum::of_name("crc8"), None);
     }
 
     #[test]
     fn zero_bytes_multiply() {
-        let (mut by_steps, mut power) = (0x29B1, 1);
-        for _ in 0..300 {
-            by_steps = crc16_step(by_steps, 0);
-            power = crc16_step(power, 0);
-            assert_eq!(by_steps, crc16_product(0x29B1, power));
+        for checksum in [Checksum::Crc16, Checksum::Crc32] {
+            let (mut by_steps, mut power) = (0x29B1, checksum.one());
+            for _ in 0..300 {
+                by_steps = checksum.step(by_steps, 0);
+                power = checksum.step(power, 0);
+                assert_eq!(by_steps, checksum.product(0x29B1, power));
+            }
+        }
+    }
+
+    #[test]
+    fn steps_and_ends_give_the_number() {
+        for checksum in Checksum::ALL {
+            let (start, end) = checksum.ends();
+            let register = b"123456789".iter().fold(start, |crc, byte| checksum.step(crc, *byte));
+            assert_eq!(register ^ end, checksum.of(b"123456789"));
         }
     }
 }

@@ -4,11 +4,10 @@ use alloc::format;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::checksum::crc16_ccitt_false;
 use crate::frame::Stamp;
 use crate::health::{HEALTH_REQUEST, Health};
 use crate::scalar::Scalar;
-use crate::schema::{Checksum, Direction, ID_CHECKSUM, ID_HELLO, Schema};
+use crate::schema::{Direction, ID_HELLO, Schema};
 
 /// Why values make no frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,11 +142,7 @@ pub fn encode_hello_request(schema: &Schema) -> Vec<u8> {
 }
 
 fn frame(schema: &Schema, mut payload: Vec<u8>) -> Vec<u8> {
-    if schema.checksum == Checksum::Crc16 {
-        let crc = crc16_ccitt_false(&payload);
-        payload.push(ID_CHECKSUM);
-        payload.extend_from_slice(&crc.to_be_bytes());
-    }
+    schema.checksum.append(&mut payload);
     let mut bytes = format!("{}:", payload.len()).into_bytes();
     bytes.append(&mut payload);
     bytes.push(b',');

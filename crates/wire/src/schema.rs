@@ -14,8 +14,6 @@ pub const ID_CHECKSUM: u8 = 255;
 /// Identifier that a health frame begins with; the checksum, which is the same, stands last.
 pub const ID_HEALTH: u8 = 255;
 
-/// Bytes a checksum adds to a payload: its identifier and a CRC-16.
-const CHECKSUM_BYTES: usize = 3;
 /// Bytes of the board's hello: its identifier and the schema hash.
 pub(crate) const HELLO_BYTES: usize = 5;
 /// Bytes of the host's request for a hello.
@@ -57,26 +55,8 @@ pub enum Checksum {
     None,
     /// CRC-16/CCITT-FALSE behind identifier 255.
     Crc16,
-}
-
-impl Checksum {
-    /// The word of the language.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Crc16 => "crc16",
-        }
-    }
-
-    /// Bytes it adds to each payload.
-    #[must_use]
-    pub const fn size_bytes(self) -> usize {
-        match self {
-            Self::None => 0,
-            Self::Crc16 => CHECKSUM_BYTES,
-        }
-    }
+    /// CRC-32/ISO-HDLC behind identifier 255.
+    Crc32,
 }
 
 /// One value of a link.

@@ -170,8 +170,7 @@ fn run(path: &Path) -> usize {
         match words.as_slice() {
             [] | ["#", ..] => {}
             ["schema", _] => schema = Schema::default(),
-            ["checksum", "none"] => schema.checksum = Checksum::None,
-            ["checksum", "crc16"] => schema.checksum = Checksum::Crc16,
+            ["checksum", name] => schema.checksum = Checksum::of_name(name).expect("a checksum"),
             ["stamp", "on"] => schema.stamp = true,
             ["item", id, direction, name, value] => schema.items.push(Item {
                 id: id.parse().unwrap(),

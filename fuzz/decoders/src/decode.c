@@ -65,7 +65,7 @@ static void read_schema(const sense_stream_t *stream, up_wire_t *wire) {
   memset(wire, 0, sizeof *wire);
   memset(item_of, 0, sizeof item_of);
   wire->direction = (uint8_t)direction;
-  wire->has_checksum = stream->crc16 != 0U;
+  wire->checksum = stream->checksum;
   wire->has_stamp = stream->stamp != 0U && direction == UP_TO_HOST;
   for (i = 0U; i < stream->items_count; i++) {
     const sense_item_t *one = &stream->items[i];
@@ -79,7 +79,7 @@ static void read_schema(const sense_stream_t *stream, up_wire_t *wire) {
   payload_bytes = (direction == UP_TO_BOARD) ? 2U : UP_HEALTH_BOARD_BYTES + UP_HEALTH_DEVICE_BYTES * stream->items_count;
   wire->health_bytes = (uint16_t)((direction == UP_TO_BOARD) ? 0U : payload_bytes);
   payload_bytes = (values_bytes > payload_bytes) ? values_bytes : payload_bytes;
-  payload_bytes += wire->has_checksum ? 3U : 0U;
+  payload_bytes += UP_WIRE_CHECKSUM_BYTES(wire);
   wire->payload_bytes_max = (uint16_t)payload_bytes;
   wire->head_bytes = 2U;
   for (number = payload_bytes; number >= 10U; number /= 10U) {

@@ -99,7 +99,7 @@ struct Side {
         direction.short_bytes_max = bytes > asked_bytes ? bytes : asked_bytes;
         direction.payload_bytes_max =
             (direction.short_bytes_max > health_bytes ? direction.short_bytes_max : health_bytes) +
-            (stream.crc16 != 0 ? 3 : 0);
+            sensedsl::Crc(checksum_of(stream)).size_bytes();
     }
 
     std::vector<sensedsl::Item> items;
@@ -116,7 +116,7 @@ extern "C" void sense_decode_cpp(const sense_stream_t *stream, sense_decoded_t *
         ids.push_back(stream->items[i].id);
     }
     const sensedsl::Schema schema = {0,
-                                     stream->crc16 != 0,
+                                     checksum_of(*stream),
                                      stream->stamp != 0,
                                      sensors.direction,
                                      actuators.direction,

@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
   const sense_item_t *items;
   size_t items_count;
-  uint8_t crc16;
+  uint8_t checksum; /* 0, or the bytes of its number */
   uint8_t stamp;
   uint8_t to_board;
   const uint8_t *bytes;

@@ -30,7 +30,7 @@ struct CItem {
 struct CStream {
     items: *const CItem,
     items_count: usize,
-    crc16: u8,
+    checksum: u8,
     stamp: u8,
     to_board: u8,
     bytes: *const u8,
@@ -76,7 +76,7 @@ fn foreign(
     let given = CStream {
         items: items.as_ptr(),
         items_count: items.len(),
-        crc16: u8::from(stream.schema.checksum == Checksum::Crc16),
+        checksum: (stream.schema.checksum.bits() / 8) as u8,
         stamp: u8::from(stream.schema.stamp),
         to_board: to_board(stream.direction),
         bytes: stream.bytes.as_ptr(),

@@ -189,7 +189,7 @@ fn link(draw: &mut Draw<'_>, manner: Manner) -> String {
         text.push_str(&format!(" transport = {transport};"));
     }
     if draw.chance(96) {
-        text.push_str(" checksum = crc16;");
+        text.push_str(&format!(" checksum = {};", draw.word(&["crc16", "crc32"])));
     }
     let is_serial = transport == "uart" || manner == Manner::Odd;
     if is_serial && draw.chance(96) {

@@ -23,7 +23,7 @@ fn cuts(random: &mut Random) -> Vec<u32> {
 
 fn cases(seed: u64, rounds: usize, mut check: impl FnMut(&Schema, Direction, &[u8], &[u32])) {
     let mut random = Random::new(seed);
-    for checksum in [Checksum::None, Checksum::Crc16] {
+    for checksum in Checksum::ALL {
         for schema in hard_schemas(checksum) {
             for round in 0..rounds {
                 let direction =
@@ -94,8 +94,7 @@ fn c_and_cpp_agree(folder: &str, more: &[&str]) {
 
 /// Within the value of a frame whose checksum is wrong: a frame whose checksum is right, though one
 /// of its bools is 2, and a good one.
-fn bools_within_a_failed_frame() -> (Schema, Vec<u8>) {
-    let checksum = Checksum::Crc16;
+fn bools_within_a_failed_frame(checksum: Checksum) -> (Schema, Vec<u8>) {
     let schema = schema(checksum, &[(b'a', ScalarType::Uint8, 400), (1, ScalarType::Bool, 100)]);
     let mut bools = [[1].as_slice(), &[0; 100]].concat();
     let good = frame(&schema, &bools);
@@ -131,9 +130,11 @@ fn all_agree(folder: &str, schema: &Schema, streams: &[Vec<u8>]) {
 
 #[test]
 fn sums_excuse_no_value() {
-    let (schema, stream) = bools_within_a_failed_frame();
-    assert!(naive::decode(&schema, Direction::Sensor, &stream).contains(&b'R'));
-    all_agree("sums", &schema, &[stream]);
+    for (checksum, folder) in [(Checksum::Crc16, "sums"), (Checksum::Crc32, "sums-crc32")] {
+        let (schema, stream) = bools_within_a_failed_frame(checksum);
+        assert!(naive::decode(&schema, Direction::Sensor, &stream).contains(&b'R'));
+        all_agree(folder, &schema, &[stream]);
+    }
 }
 
 /// A frame of `first` and all of `chain`, within two that fail behind it: the first of them only
@@ -151,7 +152,8 @@ fn leaps_excuse_no_repeat() {
     // None of them the fresh one, `a` or `b`; each leap has some of each quarter of all identifiers.
     let (chain, fresh): (Vec<u8>, u8) =
         ((0..49_u16).map(|at| (1 + at * 10 % 49 * 5) as u8).collect(), 2);
-    for (checksum, folder) in [(Checksum::None, "leaps"), (Checksum::Crc16, "leaps-crc")] {
+    let folders = ["leaps", "leaps-crc16", "leaps-crc32"];
+    for (checksum, folder) in Checksum::ALL.into_iter().zip(folders) {
         // The values of `a` and `b` end where the chain starts.
         let mut items = vec![(b'a', ScalarType::Uint8, 11), (b'b', ScalarType::Uint8, 6)];
         items.extend(chain.iter().chain([&fresh]).map(|&id| (id, ScalarType::Uint8, 1)));

@@ -2,6 +2,7 @@
 
 use sensedsl_wire::{
     Checksum, Direction, ID_CHECKSUM, ID_HEALTH, ID_HELLO, ScalarType, Schema, crc16_ccitt_false,
+    crc32_iso_hdlc,
 };
 
 use super::program::Answer;
@@ -51,16 +52,21 @@ fn look(schema: &Schema, direction: Direction, bytes: &[u8]) -> Verdict {
     let Some(mut whole) = are_values(schema, direction, here, values_bytes) else {
         return Verdict::Invalid;
     };
-    let crc = crc16_ccitt_false(&here[..values_bytes.min(here.len())]).to_be_bytes();
+    let values = &here[..values_bytes.min(here.len())];
+    let sum = match schema.checksum {
+        Checksum::None => Vec::new(),
+        Checksum::Crc16 => crc16_ccitt_false(values).to_be_bytes().to_vec(),
+        Checksum::Crc32 => crc32_iso_hdlc(values).to_be_bytes().to_vec(),
+    };
     let mut tail = vec![b','];
-    if schema.checksum == Checksum::Crc16 {
-        tail = vec![ID_CHECKSUM, crc[0], crc[1], b','];
+    if !sum.is_empty() {
+        tail = [&[ID_CHECKSUM], &sum[..], b","].concat();
     }
     let there = here.get(values_bytes..).unwrap_or_default();
-    // The first byte of the sum alone proves nothing: it is compared when both are there.
+    // The first bytes of the sum alone prove nothing: it is compared when all are there.
     for (index, (is, should)) in there.iter().zip(&tail).enumerate() {
-        let is_half_a_sum = tail.len() == 4 && index == 1 && there.len() < 3;
-        if is != should && !is_half_a_sum {
+        let is_in_sum = (1..=sum.len()).contains(&index);
+        if is != should && !(is_in_sum && there.len() <= sum.len()) {
             return Verdict::Invalid;
         }
     }

@@ -88,9 +88,13 @@ fn health_payload(schema: &Schema, health: HealthFrame<'_>) -> Vec<u8> {
 
 /// The schema in the bytes that the program takes.
 pub(crate) fn schema_bytes(schema: &Schema, direction: Direction) -> Vec<u8> {
-    let crc = u8::from(schema.checksum == Checksum::Crc16);
+    let checksum = match schema.checksum {
+        Checksum::None => 0,
+        Checksum::Crc16 => 1,
+        Checksum::Crc32 => 8,
+    };
     let to_board = u8::from(direction == Direction::Actuator);
-    let mut bytes = vec![crc | to_board << 1 | u8::from(schema.stamp) << 2];
+    let mut bytes = vec![checksum | to_board << 1 | u8::from(schema.stamp) << 2];
     for item in &schema.items {
         let scalar = ScalarType::ALL.iter().position(|&scalar| scalar == item.value.scalar);
         bytes.extend([item.id, u8::try_from(scalar.unwrap()).unwrap()]);

@@ -4,7 +4,7 @@
 use sensedsl_tests::Random;
 use sensedsl_wire::{
     Causes, Checksum, DeviceHealth, Direction, Health, ID_HEALTH, Item, ResetCause, ScalarType,
-    Schema, Status, ValueType, crc16_ccitt_false, encode_health, encode_health_request,
+    Schema, Status, ValueType, encode_health, encode_health_request,
     encode_hello, encode_hello_request,
 };
 
@@ -108,10 +108,7 @@ pub(crate) fn overlapping_walks(random: &mut Random, schema: &Schema) -> Vec<u8>
 /// The frame of a payload, with the checksum the schema asks for.
 pub(crate) fn frame(schema: &Schema, payload: &[u8]) -> Vec<u8> {
     let mut payload = payload.to_vec();
-    if schema.checksum == Checksum::Crc16 {
-        let crc = crc16_ccitt_false(&payload).to_be_bytes();
-        payload.extend([255, crc[0], crc[1]]);
-    }
+    schema.checksum.append(&mut payload);
     [format!("{}:", payload.len()).as_bytes(), &payload, b","].concat()
 }
 

@@ -53,7 +53,9 @@ fn schemas(text: &str) -> Vec<(String, Schema)> {
             schemas.push((name.to_owned(), Schema::default()));
         } else if let Some((_, schema)) = schemas.last_mut() {
             match line.split_once(' ') {
-                Some(("checksum", "crc16")) => schema.checksum = Checksum::Crc16,
+                Some(("checksum", name)) => {
+                    schema.checksum = Checksum::of_name(name).expect("a checksum");
+                }
                 Some(("stamp", "on")) => schema.stamp = true,
                 Some(("item", rest)) => schema.items.push(item(rest)),
                 _ => {}

@@ -97,7 +97,7 @@ const MUTANTS: &[Mutant] = &[
         "offsetof(sense_values_t, SENSE_IRFront)",
     ),
     ("schema hash", MODEL, ".hash = 0xb2d2a70bU", ".hash = 0xb2d2a70cU"),
-    ("checksum", MODEL, ".checksum_crc16 = false", ".checksum_crc16 = true"),
+    ("checksum", MODEL, ".checksum = \"none\"", ".checksum = \"crc16\""),
     ("number of fields", MODEL, ".fields_count = 4U", ".fields_count = 3U"),
     ("number of a field", MODEL_H, "SENSE_FIELD_USRear = 2", "SENSE_FIELD_USRear = 1"),
     (

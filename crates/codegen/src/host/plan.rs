@@ -45,8 +45,8 @@ pub struct BoardPlan {
     pub hash: u32,
     /// The text that the hash is made of.
     pub schema_text: String,
-    /// Whether frames end with a checksum.
-    pub has_checksum: bool,
+    /// What frames end with.
+    pub checksum: Checksum,
     /// Whether each report begins with the board's time and a counter.
     pub has_stamp: bool,
     /// Baud rate of the link.
@@ -148,7 +148,7 @@ impl BoardPlan {
             name: board.name.clone(),
             hash: board.schema.hash(),
             schema_text: board.schema.canonical_text(),
-            has_checksum: board.schema.checksum == Checksum::Crc16,
+            checksum: board.schema.checksum,
             has_stamp: board.schema.stamp,
             baud: board.baud,
             silence_ms: board.silence_ms,

@@ -2,14 +2,14 @@
 
 use sensedsl_model::design::Device;
 use sensedsl_model::words::{Code, Words};
-use sensedsl_wire::ScalarType;
+use sensedsl_wire::{Checksum, ScalarType};
 
 use super::BusPlan;
 use crate::job::BoardJob;
 
 /// What can be left out, as the features of `sense-rt` are called, and whether any value needs it; `runtime/core/up_uses.h`
 /// says what each is.
-pub(crate) fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 11] {
+pub(crate) fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 12] {
     let device = |uses: fn(&Device) -> bool| job.devices.iter().any(|one| uses(one.device));
     let word = |uses: fn(&Words) -> bool| {
         job.devices.iter().filter_map(|one| Words::of(one.device)).any(|words| uses(&words))
@@ -17,6 +17,7 @@ pub(crate) fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 11] {
     let bus =
         |uses: fn(&BusPlan) -> bool| job.parts.iter().flat_map(|one| &one.plan.buses).any(uses);
     [
+        ("crc32", job.schema.checksum == Checksum::Crc32),
         ("reals", device(is_real)),
         ("codes", word(|words| words.code != Code::Integer)),
         ("word-crc", word(|words| words.crc.is_some())),

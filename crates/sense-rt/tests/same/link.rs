@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use sense_rt::{
-    Channel, Health, Host, Item, Outcome, Record, Reporter, ReporterConfig, Scalar, Schema, Store,
+    Channel, Checksum, Health, Host, Item, Outcome, Record, Reporter, ReporterConfig, Scalar, Schema, Store,
 };
 
 use super::answer::{Words, say_bytes};
@@ -17,12 +17,16 @@ const ITEMS: &[Item] = &[
     Item::sensor(20, Scalar::Uint32, 1),
 ];
 const HASH: u32 = 0xC0FF_EE17;
-const fn schema(stamp: bool, checksum: bool) -> Schema {
+const fn schema(stamp: bool, checksum: Checksum) -> Schema {
     Schema { items: ITEMS, hash: HASH, stamp, checksum }
 }
-static SCHEMAS: [Schema; 4] =
-    [schema(false, false), schema(false, true), schema(true, false), schema(true, true)];
-const BYTES: usize = schema(true, true).reporter_bytes();
+pub(crate) const CHECKSUMS: [Checksum; 3] = [Checksum::None, Checksum::Crc16, Checksum::Crc32];
+const fn with_each(stamp: bool) -> [Schema; 3] {
+    let [none, crc16, crc32] = CHECKSUMS;
+    [schema(stamp, none), schema(stamp, crc16), schema(stamp, crc32)]
+}
+static SCHEMAS: [[Schema; 3]; 2] = [with_each(false), with_each(true)];
+const BYTES: usize = schema(true, Checksum::Crc32).reporter_bytes();
 static CYCLES_MS: [u32; 5] = [10, 0, 0, 0, 100];
 
 pub(crate) const OUTCOMES: [Outcome; Outcome::COUNT] = [
@@ -133,7 +137,7 @@ impl Link {
         match word {
             "reporter" => {
                 let (stamp, checksum) = (words.number() as usize, words.number() as usize);
-                let schema = &SCHEMAS[2 * stamp + checksum];
+                let schema = &SCHEMAS[stamp][checksum];
                 *self = Self::new(schema, words.small(), words.small());
                 out.push_str(" 1");
             }

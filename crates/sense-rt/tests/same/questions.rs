@@ -262,7 +262,7 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
 }
 
 /// What a host sends: requests, values, noise, frames that are torn.
-fn stream(random: &mut Random, checksum: bool) -> Vec<u8> {
+fn stream(random: &mut Random, checksum: usize) -> Vec<u8> {
     let mut all = Vec::new();
     for _ in 0..random.below(4) {
         let mut payload = match random.below(5) {
@@ -272,8 +272,12 @@ fn stream(random: &mut Random, checksum: bool) -> Vec<u8> {
             3 => vec![34, random.below(3) as u8, 1],
             _ => [&[34, 1, 0, 33], &bytes(random, 2)[..]].concat(),
         };
-        if checksum {
-            let sum = sense_rt::crc16(&payload).to_be_bytes();
+        let sum = match checksum {
+            0 => Vec::new(),
+            1 => sense_rt::crc16(&payload).to_be_bytes().to_vec(),
+            _ => sense_rt::crc32(&payload).to_be_bytes().to_vec(),
+        };
+        if !sum.is_empty() {
             payload.push(255);
             payload.extend(sum);
         }
@@ -296,7 +300,7 @@ fn stream(random: &mut Random, checksum: bool) -> Vec<u8> {
 
 fn links(random: &mut Random, all: &mut Vec<String>) {
     const SIZES: [(usize, usize); 3] = [(0, 2), (1, 40), (4, 4)];
-    let (stamp, checksum) = (random.below(2), random.below(2));
+    let (stamp, checksum) = (random.below(2), random.below(3));
     let (cycle, silence) = (5 + random.below(20), random.below(2) * 60);
     all.push(format!("reporter {stamp} {checksum} {cycle} {silence}"));
     let mut now_us = 0_u64;
@@ -315,7 +319,7 @@ fn links(random: &mut Random, all: &mut Vec<String>) {
         let (is_open, is_gone) = (random.below(20) > 0, random.below(25) == 0);
         let room = if random.below(3) == 0 { 64 } else { random.below(speed + 1).min(64) };
         let paused = u8::from(random.below(30) == 0);
-        let bytes = hex(&stream(random, checksum == 1));
+        let bytes = hex(&stream(random, checksum));
         let (open, gone) = (u8::from(is_open), u8::from(is_gone));
         all.push(format!("cycle {now_us} {open} {gone} {room} {paused} 1 {bytes}"));
         now_us += (cycle * 1000 + random.below(900)) as u64;

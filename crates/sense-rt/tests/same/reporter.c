@@ -116,9 +116,9 @@ static bool intercept(void *context, uint8_t byte) {
   return byte == (uint8_t)'?';
 }
 
-static up_wire_t wire(bool is_report, bool has_stamp, bool has_checksum) {
-  up_wire_t one = {.hash = schema.hash, .has_checksum = has_checksum, .put = put, .item = item, .take = take};
-  const size_t sums = has_checksum ? 3U : 0U;
+static up_wire_t wire(bool is_report, bool has_stamp, up_link_checksum_t checksum) {
+  up_wire_t one = {.hash = schema.hash, .checksum = (uint8_t)checksum, .put = put, .item = item, .take = take};
+  const size_t sums = UP_WIRE_CHECKSUM_BYTES(&one);
 
   one.direction = is_report ? (uint8_t)UP_TO_HOST : (uint8_t)UP_TO_BOARD;
   one.has_stamp = is_report && has_stamp;
@@ -130,13 +130,16 @@ static up_wire_t wire(bool is_report, bool has_stamp, bool has_checksum) {
 }
 
 void begin_reporter(const uint64_t *how) {
+  static const char *const names[] = {"none", "crc16", "crc32"};
+  static const up_link_checksum_t checksums[] = {UP_LINK_NONE, UP_LINK_CRC16, UP_LINK_CRC32};
+
   memset(&config, 0, sizeof config);
   memset(devices, 0, sizeof devices);
   memset(&health, 0, sizeof health);
   memset(values, 0, sizeof values);
-  schema.checksum_crc16 = how[1] != 0U;
-  reports = wire(true, how[0] != 0U, how[1] != 0U);
-  commands = wire(false, how[0] != 0U, how[1] != 0U);
+  schema.checksum = names[how[1]];
+  reports = wire(true, how[0] != 0U, checksums[how[1]]);
+  commands = wire(false, how[0] != 0U, checksums[how[1]]);
   up_store_init(&store, &schema, values);
   health.devices = devices;
   health.cycles_ms = cycles_ms;

@@ -4,7 +4,7 @@
 //! back.
 
 use sense_rt::{
-    Calibration, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat, FilterTable, Formula,
+    Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat, FilterTable, Formula,
     Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable, Number, Range, Reading,
     Scalar, Schema, Transfer, WIDE,
 };
@@ -17,7 +17,7 @@ use sensedsl_model::design::Device;
 use sensedsl_model::kind::uart;
 use sensedsl_model::protocol::{self, Format};
 use sensedsl_model::words::{self, Words};
-use sensedsl_wire::{Checksum, Direction, ScalarType};
+use sensedsl_wire::{Direction, ScalarType};
 
 /// Something that lives as long as the program.
 pub(super) fn kept<T>(one: T) -> &'static T {
@@ -41,7 +41,11 @@ pub(super) fn schema(job: &BoardJob<'_>) -> Schema {
         items: all(items),
         hash: job.schema.hash(),
         stamp: job.schema.stamp,
-        checksum: job.schema.checksum == Checksum::Crc16,
+        checksum: match job.schema.checksum {
+            sensedsl_wire::Checksum::None => Checksum::None,
+            sensedsl_wire::Checksum::Crc16 => Checksum::Crc16,
+            sensedsl_wire::Checksum::Crc32 => Checksum::Crc32,
+        },
     }
 }
 

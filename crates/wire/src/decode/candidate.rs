@@ -3,7 +3,6 @@
 use super::leap::{Ids, Leap, Leaps};
 use super::memo::Memo;
 use super::table::Table;
-use crate::checksum::crc16_ccitt_false;
 use crate::health::HEALTH_REQUEST;
 use crate::schema::{
     Checksum, Direction, HEALTH_REQUEST_BYTES, HELLO_BYTES, HELLO_REQUEST_BYTES, ID_CHECKSUM,
@@ -109,13 +108,13 @@ impl Candidate {
         if comma.is_some_and(|byte| byte != b',') {
             return Verdict::Invalid;
         }
-        let has_checksum = rules.checksum == Checksum::Crc16;
+        let has_checksum = rules.checksum.is_some();
         if has_checksum && bytes.get(self.values_end).is_some_and(|&id| id != ID_CHECKSUM) {
             return Verdict::Invalid;
         }
         // By sums the checksum costs less than a walk.
         if has_checksum && comma.is_some() && past.memo.is_some() && !self.is_checksum_right {
-            match self.compare_checksum(bytes, past) {
+            match self.compare_checksum(rules.checksum, bytes, past) {
                 Verdict::Complete => {}
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
@@ -125,7 +124,7 @@ impl Candidate {
             verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
         }
         if has_checksum && !self.is_checksum_right {
-            match self.compare_checksum(bytes, past) {
+            match self.compare_checksum(rules.checksum, bytes, past) {
                 Verdict::Complete => {}
                 verdict @ (Verdict::Invalid | Verdict::Incomplete) => return verdict,
             }
@@ -297,16 +296,21 @@ impl Candidate {
         if to == end { Verdict::Complete } else { Verdict::Incomplete }
     }
 
-    fn compare_checksum(&mut self, bytes: &[u8], past: &mut Past<'_>) -> Verdict {
-        let sent = bytes.get(self.values_end + 1..self.values_end + 3);
+    fn compare_checksum(
+        &mut self,
+        checksum: Checksum,
+        bytes: &[u8],
+        past: &mut Past<'_>,
+    ) -> Verdict {
+        let sent = bytes.get(self.values_end + 1..).and_then(|rest| checksum.read(rest));
         let Some(sent) = sent else { return Verdict::Incomplete };
         let crc = match &mut past.memo {
-            Some(memo) => memo.crc16(past.place, bytes, self.payload_start, self.values_end),
-            None => crc16_ccitt_false(
-                bytes.get(self.payload_start..self.values_end).unwrap_or_default(),
-            ),
+            Some(memo) => memo.crc(past.place, bytes, self.payload_start, self.values_end),
+            None => {
+                checksum.of(bytes.get(self.payload_start..self.values_end).unwrap_or_default())
+            }
         };
-        self.is_checksum_right = *sent == crc.to_be_bytes();
+        self.is_checksum_right = sent == crc;
         // Values that have not been walked through may still hold what is not a bool.
         if !self.is_checksum_right || self.at == self.values_end {
             self.looked_at = self.values_end;

@@ -7,12 +7,12 @@
 
 use alloc::vec::Vec;
 
-use crate::checksum::{crc16_product, crc16_step};
+use crate::schema::Checksum;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     /// The CRC's register of the bytes before this place, from a start of 0.
-    crc: u16,
+    crc: u32,
     /// How many bytes before this place are 0 or 1 without a gap.
     bools: u32,
 }
@@ -20,28 +20,30 @@ struct Sums {
 /// Sums by place in the stream.
 #[derive(Clone, Debug)]
 pub(super) struct Memo {
+    checksum: Checksum,
     frame_bytes_max: usize,
     /// A ring, so that nothing moves when the stream goes on; longer than a frame.
     sums: Vec<Sums>,
     /// By a number of bytes: what that many zero bytes multiply a register by.
-    powers: Vec<u16>,
+    powers: Vec<u32>,
     /// Place behind the last byte that is in the sums.
     frontier: u64,
 }
 
 impl Memo {
-    pub(super) fn new(frame_bytes_max: usize) -> Self {
-        Self { frame_bytes_max, sums: Vec::new(), powers: Vec::new(), frontier: 0 }
+    pub(super) fn new(checksum: Checksum, frame_bytes_max: usize) -> Self {
+        Self { checksum, frame_bytes_max, sums: Vec::new(), powers: Vec::new(), frontier: 0 }
     }
 
     /// The CRC of `frame[from..to]`, where `frame` starts at `place`. Asked with places that never
     /// go back, each byte is gone through once.
-    pub(super) fn crc16(&mut self, place: u64, frame: &[u8], from: usize, to: usize) -> u16 {
+    pub(super) fn crc(&mut self, place: u64, frame: &[u8], from: usize, to: usize) -> u32 {
         self.extend(place, frame, to);
-        // A CRC is linear: a start of 0xFFFF and what stood before the window shift through it.
-        let before = self.at(place, from).crc ^ 0xFFFF;
+        // A CRC is linear: its start and what stood before the window shift through it.
+        let (start, end) = self.checksum.ends();
+        let before = self.at(place, from).crc ^ start;
         let power = self.powers.get(to - from).copied().unwrap_or_default();
-        self.at(place, to).crc ^ crc16_product(before, power)
+        self.at(place, to).crc ^ self.checksum.product(before, power) ^ end
     }
 
     /// Whether all of `frame[from..to]` is 0 or 1.
@@ -66,9 +68,9 @@ impl Memo {
         if self.sums.is_empty() {
             self.sums =
                 alloc::vec![Sums::default(); (self.frame_bytes_max + 1).next_power_of_two()];
-            let powers = (0..=self.frame_bytes_max).scan(1, |power, _| {
+            let powers = (0..=self.frame_bytes_max).scan(self.checksum.one(), |power, _| {
                 let this = *power;
-                *power = crc16_step(this, 0);
+                *power = self.checksum.step(this, 0);
                 Some(this)
             });
             self.powers = powers.collect();
@@ -80,7 +82,7 @@ impl Memo {
         let known = (self.frontier - place) as usize;
         let mut sums = self.at(place, known);
         for &byte in frame.get(known..to).unwrap_or_default() {
-            sums.crc = crc16_step(sums.crc, byte);
+            sums.crc = self.checksum.step(sums.crc, byte);
             sums.bools = if byte <= 1 { sums.bools.saturating_add(1) } else { 0 };
             self.frontier += 1;
             self.put(self.frontier, sums);

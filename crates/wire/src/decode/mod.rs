@@ -59,7 +59,7 @@ impl<'a> Decoder<'a> {
             candidate: Candidate::default(),
             place: 0,
             spent: 0,
-            memo: Memo::new(schema.frame_bytes_max(direction)),
+            memo: Memo::new(schema.checksum, schema.frame_bytes_max(direction)),
             walked: 0,
             leaps: Leaps::new(schema.frame_bytes_max(direction)),
             frames: 0,

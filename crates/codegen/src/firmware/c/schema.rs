@@ -27,7 +27,7 @@ pub enum Role {
 #[derive(Clone, Debug)]
 pub struct SchemaPlan {
     pub(crate) fields: Vec<FieldPlan>,
-    pub(crate) has_checksum: bool,
+    pub(crate) checksum: &'static str,
     /// As a C literal.
     pub(crate) hash: String,
     pub(crate) value_bytes_max: usize,
@@ -49,7 +49,7 @@ pub(crate) struct WirePlan {
     pub(crate) payload_bytes_max: usize,
     pub(crate) frame_bytes_max: usize,
     pub(crate) head_bytes: usize,
-    pub(crate) has_checksum: bool,
+    pub(crate) checksum: Checksum,
     pub(crate) has_stamp: bool,
     pub(crate) has_memo: bool,
     pub(crate) is_packed: bool,
@@ -77,7 +77,7 @@ impl SchemaPlan {
         let wires = [Direction::Sensor, Direction::Actuator];
         Self {
             fields: schema.items.iter().enumerate().map(FieldPlan::new).collect(),
-            has_checksum: schema.checksum == Checksum::Crc16,
+            checksum: schema.checksum.name(),
             hash: format!("0x{:08x}U", schema.hash()),
             value_bytes_max: sizes.max().unwrap_or(1),
             wires: wires.map(|direction| WirePlan::new(schema, direction, role)),
@@ -88,7 +88,7 @@ impl SchemaPlan {
     pub(crate) fn left_out(&self) -> Vec<&'static str> {
         let none = |has: fn(&WirePlan) -> bool| !self.wires.iter().any(has);
         let parts = [
-            ("UP_WIRE_CHECKSUMS=0", none(|wire| wire.has_checksum)),
+            ("UP_WIRE_CHECKSUMS=0", none(|wire| wire.checksum.is_some())),
             ("UP_WIRE_STAMPS=0", none(|wire| wire.has_stamp)),
             ("UP_WIRE_BOOLS=0", none(|wire| wire.is_taken && wire.has_bools())),
             ("UP_WIRE_MEMO=0", none(|wire| wire.has_memo)),
@@ -121,7 +121,7 @@ impl WirePlan {
             payload_bytes_max,
             frame_bytes_max,
             head_bytes: frame_bytes_max.saturating_sub(payload_bytes_max + 1),
-            has_checksum: schema.checksum == Checksum::Crc16,
+            checksum: schema.checksum,
             has_stamp,
             has_memo: false,
             is_packed: !items.is_empty()
@@ -129,7 +129,7 @@ impl WirePlan {
             is_taken,
             items,
         };
-        let is_long = frame_bytes_max > PLAIN_BYTES && (wire.has_checksum || wire.has_bools());
+        let is_long = frame_bytes_max > PLAIN_BYTES && (wire.checksum.is_some() || wire.has_bools());
         wire.has_memo = is_taken && (is_long || wire.items.len() > PLAIN_ITEMS);
         wire
     }

@@ -117,7 +117,7 @@ pub(super) struct Watchdog {
 pub(super) struct SchemaPlan {
     pub(super) hash: u32,
     pub(super) stamp: bool,
-    pub(super) checksum: bool,
+    pub(super) checksum: &'static str,
     pub(super) items: Vec<ItemPlan>,
     pub(super) cycles_ms: Vec<u32>,
 }
@@ -247,7 +247,11 @@ fn schema(context: &Context<'_>) -> SchemaPlan {
     SchemaPlan {
         hash: schema.hash(),
         stamp: schema.stamp,
-        checksum: schema.checksum == Checksum::Crc16,
+        checksum: match schema.checksum {
+            Checksum::None => "Checksum::None",
+            Checksum::Crc16 => "Checksum::Crc16",
+            Checksum::Crc32 => "Checksum::Crc32",
+        },
         items: items.collect(),
         cycles_ms: context.job.devices.iter().map(|one| cycle_ms(one.device)).collect(),
     }

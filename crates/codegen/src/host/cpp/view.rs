@@ -35,7 +35,7 @@ pub(super) struct BoardView {
     pub(super) hash: String,
     /// C++ string literals, a line each.
     pub(super) schema_text: Vec<String>,
-    pub(super) has_checksum: bool,
+    pub(super) checksum: &'static str,
     pub(super) has_stamp: bool,
     pub(super) baud: u32,
     /// 0 for never.
@@ -151,7 +151,7 @@ impl BoardView {
             name_literal: string_literal(&board.name),
             ident: names.take(&board.name),
             hash: format!("0x{:08x}U", board.hash),
-            has_checksum: board.has_checksum,
+            checksum: board.checksum.name(),
             has_stamp: board.has_stamp,
             baud: board.baud,
             silence_ms: board.silence_ms.unwrap_or_default(),

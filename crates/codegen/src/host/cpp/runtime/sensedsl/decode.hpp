@@ -56,10 +56,10 @@ public:
 class Decoder {
 public:
     Decoder(const Schema &schema, const Direction &direction, Sink &sink)
-        : schema_(&schema), direction_(&direction), sink_(&sink), checksum_bytes_(schema.has_checksum ? 3 : 0),
+        : schema_(&schema), direction_(&direction), sink_(&sink), crc_(schema.checksum), checksum_bytes_(crc_.size_bytes()),
           is_from_board_(direction.hello_bytes > 1), is_stamped_(is_from_board_ && schema.has_stamp),
           health_bytes_(is_from_board_ ? schema.health_bytes() : 0), held_(),
-          start_(0), candidate_(), place_(0), spent_(0), memo_(direction.payload_bytes_max + 22),
+          start_(0), candidate_(), place_(0), spent_(0), memo_(crc_, direction.payload_bytes_max + 22),
           walked_(0), leaps_(direction.payload_bytes_max + 22), frames_(0), dropped_bytes_(0) {
         memset(slots_, 0, sizeof slots_);
         for (size_t i = direction.item_count; i-- > 0;) {
@@ -372,12 +372,12 @@ private:
         if (checksum_bytes_ == 0 || candidate_.is_checksum_right) {
             return complete;
         }
-        if (count < end + 3) {
+        if (count < end + checksum_bytes_) {
             return incomplete;
         }
-        const uint16_t crc = place_ < spent_ ? memo_.crc16(place_, bytes, start, end)
-                                             : crc16_ccitt_false(bytes + start, end - start);
-        candidate_.is_checksum_right = load<uint16_t>(bytes + end + 1) == crc;
+        const uint32_t number =
+            place_ < spent_ ? memo_.crc(place_, bytes, start, end) : crc_.of(bytes + start, end - start);
+        candidate_.is_checksum_right = crc_.read(bytes + end + 1) == number;
         // Values that have not been walked through may still hold what is not a bool.
         if (!candidate_.is_checksum_right || candidate_.at == end) {
             candidate_.looked_at = end;
@@ -421,6 +421,7 @@ private:
     const Schema *schema_;
     const Direction *direction_;
     Sink *sink_;
+    Crc crc_;
     size_t checksum_bytes_;
     bool is_from_board_;
     bool is_stamped_;

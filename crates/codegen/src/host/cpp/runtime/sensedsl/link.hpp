@@ -16,10 +16,13 @@ namespace sensedsl {
 
 /// Netstring of a payload, with the checksum behind it where the link has one.
 inline Bytes frame_of(const Schema &schema, Bytes payload) {
-    if (schema.has_checksum) {
-        const uint16_t crc = crc16_ccitt_false(&payload[0], payload.size());
+    const Crc crc(schema.checksum);
+    if (crc.bytes != 0) {
+        const uint32_t number = crc.of(&payload[0], payload.size());
         payload.push_back(id_checksum);
-        store<uint16_t>(payload, crc);
+        for (size_t i = crc.bytes; i-- > 0;) {
+            payload.push_back(static_cast<uint8_t>((number >> (8 * i)) & 0xFFU));
+        }
     }
     Bytes frame;
     for (size_t rest = payload.size(); rest != 0; rest /= 10) {

@@ -23,16 +23,16 @@ namespace sensedsl {
 /// its length. It needs memory for one frame, and only after a candidate has failed.
 class Memo {
 public:
-    explicit Memo(size_t frame_bytes_max)
-        : frame_bytes_max_(frame_bytes_max), mask_(0), sums_(), powers_(), frontier_(0) {}
+    Memo(const Crc &crc, size_t frame_bytes_max)
+        : crc_(crc), frame_bytes_max_(frame_bytes_max), mask_(0), sums_(), powers_(), frontier_(0) {}
 
     /// The CRC of the bytes [from, to) of a candidate that stands at `place` in the stream. Asked
     /// with places that never go back, each byte is gone through once.
-    uint16_t crc16(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
+    uint32_t crc(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
         extend(place, frame, to);
-        // A CRC is linear: a start of 0xFFFF and what stood before the window shift through it.
-        const unsigned before = at(place + from).crc ^ 0xFFFFU;
-        return static_cast<uint16_t>(at(place + to).crc ^ product(before, powers_[to - from]));
+        // A CRC is linear: its start and what stood before the window shift through it.
+        const uint32_t before = at(place + from).crc ^ crc_.start;
+        return at(place + to).crc ^ crc_.product(before, powers_[to - from]) ^ crc_.end;
     }
 
     bool all_bools(uint64_t place, const uint8_t *frame, size_t from, size_t to) {
@@ -44,20 +44,10 @@ private:
     struct Sums {
         Sums() : crc(0), bools(0) {}
         /// The CRC's register of the bytes before this place, from a start of 0.
-        uint16_t crc;
+        uint32_t crc;
         /// How many bytes before this place are 0 or 1 without a gap.
         size_t bools;
     };
-
-    /// Of two registers as polynomials over GF(2), modulo the one of the CRC.
-    static unsigned product(unsigned left, unsigned right) {
-        unsigned result = 0;
-        for (int bit = 15; bit >= 0; --bit) {
-            result = ((result << 1) & 0xFFFFU) ^ (0x1021U & (0U - (result >> 15)));
-            result ^= left & (0U - ((right >> bit) & 1U));
-        }
-        return result;
-    }
 
     /// A ring, so that nothing moves when the stream goes on; longer than a frame.
     Sums &at(uint64_t place) { return sums_[static_cast<size_t>(place) & mask_]; }
@@ -69,10 +59,10 @@ private:
         }
         mask_ = size - 1;
         sums_.resize(size);
-        uint16_t power = 1;
+        uint32_t power = crc_.one;
         for (size_t i = 0; i <= frame_bytes_max_; ++i) {
             powers_.push_back(power);
-            power = crc16_tables().step(power, 0);
+            power = crc_.step(power, 0);
         }
     }
 
@@ -84,20 +74,20 @@ private:
             frontier_ = place;
             at(place) = Sums();
         }
-        const Crc16Tables &tables = crc16_tables();
         Sums sums = at(frontier_);
         for (size_t i = static_cast<size_t>(frontier_ - place); i < to; ++i) {
-            sums.crc = tables.step(sums.crc, frame[i]);
+            sums.crc = crc_.step(sums.crc, frame[i]);
             sums.bools = frame[i] <= 1 ? sums.bools + 1 : 0;
             at(++frontier_) = sums;
         }
     }
 
+    Crc crc_;
     size_t frame_bytes_max_;
     size_t mask_;
     std::vector<Sums> sums_;
     /// By a number of bytes: what that many zero bytes multiply a register by.
-    std::vector<uint16_t> powers_;
+    std::vector<uint32_t> powers_;
     /// Place behind the last byte that is in the sums.
     uint64_t frontier_;
 };

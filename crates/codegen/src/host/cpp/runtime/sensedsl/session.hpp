@@ -70,9 +70,9 @@ public:
         : facts_(&facts), sink_(&sink), is_recording_(false), state_(asking), now_(0), started_(0), asked_(-1), heard_(0),
           requests_(0), health_every_(0), health_asked_(-1), health_due_since_(0),
           is_health_wanted_(false), is_health_due_(false), other_form_hash_(0), bytes_(0), withheld_(0), step_(0), board_hash_(0), reader_(0),
-          other_form_(other_form(*facts.schema)), other_sink_(*this),
           decoder_(*facts.schema, facts.schema->sensors, *this),
-          other_decoder_(other_form_, other_form_.sensors, other_sink_) {}
+          first_other_(*this, facts.schema->checksum == checksum_none ? checksum_crc16 : checksum_none),
+          second_other_(*this, facts.schema->checksum == checksum_crc32 ? checksum_crc16 : checksum_crc32) {}
 
     /// For a recording.
     void play() {
@@ -94,7 +94,8 @@ public:
             state_ = refused;
         }
         if (state_ == asking) {
-            other_decoder_.feed(bytes, count);
+            first_other_.decoder.feed(bytes, count);
+            second_other_.decoder.feed(bytes, count);
         }
         decoder_.feed(bytes, count);
     }
@@ -160,7 +161,7 @@ private:
     Session(const Session &);
     Session &operator=(const Session &);
 
-    /// The hello of a board whose frames have a checksum where ours have none, or the other way round.
+    /// The hello of a board whose frames have another checksum than ours.
     class OtherSink : public Sink {
     public:
         explicit OtherSink(Session &session) : session_(&session) {}
@@ -171,15 +172,28 @@ private:
         Session *session_;
     };
 
-    static Schema other_form(const Schema &own) {
+    /// Frames with another checksum.
+    struct OtherForm {
+        OtherForm(Session &session, Checksum checksum)
+            : schema(other_form(*session.facts_->schema, checksum)), sink(session), decoder(schema, schema.sensors, sink) {}
+        Schema schema;
+        OtherSink sink;
+        Decoder decoder;
+
+    private:
+        OtherForm(const OtherForm &);
+        OtherForm &operator=(const OtherForm &);
+    };
+
+    static Schema other_form(const Schema &own, Checksum checksum) {
         Schema other = own;
-        other.has_checksum = !own.has_checksum;
+        other.checksum = checksum;
         other.sensors.items = NULL;
         other.sensors.item_count = 0;
         other.device_ids = NULL;
         other.device_count = 0;
         other.sensors.short_bytes_max = other.sensors.hello_bytes;
-        other.sensors.payload_bytes_max = other.sensors.hello_bytes + (other.has_checksum ? 3 : 0);
+        other.sensors.payload_bytes_max = other.sensors.hello_bytes + Crc(checksum).size_bytes();
         return other;
     }
 
@@ -191,8 +205,9 @@ private:
         }
         asked_ = now_;
         ++requests_;
-        // A board that does not answer may have the other form of frames.
-        return hello_request(requests_ % 3 == 0 ? other_form_ : *facts_->schema);
+        // A board that does not answer may have another form of frames.
+        const Schema &other = requests_ % 2 != 0 ? first_other_.schema : second_other_.schema;
+        return hello_request(requests_ % 3 == 0 ? other : *facts_->schema);
     }
 
     Bytes ask_for_health() {
@@ -314,10 +329,9 @@ private:
     size_t step_;
     uint32_t board_hash_;
     SchemaReader reader_;
-    Schema other_form_;
-    OtherSink other_sink_;
     Decoder decoder_;
-    Decoder other_decoder_;
+    OtherForm first_other_;
+    OtherForm second_other_;
 };
 
 } // namespace sensedsl

@@ -20,6 +20,8 @@ typedef std::vector<uint8_t> Bytes;
 const uint8_t id_hello = 0;
 /// Identifier of the optional trailing checksum; a device never has it.
 const uint8_t id_checksum = 255;
+/// What frames of a link end with.
+enum Checksum { checksum_none, checksum_crc16, checksum_crc32 };
 /// What health begins with; the checksum, which is the same, stands last.
 const uint8_t id_health = 255;
 /// What stands behind the 0 of the request for health.
@@ -54,7 +56,7 @@ struct Direction {
 /// One board's link.
 struct Schema {
     uint32_t hash;
-    bool has_checksum;
+    Checksum checksum;
     /// Whether each report from the board begins with its time and a counter.
     bool has_stamp;
     Direction sensors;
@@ -114,6 +116,93 @@ inline uint16_t crc16_ccitt_false(const uint8_t *bytes, size_t count) {
     }
     return crc;
 }
+
+/// The same of CRC-32, whose bytes come in at the lower end.
+struct Crc32Tables {
+    Crc32Tables() {
+        for (unsigned byte = 0; byte < 256; ++byte) {
+            uint32_t crc = byte;
+            for (int table = 0; table < 4; ++table) {
+                for (int bit = 0; bit < 8; ++bit) {
+                    crc = shifted(crc);
+                }
+                with_zeros[table][byte] = crc;
+            }
+        }
+    }
+    static uint32_t shifted(uint32_t crc) { return (crc >> 1) ^ (0xEDB88320U & (0U - (crc & 1U))); }
+    uint32_t step(uint32_t crc, uint8_t byte) const { return (crc >> 8) ^ with_zeros[0][(crc ^ byte) & 0xFFU]; }
+    uint32_t with_zeros[4][256];
+};
+
+inline const Crc32Tables &crc32_tables() {
+    static const Crc32Tables tables;
+    return tables;
+}
+
+/// CRC-32/ISO-HDLC, that of Ethernet and zlib: reflected, start 0xFFFFFFFF, inverted at the end.
+inline uint32_t crc32_iso_hdlc(const uint8_t *bytes, size_t count) {
+    const Crc32Tables &tables = crc32_tables();
+    uint32_t crc = 0xFFFFFFFFU;
+    for (; count >= 4; count -= 4, bytes += 4) {
+        crc = tables.with_zeros[3][bytes[0] ^ (crc & 0xFFU)] ^ tables.with_zeros[2][bytes[1] ^ ((crc >> 8) & 0xFFU)] ^
+              tables.with_zeros[1][bytes[2] ^ ((crc >> 16) & 0xFFU)] ^ tables.with_zeros[0][bytes[3] ^ (crc >> 24)];
+    }
+    for (; count > 0; --count, ++bytes) {
+        crc = tables.step(crc, *bytes);
+    }
+    return crc ^ 0xFFFFFFFFU;
+}
+
+/// A checksum as a register that bytes go through: `start`, what it is XORed with at the `end`, and the register that
+/// multiplies by `one`. No other code asks which checksum it is.
+struct Crc {
+    /// Of its number.
+    size_t bytes;
+    uint32_t start;
+    uint32_t end;
+    uint32_t one;
+    bool is_32;
+
+    explicit Crc(Checksum checksum)
+        : bytes(checksum == checksum_none ? 0 : checksum == checksum_crc16 ? 2 : 4),
+          start(checksum == checksum_crc32 ? 0xFFFFFFFFU : 0xFFFFU), end(checksum == checksum_crc32 ? 0xFFFFFFFFU : 0U),
+          one(checksum == checksum_crc32 ? 0x80000000U : 1U), is_32(checksum == checksum_crc32) {}
+
+    /// Bytes that it adds to a payload: its identifier and its number.
+    size_t size_bytes() const { return bytes == 0 ? 0 : 1 + bytes; }
+    /// Its number of a payload.
+    uint32_t of(const uint8_t *payload, size_t count) const {
+        return is_32 ? crc32_iso_hdlc(payload, count) : crc16_ccitt_false(payload, count);
+    }
+    /// Its number as it stands in a frame.
+    uint32_t read(const uint8_t *at) const {
+        uint32_t number = 0;
+        for (size_t i = 0; i < bytes; ++i) {
+            number = (number << 8) | at[i];
+        }
+        return number;
+    }
+    /// The register behind one more byte.
+    uint32_t step(uint32_t crc, uint8_t byte) const {
+        return is_32 ? crc32_tables().step(crc, byte) : crc16_tables().step(crc, byte);
+    }
+    /// Of two registers as polynomials over GF(2), modulo the one of the CRC.
+    uint32_t product(uint32_t left, uint32_t right) const {
+        uint32_t result = 0;
+        if (is_32) {
+            for (int bit = 0; bit < 32; ++bit) {
+                result = Crc32Tables::shifted(result) ^ (left & (0U - ((right >> bit) & 1U)));
+            }
+            return result;
+        }
+        for (int bit = 15; bit >= 0; --bit) {
+            result = ((result << 1) & 0xFFFFU) ^ (0x1021U & (0U - (result >> 15)));
+            result ^= left & (0U - ((right >> bit) & 1U));
+        }
+        return result;
+    }
+};
 
 /// The unsigned integer of as many bytes as the scalar it stands for.
 template <size_t size> struct Bits;
