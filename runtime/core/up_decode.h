@@ -28,12 +28,12 @@
 #endif
 
 /* The buffer of a decoder with &up_memo whose longest frame is of so many bytes: sums take 6 bytes for a block of 32,
- * with a CRC-32 12.
- * Without it a buffer is as long as a frame. */
+ * where a link of the program may have a CRC-32 12. Without it a buffer is as long as a frame. */
 #define UP_DECODER_BLOCK_BYTES 32U
-#define UP_DECODER_SUM_BYTES (6U * sizeof(up_register_t) / 2U)
+#define UP_DECODER_SUM_BYTES (3U * sizeof(up_register_t))
 #define UP_DECODER_BLOCKS(frame_bytes) ((frame_bytes) / UP_DECODER_BLOCK_BYTES + 1U)
-#define UP_DECODER_BYTES(frame_bytes) ((frame_bytes) + (UP_DECODER_SUM_BYTES + 4U * UP_DECODER_WALKS) * UP_DECODER_BLOCKS(frame_bytes))
+#define UP_DECODER_BYTES(frame_bytes) \
+  ((frame_bytes) + (UP_DECODER_SUM_BYTES + 4U * UP_DECODER_WALKS) * UP_DECODER_BLOCKS(frame_bytes))
 
 /* What a delivered frame says; each callback may be NULL. A frame that is not valid to its last byte delivers nothing. */
 typedef struct {

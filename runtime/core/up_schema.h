@@ -62,7 +62,7 @@ typedef struct {
   const up_field_t *fields;
   uint8_t fields_count;
   const char *checksum; /* `none`, or which one frames end with */
-  uint32_t hash; /* what the hello says */
+  uint32_t hash;        /* what the hello says */
 } up_schema_t;
 
 /* Bytes of one element, on the wire and in memory. */

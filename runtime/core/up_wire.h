@@ -38,14 +38,14 @@ typedef uint16_t up_item_t;
 
 /* A direction. Sizes are of payloads, in bytes; what one end of a link does not use is left out. */
 typedef struct {
-  uint32_t hash;             /* of the schema: what the hello says */
-  uint16_t values_bytes_max; /* of the longest payload of values: with its stamp, without a checksum */
-  uint16_t health_bytes;     /* of health, without a checksum; 0 towards the board */
+  uint32_t hash;              /* of the schema: what the hello says */
+  uint16_t values_bytes_max;  /* of the longest payload of values: with its stamp, without a checksum */
+  uint16_t health_bytes;      /* of health, without a checksum; 0 towards the board */
   uint16_t payload_bytes_max; /* of any, with its checksum */
   uint8_t head_bytes;         /* of the longest length and its colon */
   uint8_t direction;          /* up_direction_t */
   uint8_t checksum;           /* up_link_checksum_t */
-  bool has_stamp; /* payloads of values begin with one: never towards the board */
+  bool has_stamp;             /* payloads of values begin with one: never towards the board */
   /* Packs the values whose bit is set in `due` (bit i of byte i/8 is fields[i]); returns the bytes. */
   size_t (*put)(const uint8_t *due, const void *values, uint8_t *payload);
   /* What stands behind an identifier. */

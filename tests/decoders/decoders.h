@@ -1,8 +1,8 @@
 /*
  * The decoders of the project behind one small interface: a schema and a stream in, what was said out.
  *
- * In: a schema as bytes (flags, bit 0 for a CRC-16 and bit 3 for a CRC-32, bit 1 for the direction to the board and bit 2 for stamps;
- * then for each item its identifier, its type as in up_type_t, its direction as in up_direction_t, its count in two bytes,
+ * In: a schema as bytes (flags, bit 0 for a CRC-16 and bit 3 for a CRC-32, bit 1 for the direction to the board and
+ * bit 2 for stamps; then for each item its identifier, its type as in up_type_t, its direction as in up_direction_t, its count in two bytes,
  * the high one first); a stream; how it is cut: sizes of pieces, used in turn, where 0 is all that is left.
  * Out, in pieces: 'R', the number of bytes in four bytes, and the payload as it stands there, its stamp included
  * and its checksum not; 'D' and the same of health; 'V' and the version of health that is not 1; 'H' and the hash;

@@ -6,9 +6,7 @@
 use crate::bits::Bits;
 use crate::bytes::{Writer, move_down};
 use crate::health::{BoardHealth, HealthRow};
-use crate::schema::{
-    Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema,
-};
+use crate::schema::{Direction, HEALTH_REQUEST, ID_HEALTH, ID_HELLO, STAMP_BYTES, Schema};
 
 /// The version of health that is written.
 const HEALTH_VERSION: u8 = 1;

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sense_rt::{
-    Channel, Checksum, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable, Health,
-    Host, InitStep, Item, MessageStart, Number, Outcome, Record, Reporter, ReporterConfig,
+    Channel, Checksum, Chip, ChipTable, Coding, Command, Decoder, Direction, Filter, FilterTable,
+    Health, Host, InitStep, Item, MessageStart, Number, Outcome, Record, Reporter, ReporterConfig,
     Requests, Scalar, Schema, Status, Step, Store, Watch, encode_health_request,
     encode_hello_request,
 };
@@ -210,7 +210,8 @@ fn requests_are_what_a_decoder_finds() {
     static SCHEMAS: [Schema; 3] =
         [schema(Checksum::None), schema(Checksum::Crc16), schema(Checksum::Crc32)];
     for schema in &SCHEMAS {
-        let mut pieces = vec![b"4".to_vec(), b"5:".to_vec(), b"6:".to_vec(), b":\0\x01".to_vec(), b",".to_vec()];
+        let mut pieces =
+            vec![b"4".to_vec(), b"5:".to_vec(), b"6:".to_vec(), b":\0\x01".to_vec(), b",".to_vec()];
         for encode in [encode_hello_request, encode_health_request] {
             let mut frame = [0; 10];
             let size = encode(schema, &mut frame);

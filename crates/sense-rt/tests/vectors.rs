@@ -5,9 +5,9 @@
 use std::path::Path;
 
 use sense_rt::{
-    Bits, BoardHealth, Cause, Checksum, Decoder, Direction, FRAME_BYTES_LIMIT, Fault, Frame, HealthRow, Item,
-    Scalar, Schema, Stamp, Status, encode_health, encode_health_request, encode_hello,
-    encode_hello_request, encode_values,
+    Bits, BoardHealth, Cause, Checksum, Decoder, Direction, FRAME_BYTES_LIMIT, Fault, Frame,
+    HealthRow, Item, Scalar, Schema, Stamp, Status, encode_health, encode_health_request,
+    encode_hello, encode_hello_request, encode_values,
 };
 
 fn hex(text: &str) -> Vec<u8> {

@@ -75,7 +75,7 @@ impl Checksum {
         Some(number.iter().fold(0, |number, byte| number << 8 | u32::from(*byte)))
     }
 
-    /// What a register starts with, and what it is XORed with at the end.
+    /// What a register starts with, and which of its bits are inverted at the end.
     pub(crate) const fn ends(self) -> (u32, u32) {
         match self {
             Self::None => (0, 0),
@@ -220,7 +220,10 @@ pub fn crc32_iso_hdlc(bytes: &[u8]) -> u32 {
     let (fours, rest) = bytes.as_chunks::<4>();
     let crc = fours.iter().fold(u32::MAX, |crc, &[a, b, c, d]| {
         let [low, second, third, high] = crc.to_le_bytes();
-        entry(four, a ^ low) ^ entry(three, b ^ second) ^ entry(two, c ^ third) ^ entry(one, d ^ high)
+        entry(four, a ^ low)
+            ^ entry(three, b ^ second)
+            ^ entry(two, c ^ third)
+            ^ entry(one, d ^ high)
     });
     !rest.iter().fold(crc, |crc, &byte| crc32_step(crc, byte))
 }

@@ -170,7 +170,7 @@ fn run(path: &Path) -> usize {
         match words.as_slice() {
             [] | ["#", ..] => {}
             ["schema", _] => schema = Schema::default(),
-            ["checksum", name] => schema.checksum = Checksum::of_name(name).expect("a checksum"),
+            ["checksum", name] => schema.checksum = Checksum::of_name(name).unwrap(),
             ["stamp", "on"] => schema.stamp = true,
             ["item", id, direction, name, value] => schema.items.push(Item {
                 id: id.parse().unwrap(),

@@ -17,6 +17,12 @@ void put(sense_decoded_t &decoded, const void *bytes, size_t size) {
     decoded.log_size += size;
 }
 
+sensedsl::Checksum checksum_of(const sense_stream_t &stream) {
+    return stream.checksum == 0   ? sensedsl::checksum_none
+           : stream.checksum == 2 ? sensedsl::checksum_crc16
+                                  : sensedsl::checksum_crc32;
+}
+
 class Log : public sensedsl::Sink {
 public:
     Log(const sense_stream_t &stream, sense_decoded_t &decoded)

@@ -4,8 +4,8 @@
 use sensedsl_tests::Random;
 use sensedsl_wire::{
     Causes, Checksum, DeviceHealth, Direction, Health, ID_HEALTH, Item, ResetCause, ScalarType,
-    Schema, Status, ValueType, encode_health, encode_health_request,
-    encode_hello, encode_hello_request,
+    Schema, Status, ValueType, encode_health, encode_health_request, encode_hello,
+    encode_hello_request,
 };
 
 /// A schema of sensors from `(identifier, type, elements)`; one element is a plain scalar.

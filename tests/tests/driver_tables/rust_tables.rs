@@ -254,7 +254,12 @@ impl Tables {
                 Direction::Actuator => sense_rt::Direction::ToBoard,
             },
         });
-        let schema = fixed(Schema { items: all(items), hash: 0, stamp: false, checksum: sense_rt::Checksum::None });
+        let schema = fixed(Schema {
+            items: all(items),
+            hash: 0,
+            stamp: false,
+            checksum: sense_rt::Checksum::None,
+        });
         let names: Vec<String> = unit.devices().map(|device| device.name.value.clone()).collect();
         let index =
             |name: &str| u16::try_from(names.iter().position(|one| one == name).unwrap()).unwrap();

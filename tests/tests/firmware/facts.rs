@@ -283,11 +283,7 @@ fn schema(design: &Design, on: &BoardAssignment, folder: &Folder, differences: &
     let directions: Vec<bool> = schema.items.iter().map(to_host).collect();
     let found = after(model, ".direction = UP_TO_");
     differences.same("directions", found.iter().map(|one| *one == "HOST").collect(), directions);
-    differences.same(
-        "checksum",
-        after(model, ".checksum = \""),
-        vec![schema.checksum.name()],
-    );
+    differences.same("checksum", after(model, ".checksum = \""), vec![schema.checksum.name()]);
     let count = vec![i64::try_from(names.len()).unwrap()];
     differences.same("number of fields", numbers(model, ".fields_count = "), count.clone());
     differences.same(

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use sense_rt::{
-    Channel, Checksum, Health, Host, Item, Outcome, Record, Reporter, ReporterConfig, Scalar, Schema, Store,
+    Channel, Checksum, Health, Host, Item, Outcome, Record, Reporter, ReporterConfig, Scalar,
+    Schema, Store,
 };
 
 use super::answer::{Words, say_bytes};
@@ -84,7 +85,7 @@ impl Channel for Line {
 }
 
 struct Board {
-    store: Store<[u8; schema(true, true).values_bytes()]>,
+    store: Store<[u8; schema(true, Checksum::Crc32).values_bytes()]>,
     health: Health<[Record; ITEMS.len()]>,
     said: String,
 }
@@ -118,7 +119,7 @@ pub(crate) struct Link {
 
 impl Default for Link {
     fn default() -> Self {
-        Self::new(&SCHEMAS[0], 10, 0)
+        Self::new(&SCHEMAS[0][0], 10, 0)
     }
 }
 

@@ -4,9 +4,9 @@
 //! back.
 
 use sense_rt::{
-    Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat, FilterTable, Formula,
-    Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable, Number, Range, Reading,
-    Scalar, Schema, Transfer, WIDE,
+    Calibration, Checksum, ChipTable, Code, Coding, Command, Compose, Crc, FieldFormat,
+    FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable,
+    Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
 };
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_codegen::part::{

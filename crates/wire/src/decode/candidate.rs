@@ -306,9 +306,7 @@ impl Candidate {
         let Some(sent) = sent else { return Verdict::Incomplete };
         let crc = match &mut past.memo {
             Some(memo) => memo.crc(past.place, bytes, self.payload_start, self.values_end),
-            None => {
-                checksum.of(bytes.get(self.payload_start..self.values_end).unwrap_or_default())
-            }
+            None => checksum.of(bytes.get(self.payload_start..self.values_end).unwrap_or_default()),
         };
         self.is_checksum_right = sent == crc;
         // Values that have not been walked through may still hold what is not a bool.

@@ -129,7 +129,8 @@ impl WirePlan {
             is_taken,
             items,
         };
-        let is_long = frame_bytes_max > PLAIN_BYTES && (wire.checksum.is_some() || wire.has_bools());
+        let is_long =
+            frame_bytes_max > PLAIN_BYTES && (wire.checksum.is_some() || wire.has_bools());
         wire.has_memo = is_taken && (is_long || wire.items.len() > PLAIN_ITEMS);
         wire
     }

@@ -41,7 +41,7 @@ static const up_field_t fields[] = {
 const up_schema_t sense_schema = {
     .fields = fields,
     .fields_count = 4U,
-    .checksum_crc16 = false,
+    .checksum = "none",
     .hash = 0xb2d2a70bU,
 };
 

@@ -113,7 +113,7 @@ static const up_field_t fields[] = {
 const up_schema_t sense_schema = {
     .fields = fields,
     .fields_count = 13U,
-    .checksum_crc16 = false,
+    .checksum = "none",
     .hash = 0x64783683U,
 };
 

@@ -57,7 +57,7 @@ inline const ::sensedsl::BoardFacts &Rover() {
     };
     static const ::sensedsl::Schema schema = {
         0x0ca56b7cU,
-        false,
+        ::sensedsl::checksum_none,
         false,
         {sensors, 8, 223, 55, 5},
         {actuators, 4, 19, 19, 1},

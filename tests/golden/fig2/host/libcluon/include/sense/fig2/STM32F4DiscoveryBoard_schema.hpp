@@ -35,7 +35,7 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
     };
     static const ::sensedsl::Schema schema = {
         0xb2d2a70bU,
-        false,
+        ::sensedsl::checksum_none,
         false,
         {sensors, 4, 87, 13, 5},
         {NULL, 0, 2, 2, 1},

@@ -62,7 +62,7 @@ inline const ::sensedsl::BoardFacts &STM32F4DiscoveryBoard() {
     };
     static const ::sensedsl::Schema schema = {
         0x64783683U,
-        false,
+        ::sensedsl::checksum_none,
         false,
         {sensors, 13, 240, 47, 5},
         {NULL, 0, 2, 2, 1},
