@@ -13,7 +13,7 @@ mod draw;
 
 use decoders::{Decoded, STREAMS, Stream, run};
 use libfuzzer_sys::fuzz_target;
-use sensedsl_wire::{Checksum, Direction, ScalarType};
+use sensedsl_wire::{Direction, ScalarType};
 
 /// A decoder in another language.
 type Other = fn(&Stream) -> Decoded;
