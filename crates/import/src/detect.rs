@@ -47,7 +47,11 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     if lines().any(|line| line.starts_with("Mcu.") && line.contains('=')) {
         return Some(Format::Ioc);
     }
-    if lines().any(|line| line.starts_with("BO_ ") || line.starts_with("BU_:")) {
+    let dbc = |line: &str| {
+        let word = line.split([' ', '\t', ':']).next().unwrap_or_default();
+        matches!(word, "NS_" | "BS_" | "BU_" | "BO_" | "SG_" | "CM_") && line.len() > word.len()
+    };
+    if lines().any(dbc) {
         return Some(Format::Dbc);
     }
     let content = || lines().filter(|line| !line.starts_with('#'));
@@ -79,6 +83,10 @@ mod tests {
             ("# b\nMCU STM32F4xx STM32F405xx\nPA0 UART4_TX UART4\n", Some(Format::Hwdef)),
             ("include ../x/hwdef.dat\n", Some(Format::Hwdef)),
             ("VERSION \"\"\nBU_: A\nBO_ 1 A: 8 A\n", Some(Format::Dbc)),
+            ("BU_ A\n", Some(Format::Dbc)),
+            ("BO_\t1 A: 8 A\n", Some(Format::Dbc)),
+            ("NS_ :\n\tCM_\n\nBS_:\n", Some(Format::Dbc)),
+            ("CM_,ADC\nBO_,ADC1_IN1\n", Some(Format::Csv)),
             ("", None),
             ("\u{0}\u{1}\u{2}", None),
         ] {

@@ -140,10 +140,15 @@ impl Reader<'_> {
         if raw == ORPHANS {
             return Ok(());
         }
-        let most = if is_extended { 0x1FFF_FFFF } else { 0x7FF };
-        if own > most {
+        if is_extended && own > 0x1FFF_FFFF {
+            // Tools keep under such numbers what is on no bus.
+            let what = format!("{name} is left out: {raw} is not an identifier of 11 or 29 bits");
+            self.log.dropped(span, "", &what);
+            return Ok(());
+        }
+        if !is_extended && own > 0x7FF {
             return Err(format!(
-                "{own} is more than 0x{most:X}, the greatest identifier of a message like this"
+                "{own} is more than 0x7FF, the greatest identifier of a message like this"
             ));
         }
         if self.places.contains_key(&raw) {

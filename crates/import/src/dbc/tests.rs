@@ -96,6 +96,21 @@ fn what_is_wrong_has_its_line() {
     assert_eq!(said, ["W0804 3 S is left out: its bits are not in the 2 bytes of its message"]);
 }
 
+/// Tools keep signals of no message, and messages of other buses, under identifiers that no frame has.
+#[test]
+fn a_message_that_no_frame_can_be_is_left_out() {
+    let (text, said) = imported(
+        "BU_: A B\nBO_ 3758096384 Pseudo: 8 A\n SG_ T : 0|8@1+ (1,0) [0|0] \"\" B\n\
+         BO_ 1 Real: 8 A\n SG_ S : 0|8@1+ (1,0) [0|0] \"\" B\n\
+         BA_ \"GenMsgCycleTime\" BO_ 3758096384 10;\nVAL_ 3758096384 T 1 \"one\" ;\n",
+        Some("B"),
+    );
+    let why = "Pseudo is left out: 3758096384 is not an identifier of 11 or 29 bits";
+    assert_eq!(said, [format!("W0804 2 {why}")]);
+    assert_eq!(text.matches("\nsensor ").count(), 1);
+    assert!(text.contains("sensor S returns uint8") && !text.contains("one"), "{text}");
+}
+
 proptest! {
     #[test]
     fn nothing_panics(cut in 0..VESC.len(), other in "[ -~\\n]{0,40}", at in 0..VESC.len()) {

@@ -7,7 +7,8 @@ use super::hosted::Host;
 use super::trial::{System, Trial, run, run_with};
 use crate::firmware::tools::root;
 
-pub(super) const UART: &str = "link { transport = uart; unit = USART3; baud = 460800; }";
+pub(super) const UART: &str =
+    "link { transport = uart; unit = USART3; baud = 460800; checksum = crc32; }";
 pub(super) const USB: &str = "";
 const SECONDS: u64 = 10;
 
