@@ -47,7 +47,8 @@ enum Sink {
     Pins(Vec<Pin>),
     Bridge(Bridge, BridgeState, Vec<Pin>),
     Message(u8, Compose),
-    Frame(InFrame),
+    /// Of several contents of a frame a value may be in all.
+    Frames(Vec<InFrame>),
 }
 
 /// The frame that a value is in, where it begins in it, and how it is coded.
@@ -176,20 +177,13 @@ impl Outputs {
                     bench.uart_out(*unit, *byte, now_ns);
                 }
             }
-            Sink::Frame(own) => {
-                let Some(own_frame) = self.frames.get_mut(own.place) else { return };
-                let Frame { unit, frame, .. } = own_frame;
-                let mut coded = [0; 8];
-                let room = coded.get_mut(own.byte..).unwrap_or_default();
-                if own.coding.encode(item, value, room) == 0 {
-                    return;
-                }
-                let before = u64::from_le_bytes(frame.data) & !own.mask;
-                let bits = before | u64::from_le_bytes(coded) & own.mask;
-                frame.data = bits.to_le_bytes();
-                if !own.is_quiet {
-                    bench.can_out(*unit, *frame, now_ns);
-                    own_frame.sent_ns = Some(now_ns);
+            Sink::Frames(own) => {
+                for one in own {
+                    let Some(frame) = self.frames.get_mut(one.place) else { continue };
+                    if one.put(item, value, frame) {
+                        bench.can_out(frame.unit, frame.frame, now_ns);
+                        frame.sent_ns = Some(now_ns);
+                    }
                 }
             }
         }
@@ -209,6 +203,20 @@ impl Output {
                 Drives::Volts => bench.recorder().millivolts(pin.at, 0.0),
             }
         }
+    }
+}
+
+impl InFrame {
+    /// Writes the value; whether the frame is now sent.
+    fn put(&self, item: &Item, value: &[u8], to: &mut Frame) -> bool {
+        let mut coded = [0; 8];
+        let room = coded.get_mut(self.byte..).unwrap_or_default();
+        if self.coding.encode(item, value, room) == 0 {
+            return false;
+        }
+        let before = u64::from_le_bytes(to.frame.data) & !self.mask;
+        to.frame.data = (before | u64::from_le_bytes(coded) & self.mask).to_le_bytes();
+        !self.is_quiet
     }
 }
 
@@ -314,7 +322,7 @@ fn pin(at: ConnectionIndex, wire: &JobConnection<'_>) -> Option<Pin> {
 
 /// What goes into frames of CAN, by place in the schema.
 fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> {
-    let mut all = BTreeMap::new();
+    let mut all: BTreeMap<usize, Vec<InFrame>> = BTreeMap::new();
     let units = Units::new(job);
     for bus in can::buses(job, job.connections(KindName::Can), &mut Vec::new()) {
         // By the board's name of it: a profile may have another one.
@@ -325,8 +333,8 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
                 let words = Words::of(value.device.device);
                 let mask = words.map_or(0, |words| words.in_frame(value.byte));
                 let (place, byte, is_quiet) = (frames.len(), value.byte.into(), value.is_quiet);
-                let sink = Sink::Frame(InFrame { place, byte, coding, mask, is_quiet });
-                all.insert(value.index, sink);
+                let in_frame = InFrame { place, byte, coding, mask, is_quiet };
+                all.entry(value.index).or_default().push(in_frame);
             }
             let length = u8::try_from(repeated.bytes).unwrap_or(8);
             let (id, extended) = (repeated.identifier, repeated.is_extended);
@@ -341,5 +349,5 @@ fn on_can(job: &BoardJob<'_>, frames: &mut Vec<Frame>) -> BTreeMap<usize, Sink> 
             frames.push(Frame { unit, frame, resend_ns, sent_ns: None });
         }
     }
-    all
+    all.into_iter().map(|(index, own)| (index, Sink::Frames(own))).collect()
 }

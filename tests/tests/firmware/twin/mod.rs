@@ -7,6 +7,7 @@ mod both;
 mod buses;
 mod examples;
 mod faults;
+mod frames;
 mod hosted;
 mod kinds;
 mod seeded;

@@ -6,7 +6,7 @@ use sensedsl_tests::{Scratch, is_thorough, root, sensedsl};
 use super::trial::System;
 
 /// Judges an image of one text by another one; what the command says, and where.
-fn judged(system: System, name: &str, built: &str, text: &str) -> Option<(i32, String)> {
+pub(super) fn judged(system: System, name: &str, built: &str, text: &str) -> Option<(i32, String)> {
     let image = system.image(name, built)?;
     let scratch = Scratch::new(name);
     let image = scratch.write("image.elf", &*image).display().to_string();
