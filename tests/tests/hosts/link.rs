@@ -87,6 +87,12 @@ fn name_for(link: &Path, device: &Path) {
     std::fs::rename(fresh, link).unwrap();
 }
 
+/// The board is unplugged, and its name with it: the next terminal that any other test opens may have its number.
+fn unplug(link: &Path, board: Board) {
+    std::fs::remove_file(link).unwrap();
+    drop(board);
+}
+
 /// The same for every host.
 pub(crate) fn scenes(application: &Application<'_>) {
     unplugged_and_plugged_again(application);
@@ -108,7 +114,7 @@ fn unplugged_and_plugged_again(application: &Application<'_>) {
     let board = Board::start(line, boards[0].schema.clone(), 300, false);
     let host = (application.start)(&link);
     host.wait_for("IRFront = 300\n");
-    drop(board);
+    unplug(&link, board);
     host.wait_for(&format!("lost {}: the device is gone; waiting for it\n", link.display()));
     let mut quickest = Duration::MAX;
     for front in [301, 302, 303] {
@@ -119,7 +125,7 @@ fn unplugged_and_plugged_again(application: &Application<'_>) {
         let board = Board::start(line, boards[0].schema.clone(), front, false);
         host.wait_for(&format!("IRFront = {front}\n"));
         quickest = quickest.min(plugged.elapsed());
-        drop(board);
+        unplug(&link, board);
     }
     host.wait_for(&format!("back on {} after ", link.display()));
     eprintln!("{}: data resumes after {} ms", application.name, quickest.as_millis());
@@ -188,4 +194,6 @@ fn asked_until_answered(application: &Application<'_>) {
     host.wait_for("IRFront = 300\n");
     assert!(!host.output().contains("IRFront = 0\n"), "{}", host.output());
     assert!(!host.output().contains("IRFront = 2\n"), "{}", host.output());
+    // Before its board is gone, whose terminal it would wait for.
+    drop(host);
 }
