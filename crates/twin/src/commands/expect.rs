@@ -276,6 +276,7 @@ fn frame(
     let select = own.mux.as_ref().map(|mux| mux.bits);
     let mut length = own.length.map_or(0, u16::from);
     let mut resend_ms = u32::MAX;
+    let mut is_selector = false;
     for other in job.devices.iter().filter(|other| other.unit == one.unit) {
         let is_set = other.device.direction == Direction::Actuator;
         let Some(can) = other.device.kind.can().filter(|_| is_set) else { continue };
@@ -284,8 +285,7 @@ fn frame(
         }
         let others = can.mux.as_ref().map(|mux| mux.bits);
         if select.is_none() && others.is_some_and(|(of, _)| of & mask != 0) {
-            // It only says which of the frames others are in.
-            return None;
+            is_selector = true;
         }
         if can.resend_ms > 0 && select.is_none() {
             resend_ms = resend_ms.min(can.resend_ms);
@@ -300,13 +300,16 @@ fn frame(
     for (target, byte) in data.iter_mut().skip(usize::from(own.byte)).zip(bytes) {
         *target = byte;
     }
+    let own_bits = (mask, u64::from_le_bytes(data) & mask);
+    // The last frame may be one that it selects for others: its own must be among those before.
+    let select = if is_selector { own_bits } else { select.unwrap_or_default() };
     let sent = Sent {
         unit: number(job, wire)?,
         identifier: own.frame_id,
         is_extended: own.is_extended,
         length: u8::try_from(length.min(FRAME_BYTES)).ok()?,
-        bits: (mask, u64::from_le_bytes(data) & mask),
-        select: select.unwrap_or_default(),
+        bits: own_bits,
+        select,
         resend_ns: if resend_ms == u32::MAX { 0 } else { 1_000_000 * u64::from(resend_ms) },
     };
     Some(expected(at, wire, 0, What::Frame(sent)))

@@ -22,13 +22,23 @@ board STM32F407G_DISC1 {
 }
 ";
 
+/// What is told of an image or of the soft board, with each output looked at.
+fn assert_looked_at(name: &str, said: &str) {
+    assert!(said.contains("looks at outputs found what the design says"), "{name}: {said}");
+    for output in ["Rpm", "Mode", "Gain", "Both"] {
+        let row = said.lines().find(|line| line.trim_start().starts_with(output)).unwrap();
+        let looks = row.split_whitespace().nth(2).unwrap();
+        assert_ne!(looks, "0", "{name}: {row}");
+    }
+}
+
 /// `Both` is in two contents of its frame, one of which is sent when it is set.
 #[test]
 fn the_soft_board_sends_them() {
     let scratch = Scratch::new("frames-soft");
     let file = scratch.write("frames.sense", FRAMES).display().to_string();
     let ran = sensedsl(["simulate", &file, "--judge"]).run().exits(0);
-    assert!(ran.stdout.contains("looks at outputs found what the design says"), "{}", ran.stdout);
+    assert_looked_at("soft board", &ran.stdout);
 }
 
 #[test]
@@ -40,6 +50,26 @@ fn images_send_them() {
         let name = format!("frames_{system:?}");
         let Some((status, said)) = judged(system, &name, FRAMES, FRAMES) else { continue };
         assert_eq!(status, 0, "{name}: {said}");
-        assert!(said.contains("looks at outputs found what the design says"), "{name}: {said}");
+        assert_looked_at(&name, &said);
     }
+}
+
+/// What selects has a look of its own: an image that puts it elsewhere in the frame is not good.
+#[test]
+fn a_selector_at_another_place_is_told() {
+    if !is_thorough() {
+        return;
+    }
+    let elsewhere = FRAMES.replacen(
+        "little; bit = 0; bits = 3; length = 8; }\n    actuator Gain",
+        "little; bit = 4; bits = 3; length = 8; }\n    actuator Gain",
+        1,
+    );
+    assert_ne!(elsewhere, FRAMES);
+    let Some((status, said)) = judged(System::Embassy, "frames_elsewhere", &elsewhere, FRAMES)
+    else {
+        return;
+    };
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains("error[E0552]: `Mode`"), "{said}");
 }
