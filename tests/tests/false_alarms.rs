@@ -169,6 +169,12 @@ fn no_driver_is_called_wrong() {
     each(drawn(all, 8), |part| vec![judge(&of_parts(&[part]), "chibios")]);
 }
 
+#[test]
+fn checksums_among_values_are_part_of_a_transfer() {
+    let driver = "chip Air { driver = sht31; delay = 100 ms; }".to_owned();
+    each(vec![driver], |part| vec![judge(&of_parts(&[part]), "chibios")]);
+}
+
 /// As many together as have a wiring: where a group has none, each half of it is tried.
 fn groups(parts: &[String]) -> Vec<String> {
     let together = of_parts(parts);

@@ -146,10 +146,10 @@ impl Registers {
             };
             Some(first.saturating_add(length))
         };
-        let values = self
-            .readings
-            .iter()
-            .filter_map(|one| behind(one.register, one.byte.saturating_add(one.length)));
+        let values = self.readings.iter().filter_map(|one| {
+            let end = one.byte.saturating_add(one.length);
+            behind(one.register, one.words.as_ref().map_or(end, |words| words.on_wire(end)))
+        });
         let identity =
             self.protocol.identity.iter().filter_map(|one| {
                 behind(Some(one.register), u16::try_from(one.expected.len()).ok()?)
