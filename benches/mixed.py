@@ -6,7 +6,7 @@
     python3 benches/mixed.py build/mixed.jsonl [target/release/sensedsl]
 
 Each line of the input is a design as text, made by `crates/wiring/tests/support/mixed.rs` from a seed. The
-files are written to a folder of their own and solved with `--target none`, explanation and repairs
+files are written to a folder of their own and solved for the design's target, explanation and repairs
 included; what counts is the processor time of the process, best of three. The same lines go to
 `benches/compare.py`, which puts the pin problems to other solvers.
 """
@@ -42,7 +42,7 @@ def main():
             for name, content in [("mixed.sense", line["sense"]), *line["tables"].items()]:
                 with open(os.path.join(place, name), "w", encoding="utf-8") as file:
                     file.write(content)
-            command = [binary, "solve", "--target", "none", os.path.join(place, "mixed.sense")]
+            command = [binary, "solve", "--target", line["target"], os.path.join(place, "mixed.sense")]
             spent = min(processor_s(command) for _ in range(RUNS))
             families.setdefault(line["family"], []).append((spent, line["seed"], line["status"]))
     print("| family | designs | without an answer | process, median | slowest (seed) |")

@@ -83,6 +83,7 @@ fn line(family: &str, seed: u64, text: &Text) -> Value {
         "objective": objective,
         "micros": micros,
         "sense": text.sense,
+        "target": text.target,
         "tables": text.tables,
         "problem": serde_json::from_str::<Value>(&json::json(problem)).unwrap(),
     })

@@ -82,7 +82,7 @@ fn the_end_of_a_command_is_looked_at_for_each_board() {
     (0..200)
         .for_each(|number| sense.push_str(&format!("board B{number} on NUCLEO_F446RE {{\n}}\n")));
     sense.push_str("sensor D returns bool[2] { id = 1; type = digital; sequence = header; }\n");
-    let text = Text { sense, tables: Default::default() };
+    let text = Text { sense, target: "none", tables: Default::default() };
     let design = text.design();
     let asked = AtomicU64::new(0);
     let over = || {

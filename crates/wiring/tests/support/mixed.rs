@@ -18,7 +18,11 @@ impl Rng {
         (z ^ (z >> 31)) % limit
     }
 
+    /// One of the words; nothing where there are none.
     fn of<'a>(&mut self, words: &[&'a str]) -> &'a str {
+        if words.is_empty() {
+            return "";
+        }
         words.get(self.below(words.len() as u64) as usize).copied().unwrap_or_default()
     }
 }
@@ -26,6 +30,8 @@ impl Rng {
 /// A design as its files.
 pub struct Text {
     pub sense: String,
+    /// The target that it is for.
+    pub target: &'static str,
     /// Tables by the names of their files.
     pub tables: BTreeMap<String, String>,
 }
@@ -37,10 +43,10 @@ impl Files for Text {
 }
 
 impl Text {
-    /// The design, pins only.
+    /// The design for its target.
     pub fn design(&self) -> Design {
-        let request =
-            Request { path: "mixed.sense", text: &self.sense, board: None, target: Some("none") };
+        let target = Some(self.target);
+        let request = Request { path: "mixed.sense", text: &self.sense, board: None, target };
         let resolved = resolve(&request, self);
         let said: Vec<&str> = resolved.diagnostics.iter().map(|one| one.message.as_str()).collect();
         resolved.design.unwrap_or_else(|| panic!("{said:?}\n{}", self.sense))
@@ -60,6 +66,7 @@ pub const FAMILIES: &[Family] = &[
     Family { name: "30 i2c with 7 addresses", number: 1, make: i2c_30 },
     Family { name: "two F407 with 61 i2c", number: 1, make: i2c_61 },
     Family { name: "four equal chips", number: 1, make: four_chips },
+    Family { name: "robots", number: 100, make: robot },
 ];
 
 /// Boards of the catalog beside those with a table of their own.
@@ -113,7 +120,103 @@ fn mixed(seed: u64) -> Text {
         let _ = writeln!(sense, "{spare}board Brd{board} on {place} {{\n{devices}}}");
     }
     sense.push_str(&floating);
-    Text { sense, tables }
+    Text { sense, target: "none", tables }
+}
+
+/// Boards that robots are built on.
+const ROBOT_BOARDS: &[&str] = &[
+    "STM32F407G_DISC1",
+    "NUCLEO_F446RE",
+    "NUCLEO_G474RE",
+    "NUCLEO_F303RE",
+    "BLUEPILL_F103C8",
+    "NUCLEO_F429ZI",
+    "NUCLEO_L476RG",
+    "BLACKPILL_F411CE",
+];
+
+/// Parts of the library with several values, and the addresses that one of them can have.
+const CHIPS: &[(&str, &[&str])] = &[
+    ("gearmotor_tb6612", &[]),
+    ("gearmotor_tb6612", &[]),
+    ("tb6612", &[]),
+    ("drv8833", &[]),
+    ("l298n", &[]),
+    ("mpu6050", &["0x68", "0x69"]),
+    ("bme280", &["0x76", "0x77"]),
+    ("ina226", &["0x40", "0x41", "0x44"]),
+    ("ads1115", &["0x48", "0x49", "0x4A", "0x4B"]),
+    ("pca9685", &["0x40", "0x41"]),
+    ("vl53l1x", &["0x29"]),
+    ("mcp3008", &[]),
+    ("mpu6500_spi", &[]),
+    ("nmea_gps", &[]),
+];
+
+/// Values of one part, and arrays.
+const SINGLES: &[&str] = &[
+    "sensor NAME returns uint16 { type = analog; }",
+    "sensor NAME returns uint16 { type = analog; }",
+    "sensor NAME returns bool { type = digital; }",
+    "actuator NAME accepts bool { type = digital; }",
+    "sensor NAME returns uint16 { driver = hcsr04; }",
+    "sensor NAME returns uint16 { driver = rc_channel; }",
+    "actuator NAME accepts uint16 { driver = servo; }",
+    "actuator NAME accepts uint16 { driver = esc_400hz; }",
+    "sensor NAME returns int32 { driver = quadrature_encoder; }",
+    "sensor NAME returns uint16 { driver = srf02; address = 0x7ADDRESS; }",
+    "sensor NAME returns bool[COUNT] { type = digital; sequence = header; }",
+    "sensor NAME returns bool[COUNT] { type = digital; }",
+    "sensor NAME returns uint16[COUNT] { type = analog; together = unit; }",
+    "actuator NAME accepts uint16[COUNT] { type = pwm; frequency = 50 Hz; prefer together = unit; }",
+];
+
+/// One to four boards, a third of them alike, and up to forty parts of the library, single values and arrays: alone or
+/// several alike, on a board or floating.
+fn robot(seed: u64) -> Text {
+    let mut rng = Rng(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ 0x524F_424F);
+    let boards = 1 + rng.below(4);
+    let are_equal = rng.below(3) == 0;
+    let first = rng.of(ROBOT_BOARDS);
+    let mut on_boards: Vec<(&str, String)> = (0..boards)
+        .map(|_| (if are_equal { first } else { rng.of(ROBOT_BOARDS) }, String::new()))
+        .collect();
+    let most = 4 + rng.below(37);
+    let (mut floating, mut number) = (String::new(), 0);
+    while number < most {
+        let alike = if rng.below(4) == 0 { 2 + rng.below(3) } else { 1 };
+        let part = part(&mut rng);
+        let on = (rng.below(3) == 0).then(|| rng.below(boards) as usize);
+        for _ in 0..alike {
+            number += 1;
+            let text = part.replace("NAME", &format!("Dev{number}"));
+            match on.and_then(|on| on_boards.get_mut(on)) {
+                Some((_, devices)) => devices.push_str(&text),
+                None => floating.push_str(&text),
+            }
+        }
+    }
+    let mut sense = String::new();
+    for (number, (board, devices)) in on_boards.iter().enumerate() {
+        let _ = writeln!(sense, "board Brd{number} on {board} {{\n{devices}}}");
+    }
+    sense.push_str(&floating);
+    let target = if seed.is_multiple_of(2) { "none" } else { "chibios" };
+    Text { sense, target, tables: BTreeMap::new() }
+}
+
+fn part(rng: &mut Rng) -> String {
+    if rng.below(3) > 0 {
+        let text = rng.of(SINGLES).replace("COUNT", &(2 + rng.below(5)).to_string());
+        return text.replace("ADDRESS", &rng.below(8).to_string()) + "\n";
+    }
+    let at = rng.below(CHIPS.len() as u64) as usize;
+    let (driver, addresses) = CHIPS.get(at).copied().unwrap_or_default();
+    let address = match rng.of(addresses) {
+        "" => String::new(),
+        address => format!(" address = {address};"),
+    };
+    format!("chip NAME {{ driver = {driver};{address} }}\n")
 }
 
 fn device(number: u64, kind: &str) -> String {
@@ -193,7 +296,7 @@ fn eight_equal(seed: u64) -> Text {
         });
         sense.push_str(&device(number, kind.map_or("digital", |kind| kind.0)));
     }
-    Text { sense, tables: BTreeMap::new() }
+    Text { sense, target: "none", tables: BTreeMap::new() }
 }
 
 fn digital_64(_: u64) -> Text {
@@ -203,7 +306,7 @@ fn digital_64(_: u64) -> Text {
     }
     let mut sense = "board Brd0 on \"table_0.csv\" {\n}\n".to_owned();
     (1..=64).for_each(|number| sense.push_str(&device(number, "digital")));
-    Text { sense, tables: BTreeMap::from([("table_0.csv".to_owned(), table)]) }
+    Text { sense, target: "none", tables: BTreeMap::from([("table_0.csv".to_owned(), table)]) }
 }
 
 /// More devices of one address than there are buses.
@@ -217,7 +320,7 @@ fn i2c(boards: u64, devices: u64, addresses: u64) -> Text {
         let text = device(number, "i2c");
         sense.push_str(&text.replace(&format!("= {own};"), &format!("= {shared};")));
     }
-    Text { sense, tables: BTreeMap::new() }
+    Text { sense, target: "none", tables: BTreeMap::new() }
 }
 
 fn i2c_30(_: u64) -> Text {
@@ -244,5 +347,5 @@ fn four_chips(_: u64) -> Text {
     sense.push_str(
         "sensor Buttons returns bool[8] { id = 20; type = digital; sequence = header; }\n",
     );
-    Text { sense, tables: BTreeMap::new() }
+    Text { sense, target: "none", tables: BTreeMap::new() }
 }
