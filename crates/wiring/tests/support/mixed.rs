@@ -135,7 +135,7 @@ const ROBOT_BOARDS: &[&str] = &[
     "BLACKPILL_F411CE",
 ];
 
-/// Parts of the library with several values, and the addresses that one of them can have.
+/// Parts of the library with several values, and addresses that each can have; none where it has no address.
 const CHIPS: &[(&str, &[&str])] = &[
     ("gearmotor_tb6612", &[]),
     ("gearmotor_tb6612", &[]),
@@ -153,7 +153,7 @@ const CHIPS: &[(&str, &[&str])] = &[
     ("nmea_gps", &[]),
 ];
 
-/// Values of one part, and arrays.
+/// Single values and arrays.
 const SINGLES: &[&str] = &[
     "sensor NAME returns uint16 { type = analog; }",
     "sensor NAME returns uint16 { type = analog; }",
@@ -171,8 +171,8 @@ const SINGLES: &[&str] = &[
     "actuator NAME accepts uint16[COUNT] { type = pwm; frequency = 50 Hz; prefer together = unit; }",
 ];
 
-/// One to four boards, a third of them alike, and up to forty parts of the library, single values and arrays: alone or
-/// several alike, on a board or floating.
+/// One to four boards, all alike in a third of the designs, and 4 to 43 parts of the library, single values and arrays:
+/// alone or several alike, on a board or floating.
 fn robot(seed: u64) -> Text {
     let mut rng = Rng(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ 0x524F_424F);
     let boards = 1 + rng.below(4);
