@@ -2,7 +2,8 @@
 
 use crate::arith::{TURN, chance, number, sine};
 
-/// The time for which noise keeps its value: shorter than any cycle of a device.
+/// The time in which noise goes from one value to the next: shorter than any cycle of a device. What turns cannot jump,
+/// and an encoder that did would miss steps.
 const NOISE_NS: u64 = 1_000_000;
 /// Nanoseconds of a second.
 const SECOND_NS: f64 = 1e9;
@@ -109,14 +110,27 @@ impl Signal {
         if self.noise == 0.0 {
             return value;
         }
-        value + self.noise * chance(self.key ^ (now_ns / NOISE_NS))
+        value + self.noise_at(now_ns)
+    }
+
+    fn noise_at(&self, now_ns: u64) -> f64 {
+        let piece = now_ns / NOISE_NS;
+        let [from, to] = [piece, piece.saturating_add(1)].map(|piece| chance(self.key ^ piece));
+        let share = number(now_ns % NOISE_NS) / number(NOISE_NS);
+        self.noise * (from + (to - from) * share)
     }
 
     /// The least and the greatest value in a span of time, both ends included.
     #[must_use]
     pub fn range(&self, from_ns: u64, to_ns: u64) -> (f64, f64) {
-        let (least, greatest) = self.shape.range(from_ns, to_ns.max(from_ns));
-        (least - self.noise.abs(), greatest + self.noise.abs())
+        let to_ns = to_ns.max(from_ns);
+        let (least, greatest) = self.shape.range(from_ns, to_ns);
+        let (below, above) = if self.noise != 0.0 && from_ns / NOISE_NS == to_ns / NOISE_NS {
+            ordered(self.noise_at(from_ns), self.noise_at(to_ns))
+        } else {
+            (-self.noise.abs(), self.noise.abs())
+        };
+        (least + below, greatest + above)
     }
 
     /// The least and the greatest value that it ever has; none where it has no bounds.
