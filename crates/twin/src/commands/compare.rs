@@ -44,7 +44,11 @@ pub(super) fn differs(
             (!is_there).then(|| hex(found.get(last..).unwrap_or_default()))
         }
         What::Frame(sent) => {
-            frame(sent, outputs, since_ns).or_else(|| too_seldom(sent, outputs, (since_ns, now_ns)))
+            let span = (since_ns, now_ns);
+            let found = frame(sent, outputs, since_ns);
+            found
+                .or_else(|| too_seldom(sent, outputs, span))
+                .or_else(|| too_often(sent, outputs, span))
         }
     }
 }
@@ -102,6 +106,22 @@ fn too_seldom(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) ->
     let found = u64::try_from(own.count()).unwrap_or(u64::MAX);
     let span_ms = (now_ns - since_ns) / 1_000_000;
     (found < wanted).then(|| format!("only {found} times in {span_ms} ms"))
+}
+
+/// A frame that comes more often than it is set and repeated. Each device of it may be set twice meanwhile.
+/// Frames that select their contents are left out: nothing says how often each is repeated.
+fn too_often(sent: &Sent, outputs: &Outputs, (since_ns, now_ns): (u64, u64)) -> Option<String> {
+    if sent.select.0 != 0 {
+        return None;
+    }
+    let span_ns = now_ns.saturating_sub(since_ns);
+    let repeated = (span_ns / 10 * 11).checked_div(sent.resend_ns).unwrap_or(0);
+    let most = repeated + 2 * sent.devices + 1;
+    let own = outputs
+        .frames(sent.unit, since_ns)
+        .filter(|frame| (frame.id, frame.extended) == (sent.identifier, sent.is_extended));
+    let found = u64::try_from(own.count()).unwrap_or(u64::MAX);
+    (found > most).then(|| format!("it {found} times in {} ms", span_ns / 1_000_000))
 }
 
 /// What must be there, for people.

@@ -59,6 +59,8 @@ pub(super) struct Sent {
     pub(super) select: (u64, u64),
     /// It is sent again after so long; 0: not.
     pub(super) resend_ns: u64,
+    /// Devices whose values are in frames of that identifier: each has one sent when it is set.
+    pub(super) devices: u64,
 }
 
 /// A device's wires with their places in the wiring.
@@ -277,12 +279,14 @@ fn frame(
     let mut length = own.length.map_or(0, u16::from);
     let mut resend_ms = u32::MAX;
     let mut is_selector = false;
+    let mut devices = 0;
     for other in job.devices.iter().filter(|other| other.unit == one.unit) {
         let is_set = other.device.direction == Direction::Actuator;
         let Some(can) = other.device.kind.can().filter(|_| is_set) else { continue };
         if (can.frame_id, can.is_extended) != (own.frame_id, own.is_extended) {
             continue;
         }
+        devices += 1;
         let others = can.mux.as_ref().map(|mux| mux.bits);
         if select.is_none() && others.is_some_and(|(of, _)| of & mask != 0) {
             is_selector = true;
@@ -311,6 +315,7 @@ fn frame(
         bits: own_bits,
         select,
         resend_ns: if resend_ms == u32::MAX { 0 } else { 1_000_000 * u64::from(resend_ms) },
+        devices,
     };
     Some(expected(at, wire, 0, What::Frame(sent)))
 }

@@ -102,6 +102,9 @@ pub struct Judge {
     devices: Vec<SensorJudge>,
     /// The actuators, of which only their health is known here.
     others: Vec<OtherJudge>,
+    board: String,
+    /// Its devices, in order.
+    ids: Vec<u8>,
     /// The board's name, where nothing in the world disturbs it.
     undisturbed: Option<String>,
     /// Reports that came.
@@ -146,8 +149,12 @@ impl Judge {
         let devices = bench.subjects().iter().filter_map(sensor).collect();
         let others = job.devices.iter().filter(|one| one.device.direction == Direction::Actuator);
         let name = job.board.name.value.clone();
+        let mut ids: Vec<u8> = job.devices.iter().map(|one| one.device.id.value).collect();
+        ids.sort_unstable();
         Self {
             devices,
+            board: name.clone(),
+            ids,
             others: others.map(|one| OtherJudge::new(job, bench, one)).collect(),
             undisturbed: (!bench.is_disturbed()).then_some(name),
             heard: 0,
@@ -190,6 +197,10 @@ impl Judge {
                 self.say_of_board(now_ns, &board, what);
             }
         }
+        if let Some(what) = self.rows_differ(health) {
+            let board = self.board.clone();
+            self.say_of_board(now_ns, &board, what);
+        }
         for row in &health.devices {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == row.id) {
                 sensor.health(now_ns, row);
@@ -198,6 +209,16 @@ impl Judge {
                 other.health(now_ns, row);
             }
         }
+    }
+
+    /// What disagrees of the devices that the board speaks of: each of its own once, and no others.
+    fn rows_differ(&self, health: &Health) -> Option<String> {
+        let mut ids: Vec<u8> = health.devices.iter().map(|row| row.id).collect();
+        ids.sort_unstable();
+        let told = |ids: &[u8]| ids.iter().map(u8::to_string).collect::<Vec<String>>().join(", ");
+        (ids != self.ids).then(|| {
+            format!("it speaks of the devices {}, and not of {}", told(&ids), told(&self.ids))
+        })
     }
 
     /// The board was asked how it is, and did not say it.

@@ -17,6 +17,8 @@ const REPORTER_NS: u64 = 10 * MS;
 const REPEAT_NS: u64 = SECOND;
 /// What a measurement takes beside its waiting.
 const MEASURING_NS: u64 = 3 * MS;
+/// What the first value waits for beside that: other parts of its bus are set up and measure before it.
+const FIRST_NS: u64 = SECOND;
 /// So many times make a pace.
 const TIMES_MIN: u64 = 3;
 /// What a pace may be off, in per cent.
@@ -37,6 +39,9 @@ pub(super) struct Pace {
     pub(super) turn_ns: u64,
     /// Whether the board's own clock says when.
     pub(super) is_regular: bool,
+    /// How long the first value takes at most that a board measures as soon as it is up, however long its cycle is; none
+    /// where something else than the board's clock says when there is a value.
+    pub(super) first_ns: Option<u64>,
 }
 
 impl Pace {
@@ -82,12 +87,31 @@ impl Pace {
         let most_ns = most_ns.max(reporter_ns);
         let jitter_ns = 2 * reporter_ns + own_ns;
         let least_ns = least_ns.min(most_ns);
-        Some(Self { least_ns, most_ns, jitter_ns, turn_ns: reporter_ns, is_regular })
+        let first_ns = match &device.kind {
+            Kind::Analog(_) => Some(MEASURING_NS),
+            Kind::I2c(_) | Kind::Spi(_) => Some(of_chip(job, one, MS).1),
+            Kind::Icu(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => None,
+        };
+        // A median may want several values before it has one.
+        let first_ns = first_ns.filter(|_| device.filter.median < 2);
+        Some(Self { least_ns, most_ns, jitter_ns, turn_ns: reporter_ns, is_regular, first_ns })
     }
 
     /// The longest silence that means nothing.
     pub(super) const fn gap_ns(&self) -> u64 {
         3 * self.most_ns + self.jitter_ns
+    }
+
+    /// The same before the first value.
+    pub(super) fn first_gap_ns(&self) -> u64 {
+        let first_ns = self.first_ns.map(|ns| 3 * ns + self.jitter_ns + FIRST_NS);
+        first_ns.map_or(self.gap_ns(), |ns| ns.min(self.gap_ns()))
     }
 }
 

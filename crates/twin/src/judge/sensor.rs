@@ -291,7 +291,8 @@ impl SensorJudge {
     /// Whether nothing came for too long.
     fn silence(&mut self, now_ns: u64) {
         let Some(pace) = self.pace else { return };
-        let gap_ns = pace.gap_ns() + self.judged.age_ns;
+        let gap_ns = self.last_ns.map_or(pace.first_gap_ns(), |_| pace.gap_ns());
+        let gap_ns = gap_ns + self.judged.age_ns;
         let from_ns = self.last_ns.unwrap_or(self.start_ns);
         if now_ns <= from_ns.saturating_add(gap_ns) {
             return;

@@ -142,10 +142,9 @@ fn what_does_not_come_is_wrong() {
 #[test]
 fn an_encoder_with_noise_agrees_with_its_world() {
     let board = "board STM32F407G_DISC1 { sensor Turns returns int32 { id = 1; type = encoder; } }";
-    for turns in [
-        "{ rate = 100, noise = 2 }",
-        "{ sine = 500, offset = 0, period = \"3 s\", noise = 5 }",
-    ] {
+    for turns in
+        ["{ rate = 100, noise = 2 }", "{ sine = 500, offset = 0, period = \"3 s\", noise = 5 }"]
+    {
         let run = plainly(board, &format!("[devices]\nTurns = {turns}\n"), 5);
         assert!(run.wrong().is_empty(), "{turns}: {:#?}", run.wrong());
         assert!(run.judged[0].reports > 100, "{turns}: {:?}", run.judged[0]);
