@@ -89,6 +89,8 @@ fn each_mistake_is_noticed_where_it_is() {
         ("byte = 4", "byte = 5", "Limit"),
         ("failsafe = 7", "failsafe = 8", "Demand"),
         ("resend = 20 ms", "resend = 200 ms", "Pace"),
+        ("resend = 20 ms", "resend = 10 ms", "Pace"),
+        ("frame = 0x120; failsafe = 7", "frame = 0x120; resend = 20 ms; failsafe = 7", "Demand"),
         ("0xAA", "0xAB", "Say"),
         ("checksum = xor8", "checksum = sum8", "Say"),
         ("end = [0x0D]", "end = [0x0A]", "Say"),

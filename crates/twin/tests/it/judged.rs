@@ -1,9 +1,11 @@
 //! What the judge has to catch: reports that were tampered with.
 
-use sensedsl_twin::judge::Finding;
-use sensedsl_wire::Scalar;
+use sensedsl_codegen::job::JobDevice;
+use sensedsl_twin::bench::Bench;
+use sensedsl_twin::judge::{Finding, Judge, Judged};
+use sensedsl_wire::{Causes, DeviceHealth, Health, ResetCause, Scalar, Status};
 
-use crate::run::{Values, plainly, simulate};
+use crate::run::{Values, plainly, read, simulate, with_job};
 
 const CAR: &str = "board STM32F4DiscoveryBoard {
     sensor Near returns uint16 { id = 1; type = analog; delay = 20; scale = 0.1; quantity = cm; }
@@ -149,4 +151,67 @@ fn an_encoder_with_noise_agrees_with_its_world() {
         assert!(run.wrong().is_empty(), "{turns}: {:#?}", run.wrong());
         assert!(run.judged[0].reports > 100, "{turns}: {:?}", run.judged[0]);
     }
+}
+
+/// A board measures as soon as it is up: the first value of a slow device does not wait for its cycle.
+#[test]
+fn a_first_value_that_does_not_come_is_wrong() {
+    let board = "board STM32F407G_DISC1 {
+        chip Clock { driver = ds3231; delay = 60 s; }
+        sensor Soil returns uint16 { id = 20; type = analog; delay = 60 s; }
+        sensor Light returns uint16 { id = 21; type = analog; delay = 20 ms; }
+    }";
+    let run = plainly(board, "", 6);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+    assert_eq!((run.of("Soil").reports, run.of("ClockMinute").reports), (1, 1));
+    let minute = with_job(board, |job| {
+        let one = job.devices.iter().find(|one| one.name() == "ClockMinute");
+        one.unwrap().device.id.value
+    });
+    for (id, name) in [(20, "Soil"), (minute, "ClockMinute")] {
+        let run = simulate(board, "", 6, |_, values| values.retain(|one| one.0 != id));
+        let wrong: Vec<&str> = wrong_names(&run.judged);
+        assert_eq!(wrong, [name]);
+    }
+}
+
+fn wrong_names(judged: &[Judged]) -> Vec<&str> {
+    judged.iter().filter(|one| one.wrong > 0).map(|one| one.name.as_str()).collect()
+}
+
+/// A board speaks of each of its devices once, and of no others.
+#[test]
+fn health_of_other_devices_is_wrong() {
+    with_job(CAR, |job| {
+        let (world, _) = read(job, WORLD, 7);
+        let bench = Bench::new(job, &world, 7);
+        let row = |one: &JobDevice<'_>| DeviceHealth {
+            id: one.device.id.value,
+            status: Status::Good,
+            age_ms: 0,
+            causes: Causes::default(),
+        };
+        let right = Health {
+            uptime_ms: 1_000,
+            reset_cause: ResetCause::Power,
+            reset_device: 0,
+            reports_sent: 0,
+            reports_refused: 0,
+            load_percent: 10,
+            stack_left_bytes: 200,
+            devices: job.devices.iter().map(row).collect(),
+        };
+        let found = |health: &Health| {
+            let mut judge = Judge::new(job, &bench);
+            judge.health(1_000_000_000, health);
+            let judged = judge.finish(1_000_000_000);
+            judged.iter().any(|one| one.wrong > 0 && one.name == job.board.name.value)
+        };
+        assert!(!found(&right));
+        let mut other = right.clone();
+        other.devices[1].id = 0;
+        let mut fewer = right.clone();
+        let _ = fewer.devices.pop();
+        assert!(found(&other) && found(&fewer));
+    });
 }
