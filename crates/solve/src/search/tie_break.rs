@@ -5,7 +5,7 @@
 //! still leads to an answer within the limit; the answer at hand saves most of the questions.
 
 use super::canonical::earliest;
-use super::{Effort, Engine};
+use super::{Effort, Engine, Found};
 use crate::domains::Pruned;
 use crate::index::{AltId, CandId, RoleId};
 use crate::model::{Choices, Model};
@@ -182,7 +182,7 @@ impl Engine<'_> {
             self.progress.effort = if some > 1 { many } else { Effort::Any };
             let (asked, _) = values.split_at(some);
             let restricted = self.restrict_to(entry, asked);
-            let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
+            let found = restricted.ok().and_then(|()| self.ask(limit, known));
             self.back(mark, &saved);
             let unknown = self.progress.stopped && !self.cancel.is_over();
             self.progress.effort = Effort::Any;
@@ -203,6 +203,27 @@ impl Engine<'_> {
             }
             self.progress.stopped &= !unknown;
         }
+    }
+
+    /// An answer within the limit, looked for near the known one first.
+    fn ask(&mut self, limit: u64, known: &Choices) -> Option<Found> {
+        if let Some(found) = self.search_near(limit + 1, known) {
+            return Some(found);
+        }
+        let less = self.progress.more(PATIENCE);
+        let effort = std::mem::replace(&mut self.progress.effort, less);
+        let found = self.search(limit + 1, true);
+        self.progress.effort = effort;
+        if found.is_some() || !self.progress.stopped || self.cancel.is_over() {
+            return found;
+        }
+        self.progress.stopped = self.progress.is_spent();
+        if self.progress.stopped {
+            return None;
+        }
+        // Devices that are alike stand together in the program, and differ by now.
+        self.renew_program();
+        self.search(limit + 1, true)
     }
 
     /// Interchangeable devices, and bundles, stand in order in the least answer, so a later one
