@@ -6,8 +6,9 @@
 //! wiring that the linear program comes nearest to ([`rounding`]), and branches ([`branching`]) on
 //! what the program leaves fractional ([`strong_branching`]), or on the choice at fault.
 //!
-//! The best answer is looked for little above the bound first, then farther up, with limits that
-//! grow as in iterative deepening (R. E. Korf, *Depth-first iterative-deepening*, 1985).
+//! Once there is any answer, the best one is looked for little above the bound first, then farther
+//! up, with limits that grow as in iterative deepening (R. E. Korf, *Depth-first
+//! iterative-deepening*, 1985).
 
 pub(crate) mod branching;
 pub(crate) mod canonical;
