@@ -277,6 +277,15 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
+    /// As [`Self::narrow`], by what the prices of the domains as they are remove.
+    pub(crate) fn narrow_once(&mut self, limit: u64) -> Result<(), Pruned> {
+        self.goal.limit = limit;
+        self.progress.nodes += 1;
+        self.settle()?;
+        self.price()?;
+        self.settle()
+    }
+
     /// Makes the linear program anew, of the domains as they are.
     pub(crate) fn renew_program(&mut self) {
         if let Some(pricing) = &mut self.pricing {

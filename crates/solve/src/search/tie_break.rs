@@ -207,13 +207,24 @@ impl Engine<'_> {
         }
     }
 
-    /// An answer within the limit, looked for near the known one first.
+    /// An answer within the limit, looked for near the known one where the bounds leave any.
     fn ask(&mut self, limit: u64, known: &Choices) -> Option<Found> {
-        if let Some(found) = self.search_near(limit + 1, known) {
-            return Some(found);
-        }
-        let less = self.progress.more(PATIENCE);
-        let effort = std::mem::replace(&mut self.progress.effort, less);
+        let saved = self.flow.save();
+        let mark = self.domains.mark();
+        let found = if self.narrow_once(limit + 1).is_ok() {
+            let near = self.search_near(limit + 1, known);
+            near.or_else(|| self.ask_all(limit))
+        } else {
+            None
+        };
+        self.back(mark, &saved);
+        found
+    }
+
+    /// Any answer within the limit.
+    fn ask_all(&mut self, limit: u64) -> Option<Found> {
+        let few = self.progress.more(PATIENCE);
+        let effort = std::mem::replace(&mut self.progress.effort, few);
         let found = self.search(limit + 1, true);
         self.progress.effort = effort;
         if found.is_some() || !self.progress.stopped || self.cancel.is_over() {
