@@ -256,9 +256,9 @@ impl Dualized {
                 holder == Holder::Own && self.excludes(model, facility, alt, of_alt)
             })
         };
-        match of_alt[alt].as_slice() {
-            [facility] if own(*facility) => links.facility(Tied::Resource(resource), *facility),
-            _ => self.resource(resource),
+        match of_alt[alt].iter().find(|facility| own(**facility)) {
+            Some(facility) => links.facility(Tied::Resource(resource), *facility),
+            None => self.resource(resource),
         }
     }
 

@@ -1,9 +1,9 @@
 //! The linear program of the Lagrangian bound: dualized constraints and domains in, matrix and
 //! meaning of its columns out.
 //!
-//! Devices that are alike stand in one set of columns that count them, so the program is small,
-//! and no branch of the search makes it wrong: where their domains have come to differ it is only
-//! less sharp. A role with one way left has no columns; its entries go to whoever needs it.
+//! Devices that are alike, and have the same choices left when the program is made, stand in one set
+//! of columns that count them. So the program is small, and no branch of the search makes it wrong:
+//! where their domains have come to differ it is only less sharp, until it is made anew. A role with one way left has no columns; its entries go to whoever needs it.
 
 mod builder;
 
@@ -13,6 +13,7 @@ use super::lp::Simplex;
 use crate::domains::Domains;
 use crate::index::{AltId, CandId, ColumnId, FacilityId, IdVec, PenaltyId, PriceId, RowId, Rows};
 use crate::model::Model;
+use crate::problem::DeviceId;
 
 /// The column of an alternative or candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,11 +29,13 @@ pub(crate) enum Column {
 #[derive(Clone, Debug)]
 pub(crate) struct Program {
     pub(crate) simplex: Simplex,
+    /// For each device the first one of its group.
+    pub(crate) group: IdVec<DeviceId, DeviceId>,
     /// Row of each price that somebody is tied to.
     pub(crate) price_row: IdVec<PriceId, Option<RowId>>,
-    /// Column of an alternative of the first device of each class.
+    /// Column of an alternative of the first device of each group.
     pub(crate) alt_column: IdVec<AltId, Column>,
-    /// Columns whose sum is the number of devices of the class at that alternative.
+    /// Columns whose sum is the number of devices of the group at that alternative.
     pub(crate) counted: Rows<AltId, ColumnId>,
     pub(crate) cand_column: IdVec<CandId, Column>,
     /// Column of each facility that could be opened.
@@ -50,13 +53,24 @@ impl Program {
     pub(crate) fn new(dualized: &Dualized, model: &Model, domains: &Domains) -> Self {
         let mut builder = Builder::new(dualized, model, domains);
         builder.covers();
-        for device in model.class_leaders() {
-            builder.class(device);
+        let group = groups(model, domains);
+        for leader in model.devices.iter().filter(|&device| group[device] == device) {
+            let class = model.class_of(model.class[leader]);
+            builder.group(&class.filter(|&device| group[device] == leader).collect::<Vec<_>>());
         }
         for facility in dualized.facilities.ids() {
             builder.facility(facility);
         }
         let penalty = dualized.penalties.iter().map(|p| builder.penalty(p)).collect();
-        builder.finish(penalty)
+        builder.finish(penalty, group)
     }
+}
+
+/// For each device the first that is alike and has the same choices left.
+fn groups(model: &Model, domains: &Domains) -> IdVec<DeviceId, DeviceId> {
+    let first = |device: DeviceId| {
+        let mut class = model.class_of(model.class[device]);
+        class.find(|&other| domains.same_domain(model, other, device)).unwrap_or(device)
+    };
+    model.devices.iter().map(first).collect()
 }

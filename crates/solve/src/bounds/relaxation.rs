@@ -14,6 +14,8 @@ use crate::cancel::Cancel;
 use crate::domains::{Charge, Domains};
 use crate::index::{AltId, CandId, ColumnId, FacilityId, IdVec, PenaltyId, RoleId};
 use crate::model::{Holding, Model};
+use crate::problem::DeviceId;
+use std::collections::BTreeMap;
 
 /// The program, and the bounds of its columns at the present node.
 #[derive(Clone, Debug)]
@@ -65,7 +67,7 @@ impl Relaxation {
             self.least[column] = f64::from(u8::from(charge == Charge::Paid));
         }
         loose.iter().for_each(|&column| self.most[column] = ceiling[column]);
-        // All devices of the class may take it: no limit.
+        // All devices of the group may take it: no limit.
         for column in alt_column {
             if let Column::Of(column) = *column
                 && self.most[column] * 2.0 == ceiling[column]
@@ -80,7 +82,7 @@ impl Relaxation {
     }
 
     fn allow_alt(&mut self, model: &Model, alt: AltId, decided: bool) -> Result<(), Outdated> {
-        let leader = model.twin_alt(alt, model.class[model.alt_device[alt]]);
+        let leader = model.twin_alt(alt, self.program.group[model.alt_device[alt]]);
         match self.program.alt_column[leader] {
             Column::Absent => return Err(Outdated),
             Column::Merged => {}
@@ -161,9 +163,23 @@ impl Relaxation {
         self.program.simplex.value(self.program.penalty[penalty])
     }
 
-    /// How many devices that are alike take this alternative.
+    /// The device that stands for this one in the program: the first of those with the same choices.
+    pub(crate) fn group(&self, device: DeviceId) -> DeviceId {
+        self.program.group[device]
+    }
+
+    /// The groups of devices that stand in one set of columns.
+    pub(crate) fn groups(&self) -> Vec<Vec<DeviceId>> {
+        let mut groups: BTreeMap<DeviceId, Vec<DeviceId>> = BTreeMap::new();
+        for (device, first) in self.program.group.enumerate() {
+            groups.entry(*first).or_default().push(device);
+        }
+        groups.into_values().collect()
+    }
+
+    /// How many devices of a group take this alternative.
     pub(crate) fn value(&self, model: &Model, alt: AltId) -> f64 {
-        let leader = model.twin_alt(alt, model.class[model.alt_device[alt]]);
+        let leader = model.twin_alt(alt, self.program.group[model.alt_device[alt]]);
         let columns = self.program.counted[leader].iter();
         columns.map(|&column| self.program.simplex.value(column)).sum()
     }

@@ -6,8 +6,9 @@
 //! wiring that the linear program comes nearest to ([`rounding`]), and branches ([`branching`]) on
 //! what the program leaves fractional ([`strong_branching`]), or on the choice at fault.
 //!
-//! The best answer is looked for little above the bound first, then farther up, with limits that
-//! grow as in iterative deepening (R. E. Korf, *Depth-first iterative-deepening*, 1985).
+//! Once there is any answer, the best one is looked for little above the bound first, then farther
+//! up, with limits that grow as in iterative deepening (R. E. Korf, *Depth-first
+//! iterative-deepening*, 1985).
 
 pub(crate) mod branching;
 pub(crate) mod canonical;
@@ -77,6 +78,18 @@ pub(crate) struct Parked {
 /// where any answer will do.
 const DIVE: u64 = 10;
 
+/// How long it looks for any answer before it looks for the best one.
+const ANY: u64 = 200;
+
+/// How long a question of the tie-break is asked near to the known answer.
+const NEAR: u64 = 30;
+
+/// Limits grow slowly at first, and this many costs above the bound by leaps.
+const NEARLY: u64 = 16;
+
+/// The factor of a leap.
+const LEAP: u64 = 64;
+
 /// Steps of the simplex method at one node.
 const LP_STEPS: usize = 5_000;
 
@@ -130,18 +143,13 @@ impl<'a> Engine<'a> {
 
     /// The cheapest choice below `limit`, or with `first` any one below it.
     pub(crate) fn search(&mut self, limit: u64, first: bool) -> Option<Found> {
-        self.goal.limit = limit.min(self.model.most);
-        self.goal.first = first;
-        self.goal.best = None;
+        self.aim(limit, first);
         let mark = self.domains.mark();
         let saved = self.flow.save();
         self.progress.begin();
         if limit == u64::MAX {
             let devices = if first { self.model.devices.len() as u64 } else { 0 };
-            self.progress.dive_until = Some(self.progress.nodes + devices + DIVE);
-            self.node(0);
-            self.progress.dive_until = None;
-            self.back(mark, &saved);
+            self.dive(devices + DIVE);
         }
         if first {
             if self.goal.best.is_none() {
@@ -149,10 +157,55 @@ impl<'a> Engine<'a> {
             }
         } else if let Ok(bound) = self.root_bound() {
             self.back(mark, &saved);
+            if limit == u64::MAX && self.goal.best.is_none() {
+                self.find_any();
+            }
             self.deepen(bound);
         }
         self.back(mark, &saved);
         self.goal.best.take()
+    }
+
+    /// Any choice below the limit near to a known one, as far as few steps find it.
+    pub(crate) fn search_near(&mut self, limit: u64, known: &Choices) -> Option<Found> {
+        self.aim(limit, true);
+        self.goal.near = Some(known.clone());
+        let effort = std::mem::replace(&mut self.progress.effort, Effort::Any);
+        self.dive(NEAR);
+        self.progress.effort = effort;
+        self.goal.near = None;
+        self.goal.best.take()
+    }
+
+    fn aim(&mut self, limit: u64, first: bool) {
+        self.goal.limit = limit.min(self.model.most);
+        self.goal.first = first;
+        self.goal.best = None;
+    }
+
+    /// Looks for any choice by the flow alone, for so many nodes.
+    fn dive(&mut self, nodes: u64) {
+        let mark = self.domains.mark();
+        let saved = self.flow.save();
+        self.progress.dive_until = Some(self.progress.nodes + nodes);
+        self.node(0);
+        self.progress.dive_until = None;
+        self.back(mark, &saved);
+    }
+
+    /// Looks for any choice, so that there is one early and a limit to bound against.
+    fn find_any(&mut self) {
+        let mark = self.domains.mark();
+        let saved = self.flow.save();
+        let few = self.progress.more(ANY);
+        let effort = std::mem::replace(&mut self.progress.effort, few);
+        self.goal.first = true;
+        self.node(0);
+        self.goal.first = false;
+        self.back(mark, &saved);
+        let spent = self.progress.stopped && !self.cancel.is_over();
+        self.progress.effort = effort;
+        self.progress.stopped &= !spent || self.progress.is_spent();
     }
 
     /// The cheapest choice that costs more than `floor`.
@@ -193,7 +246,8 @@ impl<'a> Engine<'a> {
             if !self.progress.stopped {
                 self.goal.proved = limit;
             }
-            step = step.saturating_mul(2);
+            let leaps = step >= NEARLY * self.model.weights.cost;
+            step = step.saturating_mul(if leaps { LEAP } else { 2 });
         }
     }
 
@@ -221,6 +275,22 @@ impl<'a> Engine<'a> {
             self.settle()?;
         }
         Ok(())
+    }
+
+    /// As [`Self::narrow`], by what the prices of the domains as they are remove.
+    pub(crate) fn narrow_once(&mut self, limit: u64) -> Result<(), Pruned> {
+        self.goal.limit = limit;
+        self.progress.nodes += 1;
+        self.settle()?;
+        self.price()?;
+        self.settle()
+    }
+
+    /// Makes the linear program anew, of the domains as they are.
+    pub(crate) fn renew_program(&mut self) {
+        if let Some(pricing) = &mut self.pricing {
+            pricing.relaxation = Relaxation::new(&pricing.dualized, self.model, &self.domains);
+        }
     }
 
     /// Bounds by prices; whether they narrowed the domains.

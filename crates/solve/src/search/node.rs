@@ -33,7 +33,7 @@ impl Engine<'_> {
             let branch = match self.advice(fallback, depth) {
                 Advice::Leave => return,
                 Advice::Again => continue,
-                Advice::Branch(branch) => branch,
+                Advice::Branch(branch) => self.nearest(branch),
             };
             let limit = self.goal.limit;
             let refused = self.follow(branch, depth);
@@ -45,6 +45,26 @@ impl Engine<'_> {
                 return;
             }
         }
+    }
+
+    /// The branch that decides the same as the known choice does, as long as that is possible.
+    fn nearest(&self, branch: Branch) -> Branch {
+        let (Some(near), model) = (&self.goal.near, self.model) else { return branch };
+        let known = match branch {
+            Branch::Alt(alt) => {
+                let known = near[model.alt_device[alt]].alt;
+                self.domains.has_alt(known).then_some(Branch::Alt(known))
+            }
+            Branch::Cand(id) => {
+                let alt = model.cand_alt(id);
+                let position = model.roles.of(alt).position(model.cand[id].role);
+                let chosen = Some(&near[model.alt_device[alt]]).filter(|chosen| chosen.alt == alt);
+                let known = chosen.and_then(|chosen| chosen.cands.get(position));
+                known.filter(|&&id| self.domains.has_cand(model, id)).map(|&id| Branch::Cand(id))
+            }
+            Branch::Rule(_) | Branch::Board(_) | Branch::Facility(_) => None,
+        };
+        known.unwrap_or(branch)
     }
 
     fn dive_is_over(&self) -> bool {

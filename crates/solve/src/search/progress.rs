@@ -1,6 +1,7 @@
 //! What a search looks for, what it has found, and how far it has come.
 
 use super::Found;
+use crate::model::Choices;
 
 /// How long a question is worth asking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,13 +28,15 @@ pub(crate) struct Goal {
     /// Whether the first one is enough.
     pub(crate) first: bool,
     pub(crate) best: Option<Found>,
+    /// A complete choice near which the search looks first.
+    pub(crate) near: Option<Choices>,
     /// No answer of the present search is below this.
     pub(crate) proved: u64,
 }
 
 impl Default for Goal {
     fn default() -> Self {
-        Self { limit: u64::MAX, floor: None, first: false, best: None, proved: 0 }
+        Self { limit: u64::MAX, floor: None, first: false, best: None, near: None, proved: 0 }
     }
 }
 
@@ -82,6 +85,15 @@ impl Progress {
     /// Nodes of the present search.
     pub(crate) fn of_this_search(&self) -> u64 {
         self.nodes - self.begun
+    }
+
+    /// So many nodes from here, if the effort allows as many.
+    pub(crate) fn more(&self, nodes: u64) -> Effort {
+        let until = self.nodes + nodes;
+        match self.effort {
+            Effort::Nodes(most) => Effort::Nodes(most.min(until)),
+            Effort::Any => Effort::Nodes(until),
+        }
     }
 
     pub(crate) fn is_spent(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::Engine;
 use crate::domains::Pruned;
-use crate::index::AltId;
+use crate::index::{AltId, Ids};
 
 /// Values nearer to a whole number count as whole.
 pub(super) const WHOLE: f64 = 0.01;
@@ -23,14 +23,14 @@ impl Engine<'_> {
         self.back(mark, &saved);
     }
 
-    /// As many of the devices that are alike go to an alternative as it is worth in whole numbers.
+    /// As many devices of a group go to an alternative as it is worth in whole numbers.
     fn decide_whole(&mut self) -> Result<(), Pruned> {
         let model = self.model;
         let Some(pricing) = &self.pricing else { return Err(Pruned) };
-        for leader in model.class_leaders() {
-            for alt in model.alts.of(leader) {
-                let twins: Vec<AltId> =
-                    model.class_of(leader).map(|d| model.twin_alt(alt, d)).collect();
+        for group in pricing.relaxation.groups() {
+            for alt in group.first().map_or(Ids::default(), |&leader| model.alts.of(leader)) {
+                let Some(pricing) = &self.pricing else { return Err(Pruned) };
+                let twins: Vec<AltId> = group.iter().map(|&d| model.twin_alt(alt, d)).collect();
                 let decided = |alt: AltId| self.domains.decided(model.alt_device[alt]);
                 let have = twins.iter().filter(|&&twin| decided(twin) == Some(twin)).count();
                 let whole = (pricing.relaxation.value(model, alt) + WHOLE) as usize;

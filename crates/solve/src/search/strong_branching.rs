@@ -153,10 +153,10 @@ impl Engine<'_> {
         let mut seen = IdVec::same(false, model.alt_device.len());
         for device in model.devices.iter().filter(|&d| self.domains.alts_left(d) > 1) {
             for alt in self.domains.alts(model, device) {
-                let of_class = model.twin_alt(alt, model.class[device]);
-                if !std::mem::replace(&mut seen[of_class], true) {
+                let of_group = model.twin_alt(alt, pricing.relaxation.group(device));
+                if !std::mem::replace(&mut seen[of_group], true) {
                     let value = pricing.relaxation.value(model, alt);
-                    add(Branch::Alt(alt), Key::Alt(of_class), value);
+                    add(Branch::Alt(alt), Key::Alt(of_group), value);
                 }
             }
         }

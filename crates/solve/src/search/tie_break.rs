@@ -2,10 +2,12 @@
 //!
 //! An answer is a list of pins (devices in order, roles in order), then of signals, then of
 //! alternatives. The least one is found by fixing one entry after another to the least value that
-//! still leads to an answer within the limit; the answer at hand saves most of the questions.
+//! still leads to an answer within the limit; the answer at hand saves most of the questions, and
+//! most answers to the others are near it (J. C. Beck, *Solution-guided multi-point constructive
+//! search for job shop scheduling*, 2007).
 
 use super::canonical::earliest;
-use super::{Effort, Engine};
+use super::{Effort, Engine, Found};
 use crate::domains::Pruned;
 use crate::index::{AltId, CandId, RoleId};
 use crate::model::{Choices, Model};
@@ -182,7 +184,7 @@ impl Engine<'_> {
             self.progress.effort = if some > 1 { many } else { Effort::Any };
             let (asked, _) = values.split_at(some);
             let restricted = self.restrict_to(entry, asked);
-            let found = restricted.ok().and_then(|()| self.search(limit + 1, true));
+            let found = restricted.ok().and_then(|()| self.ask(limit, known));
             self.back(mark, &saved);
             let unknown = self.progress.stopped && !self.cancel.is_over();
             self.progress.effort = Effort::Any;
@@ -203,6 +205,38 @@ impl Engine<'_> {
             }
             self.progress.stopped &= !unknown;
         }
+    }
+
+    /// An answer within the limit, looked for near the known one where the bounds leave any.
+    fn ask(&mut self, limit: u64, known: &Choices) -> Option<Found> {
+        let saved = self.flow.save();
+        let mark = self.domains.mark();
+        let found = if self.narrow_once(limit + 1).is_ok() {
+            let near = self.search_near(limit + 1, known);
+            near.or_else(|| self.ask_all(limit))
+        } else {
+            None
+        };
+        self.back(mark, &saved);
+        found
+    }
+
+    /// Any answer within the limit.
+    fn ask_all(&mut self, limit: u64) -> Option<Found> {
+        let few = self.progress.more(PATIENCE);
+        let effort = std::mem::replace(&mut self.progress.effort, few);
+        let found = self.search(limit + 1, true);
+        self.progress.effort = effort;
+        if found.is_some() || !self.progress.stopped || self.cancel.is_over() {
+            return found;
+        }
+        self.progress.stopped = self.progress.is_spent();
+        if self.progress.stopped {
+            return None;
+        }
+        // Devices that are alike stand together in the program, and differ by now.
+        self.renew_program();
+        self.search(limit + 1, true)
     }
 
     /// Interchangeable devices, and bundles, stand in order in the least answer, so a later one

@@ -5,7 +5,7 @@
 //! them the bound opens a fraction of a bus for each device.
 
 use super::{Dualized, Link, Tie};
-use crate::index::{FacilityId, IdVec, PriceId};
+use crate::index::{AltId, FacilityId, IdVec, PriceId};
 use crate::model::{Holding, Model};
 use crate::problem::{DeviceId, ResourceId};
 use std::cmp::Reverse;
@@ -24,14 +24,14 @@ pub(crate) struct Cover {
 impl Dualized {
     /// Finds facilities that the same devices choose from, and how many they need at least.
     pub(super) fn find_covers(&mut self, model: &Model) {
-        let family = self.families(model);
+        let limited = self.limited();
+        let family = self.families(model, &limited);
         let mut devices: BTreeMap<FacilityId, Vec<DeviceId>> = BTreeMap::new();
         for device in model.devices {
-            let alts = model.alts.of(device);
-            if alts.iter().all(|alt| self.alt_facilities[alt].len() == 1)
-                && let Some(facility) = self.alt_facilities[alts.at(0)].first()
-            {
-                devices.entry(family[*facility]).or_default().push(device);
+            let mut alts = model.alts.of(device).iter().map(|alt| self.serving(alt, &limited));
+            let first = alts.next().flatten();
+            if let Some(facility) = first.filter(|_| alts.all(|facility| facility.is_some())) {
+                devices.entry(family[facility]).or_default().push(device);
             }
         }
         for (number, devices) in devices {
@@ -41,15 +41,39 @@ impl Dualized {
         }
     }
 
+    /// Whether a facility has something that each of its users takes for itself.
+    fn limited(&self) -> IdVec<FacilityId, bool> {
+        let mut limited = IdVec::same(false, self.facilities.len());
+        for (_, tie) in &self.ties {
+            if let Tie::Ticket(facility, _) = tie {
+                limited[*facility] = true;
+            }
+        }
+        limited
+    }
+
+    /// The facility in which an alternative takes a place: its only one, or the first that is limited.
+    /// The others say what it has in common with others of its part.
+    fn serving(&self, alt: AltId, limited: &IdVec<FacilityId, bool>) -> Option<FacilityId> {
+        match &self.alt_facilities[alt] {
+            [facility] => Some(*facility),
+            several => several.iter().copied().find(|facility| limited[*facility]),
+        }
+    }
+
     /// The first facility of those among which the same devices choose, for each facility.
-    fn families(&self, model: &Model) -> IdVec<FacilityId, FacilityId> {
+    fn families(
+        &self,
+        model: &Model,
+        limited: &IdVec<FacilityId, bool>,
+    ) -> IdVec<FacilityId, FacilityId> {
         let mut family: IdVec<FacilityId, FacilityId> = self.facilities.ids().iter().collect();
         for device in model.devices {
             let alts = model.alts.of(device).iter();
-            let mut all = alts.flat_map(|alt| &self.alt_facilities[alt]);
-            let Some(&first) = all.next() else { continue };
+            let mut all = alts.filter_map(|alt| self.serving(alt, limited));
+            let Some(first) = all.next() else { continue };
             let target = family[first];
-            for &other in all {
+            for other in all {
                 let old = family[other];
                 family.iter_mut().filter(|f| **f == old).for_each(|f| *f = target);
             }

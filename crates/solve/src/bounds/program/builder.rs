@@ -1,4 +1,4 @@
-//! Makes the linear program column by column: classes of devices, facilities and rules in, the
+//! Makes the linear program column by column: groups of devices, facilities and rules in, the
 //! finished program out.
 
 use super::{Column, Program};
@@ -144,10 +144,10 @@ impl<'a> Builder<'a> {
         column
     }
 
-    /// All devices that are alike.
-    pub(super) fn class(&mut self, leader: DeviceId) {
+    /// Devices that are alike and have the same choices left.
+    pub(super) fn group(&mut self, devices: &[DeviceId]) {
         let model = self.model;
-        let devices: Vec<DeviceId> = model.class_of(leader).collect();
+        let Some(&leader) = devices.first() else { return };
         let alts = model.alts.of(leader);
         let number = devices.len() as f64;
         let convexity = self.row(number, number);
@@ -253,7 +253,11 @@ impl<'a> Builder<'a> {
         }
     }
 
-    pub(super) fn finish(mut self, penalty: IdVec<PenaltyId, ColumnId>) -> Program {
+    pub(super) fn finish(
+        mut self,
+        penalty: IdVec<PenaltyId, ColumnId>,
+        group: IdVec<DeviceId, DeviceId>,
+    ) -> Program {
         self.matrix.finish(self.bounds.len());
         let mut counted = Rows::default();
         for list in self.counted {
@@ -263,6 +267,7 @@ impl<'a> Builder<'a> {
         let (lower, upper): (Vec<f64>, Vec<f64>) = columns.chain(self.bounds).unzip();
         Program {
             simplex: Simplex::new(self.matrix, self.cost, lower.into(), upper.into()),
+            group,
             price_row: self.price_row,
             alt_column: self.alt_column,
             counted,
