@@ -39,7 +39,7 @@ fn failsafes(name: &str, text: &str) -> Vec<String> {
 fn firmware_gets_the_codes_of_shown_values() {
     let text = fs::read_to_string(root().join("tests/corpus/ok/shown_values.sense")).unwrap();
     let found = failsafes("shown-values", &text);
-    let expected = ["307", "307", "307", "-2000", "-2000", "2048", "5000", "5000"];
+    let expected = ["307", "307", "307", "-2000", "-2000", "2048", "5000", "5000", "-40"];
     let (mut found, mut expected) = (found, expected.map(str::to_owned).to_vec());
     found.sort();
     expected.sort();

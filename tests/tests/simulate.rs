@@ -57,6 +57,10 @@ fn statuses_and_codes() {
         // Without the emulated MCU: it is not there. With it: that is no program.
         (&["simulate", FIG2, "--firmware", &image, "--judge"], 1, "error[E054"),
         (&["simulate", FIG2, "--judge", "--stdout"], 2, ""),
+        (&["simulate", FIG2, "--judge", "--seconds", "1", "--set", "IRFront=raw 100"], 0, ""),
+        (&["simulate", FIG2, "--judge", "--set", "IRFront=5 V"], 1, "E0542"),
+        (&["simulate", FIG2, "--judge", "--set", "Nobody=5"], 1, "E0541"),
+        (&["simulate", FIG2, "--judge", "--set", "IRFront"], 2, "a sensor and its value"),
         (&["simulate", FIG2, "--judge", "--seconds", "soon"], 2, ""),
     ];
     for (arguments, status, code) in cases {

@@ -400,7 +400,7 @@ fn presentation(fields: &mut Fields<'_>) -> Presentation {
 /// `min` and `max` of a pwm device are pulses, which its kind has read already.
 fn unless_taken(fields: &mut Fields<'_>, name: &str) -> Option<Spanned<f64>> {
     let free = fields.rest().iter().any(|field| field.name == name);
-    if free { fields.number(name) } else { None }
+    if free { fields.bound(name) } else { None }
 }
 
 /// Reports what no part of the device has read.

@@ -17,6 +17,7 @@ pub mod facts;
 mod fields;
 mod files;
 mod frames;
+pub mod given;
 mod ids;
 pub mod kind;
 mod library;

@@ -7,6 +7,7 @@
 use crate::error::{Errors, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 use crate::literal;
+use crate::unit::Unit;
 use rowan::{TextRange, TextSize};
 
 /// A piece of the text.
@@ -112,6 +113,11 @@ impl<'a> Lexer<'a> {
             '0'..='9' => self.number(start),
             _ if is_name_start(first) => {
                 self.bump_while(is_name_continue);
+                // `deg/s` is one word behind a number, and a division elsewhere.
+                let before = self.text.get(..start).unwrap_or_default().trim_end_matches(' ');
+                let is_unit = before.ends_with(|last: char| last.is_ascii_digit());
+                let length = Unit::with_slash(rest).filter(|_| is_unit);
+                self.position = self.position.max(start + length.unwrap_or(0));
                 SyntaxKind::Ident
             }
             '%' if self.is_behind_a_number(start) => SyntaxKind::Ident,
@@ -409,6 +415,31 @@ mod tests {
         check("0.1", &[(Float, "0.1")]);
         check("8N1;", &[(Ident, "8N1"), (SyntaxKind::Semicolon, ";")]);
         check("1E3", &[(Float, "1E3")]);
+        check(
+            "20 deg/s;",
+            &[(Int, "20"), (Whitespace, " "), (Ident, "deg/s"), (SyntaxKind::Semicolon, ";")],
+        );
+        check("9.8m/s^2", &[(Float, "9.8"), (Ident, "m/s^2")]);
+        check(
+            "2 m/sec",
+            &[
+                (Int, "2"),
+                (Whitespace, " "),
+                (Ident, "m"),
+                (SyntaxKind::Slash, "/"),
+                (Ident, "sec"),
+            ],
+        );
+        check(
+            "A m/s",
+            &[
+                (Ident, "A"),
+                (Whitespace, " "),
+                (Ident, "m"),
+                (SyntaxKind::Slash, "/"),
+                (Ident, "s"),
+            ],
+        );
         check("8N1_", &[(Int, "8"), (Ident, "N1_")]);
         check("18446744073709551615", &[(Int, "18446744073709551615")]);
     }

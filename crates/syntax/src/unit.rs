@@ -47,11 +47,21 @@ pub enum Unit {
     Watts,
     /// `rpm`
     TurnsPerMinute,
+    /// `deg/s`
+    DegreesPerSecond,
+    /// `mm/s`
+    MillimetresPerSecond,
+    /// `cm/s`
+    CentimetresPerSecond,
+    /// `m/s`
+    MetresPerSecond,
+    /// `m/s^2`
+    MetresPerSecondSquared,
 }
 
 impl Unit {
     /// All units.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 25] = [
         Self::Microseconds,
         Self::Milliseconds,
         Self::Seconds,
@@ -72,6 +82,11 @@ impl Unit {
         Self::Amperes,
         Self::Watts,
         Self::TurnsPerMinute,
+        Self::DegreesPerSecond,
+        Self::MillimetresPerSecond,
+        Self::CentimetresPerSecond,
+        Self::MetresPerSecond,
+        Self::MetresPerSecondSquared,
     ];
 
     /// The unit as it is written.
@@ -98,6 +113,11 @@ impl Unit {
             Self::Amperes => "A",
             Self::Watts => "W",
             Self::TurnsPerMinute => "rpm",
+            Self::DegreesPerSecond => "deg/s",
+            Self::MillimetresPerSecond => "mm/s",
+            Self::CentimetresPerSecond => "cm/s",
+            Self::MetresPerSecond => "m/s",
+            Self::MetresPerSecondSquared => "m/s^2",
         }
     }
 
@@ -105,6 +125,18 @@ impl Unit {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|unit| unit.name() == name)
+    }
+
+    /// How long the unit with a slash is that a text begins with: 5 of `deg/s;`. A longer word is none.
+    pub(crate) fn with_slash(text: &str) -> Option<usize> {
+        let names = Self::ALL.map(Self::name).into_iter().filter(|name| name.contains('/'));
+        let ends = |name: &&str| {
+            let rest = text.strip_prefix(*name);
+            rest.is_some_and(|rest| {
+                !rest.starts_with(|next: char| next.is_alphanumeric() || next == '_')
+            })
+        };
+        names.filter(ends).map(str::len).max()
     }
 
     /// The unit that is probably meant by a word that is none.

@@ -11,7 +11,7 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "not a number",
     explanation: r#"Numbers are decimal (`60`, `0.5`, `1.5e-3`), hexadecimal (`0xE6`) or binary (`0b1010`), with `_`
 between digits where it helps, and integers fit in 64 bits. A unit may follow: `us ms s Hz kHz MHz mV V Ohm kOhm`,
-and of shown values `% mm cm m deg degC mA A W rpm`.
+and of shown values `% mm cm m deg degC mA A W rpm deg/s mm/s cm/s m/s m/s^2`.
 
 Way out: write it in one of these forms.
 "#,

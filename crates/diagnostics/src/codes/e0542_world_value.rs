@@ -9,8 +9,10 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0542",
     severity: Severity::Error,
     title: "a value that the device cannot have",
-    explanation: r#"The world speaks in the device's own unit: what a host shows, after `scale`, `offset` and `curve`. Some values cannot be:
+    explanation: r#"The world speaks in the device's own unit: what a host shows, after `scale`, `offset` and `curve`. A text may carry the unit
+(`"1500 us"`, `"90 deg/s"`), which is converted where it fits, or a code (`"raw 307"`). Some values cannot be:
 
+- in a unit that the device does not show: `"5 V"` where it shows cm;
 - outside of what the type holds: 300 for a `uint8`, -1 for a `uint16`;
 - outside of what the hardware can measure: 80 degrees at a probe whose curve ends at 60;
 - a count of edges that becomes less: `rate = 25` is 25 edges a second;
@@ -30,6 +32,12 @@ pub fn out_of_range(span: Span, name: &str, value: &str, range: &str) -> Diagnos
     Diagnostic::new(CODE, span, format!("`{name}` cannot be {value}: it goes from {range}"))
         .here("out of range")
         .help("choose a value in that range, or give the device a wider type")
+}
+
+/// A value is not in the device's unit: why, and what to write.
+#[must_use]
+pub fn does_not_fit(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, format!("`{name}`: {why}")).here("this value").help(help)
 }
 
 /// An array has another number of elements.

@@ -44,7 +44,7 @@ pub struct Bare {
 }
 
 /// Why a number is not a value of the device: what is wrong, and what to write.
-struct Misfit(String, String);
+pub(crate) struct Misfit(pub(crate) String, pub(crate) String);
 
 impl Fields<'_> {
     /// The bare number that was taken as a shown value, if one was.
@@ -68,17 +68,38 @@ impl Fields<'_> {
     /// How the block shows its value, by looking.
     fn peek_shown(&self, is_pwm: bool) -> Presentation {
         let number = |name: &str| plain_number(&self.field(name)?.value);
-        // Of a pwm output they are pulses.
-        let bound = |name: &str| number(name).filter(|_| !is_pwm);
         let curve = self.field("curve").and_then(|field| coding::points(&field.value));
-        Presentation {
+        let shown = Presentation {
             quantity: self.peek_name("quantity"),
             scale: number("scale"),
             offset: number("offset"),
-            min: bound("min"),
-            max: bound("max"),
             curve: curve.unwrap_or_default(),
             ..Presentation::default()
+        };
+        // Of a pwm output they are pulses.
+        let bound = |name: &str| {
+            let number = self.field(name).filter(|_| !is_pwm)?.value.number();
+            number.and_then(|number| in_quantity(number, &shown).ok())
+        };
+        let (min, max) = (bound("min"), bound("max"));
+        Presentation { min, max, ..shown }
+    }
+
+    /// Takes a bound of the value that is shown.
+    pub(crate) fn bound(&mut self, name: &str) -> Option<Spanned<f64>> {
+        let field = self.take(name)?;
+        let number = field.value.number().filter(|number| number.measure != Measure::Raw);
+        let Some(number) = number else {
+            self.wrong(&field, "a number, in the unit that is shown");
+            return None;
+        };
+        match in_quantity(number, &self.peek_shown(true)) {
+            Ok(value) => Some(Spanned { value, span: field.value_span }),
+            Err(Misfit(message, help)) => {
+                let message = format!("`{name}`: {message}");
+                self.say(misfit::value_does_not_fit(field.value_span, &message, &help));
+                None
+            }
         }
     }
 
@@ -151,7 +172,7 @@ impl Presentation {
 }
 
 /// The unit of the language that a device's quantity is.
-fn unit_of(quantity: &str) -> Option<Unit> {
+pub(crate) fn unit_of(quantity: &str) -> Option<Unit> {
     match quantity {
         "percent" => Some(Unit::Percent),
         "°" => Some(Unit::Degrees),
@@ -184,7 +205,7 @@ fn code_of(number: &Number, shown: &Presentation, codes: Codes) -> Result<f64, M
 }
 
 /// Percents and pulses of a pwm output that shows nothing else.
-fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
+pub(crate) fn of_pulse(number: &Number, codes: Codes) -> Result<f64, Misfit> {
     let (least, most) = codes.pulses_us.unwrap_or((0.0, CODES));
     let help = format!("write 0 to 10000, 0 % to 100 %, or a pulse of {least} us to {most} us");
     let found = with(number.value, Some(&number.unit_name()));
@@ -213,7 +234,7 @@ fn shifted_us(number: &Number) -> f64 {
 }
 
 /// The number in the unit that is shown.
-fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, Misfit> {
+pub(crate) fn in_quantity(number: &Number, shown: &Presentation) -> Result<f64, Misfit> {
     let given = match number.measure {
         Measure::Bare => return Ok(number.value),
         Measure::Unit(unit) => Some(unit),

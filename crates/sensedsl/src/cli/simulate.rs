@@ -14,6 +14,10 @@ pub(crate) struct SimulateArgs {
     /// ranges
     #[arg(long, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
+    /// What a sensor measures, in the unit that is shown: --set Front=20, --set 'Front=0.2 m'; wins
+    /// over the world
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<String>,
     /// Run this image on an emulated MCU: an ELF file or a raw one
     #[arg(long, value_name = "IMAGE")]
     pub(crate) firmware: Option<PathBuf>,
@@ -50,4 +54,14 @@ pub(crate) struct SimulateArgs {
     pub(crate) wires: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) reach: Reach,
+}
+
+/// `NAME=VALUE`, as it is written.
+fn assignment(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok(text.to_owned())
+        }
+        Some(_) | None => Err("a sensor and its value, such as Front=20".into()),
+    }
 }

@@ -6,6 +6,7 @@ use sensedsl_diagnostics::codes::{
 };
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 use sensedsl_model::design::{Device, DeviceIndex};
+use sensedsl_model::given::{self, Given, NotGiven};
 use sensedsl_wire::{Direction, Scalar};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -94,13 +95,24 @@ impl<'a> Reader<'a> {
 
     fn element(&self, device: &Device, wanted: &Value<'_>) -> Result<Scalar, Box<Diagnostic>> {
         let span = self.span(wanted);
-        let Some(shown) = number(wanted.get_ref()) else {
-            let what = format!("what `{}` is set to", device.name.value);
-            let wanted = "a number, `true` or `false`";
-            return Err(unreadable::wrong_sort(span, &what, wanted, "value = 50").into());
-        };
         let (scale, of) = (Scale::of(&device.shown), device.value.value.scalar);
-        let raw = scale.raw(shown);
+        let name = &device.name.value;
+        let read = match wanted.get_ref().as_str() {
+            Some(text) => given::value(text, device),
+            None => number(wanted.get_ref()).map(Given::Shown).ok_or(NotGiven::NoNumber),
+        };
+        let (raw, words) = match read {
+            Ok(Given::Shown(shown)) => (scale.raw(shown), short(shown)),
+            Ok(Given::Code(code)) => (code, format!("raw {}", short(code))),
+            Err(NotGiven::Misfit(why, help)) => {
+                return Err(value::does_not_fit(span, name, &why, &help).into());
+            }
+            Err(NotGiven::NoNumber) => {
+                let what = format!("what `{name}` is set to");
+                let wanted = "a number, a text with a unit, `true` or `false`";
+                return Err(unreadable::wrong_sort(span, &what, wanted, "value = 50").into());
+            }
+        };
         #[expect(clippy::cast_precision_loss, reason = "the ends of 64 bits are rounded")]
         let held = of.integer_range().map(|(least, most)| (least as f64, most as f64));
         if let Some((least, most)) = held
@@ -108,8 +120,7 @@ impl<'a> Reader<'a> {
         {
             let [one, other] = [least, most].map(|end| scale.shown(end));
             let range = format!("{} to {}", short(one.min(other)), short(one.max(other)));
-            let name = &device.name.value;
-            return Err(value::out_of_range(span, name, &short(shown), &range).into());
+            return Err(value::out_of_range(span, name, &words, &range).into());
         }
         Ok(scalar(of, raw))
     }

@@ -1,9 +1,12 @@
 //! What a world says of one quantity: a number, or a table that says how it moves.
 
 use sensedsl_diagnostics::codes::{
-    e0540_world_unreadable as unreadable, e0541_world_unknown as unknown, e0543_world_time as time,
+    e0540_world_unreadable as unreadable, e0541_world_unknown as unknown, e0542_world_value,
+    e0543_world_time as time,
 };
 use sensedsl_diagnostics::{Diagnostic, FileId, Span, nearest};
+use sensedsl_model::design::Device;
+use sensedsl_model::given::{self, Given, NotGiven};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -24,20 +27,26 @@ type Failed = Box<Diagnostic>;
 pub(super) struct Entry<'a> {
     pub(super) file: FileId,
     pub(super) samples: &'a dyn Fn(&str) -> Result<String, String>,
-    pub(super) name: &'a str,
+    pub(super) device: &'a Device,
 }
 
 impl Entry<'_> {
     /// What the quantity does.
     pub(super) fn signal(&self, value: &Value<'_>) -> Result<Signal, Failed> {
-        if let Some(number) = number(value.get_ref()) {
-            return Ok(Signal::of(Shape::Constant(number)));
+        if let Some(shown) = self.shown(value)? {
+            return Ok(Signal::of(Shape::Constant(shown)));
         }
         let span = self.span(value);
         let Some(table) = value.get_ref().as_table() else {
-            let what = format!("what `{}` does", self.name);
+            let what = format!("what `{}` does", self.name());
             let example = "IRFront = { sine = 15, offset = 40, period = \"5 s\" }";
-            return Err(unreadable::wrong_sort(span, &what, "a number or a table", example).into());
+            return Err(unreadable::wrong_sort(
+                span,
+                &what,
+                "a number, a text with a unit, or a table",
+                example,
+            )
+            .into());
         };
         for key in table.keys() {
             let word = key.get_ref().as_ref();
@@ -54,18 +63,18 @@ impl Entry<'_> {
             } else {
                 format!("`{}` exclude each other", found.join("` and `"))
             };
-            let example = format!("{} = {{ ramp = [0, 100], over = \"10 s\" }}", self.name);
+            let example = format!("{} = {{ ramp = [0, 100], over = \"10 s\" }}", self.name());
             return Err(
-                unreadable::unclear(span, &format!("`{}`", self.name), &why, &example).into()
+                unreadable::unclear(span, &format!("`{}`", self.name()), &why, &example).into()
             );
         };
-        let noise = self.optional(table, "noise")?.unwrap_or(0.0);
+        let noise = self.optional(table, "noise", given::difference)?.unwrap_or(0.0);
         Ok(Signal { noise: noise.abs(), ..Signal::of(self.shape(shape, table, span)?) })
     }
 
     fn shape(&self, shape: &str, table: &DeTable<'_>, span: Span) -> Result<Shape, Failed> {
-        let offset = self.optional(table, "offset")?;
-        let start = self.optional(table, "start")?;
+        let offset = self.optional(table, "offset", shown_of)?;
+        let start = self.optional(table, "start", shown_of)?;
         Ok(match shape {
             "ramp" => {
                 let [from, to] = self.pair(table, "ramp", "ramp = [0, 100]")?;
@@ -76,7 +85,7 @@ impl Entry<'_> {
                 }
             }
             "sine" => Shape::Sine {
-                amplitude: self.number(table, span, "sine")?,
+                amplitude: self.number(table, span, "sine", given::difference)?,
                 offset: offset.unwrap_or(0.0),
                 period_ns: self.period(table, span)?,
             },
@@ -86,11 +95,11 @@ impl Entry<'_> {
             }
             "rate" => Shape::Rate {
                 from: start.unwrap_or(0.0),
-                a_second: self.number(table, span, "rate")?,
+                a_second: self.number(table, span, "rate", given::a_second)?,
             },
             "steps" => self.steps(table, span)?,
             "csv" => self.samples(table, span)?,
-            _ => Shape::Constant(self.number(table, span, "value")?),
+            _ => Shape::Constant(self.number(table, span, "value", shown_of)?),
         })
     }
 
@@ -106,7 +115,7 @@ impl Entry<'_> {
             let (Some(when), Some(what), None) = (pair.next(), pair.next(), pair.next()) else {
                 return Err(wrong().into());
             };
-            let value = number(what.get_ref()).ok_or_else(wrong)?;
+            let value = self.shown(what)?.ok_or_else(wrong)?;
             points.push((duration(self.file, when)?, value));
             forwards(self.span(one), points.iter().rev().take(2).rev().map(|point| point.0))?;
         }
@@ -123,7 +132,7 @@ impl Entry<'_> {
         })?;
         let is_held = table.get("hold").and_then(|one| one.get_ref().as_bool()).unwrap_or(false);
         let at = table.get("csv").map_or(span, |one| self.span(one));
-        let column = word("column").unwrap_or(self.name);
+        let column = word("column").unwrap_or(self.name());
         let points = samples::read(self.samples, file, column, at)?;
         forwards(at, points.iter().map(|point| point.0))?;
         Ok(Shape::Points { points, is_straight: !is_held })
@@ -141,7 +150,7 @@ impl Entry<'_> {
         key: &str,
         example: &str,
     ) -> Result<u64, Failed> {
-        let what = format!("`{}`", self.name);
+        let what = format!("`{}`", self.name());
         let Some(value) = table.get(key) else {
             return Err(unreadable::missing(span, &what, key, example).into());
         };
@@ -151,40 +160,78 @@ impl Entry<'_> {
         }
     }
 
-    fn optional(&self, table: &DeTable<'_>, key: &str) -> Result<Option<f64>, Failed> {
+    fn optional(&self, table: &DeTable<'_>, key: &str, read: Read) -> Result<Option<f64>, Failed> {
         let Some(value) = table.get(key) else { return Ok(None) };
-        number(value.get_ref()).map(Some).ok_or_else(|| {
+        self.read(value, read)?.map(Some).ok_or_else(|| {
             let example = format!("{key} = 2.5");
-            unreadable::wrong_sort(self.span(value), &format!("`{key}`"), "a number", &example)
-                .into()
+            unreadable::wrong_sort(self.span(value), &format!("`{key}`"), NUMBER, &example).into()
         })
     }
 
-    fn number(&self, table: &DeTable<'_>, span: Span, key: &str) -> Result<f64, Failed> {
+    fn number(
+        &self,
+        table: &DeTable<'_>,
+        span: Span,
+        key: &str,
+        read: Read,
+    ) -> Result<f64, Failed> {
         let example = format!("{key} = 20");
         let missing =
-            || unreadable::missing(span, &format!("`{}`", self.name), key, &example).into();
-        self.optional(table, key)?.ok_or_else(missing)
+            || unreadable::missing(span, &format!("`{}`", self.name()), key, &example).into();
+        self.optional(table, key, read)?.ok_or_else(missing)
     }
 
     fn pair(&self, table: &DeTable<'_>, key: &str, example: &str) -> Result<[f64; 2], Failed> {
         let value = table.get(key);
-        let numbers = value
-            .and_then(|value| value.get_ref().as_array())
-            .map(|list| list.iter().map(|one| number(one.get_ref())).collect::<Option<Vec<f64>>>());
-        match numbers.flatten().as_deref() {
-            Some([from, to]) => Ok([*from, *to]),
-            _ => {
-                let span = value.map_or(Span::new(self.file, 0..0), |value| self.span(value));
-                let wanted = "two numbers, from and to";
-                Err(unreadable::wrong_sort(span, &format!("`{key}`"), wanted, example).into())
+        if let Some([from, to]) = value.and_then(|value| value.get_ref().as_array()?.get(..2))
+            && value.and_then(|value| value.get_ref().as_array()).is_some_and(|all| all.len() == 2)
+            && let (Some(from), Some(to)) = (self.shown(from)?, self.shown(to)?)
+        {
+            return Ok([from, to]);
+        }
+        let span = value.map_or(Span::new(self.file, 0..0), |value| self.span(value));
+        let wanted = "two numbers, from and to";
+        Err(unreadable::wrong_sort(span, &format!("`{key}`"), wanted, example).into())
+    }
+
+    /// A value as the device shows it; none where it is of another sort.
+    fn shown(&self, value: &Value<'_>) -> Result<Option<f64>, Failed> {
+        self.read(value, shown_of)
+    }
+
+    fn read(&self, value: &Value<'_>, read: Read) -> Result<Option<f64>, Failed> {
+        let Some(text) = value.get_ref().as_str() else { return Ok(number(value.get_ref())) };
+        match read(text, self.device) {
+            Ok(number) => Ok(Some(number)),
+            Err(NotGiven::NoNumber) => Ok(None),
+            Err(NotGiven::Misfit(why, help)) => {
+                let span = self.span(value);
+                Err(e0542_world_value::does_not_fit(span, self.name(), &why, &help).into())
             }
         }
+    }
+
+    fn name(&self) -> &str {
+        &self.device.name.value
     }
 
     fn span<T>(&self, of: &Spanned<T>) -> Span {
         Span::new(self.file, of.span())
     }
+}
+
+/// How a text is read.
+type Read = fn(&str, &Device) -> Result<f64, NotGiven>;
+
+/// What stands where a quantity is asked for.
+const NUMBER: &str = "a number, or a text with a unit";
+
+/// A value as the device shows it.
+fn shown_of(text: &str, device: &Device) -> Result<f64, NotGiven> {
+    Ok(match given::value(text, device)? {
+        Given::Shown(shown) => shown,
+        Given::Code(code) => device.shown.of_raw(code),
+    })
 }
 
 /// A number, or a truth as 0 or 1.

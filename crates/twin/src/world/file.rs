@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         let mut signals = Vec::new();
         for entry in entries {
             let span = self.span(entry);
-            let read = Entry { file: self.file, samples: self.scene.samples, name: &name };
+            let read = Entry { file: self.file, samples: self.scene.samples, device };
             match read.signal(entry) {
                 Ok(mut signal) => {
                     turns(device, &mut signal);

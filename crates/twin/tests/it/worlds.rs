@@ -35,7 +35,7 @@ fn only(text: &str, code: &str, place: &str) {
 fn every_mistake_is_told_with_its_place() {
     let d = "[devices]\n";
     only("[devices\nLight = 5", "E0540", "");
-    only(&format!("{d}Light = \"20\""), "E0540", "\"20\"");
+    only(&format!("{d}Light = \"bright\""), "E0540", "\"bright\"");
     only(&format!("{d}Light = {{ }}"), "E0540", "{ }");
     only(&format!("{d}Light = {{ value = 1, rate = 2 }}"), "E0540", "{ value = 1, rate = 2 }");
     only(&format!("{d}Light = {{ sine = 5 }}"), "E0540", "{ sine = 5 }");
@@ -136,4 +136,89 @@ fn garbage_on_the_link_costs_no_wrong_value() {
     let run = plainly(BOARD, world, 5);
     assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
     assert!(run.dropped > 50, "{}", run.dropped);
+}
+
+const SHOWN: &str = "board STM32F407G_DISC1 {
+    sensor Front returns uint16 { id = 1; type = analog; quantity = cm; scale = 0.1; offset = 5; }
+    sensor Angle returns int32 { id = 2; type = encoder; quantity = deg; scale = 0.5; }
+    sensor Light returns uint16 { id = 3; type = analog; quantity = \"lx\"; }
+    sensor Bent returns uint16 { id = 4; type = analog; quantity = cm; curve = [[0, 0], [4095, 80]]; }
+    actuator Servo accepts uint16 { id = 5; type = pwm; min = 1 ms; max = 2 ms; }
+    actuator Motor accepts int16 { id = 6; type = can; frame = 1; quantity = \"deg/s\"; scale = 0.5; failsafe = -20 deg/s; }
+}";
+
+#[test]
+fn values_carry_units_and_codes() {
+    with_job(SHOWN, |job| {
+        let of = |line: &str, at_s: u64| {
+            let (world, said) = read(job, &format!("[devices]\n{line}"), 1);
+            assert!(said.is_empty(), "{line}: {said:#?}");
+            world.signals.values().next().unwrap()[0].at(at_s * 1_000_000_000)
+        };
+        for (line, at_s, expected) in [
+            ("Front = \"0.2 m\"", 0, 20.0),
+            ("Front = \"20\"", 0, 20.0),
+            ("Front = \"raw 307\"", 0, 35.7),
+            ("Front = { value = \"200 mm\" }", 0, 20.0),
+            ("Front = { ramp = [\"raw 100\", \"0.3 m\"], over = 2 }", 0, 15.0),
+            ("Front = { ramp = [\"raw 100\", \"0.3 m\"], over = 2 }", 2, 30.0),
+            ("Front = { sine = \"raw 50\", offset = \"0.2 m\", period = 4 }", 1, 25.0),
+            ("Front = { steps = [[0, 10], [1, \"0.4 m\"]] }", 2, 40.0),
+            ("Angle = { rate = \"90 deg/s\", start = \"raw 20\" }", 1, 100.0),
+            ("Angle = { rate = \"raw 30\" }", 1, 15.0),
+            ("Light = \"300 lx\"", 0, 300.0),
+            ("Bent = \"raw 2047.5\"", 0, 40.0),
+        ] {
+            let found = of(line, at_s);
+            assert!((found - expected).abs() < 1e-6, "{line}: {found}");
+        }
+        let command = |device: &str, value: &str| {
+            let text = format!("[[command]]\ndevice = \"{device}\"\nat = 1\nvalue = {value}");
+            let (world, said) = read(job, &text, 1);
+            assert!(said.is_empty(), "{value}: {said:#?}");
+            sensedsl_twin::truth::real(world.commands[0].value[0])
+        };
+        for (device, value, code) in [
+            ("Servo", "\"1500 us\"", 5000.0),
+            ("Servo", "\"25 %\"", 2500.0),
+            ("Servo", "\"raw 307\"", 307.0),
+            ("Servo", "307", 307.0),
+            ("Motor", "-20", -40.0),
+            ("Motor", "\"-20 deg/s\"", -40.0),
+            ("Motor", "\"raw -7\"", -7.0),
+        ] {
+            let found = command(device, value);
+            assert!((found - code).abs() < 1e-9, "{device} {value}: {found}");
+        }
+    });
+}
+
+#[test]
+fn a_unit_that_does_not_fit_is_told() {
+    with_job(SHOWN, |job| {
+        for (line, code, words) in [
+            ("Front = \"5 V\"", "E0542", "the device shows cm, and this is a number of V"),
+            ("Front = \"5 furlong\"", "E0542", "the device shows cm, and `furlong` is not that"),
+            ("Front = \"raw 5 cm\"", "E0542", "a code has no unit"),
+            ("Front = \"raw 5000\"", "E0542", "cannot be"),
+            ("Angle = { rate = \"90 deg\" }", "E0542", "the device shows deg/s"),
+            ("Bent = { sine = \"raw 5\", period = 1 }", "E0542", "along a `curve`"),
+            ("Front = { noise = \"much\", value = 20 }", "E0540", "`noise` must be"),
+        ] {
+            let (_, said) = read(job, &format!("[devices]\n{line}"), 1);
+            let found: Vec<_> =
+                said.iter().map(|one| (one.code.to_string(), &*one.message)).collect();
+            assert_eq!(found.len(), 1, "{line}: {found:#?}");
+            assert!(found[0].0 == code && found[0].1.contains(words), "{line}: {found:#?}");
+        }
+        for (device, value) in
+            [("Servo", "\"3 ms\""), ("Servo", "\"5 cm\""), ("Motor", "\"5 m/s\"")]
+        {
+            let text = format!("[[command]]\ndevice = \"{device}\"\nat = 1\nvalue = {value}");
+            let (_, said) = read(job, &text, 1);
+            assert_eq!(said.len(), 1, "{value}: {said:#?}");
+            assert_eq!(said[0].code.to_string(), "E0542");
+            assert!(said[0].help.is_some());
+        }
+    });
 }

@@ -168,12 +168,14 @@ fn machine(
     Err(e0547_no_machine::no_machine(scenery.at).into())
 }
 
-/// Reads the world; none where something is wrong with it, which has been said.
+/// Reads the world and what is set beside it; none where something is wrong with them, which has been said.
 fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result<Option<World>> {
-    let Some(path) = &args.world else { return Ok(Some(World::default())) };
-    let text = read_text(path, What::World)?;
     let mut sources = SourceMap::default();
-    let file = sources.add(shown(path), text.as_str());
+    let (name, text) = match &args.world {
+        Some(path) => (shown(path), read_text(path, What::World)?),
+        None => ("--world".to_owned(), String::new()),
+    };
+    let path = args.world.as_deref().unwrap_or(Path::new(""));
     let disk = Disk::of(path, &args.reach.allow_outside);
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let samples = |name: &str| -> Result<String, String> {
@@ -189,7 +191,27 @@ fn world(args: &SimulateArgs, terminal: &Terminal, job: &BoardJob<'_>) -> Result
         seed: args.seed,
         samples: &samples,
     };
-    let (world, said) = world::read(file, &text, &scene);
+    let file = sources.add(name, text.as_str());
+    let (mut world, mut said) = world::read(file, &text, &scene);
+    for one in &args.set {
+        let text = format!("[devices]\n{}\n", line(one));
+        let file = sources.add("--set", text.as_str());
+        let (own, why) = world::read(file, &text, &scene);
+        world.signals.extend(own.signals);
+        said.extend(why);
+    }
     terminal.diagnostics(&said, &sources)?;
     Ok((!has_errors(&said)).then_some(world))
+}
+
+/// The line of a world for `NAME=VALUE`. What is neither a number nor a list or table is a text there: `20 cm`.
+fn line(set: &str) -> String {
+    let Some((name, value)) = set.split_once('=') else { return set.to_owned() };
+    let (name, value) = (name.trim(), value.trim());
+    let is_plain =
+        value.parse::<f64>().is_ok_and(f64::is_finite) || matches!(value, "true" | "false");
+    if is_plain || value.starts_with(['[', '{', '"', '\'']) {
+        return format!("{name} = {value}");
+    }
+    format!("{name} = \"{}\"", value.replace('\\', "\\\\").replace('"', "\\\""))
 }

@@ -31,6 +31,7 @@ inline const TypedUnit *typed_unit(const std::string &name) {
         {"us", 't', -6}, {"ms", 't', -3}, {"s", 't', 0},    {"Hz", 'f', 0},  {"kHz", 'f', 3},
         {"MHz", 'f', 6}, {"mV", 'v', -3}, {"V", 'v', 0},    {"Ohm", 'o', 0}, {"kOhm", 'o', 3},
         {"mm", 'l', -3}, {"cm", 'l', -2}, {"m", 'l', 0},    {"mA", 'a', -3}, {"A", 'a', 0},
+        {"mm/s", 'p', -3}, {"cm/s", 'p', -2}, {"m/s", 'p', 0},
     };
     for (const TypedUnit &unit : units) {
         if (name == unit.name) {
