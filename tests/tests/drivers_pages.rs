@@ -106,6 +106,20 @@ fn the_list_fits_a_terminal_and_finds_parts() {
     assert!(!gyros.stdout.contains("as5047p"), "{}", gyros.stdout);
     assert!(gyros.stderr.contains("1 driver;"), "{}", gyros.stderr);
     let _ = sensedsl(["drivers", "--kind", "i3c"]).run().exits(2);
+    for (words, found, other) in [
+        ("barometer", "bmp280", "lm75"),
+        ("expander", "mcp23017", "tb6612"),
+        ("quad", "esc_400hz", "lm75"),
+        ("imu", "mpu6050", "bh1750"),
+        ("lidar", "tfmini", "srf08"),
+        ("motor driver", "drv8833", "quadrature_encoder"),
+        ("Motor Drivers", "drv8833", "quadrature_encoder"),
+        ("can", "vesc", "relay"),
+    ] {
+        let list = sensedsl(["drivers", "--search", words]).run().exits(0).stdout;
+        assert!(list.contains(&format!("\n  {found} ")), "{words}: {list}");
+        assert!(!list.contains(&format!("\n  {other} ")), "{words}: {list}");
+    }
 }
 
 #[test]

@@ -46,6 +46,10 @@ pub(crate) const PROTOCOL: &[&str] = &[
     "parameters",
 ];
 
+/// The words that properties of a value take.
+pub(crate) const WORDS: &[&str] =
+    &["sensirion", "decimal", "degrees", "hex", "bcd", "direction_pins", "two_pwm"];
+
 /// Most raw values or ranges that mean no measurement.
 const INVALID_MAX: usize = 16;
 /// Most steps of an initialisation.

@@ -12,14 +12,16 @@ use sensedsl_wire::{Direction, ValueType};
 
 use crate::bounds::Bounds;
 use crate::chips;
+use crate::coding::{self, CODING, PROTOCOL};
 use crate::constants::Constants;
 use crate::design::{Level, Presentation};
 use crate::devices::{self, Known};
 use crate::drivers::{Driver, Drivers};
 use crate::fields::{Fields, name_or_text, span};
 use crate::kind::{Kind, KindName, Role};
+use crate::library::SEARCH;
 use crate::parts::ReadPart;
-use crate::protocol::{Coding, Filter, Protocol};
+use crate::protocol::{Coding, Filter, Formula, Protocol};
 use crate::reach;
 
 pub use example::{EXAMPLE_BOARD, example, example_board, example_on};
@@ -39,6 +41,8 @@ pub struct PartFacts {
     pub about: String,
     /// What else people call it.
     pub aliases: Vec<String>,
+    /// What people look for who mean it: `motor driver`, `imu`.
+    pub words: Vec<&'static str>,
     /// Where its figures are from.
     pub sheet: Option<String>,
     /// What they were compared with; none where they were not.
@@ -163,6 +167,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     })
 }
 
+/// All words of the driver language: properties of a driver, its readings and its commands, and the words that they
+/// take. Those of a kind are the kind's.
+pub fn words_of_drivers() -> impl Iterator<Item = &'static str> {
+    let properties = CODING.iter().chain(PROTOCOL).chain(devices::ABOUT_PART).copied();
+    properties.chain(coding::WORDS.iter().copied()).chain(Formula::ALL.map(Formula::name))
+}
+
 /// The part that a driver's name or one of its other names stands for.
 #[must_use]
 pub fn find(name: &str) -> Option<PartFacts> {
@@ -190,6 +201,13 @@ pub fn mistakes() -> Vec<(String, Diagnostic)> {
         found.extend(said.into_iter().map(|one| (driver.name.value.clone(), one)));
     }
     found
+}
+
+/// What is looked for by who means that driver.
+fn words(driver: &str) -> Vec<&'static str> {
+    let lines = SEARCH.lines().skip(1).filter_map(|line| line.split_once(','));
+    let of_driver = lines.filter(|(_, drivers)| drivers.split(' ').any(|one| one == driver));
+    of_driver.flat_map(|(words, _)| words.split(' ')).collect()
 }
 
 /// The drivers, and where the texts of those who ask for them would stand.
@@ -236,6 +254,7 @@ impl Library {
             part: part.unwrap_or_else(|| driver.name.value.clone()),
             about: about.unwrap_or_default(),
             aliases,
+            words: words(&driver.name.value),
             sheet,
             checked,
             supply_mv,
@@ -353,4 +372,24 @@ fn texts(fields: &mut Fields<'_>, name: &str) -> Vec<String> {
         fields.wrong(&field, "a text, or a list of texts");
     }
     found.unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_driver_is_found_by_what_it_is_for() {
+        let all: Vec<&str> = names().collect();
+        for line in SEARCH.lines().skip(1) {
+            let (words, drivers) = line.split_once(',').unwrap_or_default();
+            assert!(!words.is_empty() && words == words.to_lowercase(), "{line}");
+            for driver in drivers.split(' ') {
+                assert!(all.contains(&driver), "drivers/search.csv names {driver}, which is none");
+            }
+        }
+        for driver in all {
+            assert!(!words(driver).is_empty(), "{driver} is in no line of drivers/search.csv");
+        }
+    }
 }

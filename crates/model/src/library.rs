@@ -17,3 +17,6 @@ pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/rangers.sense", include_str!("../../../drivers/rangers.sense")),
     ("drivers/ranging_optical.sense", include_str!("../../../drivers/ranging_optical.sense")),
 ];
+
+/// What people look for, and the drivers that they mean: lines of words and names.
+pub(crate) const SEARCH: &str = include_str!("../../../drivers/search.csv");

@@ -60,6 +60,10 @@ pub fn diagnostic(error: &SyntaxError, file: FileId) -> Diagnostic {
         ),
         Kind::Expected { expected: what, found } => expected(&what.to_string(), &found.to_string()),
         Kind::StrayToken { found, block } => expected(inside(*block), &found.to_string()),
+        Kind::PinInHead { head, pin } => {
+            let kind = if head.ends_with("bool") { "digital" } else { "analog" };
+            e0101_unexpected_token::pin_in_head(at, head, kind, pin)
+        }
         Kind::StrayCloseBrace => expected("nothing to close", "`}`"),
         Kind::MissingSemicolon => e0104_missing_semicolon::missing_semicolon(at),
         Kind::MissingEquals { property } => expected(&format!("`=` after `{property}`"), "a value"),

@@ -102,6 +102,7 @@ fn every_kind_is_described_with_its_properties() {
 fn the_library_is_the_folder() {
     let entries = std::fs::read_dir(root().join("drivers")).unwrap();
     let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+    let names = names.filter(|name| name.ends_with(".sense"));
     let names: BTreeSet<String> = names.map(|name| format!("drivers/{name}")).collect();
     let embedded: BTreeSet<String> = LIBRARY.iter().map(|(name, _)| (*name).to_owned()).collect();
     assert_eq!(names, embedded, "LIBRARY in crates/model/src/library.rs");
@@ -197,4 +198,52 @@ fn every_example_resolves() {
         said.extend(beyond.map(|one| format!("{}: {}", part.name, one.message)));
     }
     assert_eq!(said, [] as [&str; 0]);
+}
+
+fn page_of_drivers() -> String {
+    std::fs::read_to_string(root().join("docs/driver-language.md")).unwrap()
+}
+
+/// Every word that can stand in a driver is in the first or the second column of a table of the page, and the
+/// properties there are some.
+#[test]
+fn the_driver_language_is_on_its_page() {
+    let page = page_of_drivers();
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| "));
+    let cells = rows.clone().flat_map(|row| row.split(" | ").take(2));
+    let quoted = |cell: &str| -> Vec<String> {
+        cell.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    };
+    let told: BTreeSet<String> = cells.flat_map(quoted).collect();
+    let words: BTreeSet<String> = facts::words_of_drivers().map(str::to_owned).collect();
+    let missing: Vec<&String> = words.difference(&told).collect();
+    assert!(missing.is_empty(), "docs/driver-language.md lacks {missing:?}");
+    for block in ["driver", "connection", "reading", "command"] {
+        assert!(told.iter().any(|one| one.starts_with(&format!("{block} "))), "{block}");
+    }
+    for title in ["How the part is started", "Where a value stands", "What is said of the part"] {
+        let known = |name: &String| words.contains(name) || ["level", "pull"].contains(&&**name);
+        let unknown: Vec<String> =
+            first_column(&page, title).into_iter().filter(|name| !known(name)).collect();
+        assert!(unknown.is_empty(), "{title}: {unknown:?}");
+    }
+}
+
+/// The examples of the page are accepted as they stand.
+#[test]
+fn examples_of_the_driver_page_resolve() {
+    let page = page_of_drivers();
+    let examples: Vec<&str> =
+        page.split("```sense\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert!(examples.len() >= 3);
+    for text in examples {
+        let request = Request { path: "example.sense", text, ..Request::default() };
+        let said = resolve(&request, &NoFiles).diagnostics;
+        let said: Vec<&str> = said
+            .iter()
+            .filter(|one| one.severity != Severity::Hint)
+            .map(|one| one.message.as_str())
+            .collect();
+        assert!(said.is_empty(), "{text}\n{said:?}");
+    }
 }

@@ -75,7 +75,7 @@ pub(crate) struct NewArgs {
     /// The folder to make
     pub(crate) dir: PathBuf,
     /// A built-in board
-    #[arg(long, default_value = "STM32F4DiscoveryBoard", value_parser = BoardName, hide_possible_values = true)]
+    #[arg(long, default_value = "STM32F407G-DISC1", value_parser = BoardName, hide_possible_values = true)]
     pub(crate) board: String,
     /// Write into a folder that is not empty, and replace the files of an earlier `new`
     #[arg(long)]

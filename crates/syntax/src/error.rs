@@ -35,6 +35,13 @@ pub enum SyntaxErrorKind {
         /// The escape as it is written, with its `\`.
         escape: String,
     },
+    /// A pin behind the name of a device, where its type stands: `sensor Front on PA0`.
+    PinInHead {
+        /// The head as it is meant: `sensor Front returns uint16`.
+        head: String,
+        /// What stands there for a pin.
+        pin: String,
+    },
     /// A digit that the base of its number does not have: `0b102`.
     InvalidDigit {
         /// The digit.

@@ -30,7 +30,7 @@ use sensedsl_diagnostics::codes::{
 use sensedsl_diagnostics::{Diagnostic, Span};
 use std::collections::BTreeSet;
 
-use sensedsl_model::design::{Design, DeviceIndex, Wish, WishFor};
+use sensedsl_model::design::{ConnectionIndex, Design, Wish, WishFor};
 use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
 
 use alloy::Known;
@@ -253,10 +253,10 @@ impl<'a> Wiring<'a> {
         }
     }
 
-    /// For each pin that could serve a device what the best wiring with it would cost.
+    /// For each pin that could serve connections of a device or a chip what the best wiring with it would cost.
     #[must_use]
-    pub fn why(&self, wiring: &Assignment, device: DeviceIndex) -> Found<Alternative> {
-        why::why(self.design, &self.formulation, (wiring, device), self.cancel)
+    pub fn why(&self, wiring: &Assignment, of: &[ConnectionIndex]) -> Found<Alternative> {
+        why::why(self.design, &self.formulation, (wiring, of), self.cancel)
     }
 
     /// All wirings, best first, but for those that leave the converters no streams.

@@ -1,6 +1,6 @@
 //! Why this pin and not that one: the cost of each alternative for one device.
 
-use sensedsl_model::design::{ConnectionIndex, Design, DeviceIndex};
+use sensedsl_model::design::{ConnectionIndex, Design};
 use sensedsl_model::kind::Role;
 use sensedsl_solve::problem::{Problem, Role as SolverRole};
 use sensedsl_solve::{Cancel, Objective, Options, Outcome, solve};
@@ -31,16 +31,15 @@ pub struct Alternative {
     pub chosen: bool,
 }
 
-/// All pins that could serve the device, by role, with what the best wiring with each would cost.
+/// All pins that could serve the connections, by role, with what the best wiring with each would cost.
 pub(crate) fn why(
     design: &Design,
     formulation: &Formulation<'_>,
-    (wiring, device): (&Assignment, DeviceIndex),
+    (wiring, connections): (&Assignment, &[ConnectionIndex]),
     cancel: Cancel<'_>,
 ) -> Found<Alternative> {
     let mut all = Vec::new();
-    let connections = design.device(device).map(|device| device.connections.as_slice());
-    for connection in connections.unwrap_or_default() {
+    for connection in connections {
         if !of_connection(design, formulation, (wiring, *connection), cancel, &mut all) {
             return Found { all, complete: false };
         }

@@ -42,3 +42,11 @@ pub fn parentheses_around_list(span: Span) -> Diagnostic {
         .here("expected `[`")
         .help("write a list as `[1, 2]`")
 }
+
+/// A pin stands where the type does; `head` is the head with a type, and a type of device that fits it.
+#[must_use]
+pub fn pin_in_head(span: Span, head: &str, kind: &str, pin: &str) -> Diagnostic {
+    Diagnostic::new(CODE, span, "a pin stands in the block, and a type behind the name")
+        .here("expected a type")
+        .help(format!("write for example `{head} {{ type = {kind}; pin = {pin}; }}`"))
+}

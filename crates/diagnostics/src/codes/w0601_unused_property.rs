@@ -11,7 +11,7 @@ pub const INFO: CodeInfo = CodeInfo {
     title: "a property has no effect",
     explanation: r#"The hardware triggers icu and encoder inputs itself: every edge is seen when it happens, so neither a
 cycle time nor a priority is used for reading. Such a device is reported at the pace of its `delay`
-only where the language reference says so.
+only where the language reference says so. The `order` of the bytes says nothing of a value of one byte.
 
 Way out: remove the line, or say that you know: `allow W0601 "reason";`.
 "#,

@@ -81,7 +81,8 @@ impl Properties for Can {
         let (frame_id, is_extended) = identifier(fields);
         let length = fields.integer("length", 1..=i64::from(FRAME_BYTES));
         let length = length.and_then(|n| u8::try_from(n.value).ok());
-        let order = i2c::order(fields);
+        let is_one_byte = value.scalar.size_bytes() == 1 && !fields.has("bit");
+        let order = i2c::order(fields, is_one_byte);
         let (byte, field) = place::read(fields, order, value);
         Self {
             bitrate_hz: bitrate.map_or(BITRATE_DEFAULT_HZ, |rate| rate.value),

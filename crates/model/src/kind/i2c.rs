@@ -1,6 +1,8 @@
 //! `i2c`: a device on an I2C bus.
 
-use sensedsl_diagnostics::codes::{e0215_bad_address, h0701_eight_bit_address};
+use sensedsl_diagnostics::codes::{
+    e0215_bad_address, h0701_eight_bit_address, w0601_unused_property,
+};
 use sensedsl_wire::{Direction, ValueType};
 
 use super::spec::Properties;
@@ -92,7 +94,7 @@ impl Properties for I2c {
         let size_bytes = u64::try_from(value.size_bytes()).unwrap_or(u64::MAX);
         let length =
             fields.integer("length", 1..=2048).map_or(size_bytes, |n| n.value.unsigned_abs());
-        let order = order(fields);
+        let order = order(fields, length == u64::from(value.length.unwrap_or(1)));
         Self {
             address: address.as_ref().map_or(0, |address| address.value),
             address_span: address.map(|address| address.span),
@@ -128,9 +130,15 @@ pub(super) fn register(fields: &mut Fields<'_>) -> Option<u16> {
     u16::try_from(register.value).ok()
 }
 
-/// The order of the bytes of a number.
-pub(super) fn order(fields: &mut Fields<'_>) -> ByteOrder {
+/// The order of the bytes of a number. Of a number of one byte that says nothing, which is told where the
+/// device itself says it.
+pub(super) fn order(fields: &mut Fields<'_>, is_one_byte: bool) -> ByteOrder {
     let orders = [("big", ByteOrder::Big), ("little", ByteOrder::Little)];
+    if let Some(at) = fields.own_span("order").filter(|_| is_one_byte && !fields.has("of")) {
+        let why = "there is no order in one byte";
+        let unused = w0601_unused_property::unused_property(at, "order", "this value", why);
+        fields.say(unused);
+    }
     fields.word("order", &orders).map(|word| word.value).unwrap_or_default()
 }
 

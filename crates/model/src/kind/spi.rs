@@ -69,7 +69,7 @@ impl Properties for Spi {
             register,
             read,
             length_bytes: u16::try_from(length).unwrap_or(u16::MAX),
-            order: i2c::order(fields),
+            order: i2c::order(fields, length == i64::from(value.length.unwrap_or(1))),
         }
     }
 

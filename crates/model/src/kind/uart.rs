@@ -136,7 +136,7 @@ impl Properties for Uart {
             is_length_given: length.is_some(),
             checksum,
             checksum_from,
-            order: i2c::order(fields),
+            order: i2c::order(fields, value.scalar.size_bytes() == 1),
             receive_only,
         }
     }

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
 use sensedsl_diagnostics::{Code, nearest, render, visible};
-use sensedsl_model::design::{Design, DeviceIndex};
+use sensedsl_model::design::{ConnectionIndex, Design};
 use sensedsl_session::Ask;
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Alternative, Cancel, Wiring};
@@ -42,17 +42,19 @@ fn code(name: &str, terminal: &Terminal) -> Result<Status> {
 }
 
 fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
-    let file = args.file.as_deref().context("`explain wiring` needs a file and a device")?;
-    let name = args.device.as_deref().context("`explain wiring` needs a device's name")?;
+    let file =
+        args.file.as_deref().context("`explain wiring` needs a file and a device or a chip")?;
+    let name =
+        args.device.as_deref().context("`explain wiring` needs the name of a device or a chip")?;
     let deadline = Deadline::after(args.timeout);
     let over = || deadline.is_over();
     let cancel = Cancel::when(&over);
     let snapshot = input::load(file, &args.on);
     // A misspelled name is said before anything is solved.
-    snapshot.design().map(|design| device(design, name)).transpose()?;
+    snapshot.design().map(|design| connections(design, name)).transpose()?;
     let answer = snapshot.solve(&Ask { cancel, ..Ask::default() });
     let (design, wiring) = input::wired(&answer, &snapshot, &args.on, terminal)?;
-    let found = Wiring::within(design, None, cancel).why(wiring, device(design, name)?);
+    let found = Wiring::within(design, None, cancel).why(wiring, &connections(design, name)?);
     let alternatives = found.all;
     if !found.complete {
         terminal.aside("stopped: there may be more pins that were not looked at")?;
@@ -73,14 +75,21 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
     Ok(Status::Done)
 }
 
-fn device(design: &Design, name: &str) -> Result<DeviceIndex> {
-    let names = || design.devices.iter().map(|device| device.name.value.as_str());
-    let index = names().position(|one| one == name).map(DeviceIndex);
-    index.with_context(|| {
-        let meant = nearest(name, names());
-        let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
-        format!("the file has no device {name}{meant}")
-    })
+/// What is wired of the device or the chip of that name.
+fn connections(design: &Design, name: &str) -> Result<Vec<ConnectionIndex>> {
+    if let Some(device) = design.devices.iter().find(|one| one.name.value == name) {
+        return Ok(device.connections.clone());
+    }
+    if let Some(part) = design.parts.iter().position(|one| one.name.value == name) {
+        let all = design.connections.iter().enumerate();
+        let own = all.filter(|(_, one)| one.part.0 == part);
+        return Ok(own.map(|(index, _)| ConnectionIndex(index)).collect());
+    }
+    let devices = design.devices.iter().map(|device| device.name.value.as_str());
+    let names = devices.chain(design.parts.iter().map(|part| part.name.value.as_str()));
+    let meant = nearest(name, names);
+    let meant = meant.map_or(String::new(), |meant| format!("; did you mean {meant}?"));
+    bail!("the file has no device or chip {name}{meant}")
 }
 
 fn value(one: &Alternative) -> Value {

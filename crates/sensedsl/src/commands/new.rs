@@ -41,8 +41,9 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     }
     write_together(&files)?;
     terminal.note(&format!(
-        "made {}\nnext: sensedsl solve {}\n",
+        "made {} for the board {} (`--board NAME` takes another)\nnext: sensedsl solve {}\n",
         visible(&shown(&args.dir)),
+        board.name,
         visible(&output::typed(&args.dir, "robot.sense"))
     ))?;
     Ok(Status::Done)

@@ -1,7 +1,7 @@
 //! The heads of blocks: what stands between the keyword and the `{`.
 
 use super::Parser;
-use crate::error::{Block, Expected, Item};
+use crate::error::{Block, Expected, Item, SyntaxErrorKind};
 use crate::kind::SyntaxKind;
 
 impl Parser<'_> {
@@ -64,6 +64,7 @@ impl Parser<'_> {
             ("accepts", SyntaxKind::AcceptsKw)
         };
         self.start(node);
+        let (keyword, name) = (self.nth_text(0), self.nth_text(1));
         self.bump_as(first);
         let verb_at = |n| self.nth_word(n, "returns") || self.nth_word(n, "accepts");
         if verb_at(0) && !verb_at(1) {
@@ -71,10 +72,37 @@ impl Parser<'_> {
         } else {
             self.name(Expected::NameOf(item));
         }
-        self.keyword(verb, verb_kind);
-        self.data_type();
-        self.body(block);
+        if self.at_pin() {
+            let of = if verb == "accepts" { "bool" } else { "uint16" };
+            self.pin_in_head(block, format!("{keyword} {name} {verb} {of}"));
+        } else {
+            self.keyword(verb, verb_kind);
+            self.data_type();
+            self.body(block);
+        }
         self.finish();
+    }
+
+    /// Whether a pin stands where a type does, in the words of a wiring list: `sensor Front on PA0`.
+    fn at_pin(&self) -> bool {
+        let is_at = ["on", "at", "pin"].iter().any(|word| self.at_word(word));
+        let is_pin = self.nth_at(1, SyntaxKind::Ident) && !self.nth_begins_line(1);
+        is_at && is_pin && !self.begins_line()
+    }
+
+    /// The pin, told once, and the block or the `;` behind it.
+    fn pin_in_head(&mut self, block: Block, head: String) {
+        let pin = self.nth_text(1).to_owned();
+        self.report(SyntaxErrorKind::PinInHead { head, pin }, self.here());
+        self.start(SyntaxKind::Error);
+        self.bump();
+        self.bump();
+        self.finish();
+        if self.at(SyntaxKind::LBrace) {
+            self.body(block);
+        } else {
+            self.eat(SyntaxKind::Semicolon);
+        }
     }
 
     /// What may be for a kind: a driver or a connection.
