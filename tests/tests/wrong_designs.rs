@@ -68,7 +68,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "unit",
         "sensor A returns uint16 { type = analog; scale = 0.1; quantity = cm; max = 10 s; }",
-        "E0209",
+        "E0234",
     ),
     ("unit", "sensor A returns uint16 { type = analog; level = 5 ms; }", "E0210"),
     (

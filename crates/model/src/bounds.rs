@@ -1,13 +1,14 @@
 //! What the document of a part bounds: a driver in, [`Bounds`] out, and reports of designs that go
 //! beyond them.
 
+use sensedsl_board::silicon;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
-    e0232_address_of_part, e0233_clock_over_part, w0613_level_over_part,
+    e0232_address_of_part, e0233_clock_over_part, w0613_level_over_part, w0616_driven_over_part,
 };
 use sensedsl_syntax::ast::AstNode as _;
 
-use crate::design::{Connection, Design};
+use crate::design::{Board, BoardIndex, Connection, Design, Part, PartIndex};
 use crate::devices::Known;
 use crate::drivers::Driver;
 use crate::fields::{Fields, plain_integer, span};
@@ -117,6 +118,10 @@ pub(crate) fn check(design: &Design, diagnostics: &mut Vec<Diagnostic>) {
         diagnostics.extend(too_fast(wires, driver, &part.bounds));
         diagnostics.extend(too_high(wires, driver, &part.bounds));
     }
+    for (number, part) in design.parts.iter().enumerate() {
+        let Some(driver) = &part.driver else { continue };
+        diagnostics.extend(driven_too_high(design, (PartIndex(number), part), driver));
+    }
 }
 
 fn foreign_address(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnostic> {
@@ -202,6 +207,34 @@ fn too_high(wires: &Connection, driver: &str, bounds: &Bounds) -> Option<Diagnos
     let level = wires.level.filter(|level| level.mv > most)?;
     let (shown, most) = (shown_mv(level.mv), shown_mv(most));
     Some(w0613_level_over_part::level_over_part(level.span, &shown, driver, &most))
+}
+
+/// Wires that a board drives with more than the part's supply. Resistors that are told are between the part and a pin
+/// that reads it, and help nothing here.
+fn driven_too_high(
+    design: &Design,
+    (index, part): (PartIndex, &Part),
+    driver: &str,
+) -> Option<Diagnostic> {
+    let (_, most) = part.bounds.supply_mv?;
+    // A part that may go to several boards can go to the one that suits it.
+    let boards: Vec<&Board> = match part.board {
+        Some(BoardIndex(own)) => design.boards.get(own).into_iter().collect(),
+        None => design.boards.iter().collect(),
+    };
+    let level = |board: &&Board| Some(silicon::volts(board.mcu.as_deref()?)?.supply_mv);
+    let levels: Option<Vec<u32>> = boards.iter().map(level).collect();
+    let level = levels?.into_iter().min().filter(|level| *level > most)?;
+    let own = design.connections.iter().filter(|one| one.part == index);
+    let driven = own.flat_map(|one| {
+        let roles = one.kind.roles(one.direction).into_iter();
+        roles.filter(|role| !role.is_driven_by_device()).map(|role| one.wire_name(role))
+    });
+    let driven: Vec<String> = driven.map(|wire| format!("`{wire}`")).collect();
+    let (shown, bound) = (shown_mv(level), shown_mv(most));
+    let (at, name, wires) = (part.name.span, part.name.value.as_str(), driven.join(", "));
+    let over = w0616_driven_over_part::driven_over_part;
+    (!driven.is_empty()).then(|| over(at, (name, &wires, &shown), (driver, &bound)))
 }
 
 #[cfg(test)]

@@ -241,7 +241,7 @@ pub(crate) struct ExplainArgs {
     pub(crate) subject: Option<String>,
     /// With `wiring` and `timing`: the file
     pub(crate) file: Option<PathBuf>,
-    /// With `wiring`: the device's name
+    /// With `wiring`: the name of a device or a chip
     pub(crate) device: Option<String>,
     #[command(flatten)]
     pub(crate) on: On,

@@ -9,8 +9,8 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0234",
     severity: Severity::Error,
     title: "a value that does not fit the device",
-    explanation: r#"A value that is given for a device (`failsafe`) is the one that a host shows: after `scale`, `offset` and
-`curve`, in its `quantity`. `raw 307` is the code that goes over the wire. A unit may be written, and
+    explanation: r#"A value that is given for a device (`failsafe`, `min`, `max`) is the one that a host shows: after `scale`, `offset`
+and `curve`, in its `quantity`. `raw 307` is the code that goes over the wire. A unit may be written, and
 must then be one that the quantity converts to (`0.5 m` where `cm` is shown). The value lies between
 `min` and `max`, and where the part and the type can take it.
 

@@ -155,6 +155,7 @@ codes! {
     w0613_level_over_part,
     w0614_several_repeated,
     w0615_no_firmware,
+    w0616_driven_over_part,
     e0620_clock_out_of_reach,
     e0621_too_often,
     e0622_link_too_slow,

@@ -1,0 +1,38 @@
+//! W0616: a board drives a part over its supply.
+
+use crate::codes::{Code, CodeInfo};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::source::Span;
+
+/// The registry entry.
+pub const INFO: CodeInfo = CodeInfo {
+    code: "W0616",
+    severity: Severity::Warning,
+    title: "a board drives a part over its supply",
+    explanation: r#"The board puts the voltage of its MCU's supply on a wire to the part, 5 V on an Arduino Uno, and the driver says
+that the part stands a supply of less. An input that is over the part's own supply feeds it through its protection,
+which damages it sooner or later. The lines of I2C are not meant: whoever pulls them up decides their voltage.
+
+Way out: put a level shifter, or two resistors, between board and part, or take a board of the part's voltage. Where
+the module has level shifters, say so: `allow W0616 "the module shifts levels";`.
+"#,
+};
+
+/// The code.
+pub const CODE: Code = Code(&INFO);
+
+/// The part's name in the file, the wires that the board drives, its voltage, the driver, and the supply that its part
+/// stands at most.
+#[must_use]
+pub fn driven_over_part(
+    span: Span,
+    (name, wires, level): (&str, &str, &str),
+    (driver, most): (&str, &str),
+) -> Diagnostic {
+    let what = format!(
+        "the board drives {wires} of `{name}` with {level}, and the part of `{driver}` stands a supply of {most} at most"
+    );
+    Diagnostic::new(CODE, span, what).here("over the supply of the part").help(
+        "put a level shifter between them; where the module has one, write `allow W0616 \"the module shifts levels\";`",
+    )
+}
