@@ -16,7 +16,7 @@ pub enum Given {
     Code(f64),
 }
 
-/// Why a text is no value of the device.
+/// Why a text is not a value that the device can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotGiven {
     /// It is no number, with or without a unit.

@@ -3,7 +3,8 @@
 //!
 //! Devices that are alike, and have the same choices left when the program is made, stand in one set
 //! of columns that count them. So the program is small, and no branch of the search makes it wrong:
-//! where their domains have come to differ it is only less sharp, until it is made anew. A role with one way left has no columns; its entries go to whoever needs it.
+//! where their domains have come to differ it is only less sharp, until it is made anew. A role with
+//! one way left has no columns; its entries go to whoever needs it.
 
 mod builder;
 

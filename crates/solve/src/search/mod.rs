@@ -78,16 +78,16 @@ pub(crate) struct Parked {
 /// where any answer will do.
 const DIVE: u64 = 10;
 
-/// How long it looks for any answer before it looks for the best one.
+/// Nodes in which it looks for any answer before it looks for the best one.
 const ANY: u64 = 200;
 
-/// How long a question of the tie-break is asked near to the known answer.
+/// Nodes in which a question of the tie-break is asked near the known answer.
 const NEAR: u64 = 30;
 
-/// Limits grow slowly at first, and this many costs above the bound by leaps.
+/// The limit above the bound doubles up to so much cost.
 const NEARLY: u64 = 16;
 
-/// The factor of a leap.
+/// The factor by which it grows beyond that: what is farther away costs a rule, not a pin.
 const LEAP: u64 = 64;
 
 /// Steps of the simplex method at one node.
@@ -166,13 +166,11 @@ impl<'a> Engine<'a> {
         self.goal.best.take()
     }
 
-    /// Any choice below the limit near to a known one, as far as few steps find it.
+    /// Any choice below the limit near a known one, as far as few nodes find it.
     pub(crate) fn search_near(&mut self, limit: u64, known: &Choices) -> Option<Found> {
         self.aim(limit, true);
         self.goal.near = Some(known.clone());
-        let effort = std::mem::replace(&mut self.progress.effort, Effort::Any);
-        self.dive(NEAR);
-        self.progress.effort = effort;
+        self.within(Effort::Any, |engine| engine.dive(NEAR));
         self.goal.near = None;
         self.goal.best.take()
     }
@@ -197,15 +195,21 @@ impl<'a> Engine<'a> {
     fn find_any(&mut self) {
         let mark = self.domains.mark();
         let saved = self.flow.save();
-        let few = self.progress.more(ANY);
-        let effort = std::mem::replace(&mut self.progress.effort, few);
         self.goal.first = true;
-        self.node(0);
+        self.within(self.progress.more(ANY), |engine| engine.node(0));
         self.goal.first = false;
         self.back(mark, &saved);
-        let spent = self.progress.stopped && !self.cancel.is_over();
-        self.progress.effort = effort;
-        self.progress.stopped &= !spent || self.progress.is_spent();
+    }
+
+    /// Searches with no more than this effort, and goes on with the old one. Returns whether it was too
+    /// little, too.
+    fn within<T>(&mut self, effort: Effort, search: impl FnOnce(&mut Self) -> T) -> (T, bool) {
+        let all = std::mem::replace(&mut self.progress.effort, effort);
+        let found = search(self);
+        self.progress.effort = all;
+        let is_spent = self.progress.stopped && !self.cancel.is_over();
+        self.progress.stopped &= !is_spent || self.progress.is_spent();
+        (found, is_spent)
     }
 
     /// The cheapest choice that costs more than `floor`.
@@ -246,8 +250,8 @@ impl<'a> Engine<'a> {
             if !self.progress.stopped {
                 self.goal.proved = limit;
             }
-            let leaps = step >= NEARLY * self.model.weights.cost;
-            step = step.saturating_mul(if leaps { LEAP } else { 2 });
+            let is_near = step < NEARLY * self.model.weights.cost;
+            step = step.saturating_mul(if is_near { 2 } else { LEAP });
         }
     }
 
@@ -277,7 +281,7 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    /// As [`Self::narrow`], by what the prices of the domains as they are remove.
+    /// As [`Self::narrow`], but prices only once: a question that they answer is quickly answered.
     pub(crate) fn narrow_once(&mut self, limit: u64) -> Result<(), Pruned> {
         self.goal.limit = limit;
         self.progress.nodes += 1;

@@ -224,15 +224,9 @@ impl Engine<'_> {
     /// Any answer within the limit.
     fn ask_all(&mut self, limit: u64) -> Option<Found> {
         let few = self.progress.more(PATIENCE);
-        let effort = std::mem::replace(&mut self.progress.effort, few);
-        let found = self.search(limit + 1, true);
-        self.progress.effort = effort;
-        if found.is_some() || !self.progress.stopped || self.cancel.is_over() {
+        let (found, is_open) = self.within(few, |engine| engine.search(limit + 1, true));
+        if !is_open || self.progress.stopped {
             return found;
-        }
-        self.progress.stopped = self.progress.is_spent();
-        if self.progress.stopped {
-            return None;
         }
         // Devices that are alike stand together in the program, and differ by now.
         self.renew_program();

@@ -183,8 +183,8 @@ impl Entry<'_> {
 
     fn pair(&self, table: &DeTable<'_>, key: &str, example: &str) -> Result<[f64; 2], Failed> {
         let value = table.get(key);
-        if let Some([from, to]) = value.and_then(|value| value.get_ref().as_array()?.get(..2))
-            && value.and_then(|value| value.get_ref().as_array()).is_some_and(|all| all.len() == 2)
+        let list = value.and_then(|value| value.get_ref().as_array()).map(|list| &**list);
+        if let Some([from, to]) = list
             && let (Some(from), Some(to)) = (self.shown(from)?, self.shown(to)?)
         {
             return Ok([from, to]);
