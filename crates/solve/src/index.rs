@@ -87,6 +87,10 @@ ids! {
     ColumnId;
     /// A row of the linear program.
     RowId;
+    /// An entry of its matrix, column by column.
+    EntryId;
+    /// A place among the entries of all rows.
+    PlaceId;
     /// A step of an elimination or of the exchanges after it.
     StepId;
     /// A variable of the simplex method: first the columns, then one slack for each row.

@@ -74,6 +74,10 @@ type Arc = (NodeId, Option<CandId>);
 pub(crate) struct Flow {
     now: Saved,
     layout: Layout,
+    /// Pins, those with the greatest weight first.
+    dear_first: Vec<PinId>,
+    /// Whether no arc but that of a free pin costs anything.
+    arcs_are_free: bool,
     /// Demands that are a wire of their own in every alternative.
     always: IdVec<DemandId, bool>,
     /// Role whose candidates stand for a shared wire.
@@ -110,6 +114,12 @@ impl Flow {
                 cost: 0,
             },
             layout: Layout { device_demands, demands, gates },
+            dear_first: {
+                let mut pins: Vec<PinId> = model.pins.iter().collect();
+                pins.sort_by_key(|&pin| std::cmp::Reverse(model.pin_weight[pin]));
+                pins
+            },
+            arcs_are_free: model.cand.iter().all(|cand| cand.extra == 0),
             always,
             wire_role: IdVec::same(None, model.wires.len()),
             wire_covered: IdVec::same(false, model.wires.len()),
@@ -374,14 +384,20 @@ impl Flow {
     /// Takes a demand out of the flow, at the greatest gain.
     fn withdraw(&mut self, model: &Model, domains: &Domains, demand: DemandId) {
         self.dist.fill(FAR);
-        for pin in model.pins {
-            if self.now.owner[pin].is_some() {
-                let node = self.layout.id(Node::Pin(pin));
-                self.reach(node, -(model.pin_weight[pin] as i64), None);
+        let node = self.layout.id(Node::Demand(demand));
+        let dear_first = std::mem::take(&mut self.dear_first);
+        // From the dearest pin on, so that most nodes are reached once.
+        for &pin in &dear_first {
+            if self.now.owner[pin].is_none() {
+                continue;
+            }
+            self.reach(self.layout.id(Node::Pin(pin)), -(model.pin_weight[pin] as i64), None);
+            self.explore(model, domains);
+            if self.arcs_are_free && self.dist[node] < FAR {
+                break;
             }
         }
-        self.explore(model, domains);
-        let node = self.layout.id(Node::Demand(demand));
+        self.dear_first = dear_first;
         self.now.active[demand] = false;
         self.now.cost += self.dist[node];
         self.reroute(node);

@@ -67,6 +67,7 @@ pub const FAMILIES: &[Family] = &[
     Family { name: "two F407 with 61 i2c", number: 1, make: i2c_61 },
     Family { name: "four equal chips", number: 1, make: four_chips },
     Family { name: "robots", number: 100, make: robot },
+    Family { name: "robots of 40 devices", number: 1000, make: small_robot },
 ];
 
 /// Boards of the catalog beside those with a table of their own.
@@ -135,22 +136,22 @@ const ROBOT_BOARDS: &[&str] = &[
     "BLACKPILL_F411CE",
 ];
 
-/// Parts of the library with several values, and addresses that each can have; none where it has no address.
-const CHIPS: &[(&str, &[&str])] = &[
-    ("gearmotor_tb6612", &[]),
-    ("gearmotor_tb6612", &[]),
-    ("tb6612", &[]),
-    ("drv8833", &[]),
-    ("l298n", &[]),
-    ("mpu6050", &["0x68", "0x69"]),
-    ("bme280", &["0x76", "0x77"]),
-    ("ina226", &["0x40", "0x41", "0x44"]),
-    ("ads1115", &["0x48", "0x49", "0x4A", "0x4B"]),
-    ("pca9685", &["0x40", "0x41"]),
-    ("vl53l1x", &["0x29"]),
-    ("mcp3008", &[]),
-    ("mpu6500_spi", &[]),
-    ("nmea_gps", &[]),
+/// Parts of the library with the number of their devices, and addresses that each can have; none where it has no address.
+const CHIPS: &[(&str, u64, &[&str])] = &[
+    ("gearmotor_tb6612", 2, &[]),
+    ("gearmotor_tb6612", 2, &[]),
+    ("tb6612", 2, &[]),
+    ("drv8833", 2, &[]),
+    ("l298n", 2, &[]),
+    ("mpu6050", 3, &["0x68", "0x69"]),
+    ("bme280", 3, &["0x76", "0x77"]),
+    ("ina226", 4, &["0x40", "0x41", "0x44"]),
+    ("ads1115", 4, &["0x48", "0x49", "0x4A", "0x4B"]),
+    ("pca9685", 17, &["0x40", "0x41"]),
+    ("vl53l1x", 2, &["0x29"]),
+    ("mcp3008", 8, &[]),
+    ("mpu6500_spi", 3, &[]),
+    ("nmea_gps", 10, &[]),
 ];
 
 /// Single values and arrays.
@@ -175,48 +176,89 @@ const SINGLES: &[&str] = &[
 /// alone or several alike, on a board or floating.
 fn robot(seed: u64) -> Text {
     let mut rng = Rng(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ 0x524F_424F);
-    let boards = 1 + rng.below(4);
-    let are_equal = rng.below(3) == 0;
-    let first = rng.of(ROBOT_BOARDS);
-    let mut on_boards: Vec<(&str, String)> = (0..boards)
-        .map(|_| (if are_equal { first } else { rng.of(ROBOT_BOARDS) }, String::new()))
-        .collect();
+    let mut robot = Robot::new(&mut rng);
     let most = 4 + rng.below(37);
-    let (mut floating, mut number) = (String::new(), 0);
-    while number < most {
+    while robot.parts < most {
         let alike = if rng.below(4) == 0 { 2 + rng.below(3) } else { 1 };
-        let part = part(&mut rng);
-        let on = (rng.below(3) == 0).then(|| rng.below(boards) as usize);
+        let (part, _) = part(&mut rng);
+        robot.put(&mut rng, &part, alike);
+    }
+    robot.text(seed)
+}
+
+/// The same robots with 4 to 40 devices, where each value of a chip and each element of an array is one.
+fn small_robot(seed: u64) -> Text {
+    let mut rng = Rng(seed.wrapping_mul(0x9E6C_63D0_876A_68DD) ^ 0x534D_414C);
+    let mut robot = Robot::new(&mut rng);
+    let mut left = 4 + rng.below(37);
+    while left > 0 {
+        let (part, devices) = part(&mut rng);
+        let alike = if rng.below(4) == 0 { 2 + rng.below(3) } else { 1 };
+        let alike = alike.min(left / devices);
+        robot.put(&mut rng, &part, alike);
+        left -= alike * devices;
+    }
+    robot.text(seed)
+}
+
+struct Robot {
+    /// Each board's name and the parts that are fixed to it.
+    boards: Vec<(&'static str, String)>,
+    floating: String,
+    parts: u64,
+}
+
+impl Robot {
+    fn new(rng: &mut Rng) -> Self {
+        let boards = 1 + rng.below(4);
+        let are_equal = rng.below(3) == 0;
+        let first = rng.of(ROBOT_BOARDS);
+        let boards = (0..boards)
+            .map(|_| (if are_equal { first } else { rng.of(ROBOT_BOARDS) }, String::new()))
+            .collect();
+        Self { boards, floating: String::new(), parts: 0 }
+    }
+
+    /// Adds some parts alike, on one board or floating.
+    fn put(&mut self, rng: &mut Rng, part: &str, alike: u64) {
+        let on = (rng.below(3) == 0).then(|| rng.below(self.boards.len() as u64) as usize);
         for _ in 0..alike {
-            number += 1;
-            let text = part.replace("NAME", &format!("Dev{number}"));
-            match on.and_then(|on| on_boards.get_mut(on)) {
+            self.parts += 1;
+            let text = part.replace("NAME", &format!("Dev{}", self.parts));
+            match on.and_then(|on| self.boards.get_mut(on)) {
                 Some((_, devices)) => devices.push_str(&text),
-                None => floating.push_str(&text),
+                None => self.floating.push_str(&text),
             }
         }
     }
-    let mut sense = String::new();
-    for (number, (board, devices)) in on_boards.iter().enumerate() {
-        let _ = writeln!(sense, "board Brd{number} on {board} {{\n{devices}}}");
+
+    fn text(self, seed: u64) -> Text {
+        let mut sense = String::new();
+        for (number, (board, devices)) in self.boards.iter().enumerate() {
+            let _ = writeln!(sense, "board Brd{number} on {board} {{\n{devices}}}");
+        }
+        sense.push_str(&self.floating);
+        let target = if seed.is_multiple_of(2) { "none" } else { "chibios" };
+        Text { sense, target, tables: BTreeMap::new() }
     }
-    sense.push_str(&floating);
-    let target = if seed.is_multiple_of(2) { "none" } else { "chibios" };
-    Text { sense, target, tables: BTreeMap::new() }
 }
 
-fn part(rng: &mut Rng) -> String {
+/// A part with a place for its name, and how many devices it is.
+fn part(rng: &mut Rng) -> (String, u64) {
     if rng.below(3) > 0 {
-        let text = rng.of(SINGLES).replace("COUNT", &(2 + rng.below(5)).to_string());
-        return text.replace("ADDRESS", &rng.below(8).to_string()) + "\n";
+        let single = rng.of(SINGLES);
+        let count = 2 + rng.below(5);
+        let text = single.replace("COUNT", &count.to_string());
+        let devices = if single.contains("COUNT") { count } else { 1 };
+        return (text.replace("ADDRESS", &rng.below(8).to_string()) + "\n", devices);
     }
     let at = rng.below(CHIPS.len() as u64) as usize;
-    let (driver, addresses) = CHIPS.get(at).copied().unwrap_or_default();
+    let (driver, devices, addresses) = CHIPS.get(at).copied().unwrap_or_default();
     let address = match rng.of(addresses) {
         "" => String::new(),
         address => format!(" address = {address};"),
     };
-    format!("chip NAME {{ driver = {driver};{address} }}\n")
+    (format!("chip NAME {{ driver = {driver};{address} }}\n"), devices)
 }
 
 fn device(number: u64, kind: &str) -> String {

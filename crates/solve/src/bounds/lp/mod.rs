@@ -4,6 +4,7 @@
 //! bound of [`crate::bounds::lagrangian`] is to look, and values only which branch is tried first.
 
 mod factor;
+mod free_rows;
 mod matrix;
 mod simplex;
 

@@ -13,6 +13,7 @@
 mod basis;
 
 use super::factor::{Dense, Factor};
+use super::free_rows::FreeRows;
 use super::matrix::{Matrix, Variable};
 use crate::cancel::Cancel;
 use crate::index::{ColumnId, IdVec, Ids, RowId, VarId};
@@ -39,6 +40,7 @@ pub(crate) enum Status {
 #[derive(Clone, Debug)]
 pub(crate) struct Simplex {
     matrix: Matrix,
+    free: FreeRows,
     cost: IdVec<ColumnId, f64>,
     lower: IdVec<VarId, f64>,
     upper: IdVec<VarId, f64>,
@@ -47,7 +49,7 @@ pub(crate) struct Simplex {
     /// Row in which a variable is basic.
     place: IdVec<VarId, Option<RowId>>,
     value: IdVec<VarId, f64>,
-    /// Reduced costs.
+    /// Reduced costs; those of columns that are fixed at zero are out of date.
     reduced: IdVec<VarId, f64>,
     /// Steepest edge weights.
     edge: IdVec<VarId, f64>,
@@ -95,6 +97,7 @@ impl Simplex {
             listed: IdVec::same(false, variables),
             candidates: Vec::new(),
             nonzeros: Vec::new(),
+            free: FreeRows::new(&matrix),
             matrix,
         }
     }
@@ -120,6 +123,7 @@ impl Simplex {
     /// Runs until the prices are the best, the value reaches `cutoff`, so many steps are done or the
     /// caller gives up.
     pub(crate) fn solve(&mut self, cutoff: f64, steps: usize, cancel: Cancel<'_>) -> Status {
+        self.find_free();
         self.place_nonbasic();
         if self.ready {
             self.compute_values();
@@ -214,14 +218,14 @@ impl Simplex {
             if rho.abs() < 1e-13 {
                 continue;
             }
-            for &(column, a) in self.matrix.row(row) {
-                let variable = Matrix::of_column(column);
+            for entry in self.free.row(row) {
+                let variable = Matrix::of_column(entry.column);
                 if self.place[variable].is_none() {
                     if !self.listed[variable] {
                         self.listed[variable] = true;
                         self.touched.push(variable);
                     }
-                    self.alpha[variable] += a * rho;
+                    self.alpha[variable] += entry.value * rho;
                 }
             }
             let slack = self.matrix.slack(row);
@@ -247,29 +251,47 @@ impl Simplex {
                 self.candidates.push(((reduced / alpha).max(0.0), alpha.abs(), variable));
             }
         }
-        self.candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
         let mut slope = over.abs();
         let mut end = None;
-        for (index, &candidate) in self.candidates.iter().enumerate() {
+        let mut number = 0;
+        while let Some(candidate) = self.nearest(number) {
             let (_, alpha, variable) = candidate;
             slope -= alpha * (self.upper[variable] - self.lower[variable]);
             if slope <= FEASIBLE {
-                end = Some((index, candidate));
+                end = Some((number, candidate));
                 break;
             }
+            number += 1;
         }
         let Some((flips, first)) = end else { return Entering::None(slope.max(FEASIBLE)) };
         // Of those that stop it at nearly the same place, the largest pivot.
         let mut best = first;
-        for &candidate in self.candidates.iter().skip(flips + 1) {
-            if candidate.0 > first.0 + 1e-9 {
-                break;
-            }
+        while let Some(candidate) = self.nearest(number).filter(|c| c.0 <= first.0 + 1e-9) {
             if candidate.1 > best.1 {
                 best = candidate;
             }
+            number += 1;
         }
         Entering::Variable(best.2, flips)
+    }
+
+    /// The candidate with so many before it. They are sorted some at a time, as most steps need few.
+    fn nearest(&mut self, number: usize) -> Option<(f64, f64, VarId)> {
+        const SOME: usize = 16;
+        if number.is_multiple_of(SOME) {
+            let order = |a: &(f64, f64, VarId), b: &(f64, f64, VarId)| {
+                a.0.total_cmp(&b.0).then(a.2.cmp(&b.2))
+            };
+            let rest = self.candidates.get_mut(number..).unwrap_or_default();
+            if rest.len() > SOME {
+                rest.select_nth_unstable_by(SOME - 1, order);
+            }
+            let some = SOME.min(rest.len());
+            if let Some(some) = rest.get_mut(..some) {
+                some.sort_unstable_by(order);
+            }
+        }
+        self.candidates.get(number).copied()
     }
 
     /// Moves the first candidates to their other bounds.

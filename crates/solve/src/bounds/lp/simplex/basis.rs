@@ -3,6 +3,23 @@
 use super::{Matrix, Simplex, Variable};
 
 impl Simplex {
+    /// Brings the free columns up to date with the bounds.
+    pub(super) fn find_free(&mut self) {
+        for column in self.matrix.columns() {
+            let variable = Matrix::of_column(column);
+            let is_free = self.lower[variable] != 0.0 || self.upper[variable] != 0.0;
+            if is_free == self.free.is_free(column) {
+                continue;
+            }
+            self.free.change(&self.matrix, column);
+            if is_free && self.place[variable].is_none() {
+                let slack = |row| self.reduced[self.matrix.slack(row)];
+                let sum: f64 = self.matrix.column(column).iter().map(|&(r, a)| a * slack(r)).sum();
+                self.reduced[variable] = self.cost[column] - sum;
+            }
+        }
+    }
+
     /// Puts nonbasic variables on the bound that their reduced cost asks for.
     pub(super) fn place_nonbasic(&mut self) {
         for variable in self.value.ids() {
@@ -54,12 +71,12 @@ impl Simplex {
         self.factor.backward(&mut y);
         for column in self.matrix.columns() {
             let variable = Matrix::of_column(column);
-            self.reduced[variable] = if self.place[variable].is_none() {
+            if self.place[variable].is_some() {
+                self.reduced[variable] = 0.0;
+            } else if self.free.is_free(column) {
                 let sum: f64 = self.matrix.column(column).iter().map(|&(r, a)| a * y[r]).sum();
-                self.cost[column] - sum
-            } else {
-                0.0
-            };
+                self.reduced[variable] = self.cost[column] - sum;
+            }
         }
         for (slack, &price) in self.matrix.slacks().iter().zip(&y) {
             self.reduced[slack] = if self.place[slack].is_none() { price } else { 0.0 };
