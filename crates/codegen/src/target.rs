@@ -39,8 +39,8 @@ pub trait Target: Sync {
     /// What the hardware or the system cannot do. It is asked even where there are gaps, so that everything is
     /// told at once, and leaves out of its plan the devices of a kind that it does not serve.
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>>;
-    /// The command that builds the firmware in `folder`, which is spelled as a shell takes it.
-    fn build(&self, folder: &str) -> String;
+    /// What `sensedsl build` has to be told beside the folder; empty where nothing.
+    fn build_option(&self) -> &'static str;
 }
 
 /// The system of a profile.
