@@ -18,11 +18,11 @@ fn is_of(kind: KindName, role: Role, function: &Function) -> bool {
     match function {
         Function::Adc { .. } => kind == KindName::Analog,
         Function::Dac { .. } => kind == KindName::Dac,
-        Function::Timer { line, .. } => match kind {
-            KindName::Pwm => !line.is_input() || line.is_output(),
-            KindName::Icu | KindName::Encoder => line.is_input(),
-            _ => false,
-        },
+        Function::Timer { line, .. } => {
+            let captures = matches!(kind, KindName::Icu | KindName::Encoder);
+            let is_put_out = line.is_output() || !line.is_input();
+            (captures && line.is_input()) || (kind == KindName::Pwm && is_put_out)
+        }
         Function::I2c { line, .. } => match line {
             I2cLine::Scl => role == Role::Scl,
             I2cLine::Sda => role == Role::Sda,

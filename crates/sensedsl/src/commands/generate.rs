@@ -299,7 +299,7 @@ fn report(
         return Ok(());
     }
     let targets = assignment.used(design).filter_map(|(_, board)| target::of(board.profile()?));
-    let option = targets.map(|target| target.build_option()).max().unwrap_or_default();
+    let option = targets.map(<dyn target::Target>::build_option).max().unwrap_or_default();
     let folder = output::typed(&args.output, "");
     terminal.note(&format!("next: sensedsl build {folder}{option}\n"))?;
     Ok(())
