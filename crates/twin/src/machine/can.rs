@@ -231,11 +231,8 @@ impl Can {
         }
         while self.listens_at <= wires.now {
             let hears = self.btr >> 30 & 1 == 0 && wires.pad_of(&self.rx).is_some();
-            let frame = if hears {
-                wires.world(|world, now| world.can_in(self.unit, now))
-            } else {
-                None
-            };
+            let frame =
+                if hears { wires.world(|world, now| world.can_in(self.unit, now)) } else { None };
             // The next one follows when this one has gone over the bus.
             self.listens_at += self.bits_ns(frame.as_ref().map_or(SHORTEST, bits_of), wires);
             if let Some(frame) = frame {
