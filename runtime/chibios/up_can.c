@@ -248,11 +248,11 @@ void up_can_cycle(const void *work) {
   uint32_t passed_ms = 0U;
 
   look_for_faults(bus);
-  /* The last millisecond belongs to whoever keeps the cycles apart. */
-  while (passed_ms + 1U < bus->cycle_ms) {
+  /* All of the cycle: the controller holds three frames, and a burst of more may come at any time. */
+  while (passed_ms < bus->cycle_ms) {
     CANRxFrame frame;
 
-    if (canReceiveTimeout(bus->driver, CAN_ANY_MAILBOX, &frame, UP_MS2I(bus->cycle_ms - 1U - passed_ms)) ==
+    if (canReceiveTimeout(bus->driver, CAN_ANY_MAILBOX, &frame, UP_MS2I(bus->cycle_ms - passed_ms)) ==
         MSG_OK) {
       take(bus, &frame);
     }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "sense/robot/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/command.hpp"
 #include "sensedsl/connection.hpp"
 #include "sensedsl/options.hpp"
 #include "sensedsl/text.hpp"
@@ -88,6 +89,38 @@ static void scaled_values() {
     CHECK(text.str() == " ([10, 20, -1] cm) (20)");
     CHECK(shown_text(4294967295.0) == "4294967295" && shown_text(-0.1) == "-0.1");
     CHECK(shown_text(2.0 / 3.0) == "0.666666667" && shown_text(1e300) == "1e+300");
+}
+
+template <typename T>
+static std::string commanded(const Scaling &scaling, bool is_raw, double shown, T &raw) {
+    const Limits limits = {-25.0, 100.0};
+    return take_command(scaling, limits, " N", is_raw, &shown, &raw, 1);
+}
+
+/// A message to an actuator is taken as it is shown; its codes count where it says so.
+static void commands() {
+    static const Point points[] = {{0.0, -50.0}, {1000.0, 0.0}, {2000.0, 200.0}};
+    const Scaling bent(0.5, 0.0, points), plain(1.0, 0.0), steep(100.0, 0.0);
+    uint16_t raw = 0;
+    CHECK(commanded(bent, false, 100.0, raw).empty() && raw == 3000);
+    raw = 0;
+    CHECK(commanded(bent, false, 101.0, raw) == " 101 N (above the maximum of 100 N)" && raw == 0);
+    CHECK(commanded(bent, false, std::numeric_limits<double>::quiet_NaN(), raw).find("not a number") != std::string::npos);
+    raw = 900;
+    CHECK(commanded(bent, true, 0.0, raw) == " (below the minimum of -25 N)");
+    CHECK(commanded(bent, false, 0.0, raw).find("`is_raw` is not") != std::string::npos && raw == 900);
+    raw = 2000;
+    CHECK(commanded(bent, true, 77.0, raw).empty() && raw == 2000);
+    int8_t small = 0;
+    CHECK(commanded(steep, false, 100.0, small).empty() && small == 1);
+    small = 0;
+    CHECK(commanded(Scaling(0.5, 0.0), false, 80.0, small) == " 80 N is out of reach of the value" && small == 0);
+    bool is_on = false;
+    CHECK(commanded(plain, false, 1.0, is_on).empty() && is_on);
+    is_on = false;
+    CHECK(commanded(plain, false, 2.0, is_on) == " 2 N is out of reach of the value");
+    float real = 0.0F;
+    CHECK(commanded(plain, false, 0.5, real).empty() && real > 0.4F && real < 0.6F);
 }
 
 static void folder(const std::string &path) {
@@ -271,6 +304,7 @@ int main(int argc, char **argv) {
     const std::string root = argc > 1 ? argv[1] : ".";
     typed_values();
     scaled_values();
+    commands();
     usb_identities(real_path(root));
     schemas();
     sessions();

@@ -77,6 +77,7 @@ fn exit_status_of_every_command() {
         (&["new", &new], "", 0),
         (&["new", &new], "", 0),
         (&["new", &full], "", 2),
+        (&["new", &path("car.sense")], "", 2),
         (&["new", &path("other"), "--board", "nosuch"], "", 2),
         (&["completions", "bash"], "", 0),
         (&["completions", "cobol"], "", 2),

@@ -75,3 +75,15 @@ fn an_unknown_part_can_be_searched_for() {
     let said = on_nucleo("sensor T returns float32 { driver = dht22; }");
     assert!(said.contains("`sensedsl drivers --search WORD`"), "{said}");
 }
+
+/// A label that the board does not have is no reason to propose a pin without a converter.
+#[test]
+fn a_pin_that_is_proposed_can_be_the_wire() {
+    let said = on_nucleo("sensor A returns uint16 { type = analog; pin = A9; }");
+    assert!(said.contains("R has no pin A9") && !said.contains("PA9"), "{said}");
+    assert!(said.contains("did you mean `A0`?"), "{said}");
+    let said = on_nucleo("actuator A accepts bool { type = digital; pin = PA99; }");
+    assert!(said.contains("did you mean `PA9`?"), "{said}");
+    let said = on_nucleo("sensor A returns uint16[3] { type = i2c; address = 0x40; scl = PB16; }");
+    assert!(said.contains("did you mean `PB6`?"), "{said}");
+}

@@ -6,12 +6,13 @@
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::TargetProfile;
-use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware,
 };
+use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::KindName;
+use sensedsl_model::{drop_allowed, sort};
 use sensedsl_wiring::assignment::Assignment;
 
 use crate::fileset::FileSet;
@@ -38,8 +39,8 @@ pub trait Target: Sync {
     /// What the hardware or the system cannot do. It is asked even where there are gaps, so that everything is
     /// told at once, and leaves out of its plan the devices of a kind that it does not serve.
     fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>>;
-    /// The command that builds the firmware in `folder`, which is spelled as a shell takes it.
-    fn build(&self, folder: &str) -> String;
+    /// What `sensedsl build` has to be told beside the folder; empty where nothing.
+    fn build_option(&self) -> &'static str;
 }
 
 /// The system of a profile.
@@ -153,12 +154,14 @@ fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
     Err(diagnostics)
 }
 
-/// What [`firmware`] would refuse, as warnings for whoever does not generate yet. A board whose target is `none` has
-/// asked for no firmware; what is in `known` is said already.
-#[must_use]
-pub fn foreseen(design: &Design, wiring: &Assignment, known: &[Diagnostic]) -> Vec<Diagnostic> {
+/// Adds what [`firmware`] would refuse to what is said of a design, as warnings for whoever does not generate yet. A
+/// board whose target is `none` has asked for no firmware, a design with errors gets none.
+pub fn foresee(design: &Design, wiring: &Assignment, said: &mut Vec<Diagnostic>) {
+    if said.iter().any(|one| one.severity == Severity::Error) {
+        return;
+    }
     let is_known = |gap: &Diagnostic| {
-        known.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
+        said.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
     };
     let mut found = Vec::new();
     for job in jobs(design, wiring) {
@@ -167,5 +170,9 @@ pub fn foreseen(design: &Design, wiring: &Assignment, known: &[Diagnostic]) -> V
         let gaps = gaps.into_iter().filter(|gap| !is_known(gap));
         found.extend(gaps.map(|gap| w0615_no_firmware::no_firmware(gap, profile.system())));
     }
-    found
+    drop_allowed(design, &mut found);
+    if !found.is_empty() {
+        said.append(&mut found);
+        sort(said);
+    }
 }

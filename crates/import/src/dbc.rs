@@ -20,7 +20,7 @@ pub(crate) fn import(
     node: Option<&str>,
     log: &mut Log,
 ) -> Made {
-    let network = read::read(file, text, log);
+    let network = read::read(file, name, text, log);
     if log.has_errors() {
         return Made::default();
     }

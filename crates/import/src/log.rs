@@ -26,6 +26,10 @@ pub(crate) struct Log {
 impl Log {
     fn push(&mut self, diagnostic: Diagnostic) {
         let is_error = diagnostic.severity == Severity::Error;
+        if is_error && self.errors >= DIAGNOSTICS_MAX {
+            self.more += 1;
+            return;
+        }
         // An error is listed in any case: what is less gives way.
         while is_error && self.diagnostics.len() + 2 > DIAGNOSTICS_MAX {
             let less = self.diagnostics.iter().rposition(|one| one.severity != Severity::Error);

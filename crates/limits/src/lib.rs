@@ -97,6 +97,8 @@ pub const INCLUDE_DEPTH_MAX: usize = 8;
 pub const HWDEF_LINES_MAX: usize = 50_000;
 /// MCUs that all files of an `hwdef` name; a board has one, and a file that is included may name another.
 pub const HWDEF_MCUS_MAX: usize = 4;
+/// Nodes, messages, signals, receivers and words for values of a DBC file, all together.
+pub const DBC_PARTS_MAX: usize = 200_000;
 
 /// A budget as the documentation shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,4 +166,5 @@ limits! {
     INCLUDE_DEPTH_MAX: "files of `hwdef` that include each other in a chain", "E0808";
     HWDEF_LINES_MAX: "lines of all files of an `hwdef`", "E0807";
     HWDEF_MCUS_MAX: "MCUs that all files of an `hwdef` name", "E0807";
+    DBC_PARTS_MAX: "nodes, messages, signals, receivers and words for values of a DBC file", "E0807";
 }

@@ -32,6 +32,7 @@ pub mod protocol;
 pub mod reach;
 mod resolve;
 mod rules;
+mod serving;
 mod sound;
 mod sources;
 mod syntax_errors;

@@ -10,6 +10,7 @@ use sensedsl_diagnostics::codes::{e0310_unknown_pin, e0318_several_pins, h0704_p
 use sensedsl_diagnostics::{Diagnostic, Span, nearest};
 
 use crate::design::{Board, BoardIndex, Design, Spanned, Wish, WishFor};
+use crate::serving::serves;
 
 /// A pin as the file names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,8 +63,9 @@ pub(crate) fn bind(design: &mut Design, diagnostics: &mut Vec<Diagnostic>) {
     for wires in connections {
         let range = wires.board.map_or(0..boards.len(), |board| board.0..board.0 + 1);
         let mut binder = Binder { boards, range, diagnostics };
-        for (_, Spanned { value, span }) in &mut wires.placement.pins {
-            binder.pin(value, *span, true);
+        let kind = wires.kind.name();
+        for (role, Spanned { value, span }) in &mut wires.placement.pins {
+            binder.pin(value, *span, true, |pin| serves(kind, *role, pin));
         }
         binder.wishes(&mut wires.wishes);
     }
@@ -103,12 +105,13 @@ impl Binder<'_> {
             if let WishFor::Pin(_, pin) = &mut wish.what {
                 // A wish may name a pin of the MCU that the board does not bring out.
                 let must = PinName::parse(&pin.spelled).is_none();
-                self.pin(pin, wish.span, must);
+                self.pin(pin, wish.span, must, |_| true);
             }
         }
     }
 
-    fn pin(&mut self, pin: &mut PinRef, span: Span, must: bool) {
+    /// Binds a name; of those that are proposed for one that there is not, only those `suits` takes.
+    fn pin(&mut self, pin: &mut PinRef, span: Span, must: bool, suits: impl Fn(&Pin) -> bool) {
         let name = pin.spelled.as_str();
         let mut report = None;
         let range = self.range.clone();
@@ -129,8 +132,9 @@ impl Binder<'_> {
                     report = Some(e0318_several_pins::several_pins(span, name, on, &pins));
                 }
                 Meant::None if report.is_none() && must => {
-                    let pins = board.table.pins.iter().map(|pin| pin.name.as_str());
-                    let meant = nearest(name, pins.chain(printed(&board.table)));
+                    let suited = board.table.pins.iter().filter(|pin| suits(pin));
+                    let pins = suited.clone().map(|pin| pin.name.as_str());
+                    let meant = nearest(name, pins.chain(printed(suited)));
                     let shown = PinName::parse(name);
                     let shown = shown.as_ref().map_or(name, PinName::as_str);
                     report = Some(e0310_unknown_pin::unknown_pin(span, shown, on, meant));
@@ -185,9 +189,9 @@ fn find(table: &Table, spelled: &str) -> Meant {
     }
 }
 
-/// What a pin may be called beside the MCU's name.
-fn printed(table: &Table) -> Vec<&str> {
-    let mut labels: Vec<&str> = table.pins.iter().filter_map(|pin| pin.label.as_deref()).collect();
+/// What these pins may be called beside the MCU's name.
+fn printed<'a>(pins: impl Iterator<Item = &'a Pin>) -> Vec<&'a str> {
+    let mut labels: Vec<&str> = pins.filter_map(|pin| pin.label.as_deref()).collect();
     labels.sort_by(|a, b| natural(a, b));
     labels.dedup();
     labels

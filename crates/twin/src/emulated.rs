@@ -13,7 +13,7 @@ use crate::machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, S
 use crate::pads::{Misled, Planned, misled, planned};
 use crate::ports::{self, PlannedPort};
 
-/// The crystal of the boards that have this MCU.
+/// The crystal where the board's is not known.
 const CRYSTAL_HZ: u64 = 8_000_000;
 const MS_NS: u64 = 1_000_000;
 const SECOND_NS: u64 = 1_000 * MS_NS;
@@ -76,7 +76,8 @@ impl EmulatedBoard {
             (Transport::Uart | Transport::Usb | Transport::None, _) => LinkPort::Usb,
         };
         let bench = Arc::new(Mutex::new(bench));
-        let settings = Settings { crystal_hz: CRYSTAL_HZ, link };
+        let crystal_hz = job.board.facts.as_ref().and_then(|facts| facts.crystal.hse_hz);
+        let settings = Settings { crystal_hz: crystal_hz.map_or(CRYSTAL_HZ, u64::from), link };
         let mut machine = Machine::new(settings, Arc::clone(&bench) as _);
         machine.load(image)?;
         Ok(Self {

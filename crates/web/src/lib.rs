@@ -12,6 +12,7 @@
 
 use std::collections::BTreeMap;
 
+use sensedsl_codegen::target;
 use sensedsl_diagnostics::render;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_report::{json, svg};
@@ -56,9 +57,12 @@ fn answer(request: &Request) -> Value {
     let on = On { board: request.board.as_deref(), target: request.target.as_deref() };
     let snapshot = workspace.snapshot(&request.path, on, &NoFiles);
     let answer = snapshot.solve(&Ask { partly: true, ..Ask::default() });
-    let diagnostics = answer.diagnostics.iter();
+    let mut diagnostics = answer.diagnostics.clone();
+    if let Some((design, wiring)) = answer.wired().filter(|_| answer.left_out.is_empty()) {
+        target::foresee(design, wiring, &mut diagnostics);
+    }
     let diagnostics: Vec<Value> =
-        diagnostics.map(|one| render::json_value(one, snapshot.sources())).collect();
+        diagnostics.iter().map(|one| render::json_value(one, snapshot.sources())).collect();
     let left_out: Vec<&str> = answer.left_out.iter().map(|one| one.value.as_str()).collect();
     json!({
         "diagnostics": diagnostics,
@@ -94,6 +98,21 @@ mod tests {
         assert_eq!(found["answer"]["boards"][0]["devices"][0]["name"], "Leg");
         assert!(found["svg"].as_str().unwrap().starts_with("<svg"));
         assert_eq!((&found["diagnostics"], &found["left_out"]), (&json!([]), &json!([])));
+    }
+
+    /// A page says what `generate` will refuse, as `check` does, with the target that is meant where none is named.
+    #[test]
+    fn what_has_no_firmware_is_foreseen() {
+        let text = "board Robot on RASPBERRYPI_PICO { chip Motors { driver = drv8833; \
+            actuator SpeedA accepts int16 {} actuator SpeedB accepts int16 {} } }";
+        let mut request = json!({ "path": "a.sense", "files": { "a.sense": text } });
+        let found = asked(&request);
+        let gap = &found["diagnostics"][0];
+        assert_eq!(gap["code"], "W0615", "{found:#}");
+        assert!(gap["message"].as_str().unwrap().starts_with("target embassy: "), "{gap:#}");
+        assert_eq!(found["answer"]["status"], "optimal");
+        request["target"] = json!("none");
+        assert_eq!(asked(&request)["diagnostics"], json!([]));
     }
 
     #[test]

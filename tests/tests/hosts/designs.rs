@@ -83,7 +83,7 @@ pub(crate) fn all_types() -> Vec<HostBoard> {
 pub(crate) fn hostile() -> Vec<HostBoard> {
     let names = "default int class namespace and ECHO EOF linux NULL assert errno stdin B0 CR1 \
                  sense sensedsl std core odcore cluon main id name raw value schema Decoder \
-                 Commands Hello ID ShortName LongName getRaw setRaw accept toString m_raw \
+                 Commands Hello ID ShortName LongName getRaw setRaw setValue refused shown isRaw is_raw accept toString m_raw \
                  _leading __double default_ size_t uint8_t string Handler Message Board Publisher \
                  Item Serial Report decoder handler call publish command send print text entry \
                  message bytes out begin WIRE_ID COUNT scaled scaling curve latest board Größe µ";

@@ -169,7 +169,7 @@ fn libcluon_speaks_with_an_independent_peer() {
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
             .arg(&cid)
             .arg(folder.join("sense.odvd"))
-            .arg("21068:sense_robot_T7:raw=18446744073709551615")
+            .arg("21068:sense_robot_T7:raw=18446744073709551615,is_raw=True")
             .arg("21095:sense_robot_B4:raw0=-300,raw1=32767")
             .arg("21061:sense_robot_T0:raw=True"),
         &folder,
@@ -217,10 +217,14 @@ fn libcluon_shows_values_through_curves() {
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("hosts/od4_peer.py"))
             .arg(&cid)
             .arg(folder.join("sense.odvd"))
-            .arg("21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535")
+            .arg("21020:sense_curves_Escs:raw0=1000,raw1=1500,raw2=2000,raw3=65535,is_raw=True")
             .arg("21022:sense_curves_Winch:raw=3001")
+            .arg("21022:sense_curves_Winch:value=100")
+            .arg("21022:sense_curves_Winch:value=101")
+            .arg("21022:sense_curves_Winch:value=100")
+            .arg("21022:sense_curves_Winch:raw=3001,is_raw=True")
             .arg("21021:sense_curves_Lamps:raw0=True,raw2=True")
-            .arg("21022:sense_curves_Winch:raw=3000"),
+            .arg("21022:sense_curves_Winch:value=100"),
         &folder,
     );
     peer.wait_for("ready");
@@ -241,7 +245,11 @@ fn libcluon_shows_values_through_curves() {
     peer.wait_for("21012 12 raw0=True raw1=False raw2=True\n");
     shown::check_messages(&peer.output(), &schema);
     hear_commands(&mut line, board, &shown::commands());
-    service.wait_for(&format!("Winch: not sent: {}\n", shown::REFUSED));
+    let unclear = "`raw` is set and `is_raw` is not: set both, or `value` alone";
+    let beyond = format!("101 N {}", shown::REFUSED);
+    for refused in [unclear, &beyond, shown::REFUSED] {
+        service.wait_for(&format!("Winch: not sent: {refused}\n"));
+    }
 }
 
 /// Two commands of design `all-types` for `commander.cpp`.

@@ -281,4 +281,4 @@ pub(crate) const COMMANDS: &str = "\
     sense::curves::Winch much; much.setRaw(3001); SEND(sense::curves::Winch, much) \
     sense::curves::Lamps lamps; lamps.setRaw(0, true); lamps.setRaw(2, true); \
     SEND(sense::curves::Lamps, lamps) \
-    sense::curves::Winch winch; winch.setRaw(3000); SEND(sense::curves::Winch, winch)";
+    sense::curves::Winch winch; winch.setValue(100.0); SEND(sense::curves::Winch, winch)";

@@ -172,6 +172,12 @@ fn typed_lines_become_commands() {
         ..Default::default()
     };
     boards[0].presentations.insert(65, limited);
+    let fast = sensedsl_model::design::Presentation {
+        quantity: Some("m/s^2".into()),
+        scale: Some(0.1),
+        ..Default::default()
+    };
+    boards[0].presentations.insert(66, fast);
     let Some((_, program)) = build("commands", &boards, "Everything") else { return };
     let mut line = Line::new();
     let mut child = Command::new(program)
@@ -187,12 +193,13 @@ fn typed_lines_become_commands() {
     let typed = "T0 true\nT2 raw -0128\nT7 raw 18446744073709551615\n\
                  T8 raw -9223372036854775808\nT9 raw 0.1\n\
                  B3 raw 1 65535\nT2 raw 128\nT1 raw -1\nB3 1\nnothing 1\nT6 raw 4e9\nT4 61\nT4 raw 61\n\
-                 T4 20 m\nT4 40000\nT4 raw 40 deg\nT10 raw -2.5\nT4 -12.5 deg\nT4 raw 50\nT4 20deg\n";
+                 T4 20 m\nT4 40000\nT4 raw 40 deg\nT10 raw -2.5\nT4 -12.5 deg\nT4 raw 50\nT4 20deg\n\
+                 T5 9.8m/s^2\nT5 1e1m/s^2\n";
     child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
     let mut events = Vec::new();
     let mut decoder = Decoder::new(&boards[0].schema, Direction::Actuator);
     let start = Instant::now();
-    while events.len() < 10 && start.elapsed() < second {
+    while events.len() < 12 && start.elapsed() < second {
         let bytes = line.hear(1, Duration::from_millis(100));
         decoder.feed(&bytes, |event| events.extend(Some(event).filter(is_command)));
     }
@@ -207,6 +214,8 @@ fn typed_lines_become_commands() {
         (65, vec![Scalar::Signed(-25)]),
         (65, vec![Scalar::Signed(50)]),
         (65, vec![Scalar::Signed(40)]),
+        (66, vec![Scalar::Unsigned(98)]),
+        (66, vec![Scalar::Unsigned(100)]),
     ];
     assert_eq!(events, expected.map(|value| Event::Report(None, vec![value])));
     assert_eq!(decoder.dropped_bytes(), 0);

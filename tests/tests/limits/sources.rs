@@ -47,6 +47,40 @@ fn ioc_keys() {
 }
 
 #[test]
+fn dbc_parts() {
+    let head = "BU_: A\nBO_ 1 M: 8 A\n";
+    let signal = |at: usize| format!(" SG_ s{at} : 0|8@1+ (1,0) [0|0] \"\" A\n");
+    refuses("signals.dbc", format!("{head}{}", repeat(110_000, signal)), "E0807");
+    let one = signal(0).trim_end().to_owned();
+    refuses("receivers.dbc", format!("{head}{one}{}\n", ",A".repeat(2_000_000)), "E0807");
+    refuses("nodes.dbc", format!("BU_:{}\nBO_ 1 M: 8 A\n", " A".repeat(2_000_000)), "E0807");
+    let words = repeat(350_000, |at| format!(" {at} \"w\""));
+    refuses("words.dbc", format!("{head}{one}\nVAL_ 1 s0{words} ;\n"), "E0807");
+    let message = |at: usize| format!("BO_ {} M: 8 A\n", at + (1 << 31));
+    refuses("messages.dbc", format!("BU_: A\n{}", repeat(180_000, message)), "E0801");
+}
+
+/// What names a signal is looked up, not searched for.
+#[test]
+fn dbc_lines_that_name_signals() {
+    let signal = |at: usize| format!(" SG_ s{at} : 0|8@1+ (1,0) [0|0] \"\" A\n");
+    let text = format!(
+        "BU_: A\nBO_ 1 M: 8 A\n{}{}",
+        repeat(40_000, signal),
+        "VAL_ 1 s39999 1 \"a\";\n".repeat(100_000)
+    );
+    let folder = Scratch::new("limits");
+    folder.write("found.dbc", text);
+    expect(&folder, &["import", "found.dbc"], 0, "W0804");
+}
+
+#[test]
+fn dbc_lines_that_are_wrong() {
+    refuses("wrong.dbc", format!("BU_: A\n{}", "BO_ x\n".repeat(690_000)), "E0810");
+    refuses("large.dbc", format!("BU_: A\n{}", "CM_ \"x\";\n".repeat(500_000)), "E0807");
+}
+
+#[test]
 fn xml() {
     let attributes = repeat(300_000, |at| format!(" a{at}=\"\""));
     refuses("a.xml", format!("<Mcu RefName=\"X\"{attributes}/>"), "E0807");

@@ -77,3 +77,17 @@ fn the_answer_is_that_of_the_commands() {
         assert_eq!(asked["svg"], svg.run().stdout, "{}", read(&file));
     }
 }
+
+/// What the page's function says of a file is what `check` says, firmware that there is none of included.
+#[test]
+fn the_diagnostics_are_those_of_check() {
+    let folders = ["examples", "tests/corpus/ok", "tests/firmware/kinds"];
+    for file in folders.iter().flat_map(|folder| texts(&root().join(folder))) {
+        let asked: serde_json::Value =
+            serde_json::from_str(&sensedsl_web::ask(&request(&file))).unwrap();
+        let check = sensedsl_tests::sensedsl(["check", "-q", "--format", "json"]);
+        let name = file.file_name().unwrap();
+        let check = check.arg(name).within(file.parent().unwrap()).run().json();
+        assert_eq!(asked["diagnostics"], check["diagnostics"], "{}", file.display());
+    }
+}

@@ -23,7 +23,7 @@ pub const CODE: Code = Code(&INFO);
 /// The level, the driver, and the supply that its part stands at most.
 #[must_use]
 pub fn level_over_part(span: Span, level: &str, driver: &str, most: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("{level} on the wires of `{driver}`, whose part stands a supply of {most} at most"))
+    Diagnostic::new(CODE, span, format!("{level} on the wires of `{driver}`, whose supply is {most} at most"))
         .here("over the supply of the part")
         .help(format!("write `level = {most};` or less, or remove the line"))
 }

@@ -10,7 +10,7 @@ pub const INFO: CodeInfo = CodeInfo {
     severity: Severity::Warning,
     title: "a board drives a part over its supply",
     explanation: r#"The board puts the voltage of its MCU's supply on a wire to the part, 5 V on an Arduino Uno, and the driver says
-that the part stands a supply of less. An input that is over the part's own supply feeds it through its protection,
+that the part's supply is lower. An input that is over the part's own supply feeds it through its protection,
 which damages it sooner or later. The lines of I2C are not meant: whoever pulls them up decides their voltage.
 
 Way out: put a level shifter, or two resistors, between board and part, or take a board of the part's voltage. Where
@@ -21,8 +21,8 @@ the module has level shifters, say so: `allow W0616 "the module shifts levels";`
 /// The code.
 pub const CODE: Code = Code(&INFO);
 
-/// The part's name in the file, the wires that the board drives, its voltage, the driver, and the supply that its part
-/// stands at most.
+/// The part's name in the file, the wires that the board drives, its voltage, the driver, and the greatest supply of its
+/// part.
 #[must_use]
 pub fn driven_over_part(
     span: Span,
@@ -30,7 +30,7 @@ pub fn driven_over_part(
     (driver, most): (&str, &str),
 ) -> Diagnostic {
     let what = format!(
-        "the board drives {wires} of `{name}` with {level}, and the part of `{driver}` stands a supply of {most} at most"
+        "the board drives {wires} of `{name}` with {level}, but the supply of `{driver}` is {most} at most"
     );
     Diagnostic::new(CODE, span, what).here("over the supply of the part").help(
         "put a level shifter between them; where the module has one, write `allow W0616 \"the module shifts levels\";`",

@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::codes::e0810_dbc_line;
 use sensedsl_diagnostics::{FileId, Span};
+use sensedsl_limits::DBC_PARTS_MAX;
 
 use crate::log::Log;
 
-/// The message that holds signals of no message.
-const ORPHANS: u32 = 0xC000_0000;
 /// An identifier has 29 bits where this one is set.
 const EXTENDED: u32 = 1 << 31;
 
@@ -69,20 +68,26 @@ pub(super) enum Mux {
     Only(u64),
     /// Selected, and selects further ones.
     Nested,
+    /// Selected by a value that is not said.
+    Open,
 }
 
 struct Reader<'l> {
     network: Network,
     /// Where each message is.
     places: BTreeMap<u32, usize>,
-    current: Option<usize>,
+    /// Where each signal is in its message, by the message's identifier.
+    signals: BTreeMap<(u32, String), usize>,
+    current: Option<u32>,
+    /// How many parts there are so far, of [`DBC_PARTS_MAX`].
+    parts: usize,
     log: &'l mut Log,
 }
 
 /// Reads a file; each line that is wrong is told.
-pub(super) fn read(file: FileId, text: &str, log: &mut Log) -> Network {
-    let (network, places) = (Network::default(), BTreeMap::new());
-    let mut reader = Reader { network, places, current: None, log };
+pub(super) fn read(file: FileId, name: &str, text: &str, log: &mut Log) -> Network {
+    let (network, places, signals) = (Network::default(), BTreeMap::new(), BTreeMap::new());
+    let mut reader = Reader { network, places, signals, current: None, parts: 0, log };
     let mut begin = 0;
     let mut open = false;
     for line in text.split_inclusive('\n') {
@@ -98,6 +103,11 @@ pub(super) fn read(file: FileId, text: &str, log: &mut Log) -> Network {
         if let Err(why) = reader.line(span, line.trim()) {
             reader.log.say(e0810_dbc_line::dbc_line(span, &why));
         }
+        if reader.parts > DBC_PARTS_MAX {
+            let what = "nodes, messages, signals, receivers and words for values";
+            reader.log.too_large(span, name, what, DBC_PARTS_MAX);
+            break;
+        }
     }
     reader.network
 }
@@ -109,7 +119,9 @@ impl Reader<'_> {
         match word {
             "BU_" => {
                 let names = rest.trim_start_matches(':').split_whitespace();
-                self.network.nodes.extend(names.map(str::to_owned));
+                let before = self.network.nodes.len();
+                self.network.nodes.extend(names.take(DBC_PARTS_MAX + 1).map(str::to_owned));
+                self.parts += self.network.nodes.len() - before;
                 Ok(())
             }
             "BO_" => self.message(span, rest),
@@ -118,8 +130,10 @@ impl Reader<'_> {
             "SIG_VALTYPE_" => self.real(rest),
             "BA_" => self.attribute(rest),
             "SG_MUL_VAL_" => {
-                let what = "a range of selecting values (`SG_MUL_VAL_`) is left out";
-                self.log.dropped(span, "", what);
+                if !self.says_the_same(rest) {
+                    let what = "a range of selecting values (`SG_MUL_VAL_`) is left out";
+                    self.log.dropped(span, "", what);
+                }
                 Ok(())
             }
             // Comments, definitions of attributes, environment variables.
@@ -135,27 +149,26 @@ impl Reader<'_> {
             return Err("a message is `BO_ IDENTIFIER NAME: BYTES SENDER`".to_owned());
         };
         let raw: u32 = whole(id, "an identifier")?;
-        let is_extended = raw & EXTENDED != 0;
         let own = raw & !EXTENDED;
-        if raw == ORPHANS {
-            return Ok(());
-        }
-        if is_extended && own > 0x1FFF_FFFF {
-            // Tools keep under such numbers what is on no bus.
+        if own > 0x1FFF_FFFF {
+            // Tools keep what is on no bus under such numbers: VECTOR__INDEPENDENT_SIG_MSG holds signals of no message.
             let what = format!("{name} is left out: {raw} is not an identifier of 11 or 29 bits");
             self.log.dropped(span, "", &what);
             return Ok(());
         }
-        if !is_extended && own > 0x7FF {
-            return Err(format!(
-                "{own} is more than 0x7FF, the greatest identifier of a message like this"
-            ));
+        let is_extended = raw & EXTENDED != 0 || own > 0x7FF;
+        if raw == own && is_extended {
+            let what = format!(
+                "{name} is read with an identifier of 29 bits: {own} is more than 0x7FF, and bit 31 is not set"
+            );
+            self.log.doubtful(span, "", &what);
         }
         if self.places.contains_key(&raw) {
             return Err(format!("there are two messages of identifier {raw}"));
         }
         self.places.insert(raw, self.network.messages.len());
-        self.current = Some(self.network.messages.len());
+        self.current = Some(raw);
+        self.parts += 1;
         self.network.messages.push(Message {
             span,
             id: own,
@@ -171,7 +184,9 @@ impl Reader<'_> {
 
     /// `NAME [M|mN]: BIT|BITS@ORDER SIGN (FACTOR,OFFSET) [LEAST|MOST] "UNIT" RECEIVERS`
     fn signal(&mut self, span: Span, rest: &str) -> Result<(), String> {
-        let Some(message) = self.current.and_then(|at| self.network.messages.get_mut(at)) else {
+        let Some(id) = self.current else { return Ok(()) };
+        let place = self.places.get(&id).copied();
+        let Some(message) = place.and_then(|at| self.network.messages.get_mut(at)) else {
             return Ok(());
         };
         let form = "a signal is `SG_ NAME : BIT|BITS@ORDER± (FACTOR,OFFSET) [LEAST|MOST] \"UNIT\" RECEIVERS`";
@@ -191,6 +206,9 @@ impl Reader<'_> {
         let mut head = head.split_whitespace();
         let name = head.next().ok_or(form)?.to_owned();
         let receivers = receivers.split([' ', ',', '\t', '\r']).filter(|name| !name.is_empty());
+        let receivers: Vec<String> = receivers.take(DBC_PARTS_MAX + 1).map(str::to_owned).collect();
+        self.parts += 1 + receivers.len();
+        self.signals.entry((id, name.clone())).or_insert(message.signals.len());
         message.signals.push(Signal {
             span,
             name,
@@ -212,17 +230,32 @@ impl Reader<'_> {
             least: real(bounds.0)?,
             most: real(bounds.1)?,
             unit: unit.to_owned(),
-            receivers: receivers.map(str::to_owned).collect(),
+            receivers,
             words: Vec::new(),
         });
         Ok(())
     }
 
+    /// `ID SIGNAL SELECTOR FROM-TO;`, which may only repeat the `m3` of the signal; the list of words at the start of
+    /// a file says nothing.
+    fn says_the_same(&mut self, rest: &str) -> bool {
+        let mut words = rest.trim_end_matches(';').split_whitespace();
+        let (Some(id), Some(name), Some(_)) = (words.next(), words.next(), words.next()) else {
+            return rest.is_empty();
+        };
+        let range = words.next().and_then(|range| range.split_once('-'));
+        let signal = self.find(id, name).ok().flatten();
+        let only = range.filter(|(from, to)| from == to && words.next().is_none());
+        only.zip(signal).is_some_and(|((number, _), signal)| {
+            number.parse().is_ok_and(|number| signal.mux == Mux::Only(number))
+        })
+    }
+
     fn find(&mut self, id: &str, name: &str) -> Result<Option<&mut Signal>, String> {
         let id: u32 = whole(id, "an identifier")?;
-        let place = self.places.get(&id).copied();
-        let message = place.and_then(|place| self.network.messages.get_mut(place));
-        Ok(message.and_then(|one| one.signals.iter_mut().find(|signal| signal.name == name)))
+        let message = self.places.get(&id).and_then(|at| self.network.messages.get_mut(*at));
+        let place = self.signals.get(&(id, name.to_owned()));
+        Ok(message.zip(place).and_then(|(message, at)| message.signals.get_mut(*at)))
     }
 
     /// `ID SIGNAL NUMBER "WORDS" … ;`; tables of environment variables have no identifier.
@@ -238,6 +271,10 @@ impl Reader<'_> {
         let mut pieces = list.trim_end_matches(';').split('"');
         while let (Some(number), Some(word)) = (pieces.next(), pieces.next()) {
             words.push((whole(number.trim(), "a value")?, word.to_owned()));
+            self.parts += 1;
+            if self.parts > DBC_PARTS_MAX {
+                break;
+            }
         }
         if let Some(signal) = self.find(id, name)? {
             signal.words = words;
@@ -292,6 +329,7 @@ fn selection(word: Option<&str>) -> Result<Mux, String> {
         Some(word) => {
             let number = word.strip_prefix('m').ok_or_else(wrong)?;
             match number.strip_suffix('M') {
+                None if number.is_empty() => Ok(Mux::Open),
                 Some(_) => Ok(Mux::Nested),
                 None => number.parse().map(Mux::Only).map_err(|_| wrong()),
             }

@@ -74,10 +74,6 @@ fn what_is_wrong_has_its_line() {
     for (line, why) in [
         ("BO_ 300 Short", "E0810 3 a message is `BO_ IDENTIFIER NAME: BYTES SENDER`"),
         ("BO_ x Short: 8 A", "E0810 3 `x` is not an identifier"),
-        (
-            "BO_ 2048 Long: 8 A",
-            "E0810 3 2048 is more than 0x7FF, the greatest identifier of a message like this",
-        ),
         ("BO_ 1 A: 8 A\nBO_ 1 B: 8 A", "E0810 4 there are two messages of identifier 1"),
         (
             "BO_ 1 A: 8 A\n SG_ S : 0|8@2+ (1,0) [0|0] \"\" B",
@@ -101,14 +97,59 @@ fn what_is_wrong_has_its_line() {
 fn a_message_that_no_frame_can_be_is_left_out() {
     let (text, said) = imported(
         "BU_: A B\nBO_ 3758096384 Pseudo: 8 A\n SG_ T : 0|8@1+ (1,0) [0|0] \"\" B\n\
+         BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n\
+         \x20SG_ Old : 0|8@1+ (1,0) [0|0] \"\" B\n\
          BO_ 1 Real: 8 A\n SG_ S : 0|8@1+ (1,0) [0|0] \"\" B\n\
          BA_ \"GenMsgCycleTime\" BO_ 3758096384 10;\nVAL_ 3758096384 T 1 \"one\" ;\n",
         Some("B"),
     );
-    let why = "Pseudo is left out: 3758096384 is not an identifier of 11 or 29 bits";
-    assert_eq!(said, [format!("W0804 2 {why}")]);
+    let why = |what, id| format!("{what} is left out: {id} is not an identifier of 11 or 29 bits");
+    let pseudo = format!("W0804 2 {}", why("Pseudo", "3758096384"));
+    let orphans = format!("W0804 4 {}", why("VECTOR__INDEPENDENT_SIG_MSG", "3221225472"));
+    assert_eq!(said, [pseudo, orphans]);
     assert_eq!(text.matches("\nsensor ").count(), 1);
     assert!(text.contains("sensor S returns uint8") && !text.contains("one"), "{text}");
+}
+
+/// Many files of the field forget bit 31, which says that an identifier has 29 bits.
+#[test]
+fn a_great_identifier_has_29_bits() {
+    let (text, said) = imported(
+        "BU_: A B\nBO_ 318291879 Side: 8 A\n SG_ S : 0|8@1+ (1,0) [0|0] \"\" B\n\
+         BO_ 1073741824 VECTOR__INDEPENDENT_SIG_MSG: 0 A\n SG_ T : 0|8@1+ (1,0) [0|0] \"\" B\n",
+        None,
+    );
+    assert!(text.contains("frame = 0x12F8BFA7;") && !text.contains("sensor T"), "{text}");
+    let why = "Side is read with an identifier of 29 bits: 318291879 is more than 0x7FF, and bit 31 is not set";
+    let orphans =
+        "VECTOR__INDEPENDENT_SIG_MSG is left out: 1073741824 is not an identifier of 11 or 29 bits";
+    assert_eq!(said, [format!("W0805 2 {why}"), format!("W0804 4 {orphans}")]);
+}
+
+/// `SG_MUL_VAL_` is a range, a repetition of what `m3` says, or a word of the list at the start.
+#[test]
+fn only_ranges_of_selecting_values_are_left_out() {
+    let (text, said) = imported(
+        "NS_ :\n\tSG_MUL_VAL_\nBU_: A B\nBO_ 1 A: 8 A\n SG_ P M : 0|8@1+ (1,0) [0|0] \"\" B\n\
+         \x20SG_ S m3 : 8|8@1+ (1,0) [0|0] \"\" B\n SG_ T m : 8|8@1+ (1,0) [0|0] \"\" B\n\
+         SG_MUL_VAL_ 1 S P 3-3;\nSG_MUL_VAL_ 1 S P 3-4;\n",
+        None,
+    );
+    assert!(text.contains("mux = P = 3;"), "{text}");
+    let open = "W0804 7 T is left out: its `m` has no number";
+    let range = "W0804 9 a range of selecting values (`SG_MUL_VAL_`) is left out";
+    assert_eq!(said, [open, range]);
+}
+
+/// A file of a whole car has thousands of signals: what is beyond is one warning, with the way out.
+#[test]
+fn signals_beyond_the_identifiers_are_counted() {
+    let signal = |at: usize| format!(" SG_ S{at} : 0|8@1+ (1,0) [0|0] \"\" B\n");
+    let signals: String = (0..300).map(signal).collect();
+    let (text, said) = imported(&format!("BU_: A B\nBO_ 1 M: 8 A\n{signals}"), None);
+    assert_eq!(text.matches("\nsensor ").count(), 254);
+    let why = "S254 and 45 more signals are left out: a file has at most 254 devices; `--node` takes those of one node";
+    assert_eq!(said, [format!("W0804 257 {why}")]);
 }
 
 proptest! {

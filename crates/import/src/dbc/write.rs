@@ -17,13 +17,15 @@ struct Writer<'a> {
     /// Names that are taken, without case and underscores.
     names: BTreeSet<String>,
     count: usize,
+    /// The first signal beyond the most devices that there may be, and how many there are.
+    beyond: Option<(&'a Signal, usize)>,
 }
 
 /// The devices of a node; none when it neither sends nor receives anything.
-pub(super) fn program(
-    network: &Network,
+pub(super) fn program<'a>(
+    network: &'a Network,
     name: &str,
-    node: Option<&str>,
+    node: Option<&'a str>,
     log: &mut Log,
 ) -> Option<String> {
     let whose = match node {
@@ -35,9 +37,20 @@ pub(super) fn program(
         one_line(name)
     );
     let (bitrate_hz, names) = (network.bitrate_hz, BTreeSet::new());
-    let mut writer = Writer { text, bitrate_hz, node, names, count: 0 };
+    let mut writer = Writer { text, bitrate_hz, node, names, count: 0, beyond: None };
     for message in &network.messages {
         writer.message(message, log);
+    }
+    if let Some((first, count)) = writer.beyond {
+        let more = if count > 1 {
+            format!(" and {} more signals are", count - 1)
+        } else {
+            " is".to_owned()
+        };
+        let way = if node.is_none() { "; `--node` takes those of one node" } else { "" };
+        let what =
+            format!("{}{more} left out: a file has at most {IDS_MAX} devices{way}", first.name);
+        log.dropped(first.span, "", &what);
     }
     if writer.count == 0
         && let Some(first) = network.messages.first()
@@ -48,13 +61,13 @@ pub(super) fn program(
     Some(writer.text)
 }
 
-impl Writer<'_> {
-    fn message(&mut self, message: &Message, log: &mut Log) {
+impl<'a> Writer<'a> {
+    fn message(&mut self, message: &'a Message, log: &mut Log) {
         let is_sent = self.node == Some(message.sender.as_str());
-        let is_wanted = |signal: &&Signal| {
+        let is_wanted = |signal: &&'a Signal| {
             is_sent || self.node.is_none_or(|node| signal.receivers.iter().any(|one| one == node))
         };
-        let mut wanted: Vec<&Signal> = message.signals.iter().filter(is_wanted).collect();
+        let mut wanted: Vec<&'a Signal> = message.signals.iter().filter(is_wanted).collect();
         let selector = message.signals.iter().find(|signal| signal.mux == Mux::Selector);
         if let Some(selector) = selector
             && wanted.iter().any(|signal| matches!(signal.mux, Mux::Only(_)))
@@ -89,19 +102,18 @@ impl Writer<'_> {
     fn signal(
         &mut self,
         message: &Message,
-        signal: &Signal,
+        signal: &'a Signal,
         is_sent: bool,
         selected_by: Option<&str>,
         log: &mut Log,
     ) -> Option<String> {
+        if self.count == IDS_MAX {
+            let (first, before) = self.beyond.unwrap_or((signal, 0));
+            self.beyond = Some((first, before + 1));
+            return None;
+        }
         let lines = match lines(message, signal, selected_by) {
-            Ok(lines) if self.count < IDS_MAX => lines,
-            Ok(_) => {
-                let what =
-                    format!("{} is left out: a file has at most {IDS_MAX} devices", signal.name);
-                log.dropped(signal.span, "", &what);
-                return None;
-            }
+            Ok(lines) => lines,
             Err(why) => {
                 log.dropped(signal.span, "", &format!("{} is left out: {why}", signal.name));
                 return None;
@@ -192,6 +204,7 @@ fn lines(
         (Mux::Nested, _) => {
             return Err("a value that selects and is selected is not served".to_owned());
         }
+        (Mux::Open, _) => return Err("its `m` has no number".to_owned()),
         (Mux::Always | Mux::Selector, _) => {}
     }
     lines.extend(shown(signal));

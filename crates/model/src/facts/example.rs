@@ -59,13 +59,19 @@ pub fn example_on(part: &PartFacts, board: &str) -> String {
     lines.join("\n")
 }
 
-/// The first values, without those that are part of another one.
+/// The first values, without those that are part of another one, and at least one of each direction.
 fn shown(values: &[ValueFacts], room: usize) -> Vec<&ValueFacts> {
     let mut shown: Vec<&ValueFacts> = Vec::new();
     for value in values {
         if shown.len() < room && !shown.iter().any(|other| holds(other, value)) {
             shown.push(value);
         }
+    }
+    let is_shown = |way| shown.iter().any(|one| one.direction == way);
+    let other = values.iter().find(|one| !is_shown(one.direction));
+    if let Some(other) = other {
+        shown.truncate(room.saturating_sub(1));
+        shown.push(other);
     }
     shown
 }

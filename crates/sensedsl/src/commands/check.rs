@@ -3,8 +3,7 @@
 use anyhow::Result;
 use sensedsl_codegen::target;
 use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
-use sensedsl_model::{drop_allowed, sort};
-use sensedsl_session::{Answer, has_errors};
+use sensedsl_session::Answer;
 use sensedsl_wiring::Solved;
 
 use super::input;
@@ -25,7 +24,9 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         let sources = snapshot.sources();
         let answer = input::feasible(&snapshot);
         let mut diagnostics = answer.diagnostics.clone();
-        add_gaps(&answer, &mut diagnostics);
+        if let Some((design, wiring)) = answer.wired().filter(|_| answer.left_out.is_empty()) {
+            target::foresee(design, wiring, &mut diagnostics);
+        }
         if let Some((design, wiring)) = answer.wired().filter(|_| args.typecheck) {
             diagnostics.extend(super::typecheck::judge(design, wiring, terminal)?);
         }
@@ -53,18 +54,6 @@ pub(crate) fn run(args: &CheckArgs, terminal: &mut Terminal) -> Result<Status> {
         CheckFormat::Github => terminal.result(&plain)?,
     }
     Ok(status)
-}
-
-/// Adds what `generate` would refuse: whoever checks a file wants to know it before.
-fn add_gaps(answer: &Answer<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let whole = answer.wired().filter(|_| answer.left_out.is_empty() && !has_errors(diagnostics));
-    let Some((design, wiring)) = whole else { return };
-    let mut gaps = target::foreseen(design, wiring, diagnostics);
-    drop_allowed(design, &mut gaps);
-    if !gaps.is_empty() {
-        diagnostics.append(&mut gaps);
-        sort(diagnostics);
-    }
 }
 
 /// One line a file. Whether there is a wiring is said only where it was looked for.

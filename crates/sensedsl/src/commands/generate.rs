@@ -298,12 +298,9 @@ fn report(
     if args.without.contains(&Without::Firmware) {
         return Ok(());
     }
-    terminal.note("next:\n")?;
-    for (_, board) in assignment.used(design) {
-        let folder = output::typed(&args.output, &format!("firmware/{}", board.name.value));
-        if let Some(target) = board.profile().and_then(target::of) {
-            terminal.note(&format!("  {}\n", target.build(&folder)))?;
-        }
-    }
+    let targets = assignment.used(design).filter_map(|(_, board)| target::of(board.profile()?));
+    let option = targets.map(<dyn target::Target>::build_option).max().unwrap_or_default();
+    let folder = output::typed(&args.output, "");
+    terminal.note(&format!("next: sensedsl build {folder}{option}\n"))?;
     Ok(())
 }

@@ -21,6 +21,11 @@ pub(crate) fn run(args: &NewArgs, terminal: &mut Terminal) -> Result<Status> {
     let Some(board) = catalog::find(&args.board) else {
         bail!("there is no built-in board {} (`sensedsl boards` lists them)", args.board);
     };
+    if args.dir.extension().is_some_and(|end| end == "sense") {
+        let folder = args.dir.with_extension("");
+        let folder = output::typed(&folder, "");
+        bail!("`new` makes a folder with a file robot.sense in it: sensedsl new {folder}");
+    }
     let (readme, robot) = begin(board);
     let texts = [(".gitignore", IGNORED), ("README.md", readme), ("robot.sense", &robot)];
     let paths = texts.map(|(name, text)| (args.dir.join(name), text.as_bytes()));

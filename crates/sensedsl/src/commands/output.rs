@@ -203,7 +203,7 @@ fn whole(path: &Path) -> Option<String> {
 
 /// The folder as people see it in a command to type.
 pub(crate) fn typed(root: &Path, relative: &str) -> String {
-    let path: PathBuf = root.join(relative);
+    let path: PathBuf = if relative.is_empty() { root.to_owned() } else { root.join(relative) };
     let text = path.display().to_string();
     let is_plain =
         |c: char| c.is_alphanumeric() || matches!(c, '/' | '.' | '_' | '-' | '+' | ':' | '@' | ',');

@@ -9,6 +9,8 @@ use crate::surroundings::CanFrame;
 /// Bits of MCR and MSR.
 const INIT: u32 = 1;
 const SLEEP: u32 = 1 << 1;
+/// Bits of the shortest frame.
+const SHORTEST: u64 = 47;
 /// Banks of filters that the two units share.
 const BANKS: usize = 28;
 
@@ -94,6 +96,12 @@ impl Filters {
         let ((a, b), (c, d)) = (halves(one), halves(two));
         if is_list { [a, b, c, d].map(|id| (id, 0xFFFF)).to_vec() } else { vec![(a, b), (c, d)] }
     }
+}
+
+/// Bits of a frame on the bus with those between it and the next one, without stuffed ones.
+fn bits_of(frame: &CanFrame) -> u64 {
+    let overhead = if frame.extended { 67 } else { SHORTEST };
+    overhead + 8 * u64::from(frame.length)
 }
 
 fn wide_bits(frame: &CanFrame) -> u32 {
@@ -209,9 +217,8 @@ impl Can {
             return;
         };
         let frame = self.frame(mailbox);
-        let overhead = if frame.extended { 67 } else { 47 };
         self.sending = Some(mailbox);
-        self.sent_at = at + self.bits_ns(overhead + 8 * u64::from(frame.length), wires);
+        self.sent_at = at + self.bits_ns(bits_of(&frame), wires);
     }
 
     pub(super) fn advance(&mut self, wires: &mut Wires, filters: &Filters) {
@@ -223,11 +230,12 @@ impl Can {
             self.begin(at, wires);
         }
         while self.listens_at <= wires.now {
-            self.listens_at += self.bits_ns(47, wires);
-            if self.btr >> 30 & 1 == 0
-                && wires.pad_of(&self.rx).is_some()
-                && let Some(frame) = wires.world(|world, now| world.can_in(self.unit, now))
-            {
+            let hears = self.btr >> 30 & 1 == 0 && wires.pad_of(&self.rx).is_some();
+            let frame =
+                if hears { wires.world(|world, now| world.can_in(self.unit, now)) } else { None };
+            // The next one follows when this one has gone over the bus.
+            self.listens_at += self.bits_ns(frame.as_ref().map_or(SHORTEST, bits_of), wires);
+            if let Some(frame) = frame {
                 self.receive(&frame, filters);
             }
         }

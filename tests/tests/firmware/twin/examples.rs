@@ -48,6 +48,24 @@ fn assert_agrees(what: &str, trial: &Trial) {
     eprintln!("{what}: {values} values of {SECONDS} s agree");
 }
 
+/// Controllers of motors, a node of CANopen and frames with several contents on one bus of a board with another crystal
+/// than the Discovery's: 12 MHz.
+fn can_agrees(system: System) {
+    let text = sensedsl_tests::text("tests/can/bus.sense");
+    let Some(image) = system.image(&format!("can_bus_{system:?}"), &text) else { return };
+    assert_agrees(&format!("CAN, {system:?}"), &run(system, (&text, ""), &image, SECONDS, &[3_000]));
+}
+
+#[test]
+fn can_on_chibios() {
+    can_agrees(System::Chibios);
+}
+
+#[test]
+fn can_on_embassy() {
+    can_agrees(System::Embassy);
+}
+
 /// What always runs; the rest only where everything is asked for, because it takes many minutes.
 const ALWAYS: [(&str, System, &str); 3] = [
     ("fig2", System::Embassy, USB),

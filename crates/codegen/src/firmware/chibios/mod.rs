@@ -105,8 +105,8 @@ impl Target for Chibios {
         }
     }
 
-    fn build(&self, folder: &str) -> String {
-        format!("make -C {folder} CHIBIOS=/path/to/ChibiOS")
+    fn build_option(&self) -> &'static str {
+        " --chibios /path/to/ChibiOS"
     }
 }
 

@@ -87,7 +87,7 @@ impl Target for Embassy {
         if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }
     }
 
-    fn build(&self, folder: &str) -> String {
-        format!("cd {folder} && cargo build --release")
+    fn build_option(&self) -> &'static str {
+        ""
     }
 }

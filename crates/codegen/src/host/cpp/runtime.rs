@@ -10,9 +10,10 @@ macro_rules! shared {
 }
 
 /// From C++98 on: what every host is made of.
-const EVERY_HOST: [(&str, &str); 16] = [
+const EVERY_HOST: [(&str, &str); 17] = [
     shared!("cause.hpp"),
     shared!("clock.hpp"),
+    shared!("command.hpp"),
     shared!("connection.hpp"),
     shared!("decode.hpp"),
     shared!("difference.hpp"),

@@ -101,6 +101,8 @@ pub(super) struct MessageView {
     pub(super) quantity_suffix: String,
     /// One for each element, raw ones first.
     pub(super) fields: Vec<FieldView>,
+    /// The number of the field `is_raw`, which says by what a command is taken; none where there is nothing to choose.
+    pub(super) is_raw_number: Option<usize>,
 }
 
 /// One scalar of a message on a bus.
@@ -195,6 +197,9 @@ impl MessageView {
         let types = CppTypes::of(scalar);
         let scaling = message.scaling.clone().unwrap_or_default();
         let label = message.label.as_deref().map(|label| format!(": {label}")).unwrap_or_default();
+        let is_actuator = message.direction == sensedsl_wire::Direction::Actuator;
+        let has_value = message.scaling.is_some();
+        let fields = fields(&types, count, message.value.length.is_some(), has_value);
         Self {
             name: string_literal(&message.name),
             path: format!("::sense::{design}::{ident}"),
@@ -204,7 +209,7 @@ impl MessageView {
             id: message.id,
             number: MESSAGE_NUMBER_BASE + u32::from(message.id),
             data_type_2014: DATA_TYPE_BASE_2014 + u32::from(message.id),
-            is_actuator: message.direction == sensedsl_wire::Direction::Actuator,
+            is_actuator,
             summary: one_line(&format!(
                 "{} {} {}{label}",
                 message.direction.name(),
@@ -220,18 +225,14 @@ impl MessageView {
             scale: real_literal(scaling.scale),
             offset: real_literal(scaling.offset),
             curve: scaling.curve.iter().map(point).collect(),
-            has_value: message.scaling.is_some(),
+            has_value,
             min: limit_literal("-", message.limits.min),
             max: limit_literal("", message.limits.max),
             cycle_ms: message.cycle_ms.unwrap_or_default(),
             quantity: string_literal(&quantity),
             quantity_suffix: string_literal(&suffix(&quantity)),
-            fields: fields(
-                &types,
-                count,
-                message.value.length.is_some(),
-                message.scaling.is_some(),
-            ),
+            is_raw_number: (is_actuator && has_value).then_some(fields.len() + 1),
+            fields,
         }
     }
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sense/curves/Rover_schema.hpp"
+#include "sensedsl/command.hpp"
 #include "sensedsl/connection.hpp"
 #include "sensedsl/options.hpp"
 #include "sensedsl/text.hpp"
@@ -231,14 +232,20 @@ public:
     void listen(cluon::OD4Session &od4) {
         od4.dataTrigger(::sense::curves::Escs::ID(), [this](cluon::data::Envelope &&envelope) {
             auto message = cluon::extractMessage< ::sense::curves::Escs>(std::move(envelope));
-            const uint16_t raw[4] = {
+            uint16_t raw[4] = {
                 message.raw0(),
                 message.raw1(),
                 message.raw2(),
                 message.raw3(),
             };
-            const auto refused = sensedsl::outside_of({-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, raw, 4,
-                                                      ::sense::curves::scaling::Escs(), " percent");
+            const double shown[4] = {
+                message.value0(),
+                message.value1(),
+                message.value2(),
+                message.value3(),
+            };
+            const auto refused = sensedsl::take_command(::sense::curves::scaling::Escs(), {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, " percent",
+                                                        message.is_raw(), shown, raw, 4);
             sensedsl::Report report(*facts().schema, facts().schema->actuators);
             report.set(20, raw, 4);
             send("Escs", refused, report.frame());
@@ -258,22 +265,28 @@ public:
         });
         od4.dataTrigger(::sense::curves::Winch::ID(), [this](cluon::data::Envelope &&envelope) {
             auto message = cluon::extractMessage< ::sense::curves::Winch>(std::move(envelope));
-            const uint16_t raw[1] = {
+            uint16_t raw[1] = {
                 message.raw(),
             };
-            const auto refused = sensedsl::outside_of({-25.0, 100.0}, raw, 1,
-                                                      ::sense::curves::scaling::Winch(), " N");
+            const double shown[1] = {
+                message.value(),
+            };
+            const auto refused = sensedsl::take_command(::sense::curves::scaling::Winch(), {-25.0, 100.0}, " N",
+                                                        message.is_raw(), shown, raw, 1);
             sensedsl::Report report(*facts().schema, facts().schema->actuators);
             report.set(22, raw, 1);
             send("Winch", refused, report.frame());
         });
         od4.dataTrigger(::sense::curves::Speed::ID(), [this](cluon::data::Envelope &&envelope) {
             auto message = cluon::extractMessage< ::sense::curves::Speed>(std::move(envelope));
-            const int16_t raw[1] = {
+            int16_t raw[1] = {
                 message.raw(),
             };
-            const auto refused = sensedsl::outside_of({-100.0, 100.0}, raw, 1,
-                                                      ::sense::curves::scaling::Speed(), " %");
+            const double shown[1] = {
+                message.value(),
+            };
+            const auto refused = sensedsl::take_command(::sense::curves::scaling::Speed(), {-100.0, 100.0}, " %",
+                                                        message.is_raw(), shown, raw, 1);
             sensedsl::Report report(*facts().schema, facts().schema->actuators);
             report.set(40, raw, 1);
             send("Speed", refused, report.frame());

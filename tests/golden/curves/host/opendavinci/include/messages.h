@@ -19,6 +19,7 @@
 #include "opendavinci/odcore/serialization/Serializer.h"
 
 #include "sense/curves/Rover_schema.hpp"
+#include "sensedsl/command.hpp"
 #include "sensedsl/text.hpp"
 
 namespace sense {
@@ -661,6 +662,11 @@ public:
     static std::string Quantity() { return "percent"; }
     double getValue(std::size_t element) const { return scaled(element); }
 
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(std::size_t element, double shown) {
+        return sensedsl::take_code(::sense::curves::scaling::Escs().raw_of(shown), m_raw[element]);
+    }
+
     void accept(odcore::base::Visitor &visitor) override {
         visitor.beginVisit(ID(), ShortName(), LongName());
         visitor.visit(1, LongName() + ".raw0", "raw0", m_raw[0]);
@@ -675,6 +681,8 @@ public:
         visitor.visit(7, LongName() + ".value2", "value2", value2);
         double value3 = scaled(3);
         visitor.visit(8, LongName() + ".value3", "value3", value3);
+        bool isRaw = true;
+        visitor.visit(9, LongName() + ".is_raw", "is_raw", isRaw);
         visitor.endVisit();
     }
 
@@ -683,6 +691,9 @@ public:
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::curves::scaling::Escs(), " percent");
     }
+
+    /// Why a board does not get this command, for people; empty when it does.
+    std::string refused() const { return m_refused.empty() ? outsideLimits() : m_refused; }
 
     const std::string toString() const override {
         std::ostringstream text;
@@ -703,6 +714,7 @@ public:
         serializer->write(6, scaled(1));
         serializer->write(7, scaled(2));
         serializer->write(8, scaled(3));
+        serializer->write(9, true);
         return out;
     }
 
@@ -712,6 +724,17 @@ public:
         deserializer->read(2, m_raw[1]);
         deserializer->read(3, m_raw[2]);
         deserializer->read(4, m_raw[3]);
+        // Written by this class it has codes; by another program perhaps values alone.
+        std::array<double, COUNT> shown{};
+        bool isRaw = false;
+        deserializer->read(5, shown[0]);
+        deserializer->read(6, shown[1]);
+        deserializer->read(7, shown[2]);
+        deserializer->read(8, shown[3]);
+        deserializer->read(9, isRaw);
+        const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        m_refused = sensedsl::take_command(::sense::curves::scaling::Escs(), limits, " percent", isRaw, shown.data(),
+                                           m_raw.data(), COUNT);
         return in;
     }
 
@@ -720,6 +743,7 @@ private:
         return ::sense::curves::scaling::Escs().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 4> m_raw{};
+    std::string m_refused{};
 };
 
 /// actuator Lamps bool[3]
@@ -757,6 +781,9 @@ public:
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::curves::scaling::Lamps(), "");
     }
+
+    /// Why a board does not get this command, for people; empty when it does.
+    std::string refused() const { return outsideLimits(); }
 
     const std::string toString() const override {
         std::ostringstream text;
@@ -811,11 +838,16 @@ public:
     static std::string Quantity() { return "N"; }
     double getValue() const { return scaled(0); }
 
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(double shown) { return sensedsl::take_code(::sense::curves::scaling::Winch().raw_of(shown), m_raw[0]); }
+
     void accept(odcore::base::Visitor &visitor) override {
         visitor.beginVisit(ID(), ShortName(), LongName());
         visitor.visit(1, LongName() + ".raw", "raw", m_raw[0]);
         double value0 = scaled(0);
         visitor.visit(2, LongName() + ".value", "value", value0);
+        bool isRaw = true;
+        visitor.visit(3, LongName() + ".is_raw", "is_raw", isRaw);
         visitor.endVisit();
     }
 
@@ -824,6 +856,9 @@ public:
         const sensedsl::Limits limits = {-25.0, 100.0};
         return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::curves::scaling::Winch(), " N");
     }
+
+    /// Why a board does not get this command, for people; empty when it does.
+    std::string refused() const { return m_refused.empty() ? outsideLimits() : m_refused; }
 
     const std::string toString() const override {
         std::ostringstream text;
@@ -838,12 +873,21 @@ public:
         auto serializer = odcore::serialization::SerializationFactory::getInstance().getSerializer(out);
         serializer->write(1, m_raw[0]);
         serializer->write(2, scaled(0));
+        serializer->write(3, true);
         return out;
     }
 
     std::istream &operator>>(std::istream &in) override {
         auto deserializer = odcore::serialization::SerializationFactory::getInstance().getDeserializer(in);
         deserializer->read(1, m_raw[0]);
+        // Written by this class it has codes; by another program perhaps values alone.
+        std::array<double, COUNT> shown{};
+        bool isRaw = false;
+        deserializer->read(2, shown[0]);
+        deserializer->read(3, isRaw);
+        const sensedsl::Limits limits = {-25.0, 100.0};
+        m_refused = sensedsl::take_command(::sense::curves::scaling::Winch(), limits, " N", isRaw, shown.data(),
+                                           m_raw.data(), COUNT);
         return in;
     }
 
@@ -852,6 +896,7 @@ private:
         return ::sense::curves::scaling::Winch().of(static_cast<double>(m_raw[element]));
     }
     std::array<uint16_t, 1> m_raw{};
+    std::string m_refused{};
 };
 
 /// actuator Speed int16
@@ -879,11 +924,16 @@ public:
     static std::string Quantity() { return "%"; }
     double getValue() const { return scaled(0); }
 
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(double shown) { return sensedsl::take_code(::sense::curves::scaling::Speed().raw_of(shown), m_raw[0]); }
+
     void accept(odcore::base::Visitor &visitor) override {
         visitor.beginVisit(ID(), ShortName(), LongName());
         visitor.visit(1, LongName() + ".raw", "raw", m_raw[0]);
         double value0 = scaled(0);
         visitor.visit(2, LongName() + ".value", "value", value0);
+        bool isRaw = true;
+        visitor.visit(3, LongName() + ".is_raw", "is_raw", isRaw);
         visitor.endVisit();
     }
 
@@ -892,6 +942,9 @@ public:
         const sensedsl::Limits limits = {-100.0, 100.0};
         return sensedsl::outside_of(limits, m_raw.data(), COUNT, ::sense::curves::scaling::Speed(), " %");
     }
+
+    /// Why a board does not get this command, for people; empty when it does.
+    std::string refused() const { return m_refused.empty() ? outsideLimits() : m_refused; }
 
     const std::string toString() const override {
         std::ostringstream text;
@@ -906,12 +959,21 @@ public:
         auto serializer = odcore::serialization::SerializationFactory::getInstance().getSerializer(out);
         serializer->write(1, m_raw[0]);
         serializer->write(2, scaled(0));
+        serializer->write(3, true);
         return out;
     }
 
     std::istream &operator>>(std::istream &in) override {
         auto deserializer = odcore::serialization::SerializationFactory::getInstance().getDeserializer(in);
         deserializer->read(1, m_raw[0]);
+        // Written by this class it has codes; by another program perhaps values alone.
+        std::array<double, COUNT> shown{};
+        bool isRaw = false;
+        deserializer->read(2, shown[0]);
+        deserializer->read(3, isRaw);
+        const sensedsl::Limits limits = {-100.0, 100.0};
+        m_refused = sensedsl::take_command(::sense::curves::scaling::Speed(), limits, " %", isRaw, shown.data(),
+                                           m_raw.data(), COUNT);
         return in;
     }
 
@@ -920,6 +982,7 @@ private:
         return ::sense::curves::scaling::Speed().of(static_cast<double>(m_raw[element]));
     }
     std::array<int16_t, 1> m_raw{};
+    std::string m_refused{};
 };
 
 } // namespace curves

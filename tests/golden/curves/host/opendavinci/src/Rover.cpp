@@ -190,7 +190,7 @@ private:
     /// A value outside the design's limits is not sent. A problem is told once, until that actuator
     /// takes a command again.
     template <typename Message> void command(const Message &message) {
-        const auto refused = message.outsideLimits();
+        const auto refused = message.refused();
         sensedsl::Report report(*facts().schema, facts().schema->actuators);
         const std::uint8_t id = Message::WIRE_ID;
         report.set(id, message.begin(), Message::COUNT);

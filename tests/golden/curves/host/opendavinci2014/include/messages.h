@@ -573,6 +573,11 @@ public:
         return ::sense::curves::scaling::Escs().of(static_cast<double>(m_raw[element]));
     }
 
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(size_t element, double shown) {
+        return sensedsl::take_code(::sense::curves::scaling::Escs().raw_of(shown), m_raw[element]);
+    }
+
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -699,6 +704,9 @@ public:
     static std::string Quantity() { return "N"; }
     double getValue() const { return ::sense::curves::scaling::Winch().of(static_cast<double>(m_raw[0])); }
 
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(double shown) { return sensedsl::take_code(::sense::curves::scaling::Winch().raw_of(shown), m_raw[0]); }
+
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {
         const sensedsl::Limits limits = {-25.0, 100.0};
@@ -763,6 +771,9 @@ public:
 
     static std::string Quantity() { return "%"; }
     double getValue() const { return ::sense::curves::scaling::Speed().of(static_cast<double>(m_raw[0])); }
+
+    /// Takes the value that is shown as `shown`, in its quantity. False, and nothing is taken, where no code is.
+    bool setValue(double shown) { return sensedsl::take_code(::sense::curves::scaling::Speed().raw_of(shown), m_raw[0]); }
 
     /// What is outside the limits that the design gives, for people; empty when nothing is.
     std::string outsideLimits() const {

@@ -19,6 +19,7 @@
 #include "opendavinci/odcore/serialization/Serializer.h"
 
 #include "sense/miniature_car/STM32F4DiscoveryBoard_schema.hpp"
+#include "sensedsl/command.hpp"
 #include "sensedsl/text.hpp"
 
 namespace sense {

@@ -1,10 +1,11 @@
 // How a design shows raw values.
 //
-// In: what the design says of one message. Out: the one place where a raw value becomes the shown one.
+// In: what the design says of one message. Out: the one place where a raw value becomes the shown one, and back.
 // C++98.
 #ifndef SENSEDSL_SCALING_HPP
 #define SENSEDSL_SCALING_HPP
 
+#include <math.h>
 #include <stddef.h>
 
 #include <limits>
@@ -75,6 +76,29 @@ struct Scaling {
     const Point *curve;
     size_t point_count;
 };
+
+/// Takes a raw value with a fraction as a `T`. False where the type does not hold the nearest code.
+template <typename T> inline bool take_code(double raw, T &value) {
+    typedef std::numeric_limits<T> Bounds;
+    const double code = Bounds::is_integer ? round(raw) : raw;
+    // 2^63 and 2^64 are no codes, but what the greatest ones of 64 bits are rounded to.
+    const double greatest = static_cast<double>(Bounds::max());
+    const double least = Bounds::is_integer ? static_cast<double>(Bounds::min()) : -greatest;
+    const bool is_wide = Bounds::is_integer && sizeof(T) == 8;
+    if (!(code >= least && (is_wide ? code < greatest : code <= greatest))) {
+        return false;
+    }
+    value = static_cast<T>(code);
+    return true;
+}
+template <> inline bool take_code<bool>(double raw, bool &value) {
+    const double code = round(raw);
+    if (!(code >= 0.0 && code <= 1.0)) {
+        return false;
+    }
+    value = code > 0.5;
+    return true;
+}
 
 } // namespace sensedsl
 

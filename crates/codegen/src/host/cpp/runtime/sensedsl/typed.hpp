@@ -60,24 +60,6 @@ inline bool convert_unit(const std::string &from, const std::string &to, double 
     return true;
 }
 
-/// Takes a raw value with a fraction as a `T`. False where the type does not hold the nearest code.
-template <typename T> bool take_code(double raw, T &value) {
-    const double code = std::is_floating_point_v<T> ? raw : std::round(raw);
-    // 2^63 and 2^64 are no codes, but what the greatest ones of 64 bits are rounded to.
-    const double least = static_cast<double>(std::numeric_limits<T>::lowest());
-    const double greatest = static_cast<double>(std::numeric_limits<T>::max());
-    const bool is_wide = !std::is_floating_point_v<T> && sizeof(T) == 8;
-    if (!(code >= least && (is_wide ? code < greatest : code <= greatest))) {
-        return false;
-    }
-    if constexpr (std::is_same_v<T, bool>) {
-        value = code > 0.5;
-    } else {
-        value = static_cast<T>(code);
-    }
-    return true;
-}
-
 /// Takes the value that is shown as `shown`. False, and nothing is taken, where no code is shown so.
 template <typename Message> bool take_shown(Message &message, std::size_t element, double shown) {
     return take_code(Message::scaling().raw_of(shown), message.data()[element]);
@@ -96,14 +78,24 @@ inline bool begins_number(const std::string &word) {
     return word.size() > at && ((word[at] >= '0' && word[at] <= '9') || word[at] == '.');
 }
 
-/// Cuts a unit off the number that it touches: `1500us`, `50%`. `0x1F` and `1e3` have none.
+/// Cuts a unit off the number that it touches: `1500us`, `50%`, `9.8m/s^2`. `0x1F` and `1e3` have none.
 inline void cut_unit(TypedValue &value) {
-    if (value.number.find_first_of("xX") != std::string::npos || !begins_number(value.number)) {
+    const std::string &word = value.number;
+    const std::size_t begin = !word.empty() && (word[0] == '-' || word[0] == '+') ? 1 : 0;
+    const bool is_hex = word.compare(begin, 2, "0x") == 0 || word.compare(begin, 2, "0X") == 0;
+    if (is_hex || !begins_number(word)) {
         return;
     }
-    const std::size_t last = value.number.find_last_of("0123456789.");
-    value.unit = value.number.substr(last + 1);
-    value.number.erase(last + 1);
+    std::size_t end = word.find_first_not_of("0123456789.", begin);
+    if (end != std::string::npos && (word[end] == 'e' || word[end] == 'E')) {
+        const std::size_t sign = word.find_first_of("+-", end + 1) == end + 1 ? 1 : 0;
+        const std::size_t power = word.find_first_not_of("0123456789", end + 1 + sign);
+        end = power == end + 1 + sign ? end : power;
+    }
+    if (end != std::string::npos) {
+        value.unit = word.substr(end);
+        value.number.erase(end);
+    }
 }
 
 /// The words of a line as values. A word that is no number is the unit of the one before, or a truth.
