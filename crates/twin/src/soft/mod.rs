@@ -155,6 +155,7 @@ struct Side<'a> {
 impl Side<'_> {
     fn put(&mut self, index: usize, value: &[u8]) {
         self.core.store.put(index, value);
+        self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
         for bus in self.buses.iter_mut() {
             bus.set(index, value);
         }
