@@ -102,10 +102,13 @@ pub async fn train<T: GeneralInstance4Channel>(
     loop {
         let ticks = timer.wait_for_period().await;
         let now = Instant::now();
-        let is_whole = last.replace(now).is_some_and(|last| (now - last).as_micros() <= longest_us);
+        let is_lost = has_lost::<T>(channel);
+        // Before the first edge there is no interval, and what comes after it may be the rest of a train.
+        let Some(last) = last.replace(now) else { continue };
+        let is_whole = (now - last).as_micros() <= longest_us;
         seen.lock(|cell| {
             let mut train = cell.get();
-            if has_lost::<T>(channel) {
+            if is_lost {
                 train.on_loss();
             } else {
                 train.on_interval(config, if is_whole { between(ticks) } else { u32::MAX });
