@@ -6,6 +6,7 @@
 //! another judge needs no compiler; `--build` makes nothing but images. Each mistake is a line of a file that grows
 //! (`--into`), of which `--page` makes Markdown; what is in it already is not done again, so that a campaign that was
 //! stopped goes on with the same call. `--only WORD` takes the lines away that have the word, and does them again.
+//! `--least PERCENT` fails where fewer of the mistakes that change anything are noticed.
 
 mod campaign;
 mod draw;
@@ -22,7 +23,7 @@ use subject::Settings;
 
 const USAGE: &str = "[CHIBIOS=FOLDER] cargo xtask mutants --program SENSEDSL [--design FILE]... \
                      [--target chibios|embassy] [--count N] [--seed N] [--seconds N] [--scratch FOLDER] \
-                     [--into FILE] [--jobs N] [--only WORD] [--build], or --page FILE";
+                     [--into FILE] [--jobs N] [--only WORD] [--least PERCENT] [--build], or --page FILE";
 const EXAMPLES: [&str; 8] = [
     "all_kinds",
     "fig2",
@@ -46,6 +47,8 @@ struct Options {
     jobs: usize,
     /// What of the file is done again.
     only: Option<String>,
+    /// How many per cent must be noticed.
+    least: usize,
 }
 
 impl Options {
@@ -65,6 +68,7 @@ impl Options {
             into: "target/mutants/drawn.tsv".into(),
             jobs: 2,
             only: None,
+            least: 0,
         };
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
@@ -83,6 +87,7 @@ impl Options {
                 "--scratch" => options.settings.scratch = next.into(),
                 "--into" => options.into = next.into(),
                 "--jobs" => options.jobs = next.parse().context(USAGE)?,
+                "--least" => options.least = next.parse().context(USAGE)?,
                 "--only" => options.only = Some(next.clone()),
                 _ => bail!(USAGE),
             }
@@ -114,5 +119,9 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
     }
     let options = Options::read(arguments)?;
     campaign::run(&options)?;
-    say(&page::page(&std::fs::read_to_string(&options.into)?))
+    let lines = std::fs::read_to_string(&options.into)?;
+    say(&page::page(&lines))?;
+    let share = page::share(&lines);
+    ensure!(share >= options.least, "{share} % are noticed, and not {} %", options.least);
+    Ok(())
 }

@@ -12,6 +12,20 @@ const CLASSES: [(&str, &str); 6] = [
     ("late", "not run to the end"),
 ];
 
+/// How many mistakes the command has noticed, and how many that change what comes out it has not.
+fn noticed(lines: &str) -> [usize; 2] {
+    ["command", "nobody"].map(|class| {
+        let is_of = |line: &&str| line.split('\t').nth(6) == Some(class);
+        lines.lines().filter(is_of).count()
+    })
+}
+
+/// How many per cent of those that change what comes out are noticed.
+pub(super) fn share(lines: &str) -> usize {
+    let [noticed, escaped] = noticed(lines);
+    (100 * noticed).checked_div(noticed + escaped).unwrap_or(100)
+}
+
 /// A table of counts, and one of those that nobody noticed.
 pub(super) fn page(lines: &str) -> String {
     let rows: Vec<Vec<&str>> = lines.lines().map(|line| line.split('\t').collect()).collect();
@@ -28,9 +42,8 @@ pub(super) fn page(lines: &str) -> String {
         let (one, other) = (count(class, "chibios"), count(class, "embassy"));
         text.push_str(&format!("| {told} | {one} | {other} | {} |\n", one + other));
     }
-    let [noticed, escaped] =
-        ["command", "nobody"].map(|class| count(class, "chibios") + count(class, "embassy"));
-    let share = 100 * noticed / (noticed + escaped).max(1);
+    let [noticed, escaped] = noticed(lines);
+    let share = share(lines);
     text.push_str(&format!(
         "\n{} mistakes were drawn; of {} that change what comes out, {noticed} are noticed: {share} %.\n",
         rows.len(),

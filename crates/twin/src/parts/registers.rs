@@ -163,6 +163,11 @@ impl Registers {
 
     /// Behind which byte, from a register on, the driver says nothing; none where nothing is known of the register.
     fn end_of(&self, pointer: Option<u16>) -> Option<u16> {
+        // Calibration is read block by block, whatever lies behind it.
+        let block = self.protocol.calibration.iter().find(|(first, _)| Some(*first) == pointer);
+        if let Some((_, count)) = block {
+            return Some(*count);
+        }
         let behind = |register: Option<u16>, length: u16| {
             let first = match (pointer, register) {
                 (Some(pointer), Some(register)) => register.checked_sub(pointer)?,
