@@ -36,7 +36,7 @@ void up_digital_look(const up_digital_t *sensor) {
   for (i = 0U; i < sensor->inputs_count; i++) {
     const up_digital_input_t *input = &sensor->inputs[i];
 
-    up_contact_look(input->config, &input->state->contact, level_of(input), ticks_now());
+    up_contact_sample(input->config, &input->state->contact, level_of(input), ticks_now());
   }
   chSysUnlock();
 }

@@ -48,6 +48,15 @@ void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, b
   }
 }
 
+void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now) {
+  if (contact->has_level && config->lasting > 0U && level != contact->seen) {
+    contact->seen = level;
+    contact->since = now;
+    return;
+  }
+  up_contact_look(config, contact, level, now);
+}
+
 bool up_contact_tell(const up_contact_config_t *config, const up_contact_t *contact, up_contact_told_t *told) {
   const bool has_edge = contact->edges != told->edges;
 

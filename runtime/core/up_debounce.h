@@ -36,6 +36,9 @@ void up_contact_on_edge(const up_contact_config_t *config, up_contact_t *contact
 /* The wire was looked at: often enough that what is to last is seen to last. */
 void up_contact_look(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
 
+/* The same where nothing interrupts: a level that is another one now has not lasted until now. */
+void up_contact_sample(const up_contact_config_t *config, up_contact_t *contact, bool level, uint32_t now);
+
 /* What was told of a contact. All zero at the start. */
 typedef struct {
   uint32_t edges;

@@ -61,6 +61,15 @@ impl<P: Level> Kept<P> {
         })
     }
 
+    /// Looks at a pin whose edges do not interrupt.
+    pub fn sample(&self) {
+        self.seen.lock(|seen| {
+            if let Some((pin, contact)) = &mut *seen.borrow_mut() {
+                contact.sample(&self.config, pin.level(), now_us());
+            }
+        });
+    }
+
     /// The level that has lasted.
     pub fn level(&self) -> bool {
         self.seen.lock(|seen| seen.borrow().as_ref().is_some_and(|(_, contact)| contact.level()))

@@ -17,13 +17,14 @@ struct Known<const VALUES: usize, const ITEMS: usize> {
 
 /// See above; it is a `static`.
 pub struct Shared<const VALUES: usize, const ITEMS: usize> {
+    schema: &'static Schema,
     known: Mutex<CriticalSectionRawMutex, RefCell<Known<VALUES, ITEMS>>>,
 }
 
 impl<const VALUES: usize, const ITEMS: usize> Shared<VALUES, ITEMS> {
     pub const fn new(schema: &'static Schema, cycles_ms: &'static [u32]) -> Self {
         let known = Known { store: Store::new(schema), health: Health::new(cycles_ms), sets: [0; ITEMS] };
-        Self { known: Mutex::new(RefCell::new(known)) }
+        Self { schema, known: Mutex::new(RefCell::new(known)) }
     }
 
     /// Hands the store and the health to a task.
@@ -48,7 +49,13 @@ pub trait Tell: Sync {
 
 impl<const VALUES: usize, const ITEMS: usize> Tell for Shared<VALUES, ITEMS> {
     fn tell(&self, filter: Option<&mut Filter>, index: usize, outcome: Outcome, value: &mut [u8]) {
-        self.with(|store, health| store.tell(health, filter, index, outcome, value, now_ms()));
+        let now = now_ms();
+        let told = match filter {
+            // Interrupts are off while the store is held: a median of many values would cost a port characters.
+            Some(filter) => Store::filtered(self.schema, filter, index, outcome, value, now),
+            None => outcome,
+        };
+        self.with(|store, health| store.tell_told(health, index, (outcome, told), value, now));
     }
 
     fn set(&self, index: usize, value: &[u8]) {

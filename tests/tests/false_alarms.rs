@@ -43,7 +43,7 @@ fn judge(text: &str, target: &str) -> Result<Compared, String> {
     Err(format!("{target}: {text}\n{}\n{}", ran.stdout, ran.stderr))
 }
 
-fn is_wired(text: &str, target: &str) -> bool {
+pub(crate) fn is_wired(text: &str, target: &str) -> bool {
     sensedsl(["solve", "-", "--target", target]).stdin(text).run().status == 0
 }
 
@@ -132,7 +132,7 @@ fn no_board_with_all_kinds_is_called_wrong() {
 }
 
 /// The library's drivers, and the devices of each in a board's braces.
-fn drivers() -> Vec<String> {
+pub(crate) fn drivers() -> Vec<String> {
     let ran = sensedsl(["drivers", "--quiet", "--format", "json"]).run().exits(0);
     let json = ran.json();
     let all = json["drivers"].as_array().unwrap();

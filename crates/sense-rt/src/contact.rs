@@ -103,6 +103,16 @@ impl Contact {
             self.since = now;
         }
     }
+
+    /// The same where nothing interrupts: a level that is another one now has not lasted until now.
+    pub fn sample(&mut self, config: &ContactConfig, level: bool, now: u32) {
+        if self.has_level && config.lasting > 0 && level != self.seen {
+            self.seen = level;
+            self.since = now;
+        } else {
+            self.look(config, level, now);
+        }
+    }
 }
 
 /// What was told of a contact.
@@ -132,5 +142,31 @@ impl ContactTold {
             return Some(self.level);
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONFIG: ContactConfig = ContactConfig { lasting: 5, edge: Edge::Both };
+
+    #[test]
+    fn a_spike_that_a_sample_meets_does_not_count() {
+        let mut contact = Contact::NEW;
+        // The wire has a spike around 20, and is another level from 43 on.
+        for (now, level, settled) in [
+            (0, false, false),
+            (10, false, false),
+            (20, true, false),
+            (30, false, false),
+            (40, false, false),
+            (50, true, false),
+            (60, true, true),
+        ] {
+            contact.sample(&CONFIG, level, now);
+            assert_eq!(contact.level(), settled, "{now}");
+        }
+        assert_eq!(contact.edges(), 1);
     }
 }

@@ -90,6 +90,38 @@ impl Store {
         }
     }
 
+    /// What a filter makes of a reading, for who must not hold the store for so long; [`Self::tell_told`] takes it.
+    pub fn filtered(
+        schema: &Schema,
+        filter: &mut Filter,
+        index: usize,
+        outcome: Outcome,
+        value: &mut [u8],
+        now_ms: u32,
+    ) -> Outcome {
+        match schema.items.get(index) {
+            Some(item) if outcome == Outcome::Fresh => filter.apply(item, now_ms, value),
+            Some(_) | None => outcome,
+        }
+    }
+
+    /// A reading that came to `outcome`, and what its filter has made of it.
+    pub fn tell_told(
+        &mut self,
+        health: &mut Health,
+        index: usize,
+        (outcome, told): (Outcome, Outcome),
+        value: &[u8],
+        now_ms: u32,
+    ) {
+        if told == Outcome::Nothing {
+            // The device answered; the filter keeps the value from the host.
+            health.note(index, outcome, now_ms);
+        } else {
+            self.tell_plain(health, index, told, value, now_ms);
+        }
+    }
+
     /// The same without a filter: who has none anywhere calls this, and nothing of filters is linked.
     pub fn tell_plain(
         &mut self,
@@ -114,16 +146,8 @@ impl Store {
         value: &mut [u8],
         now_ms: u32,
     ) {
-        let mut told = outcome;
-        if let (Outcome::Fresh, Some(item)) = (outcome, self.schema.items.get(index)) {
-            told = filter.apply(item, now_ms, value);
-        }
-        if told == Outcome::Nothing {
-            // The device answered; the filter keeps the value from the host.
-            health.note(index, outcome, now_ms);
-        } else {
-            self.tell_plain(health, index, told, value, now_ms);
-        }
+        let told = Self::filtered(self.schema, filter, index, outcome, value, now_ms);
+        self.tell_told(health, index, (outcome, told), value, now_ms);
     }
 
     /// Whether anything is due.

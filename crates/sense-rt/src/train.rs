@@ -64,6 +64,18 @@ impl Train {
         self.building_count = 0;
     }
 
+    fn spoil(&mut self) {
+        self.is_inside = false;
+        self.spoilt = self.spoilt.wrapping_add(1);
+    }
+
+    /// An edge was not taken in time: the train that it is of does not count.
+    pub fn on_loss(&mut self) {
+        if self.is_inside {
+            self.spoil();
+        }
+    }
+
     /// The time between two edges of one direction, where the timer measures that itself.
     pub fn on_interval(&mut self, config: &TrainConfig, interval_ticks: u32) {
         if interval_ticks > config.gap_ticks {
@@ -74,10 +86,7 @@ impl Train {
                     *place = interval_ticks;
                     self.building_count += 1;
                 }
-                Some(_) | None => {
-                    self.is_inside = false;
-                    self.spoilt = self.spoilt.wrapping_add(1);
-                }
+                Some(_) | None => self.spoil(),
             }
         }
     }
@@ -112,5 +121,35 @@ impl Train {
             store_ratio(item.scalar, numerator, config.tick_hz.into(), element);
         }
         Outcome::Fresh
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Scalar;
+
+    const CONFIG: TrainConfig =
+        TrainConfig { tick_hz: 1_000_000, gap_ticks: 2_700, min_ticks: 500 };
+    const ITEM: Item = Item::sensor(20, Scalar::Uint16, 3);
+
+    #[test]
+    fn a_train_of_which_an_edge_was_missed_does_not_count() {
+        let (mut train, mut seen, mut value) = (Train::NEW, 0, [0; 6]);
+        let mut feed = |lost: Option<usize>| {
+            for (place, ticks) in [5_000, 1_000, 1_200, 1_400, 5_000].into_iter().enumerate() {
+                if lost == Some(place) {
+                    train.on_loss();
+                } else if lost.map(|lost| lost.wrapping_sub(1)) != Some(place) {
+                    train.on_interval(&CONFIG, ticks);
+                }
+            }
+            train.read(&CONFIG, &mut seen, &ITEM, &mut value)
+        };
+        assert_eq!(feed(None), Outcome::Fresh);
+        // The interval that ends with the missed edge never comes, and the next one is told with the loss.
+        assert_eq!(feed(Some(2)), Outcome::Nothing);
+        assert_eq!(feed(None), Outcome::Fresh);
+        assert_eq!(train.spoilt(), 1);
     }
 }

@@ -261,6 +261,11 @@ impl EmulatedBoard {
         }
     }
 
+    /// The host opens its port, or closes it.
+    pub fn link_open(&mut self, is_open: bool) {
+        self.machine.link_open(is_open);
+    }
+
     /// What has arrived at the host since the last call.
     pub fn link_read(&mut self) -> Vec<u8> {
         let mut bytes = std::mem::take(&mut self.garbage);

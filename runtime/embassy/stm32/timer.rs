@@ -1,5 +1,6 @@
 //! Timers that capture edges and pulses.
 
+use embassy_stm32::pac::timer::TimGp16;
 use embassy_stm32::timer::input_capture::InputCapture;
 use embassy_stm32::timer::pwm_input::PwmInput;
 use embassy_stm32::timer::{Channel, GeneralInstance4Channel};
@@ -73,9 +74,25 @@ pub async fn measure<T: GeneralInstance4Channel>(
     }
 }
 
+/// Whether an edge came before the one ahead of it was taken, since the last call: the timer has kept the later one.
+fn has_lost<T: GeneralInstance4Channel>(channel: Channel) -> bool {
+    // The pointer is that of the timer's registers, of which all such timers have these.
+    let timer = unsafe { TimGp16::from_ptr(T::regs()) };
+    let has_lost = timer.sr().read().ccof(channel.index());
+    if has_lost {
+        // Flags that are written as 1 stay as they are.
+        timer.sr().write(|flags| {
+            flags.0 = u32::MAX;
+            flags.set_ccof(channel.index(), false);
+        });
+    }
+    has_lost
+}
+
 /// Measures the intervals of a pulse train, for ever. What is longer than the timer counts is a gap.
 pub async fn train<T: GeneralInstance4Channel>(
     mut timer: PwmInput<'static, T>,
+    channel: Channel,
     config: &TrainConfig,
     seen: &SeenTrain,
 ) -> ! {
@@ -85,10 +102,17 @@ pub async fn train<T: GeneralInstance4Channel>(
     loop {
         let ticks = timer.wait_for_period().await;
         let now = Instant::now();
-        let is_whole = last.replace(now).is_some_and(|last| (now - last).as_micros() <= longest_us);
+        let is_lost = has_lost::<T>(channel);
+        // Before the first edge there is no interval, and what comes after it may be the rest of a train.
+        let Some(last) = last.replace(now) else { continue };
+        let is_whole = (now - last).as_micros() <= longest_us;
         seen.lock(|cell| {
             let mut train = cell.get();
-            train.on_interval(config, if is_whole { between(ticks) } else { u32::MAX });
+            if is_lost {
+                train.on_loss();
+            } else {
+                train.on_interval(config, if is_whole { between(ticks) } else { u32::MAX });
+            }
             cell.set(train);
         });
     }

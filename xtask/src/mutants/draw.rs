@@ -164,6 +164,13 @@ fn swapped(above: &str, below: &str) -> Option<String> {
 pub(super) struct Chance(pub(super) u64);
 
 impl Chance {
+    /// That of the mistake with a number, whatever was drawn before it.
+    pub(super) fn of(seed: u64, number: usize) -> Self {
+        let mut chance = Self(seed ^ u64::try_from(number).unwrap_or(0).rotate_right(16));
+        let _ = chance.below(2);
+        chance
+    }
+
     /// One of so many.
     pub(super) fn below(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);

@@ -4,24 +4,26 @@
 //! A number becomes another one, an operator its opposite, two rows of a table change places, a line is left out. Each
 //! is one object that is compiled again and a program that is linked again. Images are kept in the scratch folder, so that
 //! another judge needs no compiler; `--build` makes nothing but images. Each mistake is a line of a file that grows
-//! (`--into`), of which `--page` makes Markdown.
+//! (`--into`), of which `--page` makes Markdown; what is in it already is not done again, so that a campaign that was
+//! stopped goes on with the same call. `--only WORD` takes the lines away that have the word, and does them again.
+//! `--least PERCENT` fails where fewer of the mistakes that change anything are noticed.
 
+mod campaign;
 mod draw;
 mod page;
+mod same;
 mod subject;
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail, ensure};
 
 use crate::say;
-use draw::Chance;
-use subject::{Settings, Subject, target};
+use subject::Settings;
 
 const USAGE: &str = "[CHIBIOS=FOLDER] cargo xtask mutants --program SENSEDSL [--design FILE]... \
                      [--target chibios|embassy] [--count N] [--seed N] [--seconds N] [--scratch FOLDER] \
-                     [--into FILE] [--build], or --page FILE";
+                     [--into FILE] [--jobs N] [--only WORD] [--least PERCENT] [--build], or --page FILE";
 const EXAMPLES: [&str; 8] = [
     "all_kinds",
     "fig2",
@@ -42,6 +44,11 @@ struct Options {
     count: usize,
     seed: u64,
     into: PathBuf,
+    jobs: usize,
+    /// What of the file is done again.
+    only: Option<String>,
+    /// How many per cent must be noticed.
+    least: usize,
 }
 
 impl Options {
@@ -59,6 +66,9 @@ impl Options {
             count: 60,
             seed: 1,
             into: "target/mutants/drawn.tsv".into(),
+            jobs: 2,
+            only: None,
+            least: 0,
         };
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
@@ -76,6 +86,9 @@ impl Options {
                 "--seconds" => options.settings.seconds.clone_from(next),
                 "--scratch" => options.settings.scratch = next.into(),
                 "--into" => options.into = next.into(),
+                "--jobs" => options.jobs = next.parse().context(USAGE)?,
+                "--least" => options.least = next.parse().context(USAGE)?,
+                "--only" => options.only = Some(next.clone()),
                 _ => bail!(USAGE),
             }
         }
@@ -105,38 +118,10 @@ pub(super) fn run(arguments: &[String]) -> Result<()> {
         return say(&page::page(&std::fs::read_to_string(file)?));
     }
     let options = Options::read(arguments)?;
-    let pairs = options.pairs();
-    let mut subjects: Vec<Option<Option<Subject<'_>>>> = pairs.iter().map(|_| None).collect();
-    let mut chance = Chance(options.seed);
-    let mut into = std::fs::File::options().create(true).append(true).open(&options.into)?;
-    for number in 0..options.count {
-        let turn = number % pairs.len().max(1);
-        let (Some((design, is_rust)), Some(slot)) = (pairs.get(turn), subjects.get_mut(turn))
-        else {
-            continue;
-        };
-        let subject = match slot {
-            Some(subject) => subject,
-            None => {
-                let made = Subject::new(&options.settings, design, *is_rust);
-                if let Err(why) = &made {
-                    say(&format!("{} is left out: {why:#}\n", design.display()))?;
-                }
-                slot.insert(made.ok())
-            }
-        };
-        let Some(subject) = subject else { continue };
-        let [generated, runtime] = &subject.groups;
-        let is_runtime = (number / pairs.len().max(1)) % 2 == 1;
-        let group = if is_runtime { runtime } else { generated };
-        let Some(site) = group.get(chance.below(group.len())) else { continue };
-        let text = std::fs::read_to_string(&site.file)?;
-        let (class, said) = subject.outcome(site)?;
-        let place = site.file.strip_prefix(&subject.board).unwrap_or(&site.file).display();
-        let place = format!("{place}:{}", site.line);
-        let (target, told) = (target(subject.is_rust), site.told(&text));
-        let cells = [target, &subject.name, site.sort, &place, &told, &class, &said];
-        writeln!(into, "{}", cells.map(|cell| cell.replace('\t', " ")).join("\t"))?;
-    }
-    say(&page::page(&std::fs::read_to_string(&options.into)?))
+    campaign::run(&options)?;
+    let lines = std::fs::read_to_string(&options.into)?;
+    say(&page::page(&lines))?;
+    let share = page::share(&lines);
+    ensure!(share >= options.least, "{share} % are noticed, and not {} %", options.least);
+    Ok(())
 }

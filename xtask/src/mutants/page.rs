@@ -3,13 +3,28 @@
 use std::collections::BTreeMap;
 
 /// The classes in the order of the table: as they are written down, and as people read them.
-const CLASSES: [(&str, &str); 5] = [
+const CLASSES: [(&str, &str); 6] = [
     ("compiler", "refused by the compiler"),
     ("same program", "the same program, byte for byte"),
-    ("same behaviour", "the same bytes, levels and pulses at the same times, in both worlds"),
+    ("same behaviour", "the same levels, pulses, transfers, frames and values in both worlds"),
     ("command", "noticed by the command"),
     ("nobody", "noticed by nobody"),
+    ("late", "not run to the end"),
 ];
+
+/// How many mistakes the command has noticed, and how many that change what comes out it has not.
+fn noticed(lines: &str) -> [usize; 2] {
+    ["command", "nobody"].map(|class| {
+        let is_of = |line: &&str| line.split('\t').nth(6) == Some(class);
+        lines.lines().filter(is_of).count()
+    })
+}
+
+/// How many per cent of those that change what comes out are noticed.
+pub(super) fn share(lines: &str) -> usize {
+    let [noticed, escaped] = noticed(lines);
+    (100 * noticed).checked_div(noticed + escaped).unwrap_or(100)
+}
 
 /// A table of counts, and one of those that nobody noticed.
 pub(super) fn page(lines: &str) -> String {
@@ -17,7 +32,7 @@ pub(super) fn page(lines: &str) -> String {
     let cell = |row: &[&str], at: usize| row.get(at).copied().unwrap_or_default().to_owned();
     let mut counts: BTreeMap<(String, String), usize> = BTreeMap::new();
     for row in &rows {
-        *counts.entry((cell(row, 5), cell(row, 0))).or_default() += 1;
+        *counts.entry((cell(row, 6), cell(row, 1))).or_default() += 1;
     }
     let count = |class: &str, target: &str| {
         counts.get(&(class.to_owned(), target.to_owned())).copied().unwrap_or(0)
@@ -27,11 +42,17 @@ pub(super) fn page(lines: &str) -> String {
         let (one, other) = (count(class, "chibios"), count(class, "embassy"));
         text.push_str(&format!("| {told} | {one} | {other} | {} |\n", one + other));
     }
-    text.push_str(&format!("\n{} mistakes were drawn.\n", rows.len()));
+    let [noticed, escaped] = noticed(lines);
+    let share = share(lines);
+    text.push_str(&format!(
+        "\n{} mistakes were drawn; of {} that change what comes out, {noticed} are noticed: {share} %.\n",
+        rows.len(),
+        noticed + escaped
+    ));
     text.push_str("\n| mistake that nobody notices | |\n| --- | --- |\n");
-    for row in rows.iter().filter(|row| cell(row, 5) == "nobody") {
-        let [target, design, sort, place, told] = [0, 1, 2, 3, 4].map(|at| cell(row, at));
-        let said = cell(row, 6).replace('|', "\\|");
+    for row in rows.iter().filter(|row| cell(row, 6) == "nobody") {
+        let [target, design, sort, place, told] = [1, 2, 3, 4, 5].map(|at| cell(row, at));
+        let said = cell(row, 7).replace('|', "\\|");
         text.push_str(&format!("| {target}, {design}: {sort} at {place}: {told} | {said} |\n"));
     }
     text

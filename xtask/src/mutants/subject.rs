@@ -6,10 +6,15 @@ use std::process::{Command, Output};
 
 use anyhow::{Context as _, Result, ensure};
 
-use super::draw::{self, Site};
+use sensedsl_wire::Schema;
 
-/// A program that runs in circles is ended after so many seconds.
-const PATIENCE_S: &str = "60";
+use super::draw::{self, Site};
+use super::same::{self, Seen};
+
+/// A run that takes more seconds counts for nothing.
+const PATIENCE_S: &str = "240";
+/// The status of what ends it.
+const OUT_OF_TIME: i32 = 124;
 /// The board whose MCU is emulated.
 const EMULATED: &str = "STM32F407G_DISC1";
 /// The class of what is to be run.
@@ -38,20 +43,27 @@ pub(super) struct Subject<'a> {
     pub(super) board: PathBuf,
     /// Generated files, and the runtime.
     pub(super) groups: [Vec<Site>; 2],
+    schema: Schema,
     right: Vec<u8>,
     /// What it does in the usual world, and in its own.
-    seen: Vec<Vec<u8>>,
+    seen: Vec<Seen>,
 }
 
 /// What the command says, and what came out of the MCU.
 struct Run {
     said: Option<String>,
-    seen: Vec<u8>,
+    is_out_of_time: bool,
+    seen: Seen,
 }
 
 impl<'a> Subject<'a> {
     /// Generates, builds and runs it.
-    pub(super) fn new(settings: &'a Settings, file: &Path, is_rust: bool) -> Result<Self> {
+    pub(super) fn new(
+        settings: &'a Settings,
+        file: &Path,
+        is_rust: bool,
+        embassy: &Path,
+    ) -> Result<Self> {
         let stem = file.file_stem().context("a design has a name")?.to_string_lossy().into_owned();
         let folder = settings.scratch.join(format!("{stem}-{}", target(is_rust)));
         std::fs::create_dir_all(&folder)?;
@@ -60,6 +72,7 @@ impl<'a> Subject<'a> {
         let short = stem.strip_prefix("miniature_").unwrap_or(&stem);
         let world = file.with_file_name("worlds").join(format!("{short}.toml"));
         let world = world.is_file().then_some(world);
+        let schema = same::schema(&design, target(is_rust))?;
         let mut subject = Self {
             settings,
             name: stem,
@@ -68,20 +81,22 @@ impl<'a> Subject<'a> {
             is_rust,
             board: PathBuf::new(),
             groups: Default::default(),
+            schema,
             right: Vec::new(),
             seen: Vec::new(),
         };
         subject.board = subject.generate(&folder)?;
-        let built = subject.build()?;
+        let built = subject.build(embassy)?;
         ensure!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
         subject.right = subject.flash()?;
         subject.groups = subject.sites()?;
-        let image = subject.image()?;
+        let image = subject.image();
         let worlds = if settings.is_building { Vec::new() } else { subject.worlds() };
         let runs: Result<Vec<Run>> =
             worlds.into_iter().map(|world| subject.run(world, &image)).collect();
         for run in runs? {
             let name = &subject.name;
+            ensure!(!run.is_out_of_time, "{name}: the program without a mistake takes too long");
             ensure!(run.said.is_none(), "{name}: a false alarm: {}", run.said.unwrap_or_default());
             subject.seen.push(run.seen);
         }
@@ -107,7 +122,7 @@ impl<'a> Subject<'a> {
         Ok(folder.join("firmware").join(board.context("a design has a board")?))
     }
 
-    fn build(&self) -> Result<Output> {
+    fn build(&self, embassy: &Path) -> Result<Output> {
         if !self.is_rust {
             let tree = std::env::var("CHIBIOS").context("CHIBIOS names the tree")?;
             let mut make = Command::new("make");
@@ -118,32 +133,36 @@ impl<'a> Subject<'a> {
         let main = std::fs::File::options().append(true).open(self.board.join("src/main.rs"))?;
         main.set_modified(std::time::SystemTime::now())?;
         let mut cargo = Command::new("cargo");
-        cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--target-dir"]);
+        cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--offline"]);
+        cargo.arg("--target-dir").arg(embassy);
         let linker = format!("target.{TRIPLE}.linker=\"arm-none-eabi-ld\"");
-        cargo.arg(Path::new("target/embassy-build").canonicalize()?);
         // As the tests build it: what is optimised at link time takes long and does the same.
         for setting in [&linker, "profile.release.lto=false", "profile.release.codegen-units=16"] {
             cargo.args(["--config", setting]);
         }
         cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", "/usr/bin/rustc").env_remove("RUSTFLAGS");
-        Ok(cargo.current_dir(&self.board).output()?)
+        let output = cargo.current_dir(&self.board).output()?;
+        if output.status.success() {
+            let built = embassy.join(TRIPLE).join("release/firmware");
+            let _ = std::fs::copy(built, self.image())?;
+        }
+        Ok(output)
     }
 
-    fn image(&self) -> Result<PathBuf> {
-        if !self.is_rust {
-            return Ok(self.board.join("build/production/sense.elf"));
+    /// The program that was built last.
+    fn image(&self) -> PathBuf {
+        if self.is_rust {
+            self.design.with_extension("elf")
+        } else {
+            self.board.join("build/production/sense.elf")
         }
-        let built = Path::new("target/embassy-build").join(TRIPLE).join("release/firmware");
-        let image = self.design.with_extension("elf");
-        let _ = std::fs::copy(built, &image)?;
-        Ok(image)
     }
 
     /// What is written to the flash.
     fn flash(&self) -> Result<Vec<u8>> {
         let to = self.design.with_extension("bin");
         let mut copy = Command::new("arm-none-eabi-objcopy");
-        copy.args(["-O", "binary"]).arg(self.image()?).arg(&to);
+        copy.args(["-O", "binary"]).arg(self.image()).arg(&to);
         ensure!(copy.status()?.success(), "objcopy failed");
         Ok(std::fs::read(to)?)
     }
@@ -163,17 +182,15 @@ impl<'a> Subject<'a> {
             let _ = std::fs::remove_file(file);
         }
         let output = simulate.arg("--firmware").arg(image).output()?;
-        let mut seen = Vec::new();
-        for file in [&wires, &frames] {
-            seen.extend(std::fs::read(file).unwrap_or_default());
-        }
-        if output.status.success() {
-            return Ok(Run { said: None, seen });
-        }
+        let seen = Seen {
+            frames: std::fs::read(&frames).unwrap_or_default(),
+            wires: std::fs::read_to_string(&wires).unwrap_or_default(),
+        };
+        let is_out_of_time = output.status.code() == Some(OUT_OF_TIME);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         let first = text.lines().find(|line| line.starts_with("error"));
-        let said = Some(first.unwrap_or("it never ended").to_owned());
-        Ok(Run { said, seen })
+        let said = first.unwrap_or("the command has ended without a word").to_owned();
+        Ok(Run { said: (!output.status.success()).then_some(said), is_out_of_time, seen })
     }
 
     /// All places: those of generated files, and those of the runtime.
@@ -191,13 +208,13 @@ impl<'a> Subject<'a> {
     }
 
     /// What comes of a mistake: a class and what was said.
-    pub(super) fn outcome(&self, site: &Site) -> Result<(String, String)> {
+    pub(super) fn outcome(&self, site: &Site, embassy: &Path) -> Result<(String, String)> {
         let kept = self.kept(site)?;
         let class = kept.with_extension("class");
         if !class.is_file() {
             let text = std::fs::read_to_string(&site.file)?;
             std::fs::write(&site.file, site.made(&text))?;
-            let made = self.made(&kept);
+            let made = self.made(&kept, embassy);
             std::fs::write(&site.file, text)?;
             std::fs::write(&class, made?)?;
         }
@@ -221,8 +238,8 @@ impl<'a> Subject<'a> {
     }
 
     /// Builds what has a mistake in it, and keeps the image. Gives what came of it.
-    fn made(&self, kept: &Path) -> Result<&'static str> {
-        let built = self.build()?;
+    fn made(&self, kept: &Path, embassy: &Path) -> Result<&'static str> {
+        let built = self.build(embassy)?;
         let said = String::from_utf8_lossy(&built.stderr).into_owned();
         if !built.status.success() || said.contains("warning") {
             return Ok("compiler");
@@ -230,21 +247,25 @@ impl<'a> Subject<'a> {
         if self.flash()? == self.right {
             return Ok("same program");
         }
-        let _ = std::fs::copy(self.image()?, kept)?;
+        let _ = std::fs::copy(self.image(), kept)?;
         Ok(IMAGE)
     }
 
+    /// What the command says in the usual world; of what it says nothing, whether it is another behaviour at all.
     fn tried(&self, image: &Path) -> Result<(&'static str, String)> {
+        let mut what = None;
         for (world, right) in self.worlds().into_iter().zip(&self.seen) {
             let run = self.run(world, image)?;
+            if run.is_out_of_time {
+                return Ok(("late", String::new()));
+            }
             match run.said {
                 Some(said) if world.is_none() => return Ok(("command", said)),
                 Some(said) => return Ok(("nobody", format!("in the example's world: {said}"))),
-                None if run.seen != *right => return Ok(("nobody", String::new())),
-                None => {}
+                None => what = what.or_else(|| same::differ(&self.schema, right, &run.seen)),
             }
         }
-        Ok(("same behaviour", String::new()))
+        Ok(what.map_or(("same behaviour", String::new()), |what| ("nobody", what)))
     }
 }
 

@@ -257,6 +257,7 @@ impl Desk {
         match what {
             0 => contact.on_edge(config, level, now),
             1 => contact.look(config, level, now),
+            2 => contact.sample(config, level, now),
             _ => {
                 if let Some(level) = told.tell(config, contact) {
                     write!(out, " {}", u8::from(level)).unwrap();

@@ -350,6 +350,8 @@ static void see_contact(void) {
     up_contact_on_edge(&contact_config, &contact, level, now);
   } else if (what == 1U) {
     up_contact_look(&contact_config, &contact, level, now);
+  } else if (what == 2U) {
+    up_contact_sample(&contact_config, &contact, level, now);
   } else if (up_contact_tell(&contact_config, &contact, &contact_told)) {
     printf(" %u", (unsigned)contact_told.level);
   }

@@ -250,7 +250,7 @@ fn pins(random: &mut Random, all: &mut Vec<String>) {
     }
     all.push(format!("contact {} {}", random.below(3) * random.below(30), random.below(3)));
     for _ in 0..16 {
-        all.push(format!("see {} {} {now}", random.below(3), random.below(2)));
+        all.push(format!("see {} {} {now}", random.below(4), random.below(2)));
         now = now.wrapping_add(random.below(20) as u32);
     }
     all.push(format!("bridge {} {}", random.below(2), random.below(20_000)));

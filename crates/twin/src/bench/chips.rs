@@ -46,8 +46,16 @@ impl Bench {
     /// The parts on buses with which the board has done something that their drivers do not say, and what.
     #[must_use]
     pub fn odd_transfers(&self) -> Vec<(String, String)> {
-        let all = self.chips.iter();
-        all.filter_map(|one| Some((one.name.clone(), one.registers.odd()?.to_owned()))).collect()
+        let odd = |one: &Chip| {
+            let of_bus = self.chips.iter().filter(|other| other.unit == one.unit).count();
+            let registers = &one.registers;
+            let told = registers.odd().map(str::to_owned);
+            // What a fault of the world has undone may not be done again yet.
+            let not_set_up = || registers.not_set_up().filter(|_| self.faults.is_empty());
+            let parts = u64::try_from(of_bus).unwrap_or(u64::MAX);
+            told.or_else(not_set_up).or_else(|| registers.waits_too_long(parts))
+        };
+        self.chips.iter().filter_map(|one| Some((one.name.clone(), odd(one)?))).collect()
     }
 
     /// From one measurement of a part to the next, where it measures at a pace of its own; otherwise 0.

@@ -170,6 +170,12 @@ impl<'a> Commands<'a> {
         }
     }
 
+    /// The actuators that the host has set so far, by their identifiers, and when it has done so last.
+    #[must_use]
+    pub fn told(&self) -> Vec<(u8, u64)> {
+        self.actors.iter().filter_map(Actor::told).collect()
+    }
+
     /// The run is over.
     #[must_use]
     pub fn finish(self) -> Vec<Tried> {

@@ -187,6 +187,11 @@ impl Actor {
         Some(value.clone())
     }
 
+    /// Its identifier, and when it was told something last.
+    pub(super) fn told(&self) -> Option<(u8, u64)> {
+        self.told.as_ref().map(|(at_ns, _)| (self.id, *at_ns))
+    }
+
     /// Whether it has been told everything, and has been looked at.
     pub(super) fn is_done(&self, now_ns: u64) -> bool {
         self.next >= self.steps.len() && self.settles_ns.is_none_or(|at| at < now_ns)

@@ -83,6 +83,8 @@ const fn times(count: u16) -> &'static str {
 
 /// How far a board's clock may be off, and how long it may take to begin.
 const CLOCK_MS: u64 = 500;
+/// How long a command may take until it counts.
+const SET_NS: u64 = 500 * MS;
 /// Reports on their way when the board counts them.
 const UNDERWAY: u64 = 2;
 
@@ -116,36 +118,68 @@ pub(super) fn wrong(at_ns: u64, what: String) -> Wrong {
     Wrong { at_ns, finding: Finding::Health(what), off: 100_000.0 }
 }
 
-/// A device that reports nothing: its bus may still tell of faults.
+/// A device that reports nothing: its bus may still tell of faults, and the board knows when it was set.
 #[derive(Clone, Debug)]
 pub(super) struct OtherJudge {
     pub(super) id: u8,
     pub(super) judged: Judged,
     pub(super) is_well: bool,
+    /// When the host has set it last.
+    pub(super) told_ns: Option<u64>,
 }
 
 impl OtherJudge {
     pub(super) fn new(job: &BoardJob<'_>, bench: &Bench, one: &JobDevice<'_>) -> Self {
         let judged = Judged::new(one.name().to_owned(), one.device.shown.quantity.clone());
         let is_well = bench.excused(job, one.index).is_empty();
-        Self { id: one.device.id.value, judged, is_well }
+        Self { id: one.device.id.value, judged, is_well, told_ns: None }
     }
 
+    /// What is set has no cycle in which it would have to come again: it is never stale, and as old as the command.
     pub(super) fn health(&mut self, now_ns: u64, row: &DeviceHealth) {
+        let since_ns = self.told_ns.map(|at_ns| now_ns.saturating_sub(at_ns));
         let expected = Expected {
             is_well: self.is_well,
             was_well: self.is_well,
             may_be_invalid: false,
-            age_ns: None,
+            age_ns: since_ns.filter(|since_ns| *since_ns > SET_NS).map(|ns| ns + SET_NS),
             halves: 0,
         };
-        self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
+        let stale = (self.is_well && row.status == Status::Stale)
+            .then(|| "stale, though it is set and not read".to_owned());
+        let what = stale.or_else(|| expected.differs(row));
+        self.judged.note(what.map(|what| wrong(now_ns, what)));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_set_is_never_stale_and_as_old_as_its_command() {
+        let judge = |told_ns| OtherJudge {
+            id: 20,
+            judged: Judged::new("Motor".to_owned(), None),
+            is_well: true,
+            told_ns,
+        };
+        let row =
+            |status, age_ms| DeviceHealth { id: 20, status, age_ms, causes: Causes::default() };
+        for (told_ns, status, age_ms, is_right) in [
+            (Some(4_000 * MS), Status::Good, 2_000, true),
+            (Some(4_000 * MS), Status::Stale, 2_000, false),
+            (Some(4_000 * MS), Status::NeverRead, NEVER_MS, false),
+            (Some(4_000 * MS), Status::Good, 4_000, false),
+            (Some(5_900 * MS), Status::NeverRead, NEVER_MS, true),
+            (None, Status::NeverRead, NEVER_MS, true),
+            (None, Status::Stale, 5_000, false),
+        ] {
+            let mut judge = judge(told_ns);
+            judge.health(6_000 * MS, &row(status, age_ms));
+            assert_eq!(judge.judged.wrong == 0, is_right, "{told_ns:?} {status:?} {age_ms}");
+        }
+    }
 
     #[test]
     fn what_a_board_says_of_itself_is_compared_with_what_came() {

@@ -188,6 +188,15 @@ impl Judge {
         }
     }
 
+    /// When the host has set an actuator last, by its identifier.
+    pub fn told(&mut self, told: &[(u8, u64)]) {
+        for (id, at_ns) in told {
+            if let Some(other) = self.others.iter_mut().find(|one| one.id == *id) {
+                other.told_ns = Some(*at_ns);
+            }
+        }
+    }
+
     /// The board has said how it and its devices are.
     pub fn health(&mut self, now_ns: u64, health: &Health) {
         if let Some(board) = self.undisturbed.clone() {
@@ -226,20 +235,31 @@ impl Judge {
         self.say_of_board(now_ns, board, "nothing, though it was asked".to_owned());
     }
 
+    /// What the board does with a host that has left and is back.
+    pub fn comes_back(&mut self, now_ns: u64, what: String) {
+        let mut judged = Judged::new(self.board.clone(), None);
+        judged.note(Some(Wrong {
+            at_ns: now_ns,
+            finding: Finding::Transfer(what),
+            off: 200_000.0,
+        }));
+        self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+    }
+
     /// What the board has done with parts on buses that their drivers do not say.
     pub fn transfers(&mut self, now_ns: u64, odd: &[(String, String)]) {
         for (part, what) in odd {
             let mut judged = Judged::new(part.clone(), None);
             let finding = Finding::Transfer(what.clone());
             judged.note(Some(Wrong { at_ns: now_ns, finding, off: 50.0 }));
-            self.others.push(OtherJudge { id: 0, judged, is_well: false });
+            self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
         }
     }
 
     fn say_of_board(&mut self, now_ns: u64, board: &str, what: String) {
         let mut judged = Judged::new(board.to_owned(), None);
         judged.note(Some(health::wrong(now_ns, what)));
-        self.others.push(OtherJudge { id: 0, judged, is_well: false });
+        self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
     }
 
     /// The run is over.

@@ -330,9 +330,28 @@ impl SensorJudge {
         self.judged.note(expected.differs(row).map(|what| wrong(now_ns, what)));
     }
 
+    /// A device that has never reported: each silence alone may have a reason, but not all of them together.
+    fn mute(&mut self, now_ns: u64) {
+        let has_reported = self.judged.reports + self.judged.excused + self.judged.wrong > 0;
+        let Some(pace) = self.pace.filter(|_| !has_reported) else { return };
+        let excuses = &self.excuses;
+        let faults = |from_ns: u64, to_ns: u64| {
+            excuses.iter().any(|&(at, until)| at <= to_ns && until + RECOVERY_NS >= from_ns)
+        };
+        let span = (self.start_ns, now_ns);
+        let silent_ns = self.reasons.reportable_ns(&self.subject, span, &faults);
+        // A median may want several values before it has one.
+        let cycles = 2 + u64::from(self.reasons.filter.median);
+        if silent_ns > cycles * pace.most_ns + self.judged.age_ns {
+            let finding = Finding::Silence(crate::bench::seconds(now_ns));
+            self.judged.note(Some(Wrong { at_ns: now_ns, finding, off: 10.0 }));
+        }
+    }
+
     /// The run is over.
     pub(super) fn finish(&mut self, now_ns: u64) {
         self.silence(now_ns);
+        self.mute(now_ns);
         self.judged.every_ns = self.paced.mean_ns();
         let may_be_slow = self.reasons.filter.change.is_some();
         let differs = self.pace.and_then(|pace| self.paced.differs(now_ns, &pace, may_be_slow));

@@ -53,6 +53,25 @@ impl Reasons {
         since_ns
     }
 
+    /// How much of a span the world gives the device something to report.
+    pub(super) fn reportable_ns(
+        &self,
+        subject: &Subject,
+        (from_ns, now_ns): (u64, u64),
+        faults: &dyn Fn(u64, u64) -> bool,
+    ) -> u64 {
+        let piece_ns = (20 * MS).max(now_ns.saturating_sub(from_ns) / PIECES_MAX);
+        let (mut at_ns, mut sum_ns) = (from_ns, 0);
+        while at_ns < now_ns {
+            let end_ns = (at_ns + piece_ns).min(now_ns);
+            if !self.is_mute(subject, (at_ns, end_ns)) && !faults(at_ns, end_ns) {
+                sum_ns += end_ns - at_ns;
+            }
+            at_ns = end_ns;
+        }
+        sum_ns
+    }
+
     /// Whether what is measured in a span may be nothing that is reported.
     pub(super) fn is_mute(&self, subject: &Subject, (from_ns, to_ns): (u64, u64)) -> bool {
         let early_ns = from_ns.saturating_sub(self.age_ns);

@@ -116,6 +116,11 @@ impl Machine {
         self.core.chip().wires.link.to_mcu.extend(bytes);
     }
 
+    /// A program of the host opens the port, or closes it. Only a host over USB can tell the board.
+    pub fn link_open(&mut self, is_open: bool) {
+        self.core.chip().wires.link.is_open = is_open;
+    }
+
     /// How many bytes of the host's have not arrived yet.
     #[must_use]
     pub fn link_waiting(&self) -> usize {

@@ -11,6 +11,8 @@ const DEBOUNCE_NS: u64 = 100_000_000;
 const RESET_NS: u64 = 10_000_000;
 /// A request that is not answered for so long is made again after a reset.
 const PATIENCE_TURNS: u32 = 20_000;
+/// The request that says whether a program has the port open, the last one of the list.
+const LINES: usize = 7;
 /// The longest packet of an endpoint at full speed.
 const PACKET_BYTES: usize = 64;
 
@@ -49,6 +51,8 @@ pub(super) struct Host {
     input: usize,
     output: usize,
     interface: u8,
+    /// What it has told the device of its port.
+    is_open: bool,
 }
 
 /// A request of the enumeration: its packet, and what is sent with it.
@@ -87,6 +91,7 @@ impl Host {
             input: 1,
             output: 1,
             interface: 0,
+            is_open: true,
         }
     }
 
@@ -120,9 +125,16 @@ impl Host {
                 self.enumerate(at, usb);
                 self.next_ns = now + TURN_NS;
             }
+            State::Running if wires.link.is_open != self.is_open => {
+                self.is_open = wires.link.is_open;
+                (self.state, self.step) = (State::Enumerating(LINES), Step::Setup);
+                self.next_ns = now + TURN_NS;
+            }
             State::Running => {
                 self.frame(usb, now);
-                self.exchange(usb, wires, now);
+                if self.is_open {
+                    self.exchange(usb, wires, now);
+                }
                 self.next_ns = now + TURN_NS;
             }
         }
@@ -147,7 +159,10 @@ impl Host {
             4 => (request(0x80, 6, 0x0200, 0, self.configuration_bytes), Vec::new()),
             5 => (request(0x00, 9, u16::from(self.configuration), 0, 0), Vec::new()),
             6 => (request(0x21, 0x20, 0, interface, 7), line),
-            7 => (request(0x21, 0x22, 3, interface, 0), Vec::new()),
+            LINES => {
+                let lines = if self.is_open { 3 } else { 0 };
+                (request(0x21, 0x22, lines, interface, 0), Vec::new())
+            }
             _ => return None,
         };
         Some(Enquiry { packet, data })

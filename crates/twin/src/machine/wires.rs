@@ -38,6 +38,8 @@ pub(super) struct Link {
     pub port: LinkPort,
     pub to_mcu: VecDeque<u8>,
     pub from_mcu: Vec<(u64, u8)>,
+    /// Whether a program of the host has the port open.
+    pub is_open: bool,
 }
 
 /// Requests to the DMA controllers, by who asks.
@@ -120,7 +122,7 @@ const IRQS: usize = 82;
 
 impl Wires {
     pub(super) fn new(world: Arc<Mutex<dyn Surroundings>>, port: LinkPort) -> Self {
-        let link = Link { port, to_mcu: VecDeque::new(), from_mcu: Vec::new() };
+        let link = Link { port, to_mcu: VecDeque::new(), from_mcu: Vec::new(), is_open: true };
         Self {
             now: 0,
             clocks: super::rcc::AT_RESET,

@@ -8,4 +8,5 @@ pub(crate) mod pulses;
 pub(crate) mod ranges;
 pub(crate) mod registers;
 pub(crate) mod sleep;
+pub(crate) mod waits;
 pub(crate) mod words;

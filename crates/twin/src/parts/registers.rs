@@ -10,6 +10,7 @@ use sensedsl_model::words::Words;
 
 use super::ranges::Ranges;
 use super::sleep::Sleep;
+use super::waits::Waits;
 use super::{formula, words};
 use crate::truth::Subject;
 
@@ -49,6 +50,8 @@ struct Measurement {
     trigger: Vec<u8>,
     began_ns: u64,
     ready_ns: u64,
+    /// How long it lasts, until it was taken.
+    wait_ns: Option<u64>,
 }
 
 /// A part with registers.
@@ -74,6 +77,7 @@ pub(crate) struct Registers {
     /// How much of what sets it up was written, and what the board has done that its driver does not say.
     begun: usize,
     odd: Option<String>,
+    waits: Waits,
 }
 
 impl Registers {
@@ -94,6 +98,7 @@ impl Registers {
             is_used: false,
             begun: 0,
             odd: None,
+            waits: Waits::default(),
         }
     }
 
@@ -102,12 +107,32 @@ impl Registers {
         let readings = std::mem::take(&mut self.readings);
         let (is_asked, is_used, odd) = (self.is_asked, self.is_used, self.odd.take());
         let new = Self::new(self.protocol.clone(), readings, self.sleep);
-        *self = Self { is_asked, is_used, odd, ..new };
+        *self = Self { is_asked, is_used, odd, waits: self.waits, ..new };
     }
 
     /// What the board has done first that the part's driver does not say; none where there is no such thing.
     pub(crate) fn odd(&self) -> Option<&str> {
         self.odd.as_deref()
+    }
+
+    /// What is wrong with how long the board waits for it; so many parts share its bus.
+    pub(crate) fn waits_too_long(&self, parts: u64) -> Option<String> {
+        self.waits.too_long(parts)
+    }
+
+    /// What sets a part up that was written to, and was never written. A part that is read tells it at once.
+    pub(crate) fn not_set_up(&self) -> Option<String> {
+        let missing = self.init().nth(self.begun).filter(|_| !self.controls.is_empty())?;
+        Some(format!("{} is never written, which sets it up", hex(missing)))
+    }
+
+    /// A reading begins: it takes the measurement that was there last.
+    fn taken(&mut self, now_ns: u64) {
+        if let Some(measurement) = &mut self.measurement
+            && let Some(wait_ns) = measurement.wait_ns.take()
+        {
+            self.waits.take(wait_ns, measurement.began_ns, now_ns);
+        }
     }
 
     /// A value is read: what sets the part up must have been written.
@@ -138,6 +163,11 @@ impl Registers {
 
     /// Behind which byte, from a register on, the driver says nothing; none where nothing is known of the register.
     fn end_of(&self, pointer: Option<u16>) -> Option<u16> {
+        // Calibration is read block by block, whatever lies behind it.
+        let block = self.protocol.calibration.iter().find(|(first, _)| Some(*first) == pointer);
+        if let Some((_, count)) = block {
+            return Some(*count);
+        }
         let behind = |register: Option<u16>, length: u16| {
             let first = match (pointer, register) {
                 (Some(pointer), Some(register)) => register.checked_sub(pointer)?,
@@ -200,6 +230,7 @@ impl Registers {
     pub(crate) fn start(&mut self, read: bool, subjects: &[Subject], now_ns: u64) {
         self.take_sent(now_ns);
         if read {
+            self.taken(now_ns);
             self.answer = self.answer(subjects, now_ns);
             self.at = 0;
         }
@@ -276,6 +307,7 @@ impl Registers {
                 self.sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));
             let mask = u16::from(self.protocol.read_mask) << (8 * (width - 1));
             self.pointer = Some(number & !mask);
+            self.taken(now_ns);
             self.answer = self.answer(subjects, now_ns);
         }
         // Whoever writes gets bytes as well, which mean nothing.
@@ -306,7 +338,9 @@ impl Registers {
         if let Some(one) = self.readings.iter().find(|one| one.trigger == sent) {
             // A driver names the longest time; parts are a little faster.
             let ready_ns = now_ns.saturating_add(one.wait_ns - one.wait_ns / 50);
-            self.measurement = Some(Measurement { trigger: sent, began_ns: now_ns, ready_ns });
+            let wait_ns = Some(one.wait_ns);
+            self.measurement =
+                Some(Measurement { trigger: sent, began_ns: now_ns, ready_ns, wait_ns });
             self.pointer = None;
             return;
         }

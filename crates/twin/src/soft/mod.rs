@@ -110,11 +110,13 @@ struct Link {
     sent: VecDeque<u8>,
     /// Thousandths of a byte that the line may still carry.
     credit: u64,
+    /// The host has closed its port, and the link can tell.
+    is_closed: bool,
 }
 
 impl Channel for Link {
     fn is_open(&mut self) -> bool {
-        true
+        !self.is_closed
     }
 
     fn read(&mut self, bytes: &mut [u8]) -> usize {
@@ -153,6 +155,7 @@ struct Side<'a> {
 impl Side<'_> {
     fn put(&mut self, index: usize, value: &[u8]) {
         self.core.store.put(index, value);
+        self.core.health.note(index, Outcome::Fresh, self.core.now_ms);
         for bus in self.buses.iter_mut() {
             bus.set(index, value);
         }
@@ -209,6 +212,14 @@ impl SoftBoard {
     pub fn link_write(&mut self, bytes: &[u8]) {
         let room = QUEUE_BYTES.saturating_sub(self.link.inbox.len());
         self.link.inbox.extend(bytes.iter().take(room));
+    }
+
+    /// The host opens its port, or closes it.
+    pub fn link_open(&mut self, is_open: bool) {
+        self.link.is_closed = !is_open;
+        if !is_open {
+            self.link.queue.clear();
+        }
     }
 
     /// What has arrived at the host since the last call.

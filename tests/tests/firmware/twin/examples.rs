@@ -53,7 +53,10 @@ fn assert_agrees(what: &str, trial: &Trial) {
 fn can_agrees(system: System) {
     let text = sensedsl_tests::text("tests/can/bus.sense");
     let Some(image) = system.image(&format!("can_bus_{system:?}"), &text) else { return };
-    assert_agrees(&format!("CAN, {system:?}"), &run(system, (&text, ""), &image, SECONDS, &[3_000]));
+    assert_agrees(
+        &format!("CAN, {system:?}"),
+        &run(system, (&text, ""), &image, SECONDS, &[3_000]),
+    );
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod examples;
 mod faults;
 mod frames;
 mod hosted;
+mod images;
 mod kinds;
 mod seeded;
 mod seeded_profiles;

@@ -96,7 +96,7 @@ fn input(
         own.debounce_us
     ));
     if own.edge.is_none() {
-        section.polls.push(format!("let _ = {kept}.look();"));
+        section.polls.push(format!("{kept}.sample();"));
     }
     Ok(())
 }

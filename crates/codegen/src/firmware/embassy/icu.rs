@@ -111,7 +111,9 @@ fn input(
                  sense_rt::TrainConfig {{ tick_hz: {}, gap_ticks: {}, min_ticks: {} }};",
                 plan.tick_hz, plan.gap_ticks, plan.min_ticks
             ),
-            format!("rt::timer::train(timer, &{upper}_TRAIN, &{upper}_SEEN)"),
+            format!(
+                "rt::timer::train(timer, hal::timer::Channel::Ch{channel}, &{upper}_TRAIN, &{upper}_SEEN)"
+            ),
         ),
         None => (
             format!("static {upper}_SEEN: Seen = rt::capture::nothing();"),

@@ -12,6 +12,8 @@ pub(super) trait Board {
     fn run_until(&mut self, until_ns: u64);
     /// The host sends bytes.
     fn link_write(&mut self, bytes: &[u8]);
+    /// The host opens its port, or closes it, over a link that can tell.
+    fn link_open(&mut self, is_open: bool);
     /// What has arrived at the host since the last call.
     fn link_read(&mut self) -> Vec<u8>;
     /// What the host has set since the last call: the device's place in the schema, and the bytes of its value.
@@ -43,6 +45,10 @@ impl Board for SoftBoard {
 
     fn link_write(&mut self, bytes: &[u8]) {
         SoftBoard::link_write(self, bytes);
+    }
+
+    fn link_open(&mut self, is_open: bool) {
+        SoftBoard::link_open(self, is_open);
     }
 
     fn link_read(&mut self) -> Vec<u8> {

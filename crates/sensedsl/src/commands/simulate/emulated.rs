@@ -19,6 +19,10 @@ impl Board for EmulatedBoard {
         EmulatedBoard::link_write(self, bytes);
     }
 
+    fn link_open(&mut self, is_open: bool) {
+        EmulatedBoard::link_open(self, is_open);
+    }
+
     fn link_read(&mut self) -> Vec<u8> {
         EmulatedBoard::link_read(self)
     }

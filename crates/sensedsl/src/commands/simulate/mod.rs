@@ -1,5 +1,6 @@
 //! `sensedsl simulate`: a board without hardware, whose sensors measure a simulated world.
 
+mod back;
 mod board;
 #[cfg(unix)]
 mod can;

@@ -19,6 +19,7 @@ use sensedsl_wire::{
 };
 
 use super::Scenery;
+use super::back::Reporters;
 use super::board::Board;
 #[cfg(unix)]
 use super::can::Adapters;
@@ -30,7 +31,7 @@ use crate::Status;
 use crate::commands::table::table;
 use crate::files::write_whole;
 
-const MS: u64 = 1_000_000;
+pub(super) const MS: u64 = 1_000_000;
 /// How long a judge listens, and who writes lines, unless somebody says it.
 const SECONDS: f64 = 10.0;
 /// How often a host of ours asks who the board is, until it answers.
@@ -49,7 +50,7 @@ pub(super) fn run(
     let mut session = Session::new(scenery, bench, board);
     session.peer = peer;
     let args = scenery.args;
-    let status = if args.judge {
+    let mut status = if args.judge {
         session.hurry(false)?
     } else if args.stdout && !scenery.terminal.is_watched() {
         session.hurry(true)?
@@ -61,6 +62,10 @@ pub(super) fn run(
     } else if args.judge && status == Status::Done && session.has_link() {
         let _ = session.ask_health()?;
     }
+    let judged_ns = session.now_ns;
+    if args.judge && status == Status::Done {
+        status = session.come_back()?;
+    }
     if let Some(path) = &args.frames {
         write_whole(path, &session.frames)?;
     }
@@ -68,27 +73,32 @@ pub(super) fn run(
         write_whole(path, log.as_bytes())?;
     }
     match status {
-        Status::Done if args.judge => session.verdict(),
+        Status::Done if args.judge => session.verdict(judged_ns),
         Status::Done if session.is_wrong => Ok(Status::Wrong),
         other @ (Status::Done | Status::Wrong | Status::Misused) => Ok(other),
     }
 }
 
 /// A board, and who listens to it.
-struct Session<'a> {
-    scenery: &'a Scenery<'a>,
-    board: Box<dyn Board>,
+pub(super) struct Session<'a> {
+    pub(super) scenery: &'a Scenery<'a>,
+    pub(super) board: Box<dyn Board>,
     decoder: Decoder<'a>,
-    judge: Judge,
+    pub(super) judge: Judge,
+    /// Whether what the board reports is compared with the world.
+    pub(super) is_judged: bool,
+    /// Something in the world breaks.
+    pub(super) is_disturbed: bool,
+    pub(super) reporters: Reporters,
     /// What sets actuators, before a judge.
     commands: Option<Commands<'a>>,
     screen: Screen,
     /// Who is on the CAN buses, where it is not the world.
     peer: Option<Peer>,
     frames: Vec<u8>,
-    now_ns: u64,
+    pub(super) now_ns: u64,
     /// The board has said who it is.
-    is_known: bool,
+    pub(super) is_known: bool,
     is_stranger: bool,
     last: Option<Health>,
     reports: u64,
@@ -104,6 +114,9 @@ impl<'a> Session<'a> {
             board,
             decoder: Decoder::new(&job.schema, Direction::Sensor),
             judge: Judge::new(job, bench),
+            is_judged: true,
+            is_disturbed: bench.is_disturbed(),
+            reporters: Reporters::default(),
             commands: None,
             screen: Screen::new(job),
             peer: None,
@@ -129,7 +142,7 @@ impl<'a> Session<'a> {
     }
 
     /// One millisecond. Gives the bytes that the host gets.
-    fn step(&mut self, mut line: Option<&mut String>) -> Result<Vec<u8>> {
+    pub(super) fn step(&mut self, mut line: Option<&mut String>) -> Result<Vec<u8>> {
         self.now_ns += MS;
         self.board.run_until(self.now_ns);
         let bytes = self.board.link_read();
@@ -137,14 +150,20 @@ impl<'a> Session<'a> {
             self.frames.extend_from_slice(&bytes);
         }
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
+        let (reporters, is_judged) = (&mut self.reporters, self.is_judged);
         let hash = self.scenery.job.schema.hash();
         let (is_known, is_stranger, last, reports) =
             (&mut self.is_known, &mut self.is_stranger, &mut self.last, &mut self.reports);
-        judge.worked(now_ns, self.board.worked_ns());
+        if is_judged {
+            judge.worked(now_ns, self.board.worked_ns());
+        }
         self.decoder.feed(&bytes, |event| match event {
             Event::Report(_, values) => {
                 *reports += 1;
-                judge.take(now_ns, &values);
+                if is_judged {
+                    judge.take(now_ns, &values);
+                }
+                values.iter().for_each(|(id, _)| reporters.take(*id, now_ns));
                 screen.take(now_ns, &values, Direction::Sensor);
                 if let Some(line) = &mut line {
                     line.push_str(&screen.line(now_ns, &values));
@@ -204,7 +223,7 @@ impl<'a> Session<'a> {
     }
 
     /// Why the run ends here; none where it goes on.
-    fn trouble(&self) -> Result<Option<Status>> {
+    pub(super) fn trouble(&self) -> Result<Option<Status>> {
         if self.is_stranger {
             let name = self.scenery.args.firmware.as_deref().map(crate::files::shown);
             let why = "it was made from another file, or from an older state of this one";
@@ -318,6 +337,7 @@ impl<'a> Session<'a> {
                 self.step(None)?;
             }
         }
+        self.judge.told(&self.commands.as_ref().map(Commands::told).unwrap_or_default());
         match &self.last {
             Some(health) => self.judge.health(self.now_ns, health),
             None => self.judge.no_health(self.now_ns, &self.scenery.job.board.name.value),
@@ -358,8 +378,8 @@ impl<'a> Session<'a> {
     }
 
     /// What the judge has found out.
-    fn verdict(self) -> Result<Status> {
-        let Self { scenery, board, mut judge, commands, now_ns, reports, is_wrong, .. } = self;
+    fn verdict(self, now_ns: u64) -> Result<Status> {
+        let Self { scenery, board, mut judge, commands, reports, is_wrong, .. } = self;
         judge.transfers(now_ns, &board.odd_transfers());
         let judged = judge.finish(now_ns);
         let rows: Vec<[String; 6]> = judged.iter().map(cells).collect();

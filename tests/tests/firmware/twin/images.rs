@@ -1,0 +1,82 @@
+//! No image is called wrong: the examples over several links, and the library's drivers in groups, for both targets, as
+//! a user runs them: `simulate --firmware IMAGE --judge`.
+//!
+//! Only with `SENSEDSL_THOROUGH=2`: it builds and runs more than sixty programs.
+
+use sensedsl_tests::{Random, Scratch, is_exhaustive, sensedsl};
+
+use super::examples::{UART, USB, on_discovery};
+use super::trial::System;
+use crate::false_alarms::{drivers, is_wired};
+
+const EXAMPLES: [&str; 7] =
+    ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
+/// The speed that a serial link has where nobody says it.
+const SLOW_UART: &str = "link { transport = uart; unit = USART3; }";
+/// Drivers that are tried together at first.
+const TOGETHER: usize = 24;
+/// So many programs must be judged at least.
+const IMAGES_MIN: usize = 60;
+
+/// As many drivers together as have a wiring on the board whose MCU is emulated.
+fn groups(parts: &[String], target: &str) -> Vec<String> {
+    let together = format!("board STM32F407G_DISC1 {{\n{}}}\n", parts.concat());
+    if is_wired(&together, target) {
+        return vec![together];
+    }
+    if parts.len() < 2 {
+        return Vec::new();
+    }
+    let (one, other) = parts.split_at(parts.len() / 2);
+    [groups(one, target), groups(other, target)].concat()
+}
+
+fn designs(target: &str) -> Vec<String> {
+    let mut random = Random::new(7);
+    let mut parts = drivers();
+    for place in (1..parts.len()).rev() {
+        parts.swap(place, random.below(place + 1));
+    }
+    let examples = EXAMPLES
+        .iter()
+        .flat_map(|example| [USB, UART, SLOW_UART].map(|link| on_discovery(example, link)));
+    let examples = examples.filter(|text| is_wired(text, target));
+    let groups = parts.chunks(TOGETHER).flat_map(|parts| groups(parts, target));
+    examples.chain(groups).collect()
+}
+
+/// What the command says against the program of a design; none where it says nothing.
+fn alarm(system: System, name: &str, text: &str) -> Option<String> {
+    let image = system.image(name, text)?;
+    let scratch = Scratch::new(name);
+    let design = scratch.write("design.sense", text).display().to_string();
+    let program = scratch.join("program.elf");
+    std::fs::write(&program, &image).unwrap();
+    let program = program.display().to_string();
+    let target = system.target().unwrap_or("chibios");
+    let call = ["simulate", &design, "--target", target, "--judge", "--firmware", &program];
+    let ran = sensedsl(call).run();
+    (ran.status != 0).then(|| format!("{name}: {text}\n{}\n{}", ran.stdout, ran.stderr))
+}
+
+#[test]
+fn no_image_is_called_wrong() {
+    if !is_exhaustive() {
+        return;
+    }
+    let (mut count, mut alarms) = (0, Vec::new());
+    for system in [System::Chibios, System::Embassy] {
+        let designs = designs(system.target().unwrap_or("chibios"));
+        for (place, text) in designs.iter().enumerate() {
+            let name = format!("images_{system:?}_{place}");
+            if system.image(&name, text).is_none() {
+                return;
+            }
+            count += 1;
+            alarms.extend(alarm(system, &name, text));
+        }
+    }
+    assert!(alarms.is_empty(), "{} of {count}: {}", alarms.len(), alarms.join("\n\n"));
+    assert!(count >= IMAGES_MIN, "only {count} images were judged");
+    eprintln!("{count} images, no alarm");
+}
