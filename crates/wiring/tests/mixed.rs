@@ -61,7 +61,7 @@ fn the_search_on_unequal_boards_stays_small() {
 fn many_equal_boards_have_no_slow_seed() {
     for text in family("eight equal F407", 3) {
         let (asked, solved) = asked(&text);
-        assert!(solved && asked < 3_000, "{asked}");
+        assert!(solved && asked < 3_500, "{asked}");
     }
 }
 

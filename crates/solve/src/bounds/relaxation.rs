@@ -147,6 +147,16 @@ impl Relaxation {
         status
     }
 
+    /// Keeps the basis, for [`Self::go_back`].
+    pub(crate) fn remember(&mut self) {
+        self.program.simplex.remember();
+    }
+
+    /// Takes the basis that was kept, unless the program was made anew since.
+    pub(crate) fn go_back(&mut self) {
+        self.program.simplex.go_back();
+    }
+
     /// The value of the program in units of cost, as far as its prices prove it.
     pub(crate) fn bound(&self) -> f64 {
         self.program.simplex.objective()

@@ -54,6 +54,9 @@ impl Engine<'_> {
             let mut gains = pricing.pseudo_costs.expected(question);
             let known = pricing.pseudo_costs.is_known(question);
             if !known && trials < TRIALS && !self.cancel.is_over() {
+                if trials == 0 {
+                    self.remember_program();
+                }
                 trials += 1;
                 let sides = [true, false].map(|side| self.try_side(question.branch, side));
                 gains = match sides {
@@ -86,6 +89,9 @@ impl Engine<'_> {
             let mut gains = pricing.pseudo_costs.expected(&question);
             let known = pricing.pseudo_costs.is_known(&question);
             if !known && trials < TRIALS && !self.cancel.is_over() {
+                if trials == 0 {
+                    self.remember_program();
+                }
                 trials += 1;
                 let sides = [true, false].map(|side| self.try_side(question.branch, side));
                 let [Ok(taken), Ok(refused)] = sides else { return Some(question.branch) };
@@ -102,20 +108,25 @@ impl Engine<'_> {
         best.1
     }
 
-    /// The bound on one side of a branch.
+    /// The bound on one side of a branch, by prices alone: the flow knows little that they do not.
     fn try_side(&mut self, branch: Branch, taken: bool) -> Result<f64, Pruned> {
         let mark = self.domains.mark();
-        let saved = self.flow.save();
         let went = if taken { self.take(branch) } else { self.refuse(branch) };
-        let bound = went.and_then(|()| self.settle()).and_then(|()| {
-            if self.bound() >= self.goal.limit {
-                Err(Pruned)
-            } else {
-                self.bound_by_prices(TRIAL_STEPS)
-            }
-        });
-        self.back(mark, &saved);
+        let bound = went
+            .and_then(|()| self.domains.propagate(self.model))
+            .and_then(|()| self.bound_by_prices(TRIAL_STEPS));
+        self.domains.undo(self.model, mark);
+        if let Some(pricing) = &mut self.pricing {
+            pricing.relaxation.go_back();
+        }
         bound
+    }
+
+    /// Each try starts where the program is now.
+    fn remember_program(&mut self) {
+        if let Some(pricing) = &mut self.pricing {
+            pricing.relaxation.remember();
+        }
     }
 
     /// The alternative with the greatest value.

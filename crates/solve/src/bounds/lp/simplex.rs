@@ -11,7 +11,9 @@
 //! which whoever makes the program sees to.
 
 mod basis;
+mod kept;
 
+use self::kept::Kept;
 use super::factor::{Dense, Factor};
 use super::free_rows::FreeRows;
 use super::matrix::{Matrix, Variable};
@@ -55,6 +57,7 @@ pub(crate) struct Simplex {
     edge: IdVec<VarId, f64>,
     factor: Factor,
     ready: bool,
+    kept: Option<Box<Kept>>,
     // Work space.
     rho: Dense,
     column: Dense,
@@ -89,6 +92,7 @@ impl Simplex {
             edge: IdVec::same(1.0, variables),
             factor: Factor::default(),
             ready: false,
+            kept: None,
             rho: IdVec::same(0.0, rows),
             column: IdVec::same(0.0, rows),
             tau: IdVec::same(0.0, rows),

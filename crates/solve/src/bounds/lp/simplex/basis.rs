@@ -12,10 +12,8 @@ impl Simplex {
                 continue;
             }
             self.free.change(&self.matrix, column);
-            if is_free && self.place[variable].is_none() {
-                let slack = |row| self.reduced[self.matrix.slack(row)];
-                let sum: f64 = self.matrix.column(column).iter().map(|&(r, a)| a * slack(r)).sum();
-                self.reduced[variable] = self.cost[column] - sum;
+            if is_free {
+                self.price_column(column);
             }
         }
     }
