@@ -97,6 +97,8 @@ impl Flow {
         let demands = device_demands + model.wires.len();
         let gates = model.gates.len();
         let nodes = demands + 2 * gates + model.pins.len();
+        let mut dear_first: Vec<PinId> = model.pins.iter().collect();
+        dear_first.sort_by_key(|&pin| std::cmp::Reverse(model.pin_weight[pin]));
         let mut always = IdVec::same(false, demands);
         for device in model.devices {
             for (position, demand) in model.demands.of(device).iter().enumerate() {
@@ -114,11 +116,7 @@ impl Flow {
                 cost: 0,
             },
             layout: Layout { device_demands, demands, gates },
-            dear_first: {
-                let mut pins: Vec<PinId> = model.pins.iter().collect();
-                pins.sort_by_key(|&pin| std::cmp::Reverse(model.pin_weight[pin]));
-                pins
-            },
+            dear_first,
             arcs_are_free: model.cand.iter().all(|cand| cand.extra == 0),
             always,
             wire_role: IdVec::same(None, model.wires.len()),

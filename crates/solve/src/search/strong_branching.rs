@@ -52,13 +52,7 @@ impl Engine<'_> {
         for question in open {
             let Some(pricing) = &self.pricing else { break };
             let mut gains = pricing.pseudo_costs.expected(question);
-            let known = pricing.pseudo_costs.is_known(question);
-            if !known && trials < TRIALS && !self.cancel.is_over() {
-                if trials == 0 {
-                    self.remember_program();
-                }
-                trials += 1;
-                let sides = [true, false].map(|side| self.try_side(question.branch, side));
+            if let Some(sides) = self.try_both(question, &mut trials) {
                 gains = match sides {
                     [Err(Pruned), Err(Pruned)] => return Err(Pruned),
                     [Err(Pruned), Ok(_)] => return self.refuse(question.branch).map(|()| None),
@@ -87,13 +81,7 @@ impl Engine<'_> {
         for question in self.fractional() {
             let Some(pricing) = &self.pricing else { break };
             let mut gains = pricing.pseudo_costs.expected(&question);
-            let known = pricing.pseudo_costs.is_known(&question);
-            if !known && trials < TRIALS && !self.cancel.is_over() {
-                if trials == 0 {
-                    self.remember_program();
-                }
-                trials += 1;
-                let sides = [true, false].map(|side| self.try_side(question.branch, side));
+            if let Some(sides) = self.try_both(&question, &mut trials) {
                 let [Ok(taken), Ok(refused)] = sides else { return Some(question.branch) };
                 gains = [taken - now, refused - now].map(|gain| gain.max(0.0));
                 if let Some(pricing) = &mut self.pricing {
@@ -108,6 +96,25 @@ impl Engine<'_> {
         best.1
     }
 
+    /// The bounds on both sides of a branch; nothing where earlier tries tell, or there were enough.
+    fn try_both(
+        &mut self,
+        question: &Fractional,
+        trials: &mut usize,
+    ) -> Option<[Result<f64, Pruned>; 2]> {
+        let pricing = self.pricing.as_mut()?;
+        let is_known = pricing.pseudo_costs.is_known(question);
+        if is_known || *trials >= TRIALS || self.cancel.is_over() {
+            return None;
+        }
+        if *trials == 0 {
+            // Each try starts where the program is now.
+            pricing.relaxation.remember();
+        }
+        *trials += 1;
+        Some([true, false].map(|side| self.try_side(question.branch, side)))
+    }
+
     /// The bound on one side of a branch, by prices alone: the flow knows little that they do not.
     fn try_side(&mut self, branch: Branch, taken: bool) -> Result<f64, Pruned> {
         let mark = self.domains.mark();
@@ -120,13 +127,6 @@ impl Engine<'_> {
             pricing.relaxation.go_back();
         }
         bound
-    }
-
-    /// Each try starts where the program is now.
-    fn remember_program(&mut self) {
-        if let Some(pricing) = &mut self.pricing {
-            pricing.relaxation.remember();
-        }
     }
 
     /// The alternative with the greatest value.

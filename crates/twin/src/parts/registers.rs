@@ -3,9 +3,11 @@
 //! What is written is kept and can be read back. Registers of values have the world's; where the driver knows an
 //! identity or a calibration, it is there. A trigger starts a measurement; the part does not answer until it is done.
 
+mod odd;
+
 use std::collections::BTreeMap;
 
-use sensedsl_model::protocol::{Formula, InitStep, Protocol};
+use sensedsl_model::protocol::{Formula, Protocol};
 use sensedsl_model::words::Words;
 
 use super::ranges::Ranges;
@@ -110,111 +112,9 @@ impl Registers {
         *self = Self { is_asked, is_used, odd, waits: self.waits, ..new };
     }
 
-    /// What the board has done first that the part's driver does not say; none where there is no such thing.
-    pub(crate) fn odd(&self) -> Option<&str> {
-        self.odd.as_deref()
-    }
-
-    /// What is wrong with how long the board waits for it; so many parts share its bus.
-    pub(crate) fn waits_too_long(&self, parts: u64) -> Option<String> {
-        self.waits.too_long(parts)
-    }
-
-    /// What sets a part up that was written to, and was never written. A part that is read tells it at once.
-    pub(crate) fn not_set_up(&self) -> Option<String> {
-        let missing = self.init().nth(self.begun).filter(|_| !self.controls.is_empty())?;
-        Some(format!("{} is never written, which sets it up", hex(missing)))
-    }
-
-    /// A reading begins: it takes the measurement that was there last.
-    fn taken(&mut self, now_ns: u64) {
-        if let Some(measurement) = &mut self.measurement
-            && let Some(wait_ns) = measurement.wait_ns.take()
-        {
-            self.waits.take(wait_ns, measurement.began_ns, now_ns);
-        }
-    }
-
-    /// A value is read: what sets the part up must have been written.
-    fn used(&mut self) {
-        self.is_used = true;
-        let mut writes = self.init();
-        if let Some(missing) = writes.nth(self.begun) {
-            let missing = hex(missing);
-            drop(writes);
-            self.tell(|| format!("values are read before {missing} is written, which sets it up"));
-        }
-    }
-
-    /// The transfers that set it up. A part that is read while it is written has none that can be told from it.
-    fn init(&self) -> impl Iterator<Item = &[u8]> {
-        let is_told = self.readings.iter().all(|one| one.exchange.is_empty());
-        self.protocol.init.iter().filter(move |_| is_told).filter_map(|step| match step {
-            InitStep::Write(bytes) => Some(bytes.as_slice()),
-            InitStep::Wait { .. } => None,
-        })
-    }
-
-    fn tell(&mut self, what: impl FnOnce() -> String) {
-        if self.odd.is_none() {
-            self.odd = Some(what());
-        }
-    }
-
-    /// Behind which byte, from a register on, the driver says nothing; none where nothing is known of the register.
-    fn end_of(&self, pointer: Option<u16>) -> Option<u16> {
-        // Calibration is read block by block, whatever lies behind it.
-        let block = self.protocol.calibration.iter().find(|(first, _)| Some(*first) == pointer);
-        if let Some((_, count)) = block {
-            return Some(*count);
-        }
-        let behind = |register: Option<u16>, length: u16| {
-            let first = match (pointer, register) {
-                (Some(pointer), Some(register)) => register.checked_sub(pointer)?,
-                (None, None) => 0,
-                (Some(_), None) | (None, Some(_)) => return None,
-            };
-            Some(first.saturating_add(length))
-        };
-        let values = self.readings.iter().filter_map(|one| {
-            let end = one.byte.saturating_add(one.length);
-            behind(one.register, one.words.as_ref().map_or(end, |words| words.on_wire(end)))
-        });
-        let identity =
-            self.protocol.identity.iter().filter_map(|one| {
-                behind(Some(one.register), u16::try_from(one.expected.len()).ok()?)
-            });
-        let calibration = self.protocol.calibration.iter();
-        let calibration =
-            calibration.filter_map(|(register, count)| behind(Some(*register), *count));
-        values.chain(identity).chain(calibration).max()
-    }
-
-    /// Whether the driver says what its identity is, where the part was read and not asked for it.
-    pub(crate) fn is_unasked(&self) -> Option<bool> {
-        (self.is_used && !self.is_asked).then_some(self.protocol.identity.is_some())
-    }
-
     /// From one measurement to the next, as the design sets it up.
     pub(crate) fn held_ns(&self) -> u64 {
         self.readings.iter().map(|one| one.ranges.planned_ns()).max().unwrap_or(0)
-    }
-
-    /// A byte of the answer is taken.
-    fn note(&mut self, place: usize) {
-        let place = u16::try_from(place).unwrap_or(u16::MAX);
-        let register = self.pointer.map(|first| first.saturating_add(place));
-        let identity = self.protocol.identity.as_ref();
-        if register.is_some() && register == identity.map(|one| one.register) {
-            self.is_asked = true;
-        } else {
-            self.used();
-        }
-        if let Some(end) = self.end_of(self.pointer).filter(|end| *end <= place) {
-            let from = self.pointer.map(|at| format!(" from register 0x{at:02X} on"));
-            let from = from.unwrap_or_default();
-            self.tell(|| format!("more is read{from} than {end} bytes, which is all there is"));
-        }
     }
 
     /// Whether it measures and does not answer. A part that is set up first, or is asked for several things, has a
@@ -476,10 +376,6 @@ impl Registers {
 }
 
 /// Bytes at their places in one piece.
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<String>>().join(" ")
-}
-
 fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
     let end = all.iter().flatten().map(|(place, _)| place + 1).max().unwrap_or(0);
     let mut bytes = vec![0; end];
@@ -489,63 +385,4 @@ fn merged(all: &[Vec<(usize, u8)>]) -> Vec<u8> {
         }
     }
     bytes
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The part of a driver that writes `6B 00` and reads two bytes from `3B` on.
-    fn part() -> Registers {
-        let init = vec![InitStep::Write(vec![0x6B, 0x00])];
-        let reading = Reading {
-            subject: 0,
-            trigger: Vec::new(),
-            wait_ns: 0,
-            register: Some(0x3B),
-            select: Vec::new(),
-            exchange: Vec::new(),
-            byte: 0,
-            length: 2,
-            words: None,
-            output: None,
-            ranges: Ranges::default(),
-        };
-        let protocol = Protocol { init, register_bytes: 1, ..Protocol::default() };
-        Registers::new(protocol, vec![reading], None)
-    }
-
-    fn write(part: &mut Registers, bytes: &[u8]) {
-        part.start(false, &[], 0);
-        bytes.iter().for_each(|byte| part.write(*byte));
-    }
-
-    fn read(part: &mut Registers, count: usize) {
-        write(part, &[0x3B]);
-        part.start(true, &[], 0);
-        (0..count).for_each(|_| {
-            let _ = part.read();
-        });
-        part.stop(0);
-    }
-
-    #[test]
-    fn a_part_is_set_up_and_read_as_its_driver_says() {
-        let mut right = part();
-        write(&mut right, &[0x6B, 0x00]);
-        right.stop(0);
-        read(&mut right, 2);
-        assert_eq!(right.odd(), None);
-        read(&mut right, 3);
-        assert!(
-            right.odd().unwrap().starts_with("more is read from register 0x3B on than 2 bytes")
-        );
-        for bytes in [&[][..], &[0x6B, 0x01], &[0x6B]] {
-            let mut other = part();
-            write(&mut other, bytes);
-            other.stop(0);
-            read(&mut other, 2);
-            assert!(other.odd().unwrap().contains("before 6B 00 is written"), "{bytes:02X?}");
-        }
-    }
 }

@@ -38,14 +38,9 @@ pub(crate) enum Status {
     Unfinished,
 }
 
-/// A linear program and its basis.
+/// Which variables are basic, and all that is computed from it.
 #[derive(Clone, Debug)]
-pub(crate) struct Simplex {
-    matrix: Matrix,
-    free: FreeRows,
-    cost: IdVec<ColumnId, f64>,
-    lower: IdVec<VarId, f64>,
-    upper: IdVec<VarId, f64>,
+struct Basis {
     /// Variable that is basic in a row.
     basic: IdVec<RowId, VarId>,
     /// Row in which a variable is basic.
@@ -57,6 +52,17 @@ pub(crate) struct Simplex {
     edge: IdVec<VarId, f64>,
     factor: Factor,
     ready: bool,
+}
+
+/// A linear program and its basis.
+#[derive(Clone, Debug)]
+pub(crate) struct Simplex {
+    matrix: Matrix,
+    free: FreeRows,
+    cost: IdVec<ColumnId, f64>,
+    lower: IdVec<VarId, f64>,
+    upper: IdVec<VarId, f64>,
+    now: Basis,
     kept: Option<Box<Kept>>,
     // Work space.
     rho: Dense,
@@ -85,13 +91,15 @@ impl Simplex {
             cost,
             lower,
             upper,
-            basic: matrix.slacks().iter().collect(),
-            place: of_columns.chain(matrix.rows().iter().map(Some)).collect(),
-            value: IdVec::same(0.0, variables),
-            reduced: IdVec::same(0.0, variables),
-            edge: IdVec::same(1.0, variables),
-            factor: Factor::default(),
-            ready: false,
+            now: Basis {
+                basic: matrix.slacks().iter().collect(),
+                place: of_columns.chain(matrix.rows().iter().map(Some)).collect(),
+                value: IdVec::same(0.0, variables),
+                reduced: IdVec::same(0.0, variables),
+                edge: IdVec::same(1.0, variables),
+                factor: Factor::default(),
+                ready: false,
+            },
             kept: None,
             rho: IdVec::same(0.0, rows),
             column: IdVec::same(0.0, rows),
@@ -116,12 +124,12 @@ impl Simplex {
     }
 
     pub(crate) fn value(&self, column: ColumnId) -> f64 {
-        self.value[Matrix::of_column(column)]
+        self.now.value[Matrix::of_column(column)]
     }
 
     /// What one more unit of a row's bound would cost (at most 0) or save.
     pub(crate) fn price(&self, row: RowId) -> f64 {
-        self.reduced[self.matrix.slack(row)]
+        self.now.reduced[self.matrix.slack(row)]
     }
 
     /// Runs until the prices are the best, the value reaches `cutoff`, so many steps are done or the
@@ -129,14 +137,14 @@ impl Simplex {
     pub(crate) fn solve(&mut self, cutoff: f64, steps: usize, cancel: Cancel<'_>) -> Status {
         self.find_free();
         self.place_nonbasic();
-        if self.ready {
+        if self.now.ready {
             self.compute_values();
         } else {
             self.rebuild();
         }
         let mut anew = false;
         for step in 0..steps {
-            if anew || self.factor.updates() >= UPDATES || self.factor.worn() {
+            if anew || self.now.factor.updates() >= UPDATES || self.now.factor.worn() {
                 self.rebuild();
                 anew = false;
             }
@@ -147,7 +155,7 @@ impl Simplex {
                 return Status::Unfinished;
             }
             let Some((row, over)) = self.leaving() else {
-                if self.factor.updates() == 0 {
+                if self.now.factor.updates() == 0 {
                     return Status::Optimal;
                 }
                 self.rebuild();
@@ -159,20 +167,20 @@ impl Simplex {
             self.price_row(row);
             match self.entering(over) {
                 Entering::None(slope) => {
-                    if self.factor.updates() > 0 {
+                    if self.now.factor.updates() > 0 {
                         anew = true;
                         continue;
                     }
                     // The value grows without end along this ray.
                     let far = ((cutoff - self.objective()).max(0.0) + 1.0) / slope * 1.01;
                     self.move_prices(row, over, far.min(1e12));
-                    self.ready = false;
+                    self.now.ready = false;
                     return Status::Cutoff;
                 }
                 Entering::Variable(variable, flips) => {
                     self.flip(flips);
                     if !self.exchange(row, variable) {
-                        if self.factor.updates() == 0 {
+                        if self.now.factor.updates() == 0 {
                             return Status::Unfinished;
                         }
                         anew = true;
@@ -185,15 +193,15 @@ impl Simplex {
 
     /// The value that the present prices prove.
     pub(crate) fn objective(&self) -> f64 {
-        let terms = self.reduced.iter().zip(&self.value).filter(|(d, _)| **d != 0.0);
+        let terms = self.now.reduced.iter().zip(&self.now.value).filter(|(d, _)| **d != 0.0);
         terms.map(|(d, x)| d * x).sum()
     }
 
     /// The row whose variable lies farthest outside its bounds, and by how much above.
     fn leaving(&self) -> Option<(RowId, f64)> {
         let mut best = (0.0, None);
-        for (row, &variable) in self.basic.enumerate() {
-            let value = self.value[variable];
+        for (row, &variable) in self.now.basic.enumerate() {
+            let value = self.now.value[variable];
             let over = if value > self.upper[variable] + FEASIBLE {
                 value - self.upper[variable]
             } else if value < self.lower[variable] - FEASIBLE {
@@ -201,7 +209,7 @@ impl Simplex {
             } else {
                 continue;
             };
-            let score = over * over / self.edge[variable];
+            let score = over * over / self.now.edge[variable];
             if score > best.0 {
                 best = (score, Some((row, over)));
             }
@@ -217,14 +225,14 @@ impl Simplex {
         }
         self.rho.fill(0.0);
         self.rho[row] = 1.0;
-        self.factor.backward(&mut self.rho);
+        self.now.factor.backward(&mut self.rho);
         for (row, &rho) in self.rho.enumerate() {
             if rho.abs() < 1e-13 {
                 continue;
             }
             for entry in self.free.row(row) {
                 let variable = Matrix::of_column(entry.column);
-                if self.place[variable].is_none() {
+                if self.now.place[variable].is_none() {
                     if !self.listed[variable] {
                         self.listed[variable] = true;
                         self.touched.push(variable);
@@ -233,7 +241,7 @@ impl Simplex {
                 }
             }
             let slack = self.matrix.slack(row);
-            if self.place[slack].is_none() {
+            if self.now.place[slack].is_none() {
                 self.touched.push(slack);
                 self.alpha[slack] = -rho;
             }
@@ -249,8 +257,8 @@ impl Simplex {
             if alpha.abs() < PIVOT || self.lower[variable] == self.upper[variable] {
                 continue;
             }
-            let reduced = self.reduced[variable];
-            let low = self.value[variable] <= self.lower[variable];
+            let reduced = self.now.reduced[variable];
+            let low = self.now.value[variable] <= self.lower[variable];
             if low && alpha > 0.0 || !low && alpha < 0.0 {
                 self.candidates.push(((reduced / alpha).max(0.0), alpha.abs(), variable));
             }
@@ -307,9 +315,9 @@ impl Simplex {
         v.fill(0.0);
         for &(_, _, variable) in self.candidates.iter().take(number) {
             let (lower, upper) = (self.lower[variable], self.upper[variable]);
-            let to = if self.value[variable] <= lower { upper } else { lower };
-            let by = to - self.value[variable];
-            self.value[variable] = to;
+            let to = if self.now.value[variable] <= lower { upper } else { lower };
+            let by = to - self.now.value[variable];
+            self.now.value[variable] = to;
             match self.matrix.variable(variable) {
                 Variable::Column(column) => {
                     self.matrix.column(column).iter().for_each(|&(r, a)| v[r] -= a * by);
@@ -317,27 +325,27 @@ impl Simplex {
                 Variable::Slack(row) => v[row] += by,
             }
         }
-        self.factor.forward(&mut v);
+        self.now.factor.forward(&mut v);
         for (row, &by) in v.enumerate() {
             if by != 0.0 {
-                self.value[self.basic[row]] += by;
+                self.now.value[self.now.basic[row]] += by;
             }
         }
         self.tau = v;
     }
 
     fn move_prices(&mut self, row: RowId, over: f64, by: f64) {
-        let leaving = self.basic[row];
+        let leaving = self.now.basic[row];
         let step = by * over.signum();
         for &variable in &self.touched {
-            self.reduced[variable] -= step * self.alpha[variable];
+            self.now.reduced[variable] -= step * self.alpha[variable];
         }
-        self.reduced[leaving] = -step;
+        self.now.reduced[leaving] = -step;
     }
 
     /// Exchanges the variable of a row; false when the pivot is not to be trusted.
     fn exchange(&mut self, row: RowId, entering: VarId) -> bool {
-        let leaving = self.basic[row];
+        let leaving = self.now.basic[row];
         self.column.fill(0.0);
         match self.matrix.variable(entering) {
             Variable::Column(column) => {
@@ -345,23 +353,23 @@ impl Simplex {
             }
             Variable::Slack(slack) => self.column[slack] = -1.0,
         }
-        self.factor.forward(&mut self.column);
+        self.now.factor.forward(&mut self.column);
         let pivot = self.column[row];
         if pivot.abs() < PIVOT || (pivot - self.alpha[entering]).abs() > 1e-6 * (1.0 + pivot.abs())
         {
             return false;
         }
         // Flips may have carried the value to its bound: the sign of its price says to which.
-        let value = self.value[leaving];
+        let value = self.now.value[leaving];
         let above = value > self.upper[leaving];
         let below = value < self.lower[leaving];
-        let low = below || !above && self.reduced[entering] / pivot <= 0.0;
+        let low = below || !above && self.now.reduced[entering] / pivot <= 0.0;
         let target = if low { self.lower[leaving] } else { self.upper[leaving] };
-        let step = self.reduced[entering] / pivot;
+        let step = self.now.reduced[entering] / pivot;
         let by = (value - target) / pivot;
         self.tau.copy_from(&self.rho);
         let weight: f64 = self.rho.iter().map(|r| r * r).sum();
-        self.factor.forward(&mut self.tau);
+        self.now.factor.forward(&mut self.tau);
         self.nonzeros.clear();
         for r in self.column.ids() {
             let a = self.column[r];
@@ -369,26 +377,27 @@ impl Simplex {
                 continue;
             }
             self.nonzeros.push(r);
-            let variable = self.basic[r];
-            self.value[variable] -= by * a;
+            let variable = self.now.basic[r];
+            self.now.value[variable] -= by * a;
             if r != row {
                 let ratio = a / pivot;
-                let edge = self.edge[variable] - 2.0 * ratio * self.tau[r] + ratio * ratio * weight;
-                self.edge[variable] = edge.max(1e-4);
+                let edge =
+                    self.now.edge[variable] - 2.0 * ratio * self.tau[r] + ratio * ratio * weight;
+                self.now.edge[variable] = edge.max(1e-4);
             }
         }
-        self.value[entering] += by;
-        self.value[leaving] = target;
+        self.now.value[entering] += by;
+        self.now.value[leaving] = target;
         for &variable in &self.touched {
-            self.reduced[variable] -= step * self.alpha[variable];
+            self.now.reduced[variable] -= step * self.alpha[variable];
         }
-        self.reduced[entering] = 0.0;
-        self.reduced[leaving] = -step;
-        self.edge[entering] = (weight / (pivot * pivot)).max(1e-4);
-        self.factor.exchange(row, &self.column, &self.nonzeros);
-        self.basic[row] = entering;
-        self.place[entering] = Some(row);
-        self.place[leaving] = None;
+        self.now.reduced[entering] = 0.0;
+        self.now.reduced[leaving] = -step;
+        self.now.edge[entering] = (weight / (pivot * pivot)).max(1e-4);
+        self.now.factor.exchange(row, &self.column, &self.nonzeros);
+        self.now.basic[row] = entering;
+        self.now.place[entering] = Some(row);
+        self.now.place[leaving] = None;
         true
     }
 }
@@ -440,16 +449,16 @@ mod tests {
 
     /// Values within bounds whose cost is what the prices prove: neither can be improved.
     fn assert_optimal(simplex: &Simplex) {
-        for (variable, &value) in simplex.value.enumerate() {
+        for (variable, &value) in simplex.now.value.enumerate() {
             assert!(value > simplex.lower[variable] - 1e-5, "{value}");
             assert!(value < simplex.upper[variable] + 1e-5, "{value}");
         }
         for row in simplex.matrix.rows() {
             let entries = simplex.matrix.row(row).iter();
             let sum: f64 = entries.map(|&(c, a)| a * simplex.value(c)).sum();
-            assert!((sum - simplex.value[simplex.matrix.slack(row)]).abs() < 1e-5);
+            assert!((sum - simplex.now.value[simplex.matrix.slack(row)]).abs() < 1e-5);
         }
-        let cost: f64 = simplex.cost.iter().zip(&simplex.value).map(|(c, x)| c * x).sum();
+        let cost: f64 = simplex.cost.iter().zip(&simplex.now.value).map(|(c, x)| c * x).sum();
         assert!((cost - simplex.objective()).abs() < 1e-4, "{cost} {}", simplex.objective());
     }
 
