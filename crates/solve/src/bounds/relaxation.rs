@@ -147,6 +147,11 @@ impl Relaxation {
         status
     }
 
+    /// The work of the simplex method since the last call.
+    pub(crate) fn take_work(&mut self) -> u64 {
+        self.program.simplex.take_work()
+    }
+
     /// Keeps the basis, for [`Self::go_back`].
     pub(crate) fn remember(&mut self) {
         self.program.simplex.remember();

@@ -19,19 +19,18 @@ use crate::answer::{Conflict, Fault, Outcome};
 use crate::cancel::Cancel;
 use crate::index::Id;
 use crate::problem::{DeviceId, PinId, Problem, ResourceId, StreamId};
-use crate::search::Effort;
+use crate::search::{Budget, Effort};
 use std::collections::BTreeSet;
 
 /// A proof is quick when it takes at most so many nodes, and three more for each device.
 const QUICK: u64 = 50;
 
-/// Nodes that the question is worth whether a pin, resource or stream has a part in the conflict.
-const PATIENT: u64 = 1_000;
-
 /// The questions of a search for a conflict.
 struct Questions<'a> {
     cancel: Cancel<'a>,
     effort: Effort,
+    /// What is left for the questions whether a pin, resource or stream has a part in the conflict.
+    budget: Option<Budget>,
     /// What is known of sets of the devices.
     known: KnownSets,
 }
@@ -47,8 +46,12 @@ pub(crate) fn explain(
         return Ok(conflict(vec![DeviceId::new(lone)], true, [Vec::new(), Vec::new(), Vec::new()]));
     }
     let quick = QUICK + 3 * problem.devices.len() as u64;
-    let mut ask =
-        Questions { cancel, effort: Effort::Nodes(quick), known: KnownSets::new(problem)? };
+    let mut ask = Questions {
+        cancel,
+        effort: Effort::Nodes(quick),
+        budget: None,
+        known: KnownSets::new(problem)?,
+    };
     let mut kept = match seed {
         Some(seed) if ask.of_devices(problem, &seed)? == Some(false) => seed,
         _ => (0..problem.devices.len()).map(DeviceId::new).collect(),
@@ -65,7 +68,7 @@ pub(crate) fn explain(
             None => minimal = false,
         }
     }
-    ask.effort = Effort::Nodes(PATIENT);
+    ask.budget = Some(Budget::new());
     let mut things = [Vec::new(), Vec::new(), Vec::new()];
     if !cancel.is_over() {
         things = ask.contested_things(only(problem, &kept))?;
@@ -93,8 +96,13 @@ fn conflict(
 
 impl Questions<'_> {
     /// Whether the problem has an answer; `None` when that takes more than the effort.
-    fn has_answer(&self, problem: &Problem) -> Result<Option<bool>, Fault> {
-        feasible_within(problem, self.effort, self.cancel)
+    fn has_answer(&mut self, problem: &Problem) -> Result<Option<bool>, Fault> {
+        let work = self.budget.as_ref().map(|budget| Effort::Work(budget.next()));
+        let (answer, work) = feasible_within(problem, work.unwrap_or(self.effort), self.cancel)?;
+        if let Some(budget) = &mut self.budget {
+            budget.spend(work);
+        }
+        Ok(answer)
     }
 
     /// Whether these devices of the problem have an answer, as [`Self::has_answer`].
@@ -167,7 +175,7 @@ impl Questions<'_> {
     /// The streams, resources and pins that must be exclusive for the conflict. Reasons of one kind
     /// read best, so each kind is first shared as a whole. Pins come last: signals would explain as
     /// much, but people see pins.
-    fn contested_things(&self, mut core: Problem) -> Result<[Vec<u32>; 3], Fault> {
+    fn contested_things(&mut self, mut core: Problem) -> Result<[Vec<u32>; 3], Fault> {
         let streams = core.streams;
         let mut needed = [Vec::new(), Vec::new(), Vec::new()];
         let kinds = [Contested::Streams, Contested::Resources, Contested::Pins];
@@ -196,7 +204,7 @@ impl Questions<'_> {
     /// Not all of these can be shared. Shares ever smaller parts as long as the conflict stays, and
     /// returns those that must be exclusive.
     fn contested(
-        &self,
+        &mut self,
         core: &mut Problem,
         things: Contested,
         all: Vec<u32>,
@@ -234,7 +242,7 @@ impl Questions<'_> {
 impl Questions<'_> {
     /// The members of each large class of which a single shared one is enough for an answer.
     fn needed_alone(
-        &self,
+        &mut self,
         core: &Problem,
         things: Contested,
         all: &[u32],

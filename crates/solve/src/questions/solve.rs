@@ -96,7 +96,7 @@ fn search(problem: &Problem, options: &Options<'_>, least: bool) -> Result<Searc
 /// # Errors
 /// [`Fault`] when the problem is not well-formed.
 pub fn feasible(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<bool>, Fault> {
-    feasible_within(problem, Effort::Any, cancel)
+    Ok(feasible_within(problem, Effort::Any, cancel)?.0)
 }
 
 /// For each device the first one with the same choices. The two are interchangeable.
@@ -107,21 +107,21 @@ pub fn alike(problem: &Problem) -> Result<Vec<usize>, Fault> {
     Ok(Model::new(problem)?.class.iter().map(|device| device.index()).collect())
 }
 
-/// As [`feasible`]; `None` also when it is not known within the effort.
+/// As [`feasible`], and the work that it took; `None` also when it is not known within the effort.
 pub(crate) fn feasible_within(
     problem: &Problem,
     effort: Effort,
     cancel: Cancel<'_>,
-) -> Result<Option<bool>, Fault> {
+) -> Result<(Option<bool>, u64), Fault> {
     if cancel.is_over() {
-        return Ok(None);
+        return Ok((None, 0));
     }
     let model = Model::new(problem)?;
-    let Ok(mut engine) = Engine::new(problem, &model, cancel) else { return Ok(Some(false)) };
+    let Ok(mut engine) = Engine::new(problem, &model, cancel) else { return Ok((Some(false), 0)) };
     engine.progress.effort = effort;
     engine.board_symmetry = true;
     let found = engine.search(u64::MAX, true).is_some();
-    Ok(if engine.progress.stopped { None } else { Some(found) })
+    Ok(((!engine.progress.stopped).then_some(found), engine.progress.work))
 }
 
 /// Turns choices into an answer and checks it.

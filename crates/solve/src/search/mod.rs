@@ -23,7 +23,7 @@ pub(crate) mod tie_break;
 #[cfg(test)]
 mod worked_example;
 
-pub(crate) use self::progress::{Effort, Goal, Progress};
+pub(crate) use self::progress::{Budget, Effort, Goal, Progress};
 
 use self::pseudo_costs::PseudoCosts;
 use self::read_off::Holders;
@@ -284,17 +284,10 @@ impl<'a> Engine<'a> {
     /// As [`Self::narrow`], but prices only once: a question that they answer is quickly answered.
     pub(crate) fn narrow_once(&mut self, limit: u64) -> Result<(), Pruned> {
         self.goal.limit = limit;
-        self.progress.nodes += 1;
+        self.progress.step();
         self.settle()?;
         self.price()?;
         self.settle()
-    }
-
-    /// Makes the linear program anew, of the domains as they are.
-    pub(crate) fn renew_program(&mut self) {
-        if let Some(pricing) = &mut self.pricing {
-            pricing.relaxation = Relaxation::new(&pricing.dualized, self.model, &self.domains);
-        }
     }
 
     /// Bounds by prices; whether they narrowed the domains.
@@ -317,6 +310,7 @@ impl<'a> Engine<'a> {
         }
         let most = Lagrangian::most(dualized, model, domains, self.goal.limit).ok_or(Pruned)?;
         relaxation.run(dualized, model, domains, lagrangian, (most, steps, self.cancel));
+        self.progress.work += relaxation.take_work();
         *bound = lagrangian.assess(dualized, model, domains);
         if *bound >= self.goal.limit {
             return Err(Pruned);

@@ -21,7 +21,7 @@ impl Engine<'_> {
     /// Searches below the current domains; leaves them smaller.
     pub(super) fn node(&mut self, depth: usize) {
         loop {
-            self.progress.nodes += 1;
+            self.progress.step();
             if self.dive_is_over() || self.is_stopped() || self.settle().is_err() {
                 return;
             }

@@ -3,18 +3,45 @@
 use super::Found;
 use crate::model::Choices;
 
-/// How long a question is worth asking.
+/// What a node costs beside the simplex method, in its work: a row of one step takes some 50 ns, a node some 50 us.
+const NODE: u64 = 1_000;
+
+/// How long a question is worth asking. It is counted, not timed, so that every machine gives up at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effort {
     /// So many nodes of the search.
     Nodes(u64),
+    /// So much work, of nodes and of the simplex method.
+    Work(u64),
     /// Until it is answered.
     Any,
 }
 
-impl Effort {
-    fn is_spent(self, nodes: u64) -> bool {
-        matches!(self, Self::Nodes(most) if nodes > most)
+/// What questions are worth together whose answers only make a good answer nicer.
+#[derive(Debug)]
+pub(crate) struct Budget {
+    left: u64,
+}
+
+impl Budget {
+    /// Work that all questions are worth, some 100 ms.
+    const ALL: u64 = 2_000_000;
+    /// Work that one question is worth, some 25 ms.
+    const ONE: u64 = 500_000;
+    /// Work that each is worth when all is spent: what the bounds alone, or a few nodes, answer.
+    const REST: u64 = 3_000;
+
+    pub(crate) fn new() -> Self {
+        Self { left: Self::ALL }
+    }
+
+    /// The work that the next question is worth.
+    pub(crate) fn next(&self) -> u64 {
+        Self::ONE.min(self.left).max(Self::REST)
+    }
+
+    pub(crate) fn spend(&mut self, work: u64) {
+        self.left = self.left.saturating_sub(work);
     }
 }
 
@@ -64,6 +91,8 @@ impl Goal {
 #[derive(Debug)]
 pub(crate) struct Progress {
     pub(crate) nodes: u64,
+    /// The work of nodes and of the simplex method.
+    pub(crate) work: u64,
     /// Nodes when the present search began.
     begun: u64,
     /// Nodes until which any answer will do, so that there is a limit to bound against.
@@ -75,11 +104,17 @@ pub(crate) struct Progress {
 impl Progress {
     /// Goes on after so many nodes.
     pub(crate) fn after(nodes: u64) -> Self {
-        Self { nodes, begun: 0, dive_until: None, effort: Effort::Any, stopped: false }
+        Self { nodes, work: 0, begun: 0, dive_until: None, effort: Effort::Any, stopped: false }
     }
 
     pub(crate) fn begin(&mut self) {
         self.begun = self.nodes;
+    }
+
+    /// Counts one more node.
+    pub(crate) fn step(&mut self) {
+        self.nodes += 1;
+        self.work += NODE;
     }
 
     /// Nodes of the present search.
@@ -92,11 +127,15 @@ impl Progress {
         let until = self.nodes + nodes;
         match self.effort {
             Effort::Nodes(most) => Effort::Nodes(most.min(until)),
-            Effort::Any => Effort::Nodes(until),
+            Effort::Work(_) | Effort::Any => Effort::Nodes(until),
         }
     }
 
     pub(crate) fn is_spent(&self) -> bool {
-        self.effort.is_spent(self.nodes)
+        match self.effort {
+            Effort::Nodes(most) => self.nodes > most,
+            Effort::Work(most) => self.work > most,
+            Effort::Any => false,
+        }
     }
 }

@@ -119,7 +119,7 @@ impl Engine<'_> {
     /// Searches below the current domains, with a record; leaves them smaller.
     fn recorded(&mut self, steps: &mut Vec<Step>) -> Result<(), GivenUp> {
         loop {
-            self.progress.nodes += 1;
+            self.progress.step();
             if self.is_stopped() || steps.len() > STEPS_MAX {
                 return Err(GivenUp);
             }

@@ -5,17 +5,17 @@
 //! still leads to an answer within the limit; the answer at hand saves most of the questions, and
 //! most answers to the others are near it (J. C. Beck, *Solution-guided multi-point constructive
 //! search for job shop scheduling*, 2007).
+//!
+//! None of these answers is better than another one, so a question is worth a bounded effort. Where
+//! that is spent the answer keeps the value that it has. The effort is counted in work, not in time,
+//! so that the same problem has the same answer on every machine.
 
 use super::canonical::earliest;
-use super::{Effort, Engine, Found};
+use super::{Budget, Effort, Engine, Found};
 use crate::domains::Pruned;
 use crate::index::{AltId, CandId, RoleId};
 use crate::model::{Choices, Model};
 use crate::problem::DeviceId;
-
-/// Nodes that a question about several values is worth for each of them, where one has not been
-/// seen to take more.
-const PATIENCE: u64 = 40;
 
 /// A pin, a signal or an alternative, by its number; nothing where there is no such role.
 pub(crate) type Value = Option<u32>;
@@ -70,6 +70,28 @@ impl Entry {
             Self::Pin(_, position) | Self::Signal(_, position) => model.roles.of(alt).nth(position),
             Self::Alternative(_) => None,
         }
+    }
+}
+
+/// How far the tie-break has come.
+struct Least {
+    /// The greatest weight of an answer.
+    limit: u64,
+    known: Choices,
+    /// About so many values the next question is. What was not possible for one wire is often not
+    /// possible for the next, so each entry begins with what the one before it ended with.
+    number: usize,
+    budget: Budget,
+    /// Whether each entry so far has been shown to be the least.
+    is_proved: bool,
+}
+
+impl Least {
+    /// Goes on from a lesser answer.
+    fn improve(&mut self, model: &Model, better: Choices) {
+        // What stands in order may come before an entry that was given up, which is fixed by now.
+        self.known = if self.is_proved { earliest(model, better) } else { better };
+        self.number = 1;
     }
 }
 
@@ -133,77 +155,65 @@ impl Engine<'_> {
         self.settle()
     }
 
-    /// The least answer within the limit, given one within it. Leaves the domains restricted to it.
+    /// The least answer within the limit, as far as the effort shows, given one within it. Leaves the domains
+    /// restricted to it.
     pub(crate) fn least(&mut self, limit: u64, known: Choices) -> Choices {
         let model = self.model;
         if self.narrow(limit + 1).is_err() {
             return known;
         }
-        let mut known = earliest(model, known);
-        let mut number = 1;
+        let known = earliest(model, known);
+        let mut answer = Least { limit, known, number: 1, budget: Budget::new(), is_proved: true };
         for entry in entries(model) {
             if self.settled(entry) {
                 continue;
             }
-            // What was not possible for one wire is often not possible for the next, so each
-            // entry asks about as many values at once as the one before it did in the end.
-            number = self.least_value(entry, limit, &mut known, number);
-            if self.restrict(entry, entry.of(model, &known)).is_err() {
-                return known;
+            self.least_value(entry, &mut answer);
+            if self.restrict(entry, entry.of(model, &answer.known)).is_err() {
+                break;
             }
         }
-        known
+        answer.known
     }
 
-    /// Makes the known answer the one with the least value of the entry. Asks about so many values
-    /// at once at first, and returns about how many in the end.
-    fn least_value(
-        &mut self,
-        entry: Entry,
-        limit: u64,
-        known: &mut Choices,
-        number: usize,
-    ) -> usize {
+    /// Makes the known answer the one with the least value of the entry, as far as the effort shows.
+    fn least_value(&mut self, entry: Entry, answer: &mut Least) {
         let model = self.model;
-        let floor = self.floor(entry, known);
+        let floor = self.floor(entry, &answer.known);
         let mut values = self.values(entry);
         values.retain(|value| *value >= floor);
         let saved = self.flow.save();
         let mark = self.domains.mark();
-        let (mut number, mut patience) = (number, PATIENCE);
         // The least first. Where that is not possible, more at once: mostly nothing is, and to show
         // that takes hardly more of many than of one. Where it does, fewer are asked about.
         loop {
-            values.truncate(values.partition_point(|v| *v < entry.of(model, known)));
+            values.truncate(values.partition_point(|v| *v < entry.of(model, &answer.known)));
             if values.is_empty() || self.progress.stopped {
-                return number;
+                return;
             }
-            let some = number.min(values.len());
-            let before = self.progress.nodes;
-            let many = Effort::Nodes(before + patience.saturating_mul(some as u64));
-            self.progress.effort = if some > 1 { many } else { Effort::Any };
+            let some = answer.number.min(values.len());
             let (asked, _) = values.split_at(some);
+            let before = self.progress.work;
+            self.progress.effort = Effort::Work(before + answer.budget.next());
             let restricted = self.restrict_to(entry, asked);
-            let found = restricted.ok().and_then(|()| self.ask(limit, known));
+            let found = restricted.ok().and_then(|()| self.ask(answer.limit, &answer.known));
             self.back(mark, &saved);
-            let unknown = self.progress.stopped && !self.cancel.is_over();
+            answer.budget.spend(self.progress.work - before);
+            let is_unknown = self.progress.stopped && !self.cancel.is_over();
             self.progress.effort = Effort::Any;
+            self.progress.stopped &= !is_unknown;
             match found {
-                Some((_, better)) => {
-                    *known = earliest(model, better);
-                    number = 1;
+                Some((_, better)) => answer.improve(model, better),
+                None if is_unknown && some > 1 => answer.number = some / 2,
+                None if is_unknown => {
+                    answer.is_proved = false;
+                    return;
                 }
-                None if unknown => number = some / 2,
-                None if self.progress.stopped => return number,
                 None => {
-                    if some == 1 {
-                        patience = patience.max(self.progress.nodes - before);
-                    }
                     values.drain(..some);
-                    number = some * 4;
+                    answer.number = some * 4;
                 }
             }
-            self.progress.stopped &= !unknown;
         }
     }
 
@@ -213,24 +223,12 @@ impl Engine<'_> {
         let mark = self.domains.mark();
         let found = if self.narrow_once(limit + 1).is_ok() {
             let near = self.search_near(limit + 1, known);
-            near.or_else(|| self.ask_all(limit))
+            near.or_else(|| self.search(limit + 1, true))
         } else {
             None
         };
         self.back(mark, &saved);
         found
-    }
-
-    /// Any answer within the limit.
-    fn ask_all(&mut self, limit: u64) -> Option<Found> {
-        let few = self.progress.more(PATIENCE);
-        let (found, is_open) = self.within(few, |engine| engine.search(limit + 1, true));
-        if !is_open || self.progress.stopped {
-            return found;
-        }
-        // Devices that are alike stand together in the program, and differ by now.
-        self.renew_program();
-        self.search(limit + 1, true)
     }
 
     /// Interchangeable devices, and bundles, stand in order in the least answer, so a later one

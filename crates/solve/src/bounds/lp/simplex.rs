@@ -64,6 +64,8 @@ pub(crate) struct Simplex {
     upper: IdVec<VarId, f64>,
     now: Basis,
     kept: Option<Box<Kept>>,
+    /// Rows of all steps since the work was last asked for.
+    work: u64,
     // Work space.
     rho: Dense,
     column: Dense,
@@ -101,6 +103,7 @@ impl Simplex {
                 ready: false,
             },
             kept: None,
+            work: 0,
             rho: IdVec::same(0.0, rows),
             column: IdVec::same(0.0, rows),
             tau: IdVec::same(0.0, rows),
@@ -144,6 +147,7 @@ impl Simplex {
         }
         let mut anew = false;
         for step in 0..steps {
+            self.work += self.matrix.rows().len() as u64;
             if anew || self.now.factor.updates() >= UPDATES || self.now.factor.worn() {
                 self.rebuild();
                 anew = false;
@@ -189,6 +193,11 @@ impl Simplex {
             }
         }
         Status::Unfinished
+    }
+
+    /// The work since the last call: steps, times the rows that each goes through.
+    pub(crate) fn take_work(&mut self) -> u64 {
+        std::mem::take(&mut self.work)
     }
 
     /// The value that the present prices prove.
