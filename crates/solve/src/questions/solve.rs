@@ -20,7 +20,8 @@ pub struct Options<'a> {
     pub cancel: Cancel<'a>,
 }
 
-/// Finds the best answer, proved and unique, or a minimal conflict.
+/// Finds the best answer, or a minimal conflict. That none is better is proved; of equally good ones it is the first, as
+/// far as a bounded effort shows, and the same one on every machine.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed, or when an answer fails [`check`].

@@ -12,6 +12,19 @@ pub(super) struct Kept {
     is_free: IdVec<ColumnId, bool>,
 }
 
+impl Basis {
+    /// Becomes the other one, in the memory that it has.
+    fn copy_from(&mut self, other: &Self) {
+        self.basic.copy_from(&other.basic);
+        self.place.copy_from(&other.place);
+        self.value.copy_from(&other.value);
+        self.reduced.copy_from(&other.reduced);
+        self.edge.copy_from(&other.edge);
+        self.factor.clone_from(&other.factor);
+        self.ready = other.ready;
+    }
+}
+
 impl Simplex {
     /// Keeps the basis.
     pub(crate) fn remember(&mut self) {
@@ -22,7 +35,7 @@ impl Simplex {
     /// Takes the basis that was kept, if there is one.
     pub(crate) fn go_back(&mut self) {
         let Some(kept) = self.kept.take() else { return };
-        self.now.clone_from(&kept.basis);
+        self.now.copy_from(&kept.basis);
         for column in self.matrix.columns() {
             if self.free.is_free(column) && !kept.is_free[column] {
                 self.price_column(column);
