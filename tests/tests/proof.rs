@@ -184,7 +184,7 @@ fn changed_certificates_are_refused_and_other_files_are_unusable() {
         ("\"cost\":5,", "\"cost\":4,", 1),
         ("\"in\":\"PB0 ADC12_IN8\"", "\"in\":\"PB1 ADC12_IN9\"", 1),
         ("\"PB0\":1", "\"PB0\":2", 1),
-        ("certificate 3", "certificate 2", 2),
+        ("certificate 4", "certificate 3", 2),
         ("\"boards\"", "\"bords\"", 2),
         ("\"PA1\":3", "\"PA1\":-3", 2),
         ("\"PA1\":3", "\"PA1\":3,\"PA1\":3", 2),

@@ -8,7 +8,7 @@
 
 use crate::case::{Case, Open, Tolls, Weighed};
 use crate::model::Thing;
-use sensedsl_solve::Cancel;
+use crate::tree::Effort;
 
 /// Units of toll in a unit of weight that are tried; the smaller, the easier to read.
 const SCALES: [i64; 7] = [1, 2, 4, 12, 60, 840, 10_080];
@@ -18,6 +18,8 @@ const PATIENCE: u32 = 50;
 const STEP_MIN: f64 = 0.001;
 /// Growth from step to step of what the choices of a step count for the choice of a branch.
 const RECENT: f64 = 1.03;
+/// What it takes to bring a share back to its price, in tolls looked up.
+const PROJECTION: usize = 8;
 /// Of choices that cost nearly the same the device takes the one that is used least.
 const TIE: f64 = 1e-7;
 
@@ -83,8 +85,8 @@ pub(crate) fn first_tolls(weighed: &Weighed<'_>) -> Tolls<f64> {
     Tolls { rents, shares, streams: vec![0.0; weighed.problem.streams as usize] }
 }
 
-/// Climbs until the case is closed (more weight than `limit` is shown), nothing moves any more or
-/// `steps` are done.
+/// Climbs until the case is closed (more weight than `limit` is shown), nothing moves any more, `steps`
+/// are done or the effort is spent.
 pub(crate) fn ascend(
     weighed: &Weighed<'_>,
     case: &Case,
@@ -92,7 +94,7 @@ pub(crate) fn ascend(
     start: &Tolls<f64>,
     classes: &[Vec<usize>],
     (limit, target, steps): (i64, f64, u32),
-    cancel: Cancel<'_>,
+    effort: &Effort<'_>,
 ) -> Ascent {
     let mut climber = Climber::new(weighed, case, open, start, classes);
     let mut best = (f64::MIN, start.clone());
@@ -100,12 +102,14 @@ pub(crate) fn ascend(
     let mut closing = None;
     let mut direction = Tolls::default();
     let (mut part, mut waited, mut work) = (1.0, 0, 0);
+    // Every toll is looked up, and those of each share several times more to bring it back to its price.
+    let step_work = (case.tolls.len() + PROJECTION * weighed.model.shares.len()) as u64 + 1;
     for step in 0..steps {
-        if step % 16 == 0 && cancel.is_over() {
+        if work > effort.work || (step % 16 == 0 && effort.cancel.is_over()) {
             break;
         }
         let bound = climber.choose();
-        work += case.tolls.len() as u64 + 1;
+        work += step_work;
         if bound > best.0 + 1e-9 * best.0.abs() {
             if bound - best.0 > (target - best.0) * 0.01 {
                 waited = 0;

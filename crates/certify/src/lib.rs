@@ -176,7 +176,7 @@ impl Case<'_> {
         let best = answer.map(|answer| answer.objective);
         let equal = sensedsl_solve::equal_boards(problem).ok()?;
         let swaps = equal.iter().enumerate().all(|(board, first)| {
-            board == *first || swaps::Swap::new(problem, (*first, board)).is_some()
+            board == *first || swaps::Swap::of_boards(problem, (*first, board)).is_some()
         });
         let record = sensedsl_solve::record(problem, best, swaps, cancel).ok()??;
         search::Text::of(problem, &search::Places::new(problem, labels), &record)

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use sensedsl_solve::problem::{
     Alternative, BoardId, Claim, DeviceId, Holder, PinId, Problem, ResourceId,
 };
-use sensedsl_solve::trace::{Multipliers, Question, Record, Step};
+use sensedsl_solve::trace::{Exchange, Multipliers, Question, Record, Step};
 use serde_json::{Map, Value, json};
 
 use crate::labels::Labels;
@@ -228,15 +228,23 @@ impl<'a> Text<'a> {
                 [places.devices[*device], ways[*one], ways[*other]]
             })
             .collect();
-        json!({
-            "boards": [places.boards[swap.boards.0], places.boards[swap.boards.1]],
-            "pins": row(&swap.pins, &|pin| places.pins.get(*pin as usize).copied()),
-            "resources": row(&swap.resources, &|one| places.resources.get(one).copied()),
-            "holders": row(&swap.groups, &|group| places.groups.get(group).copied()),
-            "users": row(&swap.users, &|user| places.users.get(*user as usize).copied()),
-            "streams": row(&swap.streams, &|stream| places.streams.get(stream).copied()),
-            "ways": ways,
-        })
+        let boards = swap.boards.iter().flat_map(|(one, other)| [one, other]);
+        let boards: Vec<usize> = boards.map(|board| places.boards[*board]).collect();
+        let devices = swap.devices.iter().flat_map(|(one, other)| [one, other]);
+        let devices: Vec<usize> = devices.map(|device| places.device(*device)).collect();
+        let rows = [
+            ("boards", boards),
+            ("pins", row(&swap.pins, &|pin| places.pins.get(*pin as usize).copied())),
+            ("resources", row(&swap.resources, &|one| places.resources.get(one).copied())),
+            ("holders", row(&swap.groups, &|group| places.groups.get(group).copied())),
+            ("users", row(&swap.users, &|user| places.users.get(*user as usize).copied())),
+            ("streams", row(&swap.streams, &|stream| places.streams.get(stream).copied())),
+            ("rules", row(&swap.rules, &|rule| places.rules.get(rule).copied())),
+            ("devices", devices),
+            ("ways", ways),
+        ];
+        let stated = rows.into_iter().filter(|(_, row)| !row.is_empty());
+        Value::Object(stated.map(|(name, row)| (name.to_owned(), json!(row))).collect())
     }
 
     fn step(&mut self, record: &Record, step: &Step) -> Option<Value> {
@@ -247,16 +255,16 @@ impl<'a> Text<'a> {
             Step::Split { on, twins, boards } => {
                 let mut split = Map::new();
                 split.insert("on".into(), self.question(*on));
-                if !twins.is_empty() {
-                    let twins: Vec<usize> =
-                        twins.iter().map(|twin| self.places.device(*twin)).collect();
-                    split.insert("twins".into(), json!(twins));
+                let mut swaps = Vec::new();
+                for devices in twins {
+                    swaps.push(self.swap_of_devices(devices)?);
                 }
-                if !boards.is_empty() {
+                for board in boards {
                     let own = self.board_of(record, *on);
-                    let swaps: Option<Vec<usize>> =
-                        boards.iter().map(|board| self.swap_of(own, *board)).collect();
-                    split.insert("swaps".into(), json!(swaps?));
+                    swaps.push(self.swap_of_boards(own, *board)?);
+                }
+                if !swaps.is_empty() {
+                    split.insert("swaps".into(), json!(swaps));
                 }
                 json!({ "split": split })
             }
@@ -296,12 +304,29 @@ impl<'a> Text<'a> {
     }
 
     /// The number of the swap of two boards.
-    fn swap_of(&mut self, one: BoardId, other: BoardId) -> Option<usize> {
+    fn swap_of_boards(&mut self, one: BoardId, other: BoardId) -> Option<usize> {
         let boards = (one.0.min(other.0) as usize, one.0.max(other.0) as usize);
-        if let Some(known) = self.swaps.iter().position(|swap| swap.boards == boards) {
+        let is_known = |swap: &Swap| swap.boards == Some(boards);
+        self.number_of(is_known, |problem| Swap::of_boards(problem, boards))
+    }
+
+    /// The number of the swap of devices.
+    fn swap_of_devices(&mut self, devices: &Exchange) -> Option<usize> {
+        let ordered = |(one, other): &(DeviceId, DeviceId)| (*one.min(other), *one.max(other));
+        let devices: Exchange = devices.iter().map(ordered).collect();
+        let is_known = |swap: &Swap| swap.devices == devices;
+        self.number_of(is_known, |problem| Swap::of_devices(problem, &devices))
+    }
+
+    fn number_of(
+        &mut self,
+        is_known: impl Fn(&Swap) -> bool,
+        make: impl FnOnce(&Problem) -> Option<Swap>,
+    ) -> Option<usize> {
+        if let Some(known) = self.swaps.iter().position(is_known) {
             return Some(known);
         }
-        self.swaps.push(Swap::new(self.problem, boards)?);
+        self.swaps.push(make(self.problem)?);
         Some(self.swaps.len() - 1)
     }
 

@@ -1,24 +1,27 @@
-//! What changes when two equal boards change places.
+//! What changes when two equal boards, or equal devices, change places.
 //!
 //! The solver says that they are equal; the swap is found by going through what devices can take on
 //! both side by side. Whether it maps the problem to itself is for the verifier to see.
 
 use std::collections::BTreeMap;
 
-use sensedsl_solve::problem::{Alternative, Claim, Holder, Problem};
+use sensedsl_solve::problem::{Alternative, Claim, DeviceId, Holder, Problem, RuleId};
+use sensedsl_solve::trace::Exchange;
 
 /// Pairs of numbers, each in both directions.
 type Pairs = BTreeMap<u32, u32>;
 
-/// A swap of two boards.
+/// A swap of two boards, or of devices.
 #[derive(Default)]
 pub(crate) struct Swap {
-    pub(crate) boards: (usize, usize),
+    pub(crate) boards: Option<(usize, usize)>,
+    pub(crate) devices: Exchange,
     pub(crate) pins: Pairs,
     pub(crate) resources: Pairs,
     pub(crate) groups: Pairs,
     pub(crate) users: Pairs,
     pub(crate) streams: Pairs,
+    pub(crate) rules: Pairs,
     /// Device, and two of its alternatives.
     pub(crate) ways: Vec<(usize, usize, usize)>,
 }
@@ -31,9 +34,9 @@ fn pair(pairs: &mut Pairs, one: u32, other: u32) -> Option<()> {
 }
 
 impl Swap {
-    /// The swap; none where the boards differ.
-    pub(crate) fn new(problem: &Problem, boards: (usize, usize)) -> Option<Self> {
-        let mut swap = Self { boards, ..Self::default() };
+    /// The swap of two boards; none where they differ.
+    pub(crate) fn of_boards(problem: &Problem, boards: (usize, usize)) -> Option<Self> {
+        let mut swap = Self { boards: Some(boards), ..Self::default() };
         for (number, device) in problem.devices.iter().enumerate() {
             let on = |board: usize| {
                 let all = device.alternatives.iter().enumerate();
@@ -50,8 +53,23 @@ impl Swap {
         Some(swap)
     }
 
+    /// The swap of devices; none where they differ.
+    pub(crate) fn of_devices(problem: &Problem, devices: &Exchange) -> Option<Self> {
+        let mut swap = Self { devices: devices.clone(), ..Self::default() };
+        for (one, other) in devices {
+            let ways = |device: &DeviceId| {
+                problem.devices.get(device.0 as usize).map(|device| &device.alternatives)
+            };
+            for (way, image) in ways(one)?.iter().zip(ways(other)?) {
+                swap.way(problem, way, image)?;
+            }
+        }
+        Some(swap)
+    }
+
     fn way(&mut self, problem: &Problem, one: &Alternative, other: &Alternative) -> Option<()> {
         self.claims(&one.claims, &other.claims)?;
+        self.rules(&one.violates, &other.violates)?;
         for (user, image) in one.dma.iter().zip(&other.dma) {
             pair(&mut self.users, user.0, image.0)?;
             let requests = |user: u32| problem.dma.get(user as usize).map(|user| &user.requests);
@@ -67,6 +85,7 @@ impl Swap {
                 pair(&mut self.pins, wire.pin.0, image.pin.0)?;
                 self.holder(wire.holder, image.holder)?;
                 self.claims(&wire.claims, &image.claims)?;
+                self.rules(&wire.violates, &image.violates)?;
             }
         }
         Some(())
@@ -78,6 +97,11 @@ impl Swap {
             self.holder(claim.holder, image.holder)?;
         }
         Some(())
+    }
+
+    fn rules(&mut self, one: &[RuleId], other: &[RuleId]) -> Option<()> {
+        let mut both = one.iter().zip(other);
+        both.try_for_each(|(rule, image)| pair(&mut self.rules, rule.0, image.0))
     }
 
     fn holder(&mut self, one: Holder, other: Holder) -> Option<()> {

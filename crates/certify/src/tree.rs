@@ -140,8 +140,7 @@ impl Prover<'_, '_> {
             return Ok(None);
         }
         let goal = (self.limit, self.target, steps);
-        let ascent =
-            ascend(self.weighed, &case, open, start, &self.classes, goal, self.effort.cancel);
+        let ascent = ascend(self.weighed, &case, open, start, &self.classes, goal, self.effort);
         self.effort.work = self.effort.work.saturating_sub(ascent.work);
         let stopped = self.effort.cancel.is_over();
         if self.effort.work == 0 || stopped {

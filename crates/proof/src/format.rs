@@ -11,7 +11,7 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 
 /// Name and version of the format.
-pub const NAME: &str = "SenseDSL certificate 3";
+pub const NAME: &str = "SenseDSL certificate 4";
 
 /// Things by name, no name twice.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -330,7 +330,7 @@ pub struct Search {
     pub facilities: Vec<Facility>,
     /// Facilities of which so many must be open.
     pub covers: Vec<Cover>,
-    /// Boards that can change places.
+    /// Boards and devices that can change places.
     pub swaps: Vec<Swap>,
     /// The cases, depth first.
     pub steps: Vec<Step>,
@@ -366,12 +366,12 @@ pub struct Cover {
     pub need: u64,
 }
 
-/// Two boards that change places, with all that changes with them, in pairs.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// What changes places, in pairs. What is not named stays.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Swap {
-    /// The two.
-    pub boards: (u64, u64),
+    /// Boards.
+    pub boards: Row,
     /// Pins.
     pub pins: Row,
     /// Resources.
@@ -382,6 +382,10 @@ pub struct Swap {
     pub users: Row,
     /// Streams.
     pub streams: Row,
+    /// Rules.
+    pub rules: Row,
+    /// Devices, each alternative with the one at its place.
+    pub devices: Row,
     /// Device, alternative, alternative.
     pub ways: Row,
 }
@@ -400,10 +404,7 @@ pub enum Step {
     Split {
         /// The question.
         on: Question,
-        /// Devices that are as good for it.
-        #[serde(default)]
-        twins: Row,
-        /// Swaps to boards that are as good for it.
+        /// Swaps that keep the case, so what they make of the question is as good.
         #[serde(default)]
         swaps: Row,
     },

@@ -9,7 +9,7 @@ use sensedsl_proof::{Verified, read, verify};
 /// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
 /// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least.
 const TWO_OF_THREE: &str = r#"{
-"format": "SenseDSL certificate 3",
+"format": "SenseDSL certificate 4",
 "subject": {"tool": "a tool", "options": {}, "files": {}, "built_in": {}},
 "problem": {
   "boards": {"B": false},
@@ -190,7 +190,7 @@ fn what_is_not_proved_is_refused() {
 #[test]
 fn what_is_no_certificate_is_told_from_a_wrong_one() {
     for (from, to) in [
-        ("certificate 3", "certificate 2"),
+        ("certificate 4", "certificate 3"),
         ("\"subject\"", "\"subjects\""),
         ("\"built_in\": {}", "\"built_in\": {\"boards B\": 1}"),
         ("\"boards\"", "\"board\""),

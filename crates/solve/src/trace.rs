@@ -9,6 +9,9 @@ use crate::problem::{BoardId, DeviceId, DmaUserId, PinId, ResourceId, RuleId, St
 /// An alternative: its device, and its place in the device.
 pub type Way = (DeviceId, usize);
 
+/// Devices that change places, in pairs, each with all that it alone claims and violates.
+pub type Exchange = Vec<(DeviceId, DeviceId)>;
+
 /// A record.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
@@ -64,8 +67,8 @@ pub enum Step {
     Split {
         /// The question.
         on: Question,
-        /// Other devices that are as good for it.
-        twins: Vec<DeviceId>,
+        /// What puts another device in the place of its own, which is as good for it.
+        twins: Vec<Exchange>,
         /// Other boards that are as good for it.
         boards: Vec<BoardId>,
     },

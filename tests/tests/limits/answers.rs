@@ -27,7 +27,7 @@ fn certificates() {
     sparse(&folder, "large.json", 60_000_000);
     folder.write("nested.json", format!("{{\"format\":{}", "[".repeat(100_000)));
     let digits = "9".repeat(1_000_000);
-    let number = format!("{{\"format\":\"SenseDSL certificate 3\",\"problem\":{digits}}}");
+    let number = format!("{{\"format\":\"SenseDSL certificate 4\",\"problem\":{digits}}}");
     folder.write("number.json", number);
     mknodat(CWD, folder.join("pipe"), FileType::Fifo, Mode::RWXU, 0).unwrap();
     for name in ["large.json", "nested.json", "number.json", "pipe"] {
@@ -45,7 +45,7 @@ fn certificate(devices: &str, dma: &str, nodes: &str) -> String {
     );
     let weights = r#"{"moved":0,"violated":0,"shared":0,"cost":0,"spares":0}"#;
     format!(
-        r#"{{"format":"SenseDSL certificate 3","subject":{SUBJECT},"problem":{problem},"answer":null,"proofs":[
+        r#"{{"format":"SenseDSL certificate 4","subject":{SUBJECT},"problem":{problem},"answer":null,"proofs":[
         {{"of":"existence","weights":{weights},"nodes":[{nodes}]}}]}}"#
     )
 }

@@ -1,6 +1,7 @@
 //! What a record says beside its steps, and whether it is so: facilities, covers and swaps.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
+use super::Asked;
 use super::state::State;
 use super::statement::{Claim, Part, Statement};
 use crate::format::{self, Row};
@@ -258,12 +259,13 @@ fn private(statement: &Statement) -> Vec<bool> {
     users.into_iter().map(|user| user.is_some_and(|(_, one, own)| one || !own.is_empty())).collect()
 }
 
-/// A way to change the places of two boards that maps the statement to itself.
+/// A way to change places that maps the statement to itself. It is its own inverse.
 #[derive(Debug)]
 pub(crate) struct Swap {
-    pub(crate) boards: (usize, usize),
-    pub(crate) ways: Vec<usize>,
-    wires: Vec<usize>,
+    maps: Maps,
+    /// The alternatives and candidates that become others.
+    ways: BTreeMap<usize, usize>,
+    wires: BTreeMap<usize, usize>,
 }
 
 /// The numbers from 0, of which some change places in pairs.
@@ -279,34 +281,22 @@ fn paired(row: &Row, most: usize, kind: &str) -> Result<Vec<usize>, Refuted> {
 }
 
 /// What a swap does to numbers.
+#[derive(Debug)]
 struct Maps {
     boards: Vec<usize>,
     pins: Vec<usize>,
     resources: Vec<usize>,
     holders: Vec<usize>,
     users: Vec<usize>,
+    rules: Vec<usize>,
+    devices: Vec<usize>,
     ways: Vec<usize>,
 }
 
 impl Swap {
     pub(crate) fn new(statement: &Statement, stated: &format::Swap) -> Result<Self, Refuted> {
-        let (one, other) = stated.boards;
-        let boards = paired(&vec![one, other], statement.spare.len(), "board")?;
-        let pins = paired(&stated.pins, statement.pins.len(), "pin")?;
         let streams = paired(&stated.streams, statement.streams, "stream")?;
-        let mut pairs = Vec::new();
-        for [device, one, other] in groups::<3>(&stated.ways)? {
-            let ways = [way_of(statement, device, one)?, way_of(statement, device, other)?];
-            pairs.extend(ways.map(|way| way as u64));
-        }
-        let maps = Maps {
-            boards,
-            pins,
-            resources: paired(&stated.resources, statement.resources.len(), "resource")?,
-            holders: paired(&stated.holders, statement.holders, "holder")?,
-            users: paired(&stated.users, statement.users.len(), "user of DMA")?,
-            ways: paired(&pairs, statement.ways.len(), "alternative")?,
-        };
+        let maps = Maps::new(statement, stated)?;
         let board = |(one, other): (usize, &usize)| statement.spare[one] == statement.spare[*other];
         let pin = |(one, other): (usize, &usize)| {
             let (one, other) = (&statement.pins[one], &statement.pins[*other]);
@@ -323,48 +313,90 @@ impl Swap {
             && maps.users.iter().enumerate().all(user)
             && maps.holders.first() == Some(&0);
         ensure(things, || "a swap changes boards, pins or streams".into())?;
-        let mut wires: Vec<usize> = (0..statement.wires.len()).collect();
+        let (mut ways, mut wires) = (BTreeMap::new(), BTreeMap::new());
         for (way, image) in maps.ways.iter().enumerate() {
+            if way != *image {
+                ways.insert(way, *image);
+            } else if maps.leaves(statement, way) {
+                continue;
+            }
             let same = maps.way(statement, way, *image, &mut wires);
             ensure(same, || format!("a swap changes alternative {way}"))?;
         }
-        let first = below(one, statement.spare.len(), "board")?;
-        let boards = (first, maps.boards[first]);
-        Ok(Self { boards, ways: maps.ways, wires })
+        Ok(Self { maps, ways, wires })
     }
 
-    /// The other of the two boards.
-    pub(crate) const fn board(&self, board: usize) -> Option<usize> {
-        match (board == self.boards.0, board == self.boards.1) {
-            (true, _) => Some(self.boards.1),
-            (_, true) => Some(self.boards.0),
-            _ => None,
-        }
+    /// How much it moves, a measure of the time.
+    pub(crate) fn size(&self) -> usize {
+        1 + self.ways.len() + self.wires.len() + self.maps.boards.len() + self.maps.rules.len()
     }
 
-    /// Where a candidate goes.
-    pub(crate) fn wire(&self, wire: usize) -> usize {
-        self.wires[wire]
+    fn way(&self, way: usize) -> usize {
+        self.ways.get(&way).copied().unwrap_or(way)
+    }
+
+    /// What becomes of a question.
+    pub(crate) fn images(&self, asked: Asked, facilities: &Facilities) -> Vec<Asked> {
+        vec![match asked {
+            Asked::Way(way) => Asked::Way(self.way(way)),
+            Asked::Wire(wire) => Asked::Wire(self.wires.get(&wire).copied().unwrap_or(wire)),
+            Asked::Kept(rule) => Asked::Kept(self.maps.rules[rule]),
+            Asked::Unused(board) => Asked::Unused(self.maps.boards[board]),
+            Asked::Member(way) => Asked::Member(self.way(way)),
+            Asked::Open(facility) => {
+                let members = facilities.all[facility].members.iter();
+                return members.map(|way| Asked::Member(self.way(*way))).collect();
+            }
+        }]
     }
 
     /// Whether a case stays as it is.
     pub(crate) fn keeps(&self, state: &State, facilities: &Facilities) -> bool {
-        let mut ways = self.ways.iter().enumerate();
-        let mut wires = self.wires.iter().enumerate();
-        let within = |number: usize, facility: &Facility| {
-            let image = |way: &usize| &facilities.of_way[self.ways[*way]];
-            facility.members.iter().all(|way| image(way).contains(&number))
-        };
-        let open = facilities.all.iter().enumerate().zip(&state.open);
-        let mut open = open.filter(|(_, open)| **open).map(|(facility, _)| facility);
-        ways.all(|(way, image)| state.way[way] == state.way[*image])
-            && wires.all(|(wire, image)| state.wire[wire] == state.wire[*image])
-            && state.board[self.boards.0] == state.board[self.boards.1]
-            && open.all(|(number, facility)| within(number, facility))
+        let boards = self.maps.boards.iter().enumerate();
+        let rules = self.maps.rules.iter().enumerate();
+        let is_open = |number: &usize| state.open[*number];
+        // Whoever uses this one becomes one who uses an open one.
+        let stays =
+            |number: usize| {
+                let members = &facilities.all[number].members;
+                let of_first = members.first().map(|way| &facilities.of_way[self.way(*way)]);
+                of_first.into_iter().flatten().filter(|to| is_open(to)).any(|to| {
+                    members.iter().all(|way| facilities.of_way[self.way(*way)].contains(to))
+                })
+            };
+        self.ways.iter().all(|(way, image)| state.way[*way] == state.way[*image])
+            && self.wires.iter().all(|(wire, image)| state.wire[*wire] == state.wire[*image])
+            && boards.into_iter().all(|(one, other)| state.board[one] == state.board[*other])
+            && rules.into_iter().all(|(one, other)| state.rule[one] == state.rule[*other])
+            && (0..facilities.all.len()).filter(is_open).all(stays)
     }
 }
 
 impl Maps {
+    fn new(statement: &Statement, stated: &format::Swap) -> Result<Self, Refuted> {
+        let devices = paired(&stated.devices, statement.devices.len(), "device")?;
+        let mut pairs = Vec::new();
+        for [device, one, other] in groups::<3>(&stated.ways)? {
+            let ways = [way_of(statement, device, one)?, way_of(statement, device, other)?];
+            pairs.extend(ways.map(|way| way as u64));
+        }
+        for (one, other) in devices.iter().enumerate().filter(|(one, other)| one < *other) {
+            let (one, other) = (&statement.devices[one], &statement.devices[*other]);
+            ensure(one.len() == other.len(), || "a swap changes a device".into())?;
+            pairs.extend(one.clone().zip(other.clone()).flat_map(|(a, b)| [a as u64, b as u64]));
+        }
+        Ok(Self {
+            boards: paired(&stated.boards, statement.spare.len(), "board")?,
+            pins: paired(&stated.pins, statement.pins.len(), "pin")?,
+            resources: paired(&stated.resources, statement.resources.len(), "resource")?,
+            holders: paired(&stated.holders, statement.holders, "holder")?,
+            users: paired(&stated.users, statement.users.len(), "user of DMA")?,
+            rules: paired(&stated.rules, statement.rules.len(), "rule")?,
+            devices,
+            ways: paired(&pairs, statement.ways.len(), "alternative")?,
+        })
+    }
+
     fn claims(&self, claims: &[Claim]) -> BTreeSet<(usize, usize, bool)> {
         let image = |claim: &Claim| {
             (self.resources[claim.resource], self.holders[claim.holder], claim.first)
@@ -372,19 +404,54 @@ impl Maps {
         claims.iter().map(image).collect()
     }
 
+    fn rules(&self, rules: &[usize]) -> BTreeSet<usize> {
+        rules.iter().map(|rule| self.rules[*rule]).collect()
+    }
+
+    /// Whether nothing changes that an alternative names.
+    fn leaves(&self, statement: &Statement, way: usize) -> bool {
+        let of = &statement.ways[way];
+        let claims = |claims: &[Claim]| {
+            let mut all = claims.iter();
+            all.all(|c| {
+                self.resources[c.resource] == c.resource && self.holders[c.holder] == c.holder
+            })
+        };
+        let rules = |rules: &[usize]| rules.iter().all(|rule| self.rules[*rule] == *rule);
+        let mut wires = of.roles.clone().flat_map(|role| statement.roles[role].wires.clone());
+        self.boards[of.board] == of.board
+            && claims(&of.claims)
+            && rules(&of.rules)
+            && of.users.iter().all(|user| self.users[*user] == *user)
+            && wires.all(|wire| {
+                let one = &statement.wires[wire];
+                self.pins[one.pin] == one.pin
+                    && self.holders[one.holder] == one.holder
+                    && claims(&one.claims)
+                    && rules(&one.rules)
+            })
+    }
+
     /// Whether an alternative becomes another one; notes what its candidates become.
-    fn way(&self, statement: &Statement, way: usize, image: usize, wires: &mut [usize]) -> bool {
+    fn way(
+        &self,
+        statement: &Statement,
+        way: usize,
+        image: usize,
+        wires: &mut BTreeMap<usize, usize>,
+    ) -> bool {
         let (one, other) = (&statement.ways[way], &statement.ways[image]);
         let plain = |claims: &[Claim]| -> BTreeSet<(usize, usize, bool)> {
             claims.iter().map(|claim| (claim.resource, claim.holder, claim.first)).collect()
         };
+        let set = |numbers: &[usize]| -> BTreeSet<usize> { numbers.iter().copied().collect() };
         let users: BTreeSet<usize> = one.users.iter().map(|user| self.users[*user]).collect();
         let mut roles = one.roles.clone().zip(other.roles.clone());
-        one.device == other.device
+        self.devices[one.device] == other.device
             && self.boards[one.board] == other.board
             && self.claims(&one.claims) == plain(&other.claims)
-            && one.rules == other.rules
-            && users == other.users.iter().copied().collect()
+            && self.rules(&one.rules) == set(&other.rules)
+            && users == set(&other.users)
             && one.roles.len() == other.roles.len()
             && roles.all(|(role, image)| {
                 let (from, to) = (&statement.roles[role].wires, &statement.roles[image].wires);
@@ -397,9 +464,9 @@ impl Maps {
                         let place = (self.pins[of.pin], self.holders[of.holder], of.signal);
                         let Some(found) = places.get(&place) else { return false };
                         let to = &statement.wires[*found];
-                        wires[wire] = *found;
+                        wires.insert(wire, *found);
                         of.moved == to.moved
-                            && of.rules == to.rules
+                            && self.rules(&of.rules) == set(&to.rules)
                             && self.claims(&of.claims) == plain(&to.claims)
                     })
             })

@@ -9,9 +9,10 @@
 //!
 //! Two things are kept of each case: what was *decided* on the way to it, and what is *left* after
 //! everything that cannot be in a wiring below the limit was removed as well. Where either stays as
-//! it is when two alike devices, or two boards, change places, then from any wiring of the case
-//! below the limit we get another one by changing them. So if there is none where one of them takes
-//! a choice, there is none where the other one does, and the choice is refused to both.
+//! it is when devices or boards change places, then from any wiring of the case below the limit we
+//! get another one by changing them, and so by several such changes in turn. So if there is none
+//! where one of them takes a choice, there is none where the other one does, and the choice is
+//! refused to both.
 #![expect(clippy::indexing_slicing, reason = "places are checked where they are read")]
 
 mod claims;
@@ -26,9 +27,10 @@ use claims::{Facilities, Swap, below, way_of};
 use price::{Market, Weights};
 use state::State;
 use statement::Statement;
+use std::collections::BTreeSet;
 
 /// A question in numbers of the statement.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Asked {
     Way(usize),
     Wire(usize),
@@ -43,7 +45,7 @@ enum Asked {
 struct Waiting {
     decided: usize,
     left: usize,
-    refused: Vec<Asked>,
+    refused: BTreeSet<Asked>,
 }
 
 struct Walk<'s> {
@@ -163,10 +165,9 @@ impl Walk<'_> {
                 budget.work(self.market.narrow(&mut self.left, by)?)?;
                 Ok(false)
             }
-            Step::Split { on, twins, swaps } => {
-                budget.work((twins.len() + 2 * swaps.len()) * statement.wires.len())?;
+            Step::Split { on, swaps } => {
                 let asked = self.asked(*on)?;
-                let refused = self.images(at, asked, twins, swaps)?;
+                let refused = self.images(at, asked, swaps, budget)?;
                 let (decided, left) = (self.decided.mark(), self.left.mark());
                 self.waiting.push(Waiting { decided, left, refused });
                 for state in [&mut self.decided, &mut self.left] {
@@ -220,90 +221,31 @@ impl Walk<'_> {
         })
     }
 
-    /// What is refused together: the question, and what it becomes when alike devices and equal
-    /// boards change places.
+    /// What is refused together: the question, and all that swaps that keep the case make of it.
     fn images(
         &self,
         at: usize,
         asked: Asked,
-        twins: &Row,
         swaps: &Row,
-    ) -> Result<Vec<Asked>, Refuted> {
-        let statement = self.market.statement;
+        budget: &mut Budget,
+    ) -> Result<BTreeSet<Asked>, Refuted> {
         let facilities = self.market.facilities;
-        let mut images = vec![asked];
+        let mut keeping = Vec::new();
         for number in swaps {
             let swap = &self.swaps[below(*number, self.swaps.len(), "swap")?];
+            budget.work(2 * swap.size())?;
             let keeps = swap.keeps(&self.decided, facilities) || swap.keeps(&self.left, facilities);
-            ensure(keeps || self.left.dead, || format!("step {at} swaps boards that differ"))?;
-            match asked {
-                Asked::Way(way) => images.push(Asked::Way(swap.ways[way])),
-                Asked::Wire(wire) => images.push(Asked::Wire(swap.wire(wire))),
-                Asked::Unused(board) => images.extend(swap.board(board).map(Asked::Unused)),
-                Asked::Open(facility) => {
-                    let members = facilities.all[facility].members.iter();
-                    images.extend(members.map(|way| Asked::Member(swap.ways[*way])));
-                }
-                Asked::Kept(_) | Asked::Member(_) => {}
-            }
+            ensure(keeps || self.left.dead, || format!("step {at} swaps what differs"))?;
+            keeping.extend(keeps.then_some(swap));
         }
-        let device = match asked {
-            Asked::Way(way) => statement.ways[way].device,
-            Asked::Wire(wire) => statement.wires[wire].device,
-            Asked::Kept(_) | Asked::Unused(_) | Asked::Open(_) | Asked::Member(_) => {
-                ensure(twins.is_empty(), || format!("step {at} is not about a device"))?;
-                return Ok(images);
-            }
-        };
-        let own = images.clone();
-        for twin in twins {
-            let twin = below(*twin, statement.devices.len(), "device")?;
-            let alike = statement.alike(device, twin)
-                && (self.unchanged(&self.decided, device, twin)
-                    || self.unchanged(&self.left, device, twin));
-            ensure(alike || self.left.dead, || format!("step {at} swaps devices that differ"))?;
-            if alike {
-                images.extend(own.iter().map(|image| twin_of(statement, *image, twin)));
-            }
+        let mut images = BTreeSet::from([asked]);
+        let mut open = vec![asked];
+        while let Some(one) = open.pop() {
+            budget.work(keeping.len())?;
+            let found = keeping.iter().flat_map(|swap| swap.images(one, facilities));
+            open.extend(found.filter(|image| images.insert(*image)));
         }
         Ok(images)
-    }
-
-    /// Whether a case stays as it is when two alike devices change places.
-    fn unchanged(&self, state: &State, one: usize, other: usize) -> bool {
-        let Market { statement, facilities, .. } = self.market;
-        let mut ways = statement.devices[one].clone().zip(statement.devices[other].clone());
-        let open = |facility: &&usize| state.open[**facility];
-        ways.all(|(a, b)| {
-            let (p, q) = (&statement.ways[a].roles, &statement.ways[b].roles);
-            let mut roles = p.clone().zip(q.clone());
-            let facilities_of = |way: usize| facilities.of_way[way].iter().filter(open);
-            state.way[a] == state.way[b]
-                && facilities_of(a).eq(facilities_of(b))
-                && roles.all(|(r, s)| {
-                    let (r, s) = (&statement.roles[r].wires, &statement.roles[s].wires);
-                    state.wire[r.clone()] == state.wire[s.clone()]
-                })
-        })
-    }
-}
-
-/// The same choice of an alike device.
-fn twin_of(statement: &Statement, asked: Asked, twin: usize) -> Asked {
-    let way_of = |way: usize| {
-        let own = &statement.devices[statement.ways[way].device];
-        statement.devices[twin].start + way - own.start
-    };
-    match asked {
-        Asked::Way(way) => Asked::Way(way_of(way)),
-        Asked::Wire(wire) => {
-            let of = &statement.wires[wire];
-            let twin = &statement.ways[way_of(of.way)].roles;
-            let role = twin.start + of.role - statement.ways[of.way].roles.start;
-            let place = wire - statement.roles[of.role].wires.start;
-            Asked::Wire(statement.roles[role].wires.start + place)
-        }
-        Asked::Kept(_) | Asked::Unused(_) | Asked::Open(_) | Asked::Member(_) => asked,
     }
 }
 

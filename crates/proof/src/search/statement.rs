@@ -303,28 +303,6 @@ impl Statement {
             Part::Wire(wire) => self.wires[wire].device,
         }
     }
-
-    /// Whether two devices have the same choices in every respect.
-    pub(crate) fn alike(&self, one: usize, other: usize) -> bool {
-        let (one, other) = (self.devices[one].clone(), self.devices[other].clone());
-        one.len() == other.len() && one.zip(other).all(|(a, b)| self.same_way(a, b))
-    }
-
-    fn same_way(&self, one: usize, other: usize) -> bool {
-        let (a, b) = (&self.ways[one], &self.ways[other]);
-        let mut roles = a.roles.clone().zip(b.roles.clone());
-        (a.board, &a.claims, &a.rules, &a.users) == (b.board, &b.claims, &b.rules, &b.users)
-            && a.roles.len() == b.roles.len()
-            && roles.all(|(r, s)| {
-                let (r, s) = (&self.roles[r].wires, &self.roles[s].wires);
-                r.len() == s.len() && r.clone().zip(s.clone()).all(|(c, d)| self.same_wire(c, d))
-            })
-    }
-
-    fn same_wire(&self, one: usize, other: usize) -> bool {
-        let (a, b) = (&self.wires[one], &self.wires[other]);
-        (a.place(), a.moved, &a.claims, &a.rules) == (b.place(), b.moved, &b.claims, &b.rules)
-    }
 }
 
 impl Wire {

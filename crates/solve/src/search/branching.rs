@@ -135,11 +135,10 @@ impl Engine<'_> {
 
     /// The device and those that are interchangeable with it at this node, by themselves or with
     /// their bundles.
-    pub(super) fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
+    fn twins(&self, device: DeviceId) -> Vec<DeviceId> {
         let model = self.model;
-        let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
-        let mut twins: Vec<DeviceId> = model.class_of(model.class[device]).filter(same).collect();
-        let own: Vec<DeviceId> = twins.clone();
+        let own = self.alike(device);
+        let mut twins = own.clone();
         for bundle in self.equal_bundles(device) {
             let there = |twin: &DeviceId| {
                 let place = model.bundles.place(*twin)?;
@@ -150,8 +149,15 @@ impl Engine<'_> {
         twins
     }
 
+    /// The device and those that are interchangeable with it at this node by themselves.
+    pub(super) fn alike(&self, device: DeviceId) -> Vec<DeviceId> {
+        let model = self.model;
+        let same = |&d: &DeviceId| d == device || self.domains.same_domain(model, d, device);
+        model.class_of(model.class[device]).filter(same).collect()
+    }
+
     /// The bundles that are interchangeable at this node with the one of the device.
-    fn equal_bundles(&self, device: DeviceId) -> Vec<&Bundle> {
+    pub(super) fn equal_bundles(&self, device: DeviceId) -> Vec<&Bundle> {
         let bundles = &self.model.bundles;
         let Some(place) = bundles.place(device).filter(|_| self.bundle_symmetry) else {
             return Vec::new();
@@ -197,7 +203,7 @@ impl Engine<'_> {
     }
 
     /// The same facility of the bundles that are interchangeable with the one that it belongs to.
-    fn equal_facilities(&self, alts: &[AltId]) -> Vec<Vec<AltId>> {
+    pub(super) fn equal_facilities(&self, alts: &[AltId]) -> Vec<Vec<AltId>> {
         let model = self.model;
         let Some(&first) = alts.first() else { return Vec::new() };
         let device = model.alt_device[first];

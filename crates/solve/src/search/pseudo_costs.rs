@@ -6,10 +6,6 @@ use super::branching::Branch;
 use crate::index::{AltId, FacilityId, PenaltyId};
 use std::collections::BTreeMap;
 
-/// The pseudo-costs of a variable that was tried so often are reliable (T. Achterberg, T. Koch and A. Martin, *Branching
-/// rules revisited*, 2005, call this reliability branching).
-const RELIABLE: u32 = 4;
-
 /// Names a variable. Devices of one class have their variables together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Key {
@@ -34,36 +30,28 @@ impl Fractional {
     }
 }
 
-/// Gains of earlier branches for each unit of distance: their sum and their number.
-#[derive(Clone, Copy, Debug, Default)]
-struct Side {
-    sum: f64,
-    number: u32,
-}
-
-/// The pseudo-costs of all variables, each with a side where the branch is taken and one where it
-/// is refused.
+/// What a variable gains for each unit of distance, where it is taken and where it is refused. One try is
+/// enough: *Branching rules revisited* (T. Achterberg, T. Koch and A. Martin, 2005) tries up to eight times
+/// before it relies on the mean, but our programs are small and a try costs more than what it saves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PseudoCosts {
-    known: BTreeMap<Key, [Side; 2]>,
+    known: BTreeMap<Key, [f64; 2]>,
 }
 
 impl PseudoCosts {
     pub(super) fn note(&mut self, question: &Fractional, gains: [f64; 2]) {
-        let sides = self.known.entry(question.key).or_default();
-        for ((side, gain), missing) in sides.iter_mut().zip(gains).zip(question.missing()) {
-            side.sum += gain / missing;
-            side.number += 1;
-        }
+        let [taken, refused] = gains;
+        let [to_one, to_none] = question.missing();
+        self.known.insert(question.key, [taken / to_one, refused / to_none]);
     }
 
     pub(super) fn is_known(&self, question: &Fractional) -> bool {
-        self.known.get(&question.key).is_some_and(|[taken, _]| taken.number >= RELIABLE)
+        self.known.contains_key(&question.key)
     }
 
+    /// The probable gains; none where nothing is known.
     pub(super) fn expected(&self, question: &Fractional) -> [f64; 2] {
-        let Some(sides) = self.known.get(&question.key) else { return [0.0; 2] };
-        let [taken, refused] = sides.map(|side| side.sum / f64::from(side.number.max(1)));
+        let [taken, refused] = self.known.get(&question.key).copied().unwrap_or_default();
         let [to_one, to_none] = question.missing();
         [taken * to_one, refused * to_none]
     }

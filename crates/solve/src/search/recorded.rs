@@ -13,9 +13,10 @@ use crate::bounds::lagrangian::Lagrangian;
 use crate::cancel::Cancel;
 use crate::domains::Pruned;
 use crate::index::{AltId, FacilityId, Id};
+use crate::model::bundles::Bundle;
 use crate::model::{Holding, Model};
 use crate::problem::{BoardId, DeviceId, Problem};
-use crate::trace::{Cover, Facility, Multipliers, Question, Record, Step, Way};
+use crate::trace::{Cover, Exchange, Facility, Multipliers, Question, Record, Step, Way};
 
 /// Steps of a record; what is longer nobody would verify.
 const STEPS_MAX: usize = 20_000;
@@ -57,8 +58,6 @@ pub fn record(
         return Ok(Some(record));
     };
     engine.board_symmetry = boards;
-    // A record does not hold bundles that change places.
-    engine.bundle_symmetry = false;
     engine.goal.limit = limit;
     let done = engine.recorded(&mut record.steps);
     if let Some(pricing) = &engine.pricing {
@@ -207,12 +206,43 @@ impl Engine<'_> {
         self.any_branch()
     }
 
+    /// What puts the twins of a device in its place.
+    fn exchanges(&self, device: DeviceId) -> Vec<Exchange> {
+        let alike = self.alike(device).into_iter().filter(|twin| *twin != device);
+        let mut all: Vec<Exchange> = alike.map(|twin| vec![(device, twin)]).collect();
+        all.extend(self.bundle_exchanges(device));
+        all
+    }
+
+    /// What puts equal bundles in the place of the one that a facility belongs to.
+    fn facility_exchanges(&self, facility: FacilityId) -> Vec<Exchange> {
+        let Some(pricing) = &self.pricing else { return Vec::new() };
+        let alts = &pricing.dualized.facilities[facility].alts;
+        let of_one_board = self.boards_of(Branch::Facility(facility)).len() == 1;
+        match alts.first() {
+            Some(first) if of_one_board && !self.equal_facilities(alts).is_empty() => {
+                self.bundle_exchanges(self.model.alt_device[*first])
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn bundle_exchanges(&self, device: DeviceId) -> Vec<Exchange> {
+        let bundles = &self.model.bundles;
+        let own = bundles.place(device).and_then(|at| bundles.family(at).get(at.bundle));
+        let Some(own) = own else { return Vec::new() };
+        let pairs = |other: &Bundle| {
+            own.devices.iter().copied().zip(other.devices.iter().copied()).collect()
+        };
+        self.equal_bundles(device).into_iter().map(pairs).collect()
+    }
+
     fn stated(&self, branch: Branch) -> Step {
         let model = self.model;
-        let (on, device) = match branch {
+        let (on, twins) = match branch {
             Branch::Alt(alt) => {
                 let (device, place) = way(model, alt);
-                (Question::Way(device, place), Some(device))
+                (Question::Way(device, place), self.exchanges(device))
             }
             Branch::Cand(id) => {
                 let alt = model.cand_alt(id);
@@ -220,21 +250,20 @@ impl Engine<'_> {
                 let role = model.cand[id].role;
                 let at = model.cands.of(role).position(id);
                 let role = model.roles.of(alt).position(role);
-                (Question::Wire(device, place, role, at), Some(device))
+                (Question::Wire(device, place, role, at), self.exchanges(device))
             }
-            Branch::Rule(rule) => (Question::Kept(rule), None),
-            Branch::Board(board) => (Question::Unused(board), None),
-            Branch::Facility(facility) => (Question::Open(facility.index()), None),
-        };
-        let others = |device: DeviceId| {
-            self.twins(device).into_iter().filter(move |twin| *twin != device).collect()
+            Branch::Rule(rule) => (Question::Kept(rule), Vec::new()),
+            Branch::Board(board) => (Question::Unused(board), Vec::new()),
+            Branch::Facility(facility) => {
+                (Question::Open(facility.index()), self.facility_exchanges(facility))
+            }
         };
         let own = self.boards_of(branch);
         let boards: Vec<BoardId> = match own.as_slice() {
             [own] => self.equals(branch).filter(|board| board != own).collect(),
             _ => Vec::new(),
         };
-        Step::Split { on, twins: device.map(others).unwrap_or_default(), boards }
+        Step::Split { on, twins, boards }
     }
 }
 
