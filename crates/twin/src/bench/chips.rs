@@ -52,8 +52,10 @@ impl Bench {
             let told = registers.odd().map(str::to_owned);
             // What a fault of the world has undone may not be done again yet.
             let not_set_up = || registers.not_set_up().filter(|_| self.faults.is_empty());
+            let not_left_alone = || registers.not_left_alone().filter(|_| self.faults.is_empty());
             let parts = u64::try_from(of_bus).unwrap_or(u64::MAX);
-            told.or_else(not_set_up).or_else(|| registers.waits_too_long(parts))
+            let told = told.or_else(not_left_alone).or_else(not_set_up);
+            told.or_else(|| registers.waits_too_long(parts))
         };
         self.chips.iter().filter_map(|one| Some((one.name.clone(), odd(one)?))).collect()
     }

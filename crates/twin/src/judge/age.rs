@@ -28,8 +28,11 @@ pub(super) fn measured_ns(one: &JobDevice<'_>, subject: &Subject, period_ns: u64
         Kind::I2c(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
         Kind::Spi(own) if !own.trigger.is_empty() => delay_ns + 1_000 * u64::from(own.wait_us),
         Kind::Analog(_) | Kind::I2c(_) | Kind::Spi(_) => delay_ns.min(50 * MS),
-        // A spike has a contact begin to last anew.
-        Kind::Digital(own) => delay_ns.min(50 * MS) + 2_300 * u64::from(own.debounce_us),
+        // A spike has a contact begin to last anew, and where nothing interrupts each look is late by a cycle.
+        Kind::Digital(own) if own.debounce_us > 0 => {
+            delay_ns.min(50 * MS) + 3_000 * u64::from(own.debounce_us) + 20 * MS
+        }
+        Kind::Digital(_) => delay_ns.min(50 * MS),
         Kind::Uart(_) | Kind::Can(_) => period_ns + delay_ns.min(SECOND),
         Kind::Encoder(_) => 20 * MS,
         Kind::Icu(icu) => pulses_ns(icu, subject) + delay_ns * u64::from(icu.pulse_us.is_some()),

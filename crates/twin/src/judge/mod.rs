@@ -7,10 +7,12 @@
 //! file says, and what the board itself counts of a device with which nothing is wrong.
 
 mod age;
+mod counted;
 mod filtered;
 mod health;
 mod load;
 mod pace;
+mod pressed;
 mod sensor;
 mod silence;
 mod tolerance;
@@ -27,6 +29,8 @@ use sensor::SensorJudge;
 
 const MS: u64 = 1_000_000;
 const SECOND: u64 = 1_000 * MS;
+/// So many reports tell how often a board reports.
+const REPORTS_MIN: u64 = 100;
 
 /// Something that disagrees.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +64,22 @@ pub enum Finding {
         /// What it was.
         got_ns: u64,
     },
+    /// What counts is told too late: nanoseconds after it has changed, on average.
+    Late {
+        /// How late it may be.
+        most_ns: u64,
+        /// How late it was.
+        got_ns: u64,
+    },
+    /// A contact was the other way so often, for a little longer than it must last, and it was never told.
+    Unseen {
+        /// How often.
+        count: u64,
+        /// How long it must last.
+        lasting_ns: u64,
+    },
+    /// A count that has not changed is told again after so many nanoseconds.
+    Again(u64),
     /// A value that is `invalid` was reported.
     Invalid(f64),
     /// A value was reported that differs from the one before it by less than `change`.
@@ -109,8 +129,11 @@ pub struct Judge {
     undisturbed: Option<String>,
     /// Reports that came.
     heard: u64,
-    /// When the first of them came.
+    /// When the first of them came, and the last.
     first_ns: Option<u64>,
+    last_ns: u64,
+    /// From one report to the next at least.
+    reporter_ns: u64,
     load: Load,
 }
 
@@ -159,6 +182,8 @@ impl Judge {
             undisturbed: (!bench.is_disturbed()).then_some(name),
             heard: 0,
             first_ns: None,
+            last_ns: 0,
+            reporter_ns: pace::reporter_ns(job),
             load: Load::default(),
         }
     }
@@ -166,6 +191,7 @@ impl Judge {
     /// A report has arrived.
     pub fn take(&mut self, now_ns: u64, values: &[(u8, Vec<Scalar>)]) {
         self.heard += 1;
+        self.last_ns = now_ns;
         let first_ns = *self.first_ns.get_or_insert(now_ns);
         for (id, elements) in values {
             if let Some(sensor) = self.devices.iter_mut().find(|one| one.subject.id == *id) {
@@ -262,9 +288,26 @@ impl Judge {
         self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
     }
 
+    /// Whether the board sends more reports than one in each cycle of its reporter.
+    fn hurries(&self) -> Option<Wrong> {
+        let between = self.heard.checked_sub(1).filter(|between| *between >= REPORTS_MIN)?;
+        let got_ns = self.last_ns.saturating_sub(self.first_ns?) / between;
+        let expected_ns = (self.reporter_ns, self.reporter_ns);
+        (got_ns < self.reporter_ns - self.reporter_ns / 20).then_some(Wrong {
+            at_ns: self.last_ns,
+            finding: Finding::Pace { expected_ns, got_ns },
+            off: 1_000.0,
+        })
+    }
+
     /// The run is over.
     #[must_use]
     pub fn finish(mut self, now_ns: u64) -> Vec<Judged> {
+        if let Some(wrong) = self.hurries() {
+            let mut judged = Judged::new(self.board.clone(), None);
+            judged.note(Some(wrong));
+            self.others.push(OtherJudge { id: 0, judged, is_well: false, told_ns: None });
+        }
         for sensor in &mut self.devices {
             sensor.finish(now_ns);
         }

@@ -14,7 +14,7 @@ use crate::truth::Subject;
 /// How often a board looks for what is to be reported, unless its link says how often.
 const REPORTER_NS: u64 = 10 * MS;
 /// How often a count that stands still is reported again.
-const REPEAT_NS: u64 = SECOND;
+pub(super) const REPEAT_NS: u64 = SECOND;
 /// What a measurement takes beside its waiting.
 const MEASURING_NS: u64 = 3 * MS;
 /// What the first value waits for beside that: other parts of its bus are set up and measure before it.
@@ -54,7 +54,7 @@ impl Pace {
     ) -> Option<Self> {
         let device = one.device;
         let rate_hz = job.board.link.rate_hz;
-        let reporter_ns = rate_hz.map_or(REPORTER_NS, |rate| SECOND / u64::from(rate.max(1)));
+        let reporter_ns = rate_hz.map_or(REPORTER_NS, cycle_ns_of);
         let cycle_ns = (MS * u64::from(one.cycle.delay_ms.max(device.delay_ms))).max(MS);
         let (least_ns, most_ns, own_ns) = match &device.kind {
             _ if is_counter(&device.kind, device) && device.kind.digital().is_none() => {
@@ -113,6 +113,21 @@ impl Pace {
         let first_ns = self.first_ns.map(|ns| 3 * ns + self.jitter_ns + FIRST_NS);
         first_ns.map_or(self.gap_ns(), |ns| ns.min(self.gap_ns()))
     }
+}
+
+/// From one report to the next at least: as often as something can become due, or as the link says.
+pub(super) fn reporter_ns(job: &BoardJob<'_>) -> u64 {
+    if let Some(rate_hz) = job.board.link.rate_hz {
+        return cycle_ns_of(rate_hz);
+    }
+    let cycles = job.devices.iter().flat_map(|one| [one.cycle.delay_ms, one.device.delay_ms]);
+    let cycles = cycles.chain(sensedsl_codegen::kinds::can::repeats_ms(job));
+    cycles.filter(|ms| *ms > 0).map(|ms| MS * u64::from(ms)).fold(REPORTER_NS, u64::min)
+}
+
+/// The reporter's cycle where a link has so many reports a second at most: whole milliseconds.
+fn cycle_ns_of(rate_hz: u32) -> u64 {
+    MS * u64::from(1_000_u32.div_ceil(rate_hz.max(1)))
 }
 
 /// A chip measures one thing after the other, and misses whole cycles where that takes longer than one.

@@ -7,9 +7,11 @@ use sensedsl_model::kind::icu::Mode;
 use sensedsl_wire::{DeviceHealth, Scalar};
 
 use super::age::{link_ns, measured_ns};
+use super::counted::Counted;
 use super::filtered::{Filtered, Shape};
 use super::health::{Expected, wrong};
 use super::pace::{Pace, Paced};
+use super::pressed::Pressed;
 use super::silence::Reasons;
 use super::tolerance::tolerance;
 use super::{Finding, Judged, MS, SECOND, Wrong};
@@ -35,6 +37,10 @@ pub(super) struct SensorJudge {
     /// How often it ought to report; none where the world gives it nothing to measure.
     pace: Option<Pace>,
     paced: Paced,
+    /// How late it is told, where it is told when it changes.
+    counted: Option<Counted>,
+    /// What was told of a contact that must last.
+    pressed: Option<Pressed>,
     reasons: Reasons,
     /// Until when a board may not be up yet.
     start_ns: u64,
@@ -116,6 +122,8 @@ impl SensorJudge {
             fed_since_ns: None,
             memory_ns,
             paced: Paced::default(),
+            counted: Counted::of(job, one, pace.as_ref()),
+            pressed: Pressed::of(job, one),
             reasons,
             start_ns: START_NS + MS * u64::from(one.cycle.start_ms),
             halves: u16::from(matches!(device.kind, Kind::Uart(_))),
@@ -154,10 +162,16 @@ impl SensorJudge {
         let is_mute = self.reasons.is_mute(&self.subject, (before_ns, now_ns));
         let has_waited = self.pace.is_some_and(|pace| now_ns <= first_ns + 2 * pace.turn_ns);
         self.paced.take(now_ns, !is_mute, has_waited);
+        if let Some(counted) = self.counted.as_mut().filter(|_| before_ns > self.start_ns) {
+            counted.take(&self.subject, before_ns, now_ns);
+        }
         if is_mute {
             self.forget_filters(now_ns);
         }
         let _ = self.fed_since_ns.get_or_insert(now_ns);
+        if let Some(pressed) = &mut self.pressed {
+            pressed.take(now_ns, &raw);
+        }
         let mut worst = self.unfiltered(now_ns, before_ns, &raw);
         for (element, got) in raw.iter().enumerate() {
             let wrong = if self.is_relative {
@@ -185,11 +199,19 @@ impl SensorJudge {
         if let Some(raw) = raw.iter().find(is_invalid).filter(|_| is_raw) {
             return wrong(Finding::Invalid(self.subject.scale.shown(*raw)));
         }
-        let change = filter.change?;
-        let is_heartbeat =
-            filter.heartbeat_ms > 0 && now_ns - before_ns > MS * u64::from(filter.heartbeat_ms) / 2;
         // Who hears a board first hears what there is.
         let is_known = self.last.len() == raw.len() && before_ns > self.start_ns;
+        let after_ns = now_ns - before_ns;
+        if let Some(counted) = &self.counted
+            && is_known
+            && raw == self.last
+            && counted.is_too_early(after_ns)
+        {
+            return wrong(Finding::Again(after_ns));
+        }
+        let change = filter.change?;
+        let is_heartbeat =
+            filter.heartbeat_ms > 0 && after_ns > MS * u64::from(filter.heartbeat_ms) / 2;
         let is_near = |(one, other): (&f64, &f64)| (one - other).abs() < change * (1.0 - 1e-9);
         if !is_known || is_heartbeat || !raw.iter().zip(&self.last).all(is_near) {
             return None;
@@ -356,5 +378,11 @@ impl SensorJudge {
         let may_be_slow = self.reasons.filter.change.is_some();
         let differs = self.pace.and_then(|pace| self.paced.differs(now_ns, &pace, may_be_slow));
         self.judged.note(differs);
+        self.judged.note(self.counted.and_then(|counted| counted.differs(now_ns)));
+        let span = (self.start_ns, now_ns);
+        let age_ns = self.judged.age_ns;
+        let pressed = self.pressed.as_ref().filter(|_| self.excuses.is_empty());
+        let unseen = pressed.and_then(|one| one.differs(&self.subject, span, age_ns));
+        self.judged.note(unseen);
     }
 }

@@ -19,6 +19,19 @@ impl Judged {
             Finding::Pace { expected_ns, got_ns } => {
                 format!("it reports every {} and not every {}", time(*got_ns), span(*expected_ns))
             }
+            Finding::Late { most_ns, got_ns } => format!(
+                "it is reported {} after it has changed on average, and not {} at most",
+                time(*got_ns),
+                time(*most_ns)
+            ),
+            Finding::Unseen { count, lasting_ns } => format!(
+                "it has changed {count} times for a little longer than its {}, and never told it",
+                time(*lasting_ns)
+            ),
+            Finding::Again(after_ns) => format!(
+                "at {at} it was reported again after {}, though it had not changed",
+                time(*after_ns)
+            ),
             Finding::Invalid(got) => {
                 format!("at {at} it reported {}, which is `invalid`", shown(*got))
             }

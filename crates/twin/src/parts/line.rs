@@ -26,8 +26,10 @@ const MARK_NS: u64 = 300_000;
 /// The longest channel of a train, and the pause after all of them.
 const CHANNEL_NS: u64 = 2_100_000;
 const TRAIN_REST_NS: u64 = 6_000_000;
-/// Spikes on the wire of a contact: how long, how often.
-const SPIKE_NS: u64 = 6_000_000;
+/// Spikes on the wire of a contact: by how much they are shorter than what counts, at least and in per cent; how long
+/// they are at least; how often they come.
+const SPIKE_LESS_NS: u64 = 500_000;
+const SPIKE_LESS_PERCENT: u64 = 10;
 const SPIKE_MIN_NS: u64 = 500_000;
 const SPIKES_NS: u64 = 171_000_000;
 /// How long a signal without a frequency is left alone.
@@ -71,15 +73,31 @@ pub(crate) struct Spikes {
 impl Spikes {
     /// Those that a contact which must last so long is not to see; none where any level counts.
     pub(crate) const fn below(lasting_ns: u64) -> Self {
-        let longest_ns = lasting_ns / 4;
-        let for_ns = if longest_ns < SPIKE_NS { longest_ns } else { SPIKE_NS };
-        let often_ns = 8 * lasting_ns;
+        let less_ns = lasting_ns / 100 * SPIKE_LESS_PERCENT;
+        let less_ns = if less_ns > SPIKE_LESS_NS { less_ns } else { SPIKE_LESS_NS };
+        let for_ns = lasting_ns.saturating_sub(less_ns);
+        let often_ns = lasting_ns.saturating_mul(8);
         let every_ns = if often_ns > SPIKES_NS { often_ns } else { SPIKES_NS };
         Self { every_ns, for_ns: if for_ns < SPIKE_MIN_NS { 0 } else { for_ns } }
     }
 
+    /// From one to the next.
+    pub(crate) const fn every_ns(&self) -> u64 {
+        self.every_ns
+    }
+
+    /// Where in its period a moment is: a spike is at the end of it, and away from what a world does at whole multiples.
+    const fn phase_ns(&self, now_ns: u64) -> u64 {
+        now_ns.saturating_add(self.every_ns / 2)
+    }
+
+    /// Whether there is one in a span of time.
+    pub(crate) fn is_within(&self, from_ns: u64, to_ns: u64) -> bool {
+        self.is_there(from_ns) || self.next(from_ns).is_some_and(|at_ns| at_ns <= to_ns)
+    }
+
     const fn is_there(&self, now_ns: u64) -> bool {
-        self.for_ns > 0 && now_ns % self.every_ns >= self.every_ns - self.for_ns
+        self.for_ns > 0 && self.phase_ns(now_ns) % self.every_ns >= self.every_ns - self.for_ns
     }
 
     /// The first beginning or end of one after a moment.
@@ -87,7 +105,8 @@ impl Spikes {
         if self.for_ns == 0 {
             return None;
         }
-        let end_ns = (after_ns / self.every_ns + 1) * self.every_ns;
+        let periods = self.phase_ns(after_ns) / self.every_ns + 1;
+        let end_ns = periods * self.every_ns - self.every_ns / 2;
         let start_ns = end_ns - self.for_ns;
         Some(if start_ns > after_ns { start_ns } else { end_ns })
     }
@@ -323,6 +342,26 @@ fn train(
 
 fn raw(subjects: &[Subject], subject: usize, element: usize, now_ns: u64) -> f64 {
     subjects.get(subject).map_or(0.0, |one| one.raw(element, now_ns))
+}
+
+/// The levels of an element of a contact in a span of time: since when it is on or off, the first from the beginning on.
+pub(crate) fn levels(
+    subject: &Subject,
+    element: usize,
+    from_ns: u64,
+    to_ns: u64,
+) -> Vec<(u64, bool)> {
+    let of = |raw: f64| f64::from(u8::from(is_on(raw)));
+    let mut all = vec![(from_ns, is_on(subject.raw(element, from_ns)))];
+    let mut at_ns = from_ns;
+    while let Some((next_ns, level)) =
+        crossing(std::slice::from_ref(subject), 0, element, at_ns, of)
+        && next_ns <= to_ns
+    {
+        all.push((next_ns, level >= 0.5));
+        at_ns = next_ns;
+    }
+    all
 }
 
 fn is_on(raw: f64) -> bool {

@@ -4,11 +4,14 @@
 //! identity or a calibration, it is there. A trigger starts a measurement; the part does not answer until it is done.
 
 mod odd;
+mod rest;
 
 use std::collections::BTreeMap;
 
 use sensedsl_model::protocol::{Formula, Protocol};
 use sensedsl_model::words::Words;
+
+use rest::Rest;
 
 use super::ranges::Ranges;
 use super::sleep::Sleep;
@@ -80,6 +83,8 @@ pub(crate) struct Registers {
     begun: usize,
     odd: Option<String>,
     waits: Waits,
+    /// Until when it is to be left alone.
+    rest: Rest,
 }
 
 impl Registers {
@@ -101,6 +106,7 @@ impl Registers {
             begun: 0,
             odd: None,
             waits: Waits::default(),
+            rest: Rest::default(),
         }
     }
 
@@ -109,7 +115,7 @@ impl Registers {
         let readings = std::mem::take(&mut self.readings);
         let (is_asked, is_used, odd) = (self.is_asked, self.is_used, self.odd.take());
         let new = Self::new(self.protocol.clone(), readings, self.sleep);
-        *self = Self { is_asked, is_used, odd, waits: self.waits, ..new };
+        *self = Self { is_asked, is_used, odd, waits: self.waits, rest: self.rest.again(), ..new };
     }
 
     /// From one measurement to the next, as the design sets it up.
@@ -128,6 +134,7 @@ impl Registers {
 
     /// A transfer begins, or goes on in the other direction.
     pub(crate) fn start(&mut self, read: bool, subjects: &[Subject], now_ns: u64) {
+        self.rest.touch(now_ns);
         self.take_sent(now_ns);
         if read {
             self.taken(now_ns);
@@ -158,6 +165,7 @@ impl Registers {
 
     /// The chip select went low.
     pub(crate) fn select(&mut self, now_ns: u64) {
+        self.rest.touch(now_ns);
         self.sent.clear();
         self.answer.clear();
         self.began_ns = now_ns;
@@ -231,6 +239,7 @@ impl Registers {
         }
         if self.init().nth(self.begun) == Some(sent.as_slice()) {
             self.begun += 1;
+            self.rest.begin(&self.protocol.init, self.begun, now_ns);
         }
         let width = self.width();
         let first = sent.iter().take(width).fold(0, |sum, byte| sum << 8 | u16::from(*byte));

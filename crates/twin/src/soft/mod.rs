@@ -326,7 +326,7 @@ impl Shape {
         let link = &job.board.link;
         let fastest = cycles_ms.iter().copied().filter(|cycle| *cycle > 0).min();
         let usual = REPORT_MS.min(fastest.unwrap_or(REPORT_MS));
-        let cycle_ms = link.rate_hz.map_or(usual, |rate| 1_000 / rate.max(1)).max(1);
+        let cycle_ms = link.rate_hz.map_or(usual, |rate| 1_000_u32.div_ceil(rate.max(1))).max(1);
         let speed = u64::from(link.baud) / 10;
         Self {
             schema,

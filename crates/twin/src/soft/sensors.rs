@@ -359,9 +359,11 @@ impl Contacts {
                 }
             }
             let level = bench.level_at(edges.connection, Role::In, now_ns).unwrap_or(self.at_rest);
-            contact.look(&self.config, level, now_us);
             if self.has_edge {
+                contact.look(&self.config, level, now_us);
                 has_news |= told.tell(&self.config, contact).is_some();
+            } else {
+                contact.sample(&self.config, level, now_us);
             }
         }
         if self.is_count {

@@ -85,6 +85,8 @@ pub enum Visit {
     To(f64),
     /// So far from where it would be.
     By(f64),
+    /// To this less where it would be: to the other one of two values whose sum this is.
+    Other(f64),
 }
 
 impl Visit {
@@ -92,6 +94,7 @@ impl Visit {
         match self {
             Self::To(to) => to,
             Self::By(by) => value + by,
+            Self::Other(sum) => sum - value,
         }
     }
 }

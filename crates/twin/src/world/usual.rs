@@ -10,6 +10,7 @@ use sensedsl_wire::ScalarType;
 
 use super::signal::{Shape, Signal, Visit};
 use crate::arith::{nanoseconds, number};
+use crate::parts::line::Spikes;
 use crate::range::{edges_a_second_max, is_counter, raw_range};
 use crate::truth::Scale;
 
@@ -20,6 +21,11 @@ const INVALID_NS: u64 = 700_000_000;
 const SPIKE_EVERY_NS: u64 = 1_300_000_000;
 /// How long a low-pass has at least to follow a step.
 const STEP_NS: u64 = 1_500_000_000;
+
+/// How long a contact is the other way, in per cent of how long it must last, and once in how many spikes on its wire.
+/// One that must last twice as long never sees it.
+const PRESS_PERCENT: u64 = 195;
+const PRESSES: u64 = 2;
 
 /// Raw numbers in a row are never further away from 0 than this without a reason.
 const FAR: f64 = 30_000.0;
@@ -87,13 +93,25 @@ fn shape(device: &Device, place: u64) -> Shape {
     let period_ns = nanoseconds((4.0 + 0.7 * pace + 8.0 * lasts_s) * 1e9);
     if device.value.value.scalar == ScalarType::Bool || is_one_bit(device) {
         let (first, second) = (scale.shown(0.0), scale.shown(1.0));
-        return Shape::Square { first, second, period_ns: period_ns / 2 };
+        return pressed(lasts_us, Shape::Square { first, second, period_ns: period_ns / 2 });
     }
     let (low, high) = sound_range(device, &scale);
     // A width or a count of elements is a whole number, and what is near to the ends is least like a measurement.
     let middle = low + (high - low) * (0.5 + 0.02 * (pace - 5.0));
     let (centre, reach) = (scale.shown(middle), scale.shown(high) - scale.shown(low));
     Shape::Sine { offset: centre, amplitude: reach * 0.3, period_ns }
+}
+
+/// A contact that must last for some time is now and then the other way for a little longer than that.
+fn pressed(lasts_us: u32, base: Shape) -> Shape {
+    let Shape::Square { first, second, .. } = base else { return base };
+    if lasts_us == 0 {
+        return base;
+    }
+    let lasting_ns = 1_000 * u64::from(lasts_us);
+    let every_ns = PRESSES * Spikes::below(lasting_ns).every_ns();
+    let for_ns = lasting_ns.saturating_mul(PRESS_PERCENT) / 100;
+    Shape::Visits { base: Box::new(base), every_ns, for_ns, to: Visit::Other(first + second) }
 }
 
 fn is_one_bit(device: &Device) -> bool {

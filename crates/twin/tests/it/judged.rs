@@ -140,6 +140,32 @@ fn what_does_not_come_is_wrong() {
     assert!(matches!(worst.finding, Finding::Silence(_)), "{worst:?}");
 }
 
+/// A count is told when it has changed, and not with another value only; once a second it is told anew.
+#[test]
+fn a_count_that_is_told_late_or_again_is_wrong() {
+    let words = |tamper: &mut dyn FnMut(u64, &mut Values)| {
+        let run = simulate(CAR, WORLD, 6, tamper);
+        assert!(wrong_names(&run.judged).iter().all(|name| *name == "Left"), "{:?}", run.wrong());
+        run.of("Left").words()
+    };
+    let mut last = 0;
+    let late = words(&mut |now, values| {
+        // Left out, until 60 ms have passed.
+        values.retain(|(id, _)| *id != 4 || now >= last + 60_000_000);
+        last = if values.iter().any(|(id, _)| *id == 4) { now } else { last };
+    });
+    assert!(late.contains("after it has changed on average"), "{late}");
+    let mut before = None;
+    let again = words(&mut |_, values| {
+        if let Some(own) = values.iter().find(|(id, _)| *id == 4) {
+            before = Some(own.clone());
+        } else {
+            values.extend(before.clone());
+        }
+    });
+    assert!(again.contains("though it had not changed"), "{again}");
+}
+
 /// What turns cannot jump: noise that did would cost an encoder steps.
 #[test]
 fn an_encoder_with_noise_agrees_with_its_world() {

@@ -159,3 +159,65 @@ fn a_contact_that_is_not_debounced_is_seen() {
     let right = mistaken(&text("20 ms"), &text("20 ms"), "", 10);
     assert!(right.wrong().is_empty(), "{:#?}", right.wrong());
 }
+
+/// Its wire is the other way for a little less than `debounce`, which is not to be told, and for a little longer.
+#[test]
+fn a_contact_that_must_last_for_another_time_is_seen() {
+    for edge in ["", "edge = both;"] {
+        let text = |debounce: &str| {
+            format!(
+                "board STM32F407G_DISC1 {{ sensor Bumper returns bool {{ id = 1; type = digital; debounce = {debounce}; \
+                 {edge} delay = 50 ms; pull = up; active = low; }} }}"
+            )
+        };
+        let told = |debounce: &str| {
+            let run = mistaken(&text("20 ms"), &text(debounce), "", 6);
+            run.of("Bumper").words()
+        };
+        assert_eq!(told("20 ms"), "", "{edge}");
+        let longer = told("40 ms");
+        assert!(longer.contains("a little longer than its 20 ms"), "{edge} {longer}");
+        let shorter = told("10 ms");
+        assert!(shorter.contains("and not"), "{edge} {shorter}");
+    }
+}
+
+/// What a driver waits for while it sets its part up.
+#[test]
+fn a_pause_that_is_left_out_is_seen() {
+    let board = |pause: &str| {
+        format!(
+            "board STM32F407G_DISC1 {{ chip Compass {{ driver = qmc5883l; delay = 100 ms; \
+             init = [[0x0A, 0x80], {pause} [0x0B, 0x01], [0x09, 0x1D], 10 ms]; }} }}"
+        )
+    };
+    let odd = |pause: &str| mistaken(&board("10 ms,"), &board(pause), "", 3).odd;
+    assert_eq!(odd("10 ms,"), []);
+    assert_eq!(odd("20 ms,"), []);
+    for pause in ["", "5 ms,"] {
+        let odd = odd(pause);
+        let what = odd.first().map(|(_, what)| what.as_str()).unwrap_or_default();
+        assert!(what.contains("after 0A 80 is written, and needs 10 ms"), "{pause} {odd:?}");
+    }
+}
+
+/// A board sends a report in each cycle of its reporter at most.
+#[test]
+fn a_board_that_reports_too_often_is_seen() {
+    let board = |rate: &str| {
+        format!(
+            "board STM32F407G_DISC1 {{ link {{ transport = uart; unit = USART3; baud = 230400; {rate} }}
+                sensor Turns returns int32 {{ id = 1; type = encoder; }}
+                sensor Wheel returns uint32 {{ id = 2; type = icu; }}
+                sensor Near returns uint16 {{ id = 3; type = analog; delay = 20 ms; }}
+                sensor Bumper returns bool {{ id = 4; type = digital; delay = 10 ms; }}
+                sensor Angle returns uint16 {{ id = 5; type = spi; clock = 1 MHz; mode = 1; register = 0x3F; \
+             length = 2; delay = 15 ms; }} }}"
+        )
+    };
+    let run = mistaken(&board(""), &board("rate = 1 kHz;"), "", 6);
+    let words = run.of("STM32F407G_DISC1").words();
+    assert!(words.contains("and not every 10 ms"), "{words}");
+    let run = mistaken(&board("rate = 300 Hz;"), &board("rate = 300 Hz;"), "", 6);
+    assert!(run.wrong().is_empty(), "{:#?}", run.wrong());
+}

@@ -27,6 +27,8 @@ pub(crate) struct Run {
     pub(crate) judged: Vec<Judged>,
     pub(crate) dropped: u64,
     pub(crate) unasked: Vec<Unasked>,
+    /// What the board has done with parts on buses that their drivers do not say.
+    pub(crate) odd: Vec<(String, String)>,
 }
 
 impl Run {
@@ -134,7 +136,8 @@ fn run(
         }
         let judged = judge.finish(board.now_ns());
         let unasked = board.bench().unasked();
-        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes(), unasked }
+        let odd = board.bench().odd_transfers();
+        Run { bytes: all, reports, judged, dropped: decoder.dropped_bytes(), unasked, odd }
     }
 }
 

@@ -15,6 +15,11 @@ impl Registers {
         self.waits.too_long(parts)
     }
 
+    /// A pause of its driver that the board has not kept.
+    pub(crate) fn not_left_alone(&self) -> Option<String> {
+        self.rest.broken()
+    }
+
     /// What sets a part up that was written to, and was never written. A part that is read tells it at once.
     pub(crate) fn not_set_up(&self) -> Option<String> {
         let missing = self.init().nth(self.begun).filter(|_| !self.controls.is_empty())?;
@@ -108,7 +113,7 @@ impl Registers {
     }
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub(super) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<String>>().join(" ")
 }
 

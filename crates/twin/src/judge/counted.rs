@@ -1,0 +1,93 @@
+//! What counts is told when it changes, and once a second while it does not: how late it is told, and how often anew.
+//!
+//! In: when a value came, and the one before it. Out: how long the world had counted on by then, on average.
+
+use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::icu::Mode;
+
+use super::age::link_ns;
+use super::pace::{Pace, REPEAT_NS};
+use super::{Finding, MS, Wrong};
+use crate::arith::number;
+use crate::truth::Subject;
+
+/// How often a timer of 16 bits is read that counts the steps of an encoder.
+const READ_NS: u64 = 10 * MS;
+/// So many values tell how late they are.
+const TIMES_MIN: u64 = 10;
+/// By how much the average may be later than the longest that one may take, in per cent.
+const PERCENT: u64 = 10;
+/// What looks are too early for when a count is told anew, in per cent.
+const EARLY_PERCENT: u64 = 10;
+
+/// How late the values of a count were so far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Counted {
+    /// How late one may be.
+    most_ns: u64,
+    /// Whether it is told anew only once a second.
+    is_repeated: bool,
+    sum_ns: u64,
+    times: u64,
+}
+
+impl Counted {
+    /// The one of a sensor that is told when it changes; none of others.
+    pub(super) fn of(job: &BoardJob<'_>, one: &JobDevice<'_>, pace: Option<&Pace>) -> Option<Self> {
+        let filter = &one.device.filter;
+        let is_plain = filter.change.is_none() && filter.median < 2 && filter.smooth_ms == 0;
+        let (read_ns, is_repeated) = match &one.device.kind {
+            Kind::Icu(icu) if icu.mode == Mode::Count => (0, true),
+            Kind::Encoder(_) => (READ_NS, true),
+            Kind::Digital(own) if own.edge.is_some() && own.debounce_us == 0 => (0, false),
+            Kind::Icu(_)
+            | Kind::Digital(_)
+            | Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Spi(_)
+            | Kind::Uart(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => return None,
+        };
+        let most_ns = pace?.turn_ns + read_ns + link_ns(job);
+        is_plain.then_some(Self { most_ns, is_repeated, sum_ns: 0, times: 0 })
+    }
+
+    /// A value has come after another one.
+    pub(super) fn take(&mut self, subject: &Subject, last_ns: u64, now_ns: u64) {
+        if let Some(late_ns) = late_ns(subject, last_ns, now_ns) {
+            self.sum_ns += late_ns;
+            self.times += 1;
+        }
+    }
+
+    /// A value that was told before is told again, so long after it.
+    pub(super) fn is_too_early(&self, after_ns: u64) -> bool {
+        self.is_repeated && after_ns < REPEAT_NS - REPEAT_NS / 100 * EARLY_PERCENT
+    }
+
+    /// Whether values come later than the board has to tell them.
+    pub(super) fn differs(&self, now_ns: u64) -> Option<Wrong> {
+        let got_ns = self.sum_ns.checked_div(self.times)?;
+        let most_ns = self.most_ns + self.most_ns * PERCENT / 100 + MS;
+        let is_late = self.times >= TIMES_MIN && got_ns > most_ns;
+        is_late.then(|| Wrong {
+            at_ns: now_ns,
+            finding: Finding::Late { most_ns: self.most_ns, got_ns },
+            off: 1_000.0 * number(got_ns) / number(self.most_ns.max(1)),
+        })
+    }
+}
+
+/// For how long the world has been beyond what it was at one time when another one comes; none where it is not.
+fn late_ns(subject: &Subject, last_ns: u64, now_ns: u64) -> Option<u64> {
+    let elements = 0..subject.signals.len();
+    let counts = |at_ns: u64| elements.clone().map(move |one| subject.raw(one, at_ns).floor());
+    let before: Vec<f64> = counts(last_ns).collect();
+    let is_same = |at_ns: &u64| counts(*at_ns).zip(&before).all(|(one, other)| one == *other);
+    let steps = (0..).map(|step: u64| now_ns.saturating_sub(step * MS));
+    let since_ns = steps.take_while(|at_ns| *at_ns > last_ns).find(is_same).unwrap_or(last_ns);
+    (since_ns < now_ns).then(|| now_ns - since_ns)
+}
