@@ -82,8 +82,12 @@ fn what_a_filter_keeps_back_is_a_measurement_all_the_same() {
 
 #[test]
 fn a_transfer_whose_end_nobody_told_is_lost() {
-    static COMMANDS: [Command; 1] =
-        [Command { prefix: &[7], item: 1, value: Coding { word_bytes: 2, ..Coding::NEW } }];
+    static COMMANDS: [Command; 1] = [Command {
+        prefix: &[7],
+        item: 1,
+        value: Coding { word_bytes: 2, ..Coding::NEW },
+        ..Command::NEW
+    }];
     static TABLE: ChipTable = ChipTable {
         init: &[InitStep { bytes: &[1, 2], pause_ms: 0 }],
         commands: &COMMANDS,
