@@ -180,8 +180,7 @@ fn initial(
     let is_switch = of.scalar == ScalarType::Bool && of.count() == 1;
     if !is_switch || !matches!(kind, Kind::I2c(_) | Kind::Spi(_)) {
         if let Some(field) = fields.take("initial") {
-            fields
-                .wrong(&field, "`true` or `false`, and a command of one `bool` on I2C or SPI");
+            fields.wrong(&field, "`true` or `false`, and a command of one `bool` on I2C or SPI");
         }
         return None;
     }
