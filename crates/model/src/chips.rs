@@ -39,7 +39,7 @@ use values::Given;
 /// The properties of a chip beside those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
-const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe"];
+const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
 
 /// A chip, or a device that is the only value of one, and its driver.
 struct Whole<'a> {

@@ -167,18 +167,18 @@ pub(crate) fn commanded(
 ) {
     let range = reach::of_codes(name, coding, of);
     coding.failsafe = failsafe(fields, direction, of, range);
-    coding.initial = of_bus.and_then(|kind| initial(fields, kind, direction, of));
+    coding.initial = initial(fields, of_bus, direction, of);
 }
 
 /// Reads whether an output of a chip on a bus is on from the start. Other kinds of wires have an `initial` of their own.
 fn initial(
     fields: &mut Fields<'_>,
-    kind: &Kind,
+    of_bus: Option<&Kind>,
     direction: Direction,
     of: ValueType,
 ) -> Option<bool> {
     let is_switch = of.scalar == ScalarType::Bool && of.count() == 1;
-    if !is_switch || !matches!(kind, Kind::I2c(_) | Kind::Spi(_)) {
+    if !is_switch || !matches!(of_bus, Some(Kind::I2c(_) | Kind::Spi(_))) {
         if let Some(field) = fields.take("initial") {
             fields.wrong(&field, "`true` or `false`, and a command of one `bool` on I2C or SPI");
         }
