@@ -420,6 +420,18 @@ uint32_t up_chip_idle_ms(const up_chip_t *chip, const up_chip_state_t *state, ui
   return (idle_ms == UINT32_MAX) ? chip->cycle_ms : idle_ms;
 }
 
+/* Puts what the other commands have told a register into the bytes of this one, and keeps all of it. */
+static void join(const up_chip_command_t *command, up_chip_state_t *state, uint8_t *bytes, size_t count) {
+  uint8_t *kept = &state->kept[command->kept];
+  size_t i;
+
+  for (i = 0U; i < count; i++) {
+    const unsigned own = command->own[i];
+    kept[i] = (uint8_t)((kept[i] & ~own) | (bytes[i] & own));
+    bytes[i] = kept[i];
+  }
+}
+
 up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus,
                           const up_schema_t *schema, const up_chip_command_t *command, const void *value) {
   const up_field_t *field = &schema->fields[command->field];
@@ -435,6 +447,9 @@ up_result_t up_chip_write(const up_chip_t *chip, up_chip_state_t *state, const u
   count = up_value_encode(&command->value, field, value, bytes, up_value_bytes(&command->value, field->count));
   if (count == 0U) {
     return UP_INVALID;
+  }
+  if (command->own != NULL) {
+    join(command, state, bytes, count);
   }
   if (!went_through(state, bus->write(bus->context, chip->address, state->work, command->prefix_count + count))) {
     return (up_result_t)state->fault;

@@ -64,7 +64,10 @@ typedef struct {
 /* A value that is written. */
 typedef struct {
   const uint8_t *prefix; /* written in front of the value: the register, or any command */
+  const uint8_t *own;    /* the bits of the value's bytes that it changes, where other commands have the others: as
+                          * many bytes as the value; NULL: all */
   uint16_t field;        /* index of the schema's fields; its direction is UP_TO_BOARD */
+  uint16_t kept;         /* with `own`: where the bytes of its register begin in `kept` of the state */
   uint8_t prefix_count;  /* 0 to 255 */
   up_value_t value;
 } up_chip_command_t;
@@ -102,12 +105,13 @@ typedef struct {
   uint32_t ready_ms; /* when it may be read */
 } up_chip_transfer_state_t;
 
-/* All zero but the first four members, which a table gives; nobody but these functions changes the rest. */
+/* All zero but the first five members, which a table gives; nobody but these functions changes the rest. */
 typedef struct {
   up_chip_transfer_state_t *transfers; /* transfers_count */
   uint8_t *calibration;                /* the bytes of all calibration blocks; NULL for none */
   uint8_t *work;                       /* up_chip_work_bytes(); may be shared with chips of the same thread */
   uint64_t *scratch;                   /* as large as the largest value of a reading; may be shared likewise */
+  uint8_t *kept;                       /* of the registers that commands share, what they were told last; NULL for none */
   up_chip_counts_t counts;
   uint32_t pause_until_ms;
   uint8_t fault;         /* up_result_t: what is the matter since the last step that read anything (a start counts when

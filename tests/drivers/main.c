@@ -56,6 +56,7 @@ typedef struct {
   const up_chip_t *chip;
   up_chip_state_t *chip_state;
   size_t work_bytes;
+  size_t kept_bytes;
   const up_message_t *message;
   up_message_state_t *message_state;
   const up_message_init_t *message_init;
@@ -354,6 +355,23 @@ static void store(const up_field_t *field, size_t element, int64_t number, uint6
 
 /* ---- requests ---- */
 
+/* What registers that commands share begin with, in each case anew. */
+static void begin_kept(size_t unit, uint8_t *kept, size_t count) {
+  static uint8_t first[sizeof units / sizeof units[0]][64];
+  static bool is_known[sizeof units / sizeof units[0]];
+
+  if (count == 0U) {
+    return;
+  }
+  check(count <= sizeof first[unit], "too many bytes are kept");
+  if (is_known[unit]) {
+    memcpy(kept, first[unit], count);
+  } else {
+    memcpy(first[unit], kept, count);
+    is_known[unit] = true;
+  }
+}
+
 static void begin(void) {
   const uint32_t index = ask();
   const unit_t *unit;
@@ -368,7 +386,9 @@ static void begin(void) {
     up_chip_state_t state = {.transfers = unit->chip_state->transfers,
                              .calibration = unit->chip_state->calibration,
                              .work = unit->chip_state->work,
-                             .scratch = unit->chip_state->scratch};
+                             .scratch = unit->chip_state->scratch,
+                             .kept = unit->chip_state->kept};
+    begin_kept(index, state.kept, unit->kept_bytes);
     *unit->chip_state = state;
     for (i = 0U; i < unit->chip->transfers_count; i++) {
       memset(&state.transfers[i], 0, sizeof state.transfers[i]);

@@ -341,6 +341,20 @@ fn a_chip_is_explained() {
     for wire in ["pwm", "in1", "in2", "standby"] {
         assert!(why.contains(&format!("\n  {wire} ")), "{wire}: {why}");
     }
+    // What people want first comes first; the whole list is there for who asks.
+    assert!(
+        why.lines().count() < 30 && why.lines().all(|line| line.chars().count() <= 100),
+        "{why}"
+    );
+    let all = sensedsl(["explain", "wiring", &file, "Left", "-q", "--all"]).run().exits(0).stdout;
+    let told = format!("`--all` lists all {} places", all.lines().count() - 1);
+    assert!(all.lines().count() > 100 && why.contains(&told), "{why}\n{all}");
+    let chosen: Vec<&str> = all.lines().filter(|line| line.ends_with(" chosen")).collect();
+    for (line, first) in chosen.iter().zip(why.lines().skip(1)) {
+        let [role, pin] = [0, 1].map(|at| line.split_whitespace().nth(at));
+        let [shown_role, shown_pin] = [0, 1].map(|at| first.split_whitespace().nth(at));
+        assert_eq!((role, pin), (shown_role, shown_pin), "{why}");
+    }
     let unknown = sensedsl(["explain", "wiring", &file, "Lef"]).run().exits(2).stderr;
     assert!(unknown.contains("no device or chip Lef; did you mean Left?"), "{unknown}");
 }

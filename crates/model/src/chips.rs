@@ -28,7 +28,6 @@ use crate::kind::uart::Uart;
 use crate::kind::{Kind, KindName, Values};
 use crate::parts::ReadPart;
 use crate::protocol::Protocol;
-use crate::reach;
 use crate::rules;
 use crate::value::Evaluator;
 use crate::words;
@@ -40,7 +39,7 @@ use values::Given;
 /// The properties of a chip beside those of its connections.
 const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "header"];
 /// The properties of a chip's devices.
-const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe"];
+const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
 
 /// A chip, or a device that is the only value of one, and its driver.
 struct Whole<'a> {
@@ -385,8 +384,8 @@ impl Whole<'_> {
         let formula = self.protocol.formula.filter(|_| values::is_computed(given));
         let mut coding = coding::coding(&mut fields, given.value, formula);
         coding.reading = Some(given.name.clone());
-        let range = reach::of_codes(main.kind, &coding, value.value);
-        coding.failsafe = coding::failsafe(&mut fields, direction, value.value, range);
+        let kind = (main.kind, of_bus.as_ref());
+        coding::commanded(&mut fields, &mut coding, direction, value.value, kind);
         let level = devices::level(&mut fields);
         let mut shown = devices::divided(own.shown, level.as_ref());
         shown.bare = fields.take_bare();

@@ -7,9 +7,11 @@ use sensedsl_wire::{Direction, ScalarType, ValueType};
 
 use crate::design::Spanned;
 use crate::fields::{Codes, Fields, name_or_text, plain_integer, plain_number};
+use crate::kind::{Kind, KindName};
 use crate::protocol::{
     Coding, Crc, Drive, Filter, Format, Formula, Identity, InitStep, Protocol, TextField,
 };
+use crate::reach;
 use crate::value::{Dimension, Value};
 
 /// The properties of a value.
@@ -31,6 +33,7 @@ pub(crate) const CODING: &[&str] = &[
     "output",
     "drive",
     "failsafe",
+    "initial",
     "via",
 ];
 /// The properties of a chip's protocol.
@@ -92,6 +95,7 @@ pub(crate) fn coding(fields: &mut Fields<'_>, of: ValueType, formula: Option<For
         output,
         drive,
         failsafe: None,
+        initial: None,
     }
 }
 
@@ -151,6 +155,41 @@ fn unheld(scalar: ScalarType, number: f64) -> Option<String> {
     )]
     let is_held = number.fract() == 0.0 && (least as f64..=greatest as f64).contains(&number);
     (!is_held).then(|| format!("a whole number from {least} to {greatest}"))
+}
+
+/// Reads what a value of a chip begins with and falls back to.
+pub(crate) fn commanded(
+    fields: &mut Fields<'_>,
+    coding: &mut Coding,
+    direction: Direction,
+    of: ValueType,
+    (name, of_bus): (KindName, Option<&Kind>),
+) {
+    let range = reach::of_codes(name, coding, of);
+    coding.failsafe = failsafe(fields, direction, of, range);
+    coding.initial = initial(fields, of_bus, direction, of);
+}
+
+/// Reads whether an output of a chip on a bus is on from the start. Other kinds of wires have an `initial` of their own.
+fn initial(
+    fields: &mut Fields<'_>,
+    of_bus: Option<&Kind>,
+    direction: Direction,
+    of: ValueType,
+) -> Option<bool> {
+    let is_switch = of.scalar == ScalarType::Bool && of.count() == 1;
+    if !is_switch || !matches!(of_bus, Some(Kind::I2c(_) | Kind::Spi(_))) {
+        if let Some(field) = fields.take("initial") {
+            fields.wrong(&field, "`true` or `false`, and a command of one `bool` on I2C or SPI");
+        }
+        return None;
+    }
+    let word = fields.boolean("initial")?;
+    if direction == Direction::Sensor {
+        fields.needs_direction(word.span, "initial", Direction::Actuator);
+        return None;
+    }
+    Some(word.value)
 }
 
 fn elements(fields: &mut Fields<'_>, of: ValueType) -> Vec<u8> {

@@ -30,6 +30,7 @@ pub mod pins;
 mod placement;
 pub mod protocol;
 pub mod reach;
+pub mod registers;
 mod resolve;
 mod rules;
 mod serving;

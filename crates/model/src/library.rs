@@ -3,6 +3,7 @@
 /// Its files: name and text.
 pub const LIBRARY: &[(&str, &str)] = &[
     ("drivers/environment.sense", include_str!("../../../drivers/environment.sense")),
+    ("drivers/expanders.sense", include_str!("../../../drivers/expanders.sense")),
     ("drivers/field_bus.sense", include_str!("../../../drivers/field_bus.sense")),
     ("drivers/input.sense", include_str!("../../../drivers/input.sense")),
     ("drivers/light.sense", include_str!("../../../drivers/light.sense")),

@@ -24,6 +24,15 @@ pub struct Protocol {
     pub parameters: Vec<i32>,
 }
 
+impl Protocol {
+    /// The bytes of a register's number, the most significant first.
+    #[must_use]
+    pub fn register(&self, number: u32) -> Vec<u8> {
+        let [.., high, low] = number.to_be_bytes();
+        if self.register_bytes == 2 { vec![high, low] } else { vec![low] }
+    }
+}
+
 /// One step of an initialisation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InitStep {
@@ -130,6 +139,8 @@ pub struct Coding {
     /// The value that an actuator takes when the host falls silent, for all elements; none to keep the last one. A pwm
     /// or dac device by itself has its own.
     pub failsafe: Option<f64>,
+    /// Whether a switch of a chip on a bus is on before the host sets it; none for what the driver says.
+    pub initial: Option<bool>,
 }
 
 impl Coding {

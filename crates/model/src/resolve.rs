@@ -24,6 +24,7 @@ use crate::links;
 use crate::names;
 use crate::parts::{ReadPart, assemble, on_known_boards};
 use crate::pins;
+use crate::registers;
 use crate::sound::{Partial, broken_drivers};
 use crate::sources::{Items, Reader};
 use crate::syntax_errors;
@@ -91,6 +92,7 @@ pub fn resolve(request: &Request<'_>, files: &dyn Files) -> Resolved {
     pins::bind(&mut design, &mut diagnostics);
     check_places(&design, &mut diagnostics);
     frames::settle(&mut design, &mut diagnostics);
+    registers::settle(&mut design, &mut diagnostics);
     checks::run(&design, &mut diagnostics);
     links::settle_silence(&mut design, &mut diagnostics);
     if items.broken {

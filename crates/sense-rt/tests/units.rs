@@ -82,8 +82,12 @@ fn what_a_filter_keeps_back_is_a_measurement_all_the_same() {
 
 #[test]
 fn a_transfer_whose_end_nobody_told_is_lost() {
-    static COMMANDS: [Command; 1] =
-        [Command { prefix: &[7], item: 1, value: Coding { word_bytes: 2, ..Coding::NEW } }];
+    static COMMANDS: [Command; 1] = [Command {
+        prefix: &[7],
+        item: 1,
+        value: Coding { word_bytes: 2, ..Coding::NEW },
+        ..Command::NEW
+    }];
     static TABLE: ChipTable = ChipTable {
         init: &[InitStep { bytes: &[1, 2], pause_ms: 0 }],
         commands: &COMMANDS,
@@ -106,6 +110,34 @@ fn a_transfer_whose_end_nobody_told_is_lost() {
     chip.done(Outcome::Fresh, none);
     assert_eq!(chip.next(4), Step::Wait(10));
     assert_eq!((chip.counts().starts, chip.counts().written), (2, 0));
+}
+
+/// Each command changes its own bits of a register, whatever the others have told it; a new start changes nothing.
+#[test]
+fn commands_share_a_register() {
+    static SCHEMA: Schema = Schema {
+        items: &[Item::actuator(1, Scalar::Bool, 1), Item::actuator(2, Scalar::Uint8, 1)],
+        hash: 0,
+        stamp: false,
+        checksum: Checksum::None,
+    };
+    const BIT: Coding = Coding { word_bytes: 1, low: 3, bits: 1, ..Coding::NEW };
+    const REST: Coding = Coding { word_bytes: 1, low: 4, bits: 2, ..Coding::NEW };
+    static COMMANDS: [Command; 2] = [
+        Command { prefix: &[0x15], item: 0, value: BIT, own: &[0x08], kept: 1 },
+        Command { prefix: &[0x15], item: 1, value: REST, own: &[0x30], kept: 1 },
+    ];
+    static TABLE: ChipTable =
+        ChipTable { commands: &COMMANDS, kept: &[0xEE, 0x81], cycle_ms: 10, ..ChipTable::NEW };
+    let mut chip = Chip::<[u8; 64]>::new(&TABLE, &SCHEMA);
+    let none = &mut |_: usize, _: Outcome, _: &mut [u8]| panic!("it has no readings");
+    let steps = [(0, 1, 0x89), (1, 3, 0xB9), (0, 0, 0xB1), (1, 1, 0x91), (0, 1, 0x99)];
+    for (at, (command, value, byte)) in steps.into_iter().enumerate() {
+        let _ = chip.next(at as u32);
+        assert_eq!(chip.write(&COMMANDS[command], &[value]), Ok(Step::Write(&[0x15, byte])));
+        // What did not get through is not forgotten either.
+        chip.done(if at == 2 { Outcome::TimedOut } else { Outcome::Fresh }, none);
+    }
 }
 
 /// A channel that takes all, and a board that has nothing.

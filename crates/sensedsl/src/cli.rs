@@ -243,6 +243,9 @@ pub(crate) struct ExplainArgs {
     pub(crate) file: Option<PathBuf>,
     /// With `wiring`: the name of a device or a chip
     pub(crate) device: Option<String>,
+    /// With `wiring`: list every pin that could be, with its signal and what it would cost
+    #[arg(long, requires = "device")]
+    pub(crate) all: bool,
     #[command(flatten)]
     pub(crate) on: On,
     /// With `wiring` and `timing`: how to print it

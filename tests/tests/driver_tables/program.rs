@@ -161,6 +161,7 @@ fn entry(unit: &Unit) -> String {
     if let Some(bus) = plan.as_ref().and_then(|plan| plan.buses.first()) {
         let prefix = &bus.prefix;
         write!(text, ", .chip = &{prefix}_chip, .chip_state = &{prefix}_chip_state, .work_bytes = sizeof {prefix}_work").unwrap();
+        write!(text, ", .kept_bytes = {}U", bus.kept.len()).unwrap();
     }
     if let Some(message) = plan.as_ref().and_then(|plan| plan.message.as_ref()) {
         let prefix = &message.prefix;

@@ -128,6 +128,8 @@ fn chip(plan: &BusPlan, index: impl Fn(&str) -> u16) -> ChipTable {
         prefix: bytes(&one.prefix),
         item: index(&one.field),
         value: coding(&one.value),
+        own: one.own.as_ref().map_or(&[], |own| bytes(&own.bits)),
+        kept: one.own.as_ref().map_or(0, |own| own.kept),
     });
     ChipTable {
         init: init(&plan.init),
@@ -136,6 +138,7 @@ fn chip(plan: &BusPlan, index: impl Fn(&str) -> u16) -> ChipTable {
         transfers: all(transfers),
         readings: all(readings),
         commands: all(commands),
+        kept: bytes(&plan.kept),
         formula: plan.formula.map(formula),
         parameters: all(plan.parameters.iter().copied()),
         cycle_ms: plan.cycle_ms,

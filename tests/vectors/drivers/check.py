@@ -28,6 +28,7 @@ class Case:
         self.frames = {}
         self.stream, self.input, self.wrong, self.type = None, None, None, None
         self.expects, self.shown, self.commands, self.seen = [], [], [], set()
+        self.kept = {}
         for line in lines:
             self.line(line)
 
@@ -248,7 +249,17 @@ class Case:
         register = get(part, driver, "register")
         size = driver["properties"].get("register_size", 1)
         head = b"" if register is None else register.to_bytes(size, "big")
+        if part["count"] == 1 and len(data) <= 8:
+            data = self.joined(head, data, int.from_bytes(data, order), (1 << high + 1) - (1 << low), order)
         return [f"written {(head + data).hex(' ').upper()}"]
+
+    def joined(self, head, data, value, own, order):
+        """The value among the bits of its register that others have, as they were written last."""
+        steps = [bytes(one) for one in self.driver["properties"].get("init", []) if isinstance(one, list)]
+        before = [one[len(head):] for one in steps if one[:len(head)] == head and len(one) == len(head + data)]
+        start = self.kept.get((head, len(data)), int.from_bytes((before or [bytes(len(data))])[-1], order))
+        self.kept[head, len(data)] = start & ~own | value
+        return self.kept[head, len(data)].to_bytes(len(data), order)
 
     def part(self, name):
         if name != "value":

@@ -1,12 +1,15 @@
 //! A part on a register bus: `up_chip_t` and what it points to.
 
-use sensedsl_model::design::{Connection, ConnectionIndex, Device};
+use std::collections::BTreeMap;
+
+use sensedsl_model::design::{Connection, ConnectionIndex, Design, Device};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
+use sensedsl_model::registers::{self, Register};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
-use super::transfers::{self, Place, TransferPlan, register, register_to_read};
+use super::transfers::{self, Place, TransferPlan, register_to_read};
 use super::{Source, ValuePlan};
 use crate::print::snake;
 
@@ -31,6 +34,8 @@ pub struct BusPlan {
     pub readings: Vec<ReadingPlan>,
     /// The values that are written.
     pub commands: Vec<CommandPlan>,
+    /// What the registers that commands share begin with, one behind the other.
+    pub kept: Vec<u8>,
     /// The runtime's formula.
     pub formula: Option<Formula>,
     /// Its constants.
@@ -102,8 +107,19 @@ pub struct CommandPlan {
     pub prefix: Vec<u8>,
     /// How it is coded.
     pub value: ValuePlan,
+    /// Its own bits of a register that others have bits of, and where it is among those kept; none for all of it.
+    pub own: Option<OwnBitsPlan>,
     /// Bytes of the value.
     bytes: u16,
+}
+
+/// The bits of a command in a register that it shares.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OwnBitsPlan {
+    /// Those bits, as many bytes as the value.
+    pub bits: Vec<u8>,
+    /// Where the register begins in [`BusPlan::kept`].
+    pub kept: u16,
 }
 
 /// The part's tables, one for each connection to a register bus that a value goes over.
@@ -140,6 +156,7 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
         select: register_to_read(u32::from(number), protocol),
         count,
     });
+    let (commands, kept) = commands(source.design, of(Direction::Actuator), protocol);
     let plan = BusPlan {
         prefix,
         connection,
@@ -149,7 +166,8 @@ fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Opti
         calibration: calibration.collect(),
         transfers,
         readings: readings.filter_map(|(device, place)| reading(device, place?)).collect(),
-        commands: of(Direction::Actuator).filter_map(|one| command(one, protocol)).collect(),
+        commands,
+        kept,
         formula: protocol.formula,
         parameters: protocol.parameters.clone(),
         cycle_ms: all.iter().map(|device| device.delay_ms).min().unwrap_or(0),
@@ -204,16 +222,40 @@ fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
     })
 }
 
-fn command(device: &Device, protocol: &Protocol) -> Option<CommandPlan> {
+/// The commands, and what the registers that they share begin with.
+fn commands<'a>(
+    design: &Design,
+    devices: impl Iterator<Item = &'a Device>,
+    protocol: &Protocol,
+) -> (Vec<CommandPlan>, Vec<u8>) {
+    let mut kept: Vec<u8> = Vec::new();
+    let mut places: BTreeMap<Register, usize> = BTreeMap::new();
+    let mut all = Vec::new();
+    for device in devices {
+        let own = registers::own(design, device).map(|own| {
+            let place = *places.entry(own.register).or_insert_with(|| {
+                let place = kept.len();
+                kept.extend(&own.start);
+                place
+            });
+            OwnBitsPlan { bits: own.bits, kept: u16::try_from(place).unwrap_or(u16::MAX) }
+        });
+        all.extend(command(device, own, protocol));
+    }
+    (all, kept)
+}
+
+fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Option<CommandPlan> {
     let words = Words::of(device)?;
     let of_i2c = device.kind.i2c().and_then(|i2c| i2c.register);
     let number = of_i2c.or_else(|| device.kind.spi()?.register);
-    let prefix = number.map(|number| register(u32::from(number), protocol)).unwrap_or_default();
+    let prefix = number.map(|number| protocol.register(u32::from(number))).unwrap_or_default();
     Some(CommandPlan {
         field: device.name.value.clone(),
         ident: snake(&device.name.value),
         prefix,
         value: ValuePlan::new(&words),
+        own,
         bytes: words.wire_bytes(),
     })
 }

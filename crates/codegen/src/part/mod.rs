@@ -21,7 +21,9 @@ use sensedsl_model::protocol::Protocol;
 use sensedsl_wire::Direction;
 
 use crate::print::{block, snake};
-pub use bus::{BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, ReadingPlan};
+pub use bus::{
+    BusPlan, CalibrationPlan, CommandPlan, IdentityPlan, InitPlan, OwnBitsPlan, ReadingPlan,
+};
 pub use c::{DmaBuffer, Wiring, formula as formula_in_c};
 pub use filter::{FilterPlan, Number};
 pub use message::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};

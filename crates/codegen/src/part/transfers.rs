@@ -199,15 +199,9 @@ impl Together {
     }
 }
 
-/// The bytes of a register's number, the most significant first.
-pub(super) fn register(number: u32, protocol: &Protocol) -> Vec<u8> {
-    let [.., high, low] = number.to_be_bytes();
-    if protocol.register_bytes == 2 { vec![high, low] } else { vec![low] }
-}
-
-/// The same for reading: on some buses a bit of it says so.
+/// The bytes of a register's number for reading: on some buses a bit of it says so.
 pub(super) fn register_to_read(number: u32, protocol: &Protocol) -> Vec<u8> {
-    let mut bytes = register(number, protocol);
+    let mut bytes = protocol.register(number);
     if let Some(first) = bytes.first_mut() {
         *first |= protocol.read_mask;
     }

@@ -68,6 +68,7 @@ codes! {
     e0237_overlap_in_frame,
     e0238_frame_clash,
     e0239_outside_frame,
+    e0240_overlap_in_register,
     e0301_unknown_board,
     e0302_table_unreadable,
     e0303_table_empty,

@@ -13,6 +13,7 @@ pub(super) struct Sizes {
     states: usize,
     calibration: usize,
     value: usize,
+    kept: usize,
 }
 
 impl Sizes {
@@ -21,6 +22,7 @@ impl Sizes {
             states: table.transfers.len() * STATE_BYTES,
             calibration: table.calibration_bytes(),
             value: table.value_bytes(schema),
+            kept: table.kept.len(),
         }
     }
 }
@@ -31,6 +33,8 @@ pub(super) struct Memory<'a> {
     pub(super) calibration: &'a mut [u8],
     /// What a value is made in.
     pub(super) value: &'a mut [u8],
+    /// What registers that commands share were told last, as the bits that differ from what they begin with.
+    pub(super) kept: &'a mut [u8],
     /// What is sent, then what is received.
     pub(super) work: &'a mut [u8],
 }
@@ -40,8 +44,9 @@ impl<'a> Memory<'a> {
     pub(super) fn split(memory: &'a mut [u8], sizes: &Sizes) -> Self {
         let (_, rest) = split(memory, sizes.states);
         let (calibration, rest) = split(rest, sizes.calibration);
-        let (value, work) = split(rest, sizes.value);
-        Self { calibration, value, work }
+        let (value, rest) = split(rest, sizes.value);
+        let (kept, work) = split(rest, sizes.kept);
+        Self { calibration, value, kept, work }
     }
 }
 

@@ -260,13 +260,14 @@ impl Chip {
         let Some(item) = item.filter(|_| can_write) else {
             return Err(Outcome::Nothing);
         };
-        let Memory { work, .. } = Memory::split(&mut self.memory, &self.sizes);
+        let Memory { work, kept, .. } = Memory::split(&mut self.memory, &self.sizes);
         copy(work, command.prefix);
         let bytes = work.get_mut(command.prefix.len()..).unwrap_or_default();
         let size = command.value.encode(item, value, bytes);
         if size == 0 {
             return Err(Outcome::Invalid);
         }
+        command.join(self.table.kept, kept, bytes);
         self.pending = Some(Pending::Command);
         Ok(Step::Write(part(work, 0, command.prefix.len() + size)))
     }

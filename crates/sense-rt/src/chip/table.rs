@@ -100,6 +100,26 @@ pub struct Command {
     pub item: u16,
     /// How it is coded.
     pub value: Coding,
+    /// The bits of the value's bytes that it changes, where other commands have the others: as many bytes as the
+    /// value; empty: all.
+    pub own: &'static [u8],
+    /// With `own`: where the bytes of its register begin in [`ChipTable::kept`].
+    pub kept: u16,
+}
+
+impl Command {
+    /// One byte, without a register.
+    pub const NEW: Self = Self { prefix: &[], item: 0, value: Coding::NEW, own: &[], kept: 0 };
+
+    /// Puts what the other commands have told a register into the bytes of this one, and keeps all of it, as what
+    /// `differs` from the start.
+    pub(super) fn join(&self, start: &[u8], differs: &mut [u8], bytes: &mut [u8]) {
+        let kept = differs.iter_mut().zip(start).skip(self.kept.into());
+        for ((byte, own), (differs, start)) in bytes.iter_mut().zip(self.own).zip(kept) {
+            *byte = (*differs ^ start) & !own | *byte & own;
+            *differs = *byte ^ start;
+        }
+    }
 }
 
 /// A chip.
@@ -117,6 +137,8 @@ pub struct ChipTable {
     pub readings: &'static [Reading],
     /// The values that are written.
     pub commands: &'static [Command],
+    /// What the registers that commands share begin with, one behind the other.
+    pub kept: &'static [u8],
     /// What makes numbers of its readings.
     pub formula: Option<Formula>,
     /// Of the formula.
@@ -141,6 +163,7 @@ impl ChipTable {
         transfers: &[],
         readings: &[],
         commands: &[],
+        kept: &[],
         formula: None,
         parameters: &[],
         cycle_ms: 0,
@@ -151,7 +174,8 @@ impl ChipTable {
     #[must_use]
     pub const fn chip_bytes(&self, schema: &Schema) -> usize {
         let states = self.transfers.len() * super::memory::STATE_BYTES;
-        states + self.calibration_bytes() + self.value_bytes(schema) + self.work_bytes(schema)
+        let values = self.value_bytes(schema) + self.kept.len();
+        states + self.calibration_bytes() + values + self.work_bytes(schema)
     }
 
     /// How it is set up, as far as that is not left out.

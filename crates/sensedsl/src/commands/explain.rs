@@ -2,16 +2,15 @@
 
 use anyhow::{Context as _, Result, bail};
 use sensedsl_diagnostics::codes::ALL;
-use sensedsl_diagnostics::{Code, nearest, render, visible};
+use sensedsl_diagnostics::{Code, nearest, render};
 use sensedsl_model::design::{ConnectionIndex, Design};
 use sensedsl_session::Ask;
-use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Alternative, Cancel, Wiring};
 use serde_json::{Value, json};
 
 use super::deadline::Deadline;
 use super::input;
-use super::table::table;
+use super::why;
 use crate::Status;
 use crate::cli::{ExplainArgs, TableFormat};
 use crate::terminal::Terminal;
@@ -60,7 +59,10 @@ fn wiring(args: &ExplainArgs, terminal: &Terminal) -> Result<Status> {
         terminal.aside("stopped: there may be more pins that were not looked at")?;
     }
     match args.format {
-        TableFormat::Human => terminal.result(&human(design, wiring, &alternatives))?,
+        TableFormat::Human => {
+            let print = if args.all { why::all } else { why::summary };
+            terminal.result(&print(design, wiring, &alternatives))?;
+        }
         TableFormat::Json => {
             let list: Vec<Value> = alternatives.iter().map(value).collect();
             let all = json!({
@@ -105,42 +107,4 @@ fn value(one: &Alternative) -> Value {
         "shared_with": one.shared_with,
         "cost": one.best.map(|best| best.cost),
     })
-}
-
-fn human(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
-    let verdict = |one: &Alternative| match one.best {
-        _ if one.chosen => "chosen".to_owned(),
-        None => "no wiring: the others need it".to_owned(),
-        Some(best) if best.violated > wiring.violated => {
-            format!("{} more unmet wishes", best.violated - wiring.violated)
-        }
-        Some(best) if best.violated < wiring.violated => "better".to_owned(),
-        Some(best) if best.shared > wiring.shared => match best.shared - wiring.shared {
-            1 => match &one.shared_with {
-                Some(with) => format!("shared with {}", visible(with)),
-                None => "one more shared pin".to_owned(),
-            },
-            more => format!("{more} more shared pins"),
-        },
-        Some(best) if best.shared < wiring.shared => "better".to_owned(),
-        Some(best) if best.cost > wiring.cost => {
-            format!("costs {} more in all", best.cost - wiring.cost)
-        }
-        Some(best) if best.spares > 0 && design.boards.iter().any(|board| board.spare) => {
-            "as good in cost; needs as many spare boards or comes later in order".to_owned()
-        }
-        Some(_) => "as good; comes later in order".to_owned(),
-    };
-    let several = design.boards.len() > 1;
-    let rows: Vec<[String; 5]> = alternatives
-        .iter()
-        .map(|one| {
-            let pin = if several { format!("{} {}", one.board, one.pin) } else { one.pin.clone() };
-            let role = one.wire.clone();
-            [role, pin, one.signal.clone(), one.usages.to_string(), verdict(one)]
-        })
-        .collect();
-    let heads =
-        [("Role", false), ("Pin", false), ("Signal", false), ("Usages", true), ("Why", false)];
-    table(heads, &rows)
 }

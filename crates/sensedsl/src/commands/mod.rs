@@ -26,3 +26,4 @@ mod sweep;
 mod table;
 mod timing;
 mod typecheck;
+mod why;

@@ -4,6 +4,7 @@ use sensedsl_model::design::ConnectionIndex;
 
 use super::expect::{Expected, Sent, What};
 use super::outputs::Outputs;
+use super::written::Written;
 use crate::surroundings::CanFrame;
 
 /// How many bytes of a transfer are shown.
@@ -32,10 +33,10 @@ pub(super) fn differs(
             let found = outputs.millivolts(one.at).unwrap_or(0.0);
             ((found - wanted).abs() > 0.5).then(|| format!("{found:.0} mV"))
         }
-        What::Write(bytes, begins) => {
-            let found = last_write(one.at, outputs, since_ns, bytes, *begins);
-            (found.as_deref() != Some(bytes))
-                .then(|| found.map_or("nothing".into(), |one| hex(&one)))
+        What::Write(wanted) => {
+            let found = last_write(one.at, outputs, since_ns, wanted);
+            let is_it = found.as_deref().is_some_and(|found| wanted.is(found));
+            (!is_it).then(|| found.map_or("nothing".into(), |one| hex(&one)))
         }
         What::Message(unit, bytes) => {
             let found = outputs.bytes(*unit, since_ns);
@@ -58,11 +59,11 @@ fn last_write(
     at: ConnectionIndex,
     outputs: &Outputs,
     since_ns: u64,
-    bytes: &[u8],
-    begins: usize,
+    wanted: &Written,
 ) -> Option<Vec<u8>> {
+    let Written { bytes, begins, .. } = wanted;
     let is_alike =
-        |one: &&[u8]| one.len() == bytes.len() && one.get(..begins) == bytes.get(..begins);
+        |one: &&[u8]| one.len() == bytes.len() && one.get(..*begins) == bytes.get(..*begins);
     let alike = outputs.writes(at, since_ns).filter(is_alike).last();
     alike.or_else(|| outputs.writes(at, since_ns).last()).map(<[u8]>::to_vec)
 }
@@ -130,7 +131,11 @@ pub(super) fn shown(one: &Expected) -> String {
         What::Level(_, high) => level(*high).to_owned(),
         What::Pulses(wanted) => pulses(*wanted),
         What::Millivolts(wanted) => format!("{wanted:.0} mV"),
-        What::Write(bytes, _) | What::Message(_, bytes) => hex(bytes),
+        What::Write(written) => {
+            let own = written.mask().map(|mask| format!(" where bits are set in {}", hex(mask)));
+            hex(&written.bytes) + &own.unwrap_or_default()
+        }
+        What::Message(_, bytes) => hex(bytes),
         What::Frame(sent) => {
             let Sent { identifier, length, bits: (mask, bits), .. } = sent;
             let shown =

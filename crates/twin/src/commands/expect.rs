@@ -12,6 +12,7 @@ use sensedsl_model::protocol::Drive;
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
+use super::written::{self, Written, write};
 use crate::bench::Units;
 use crate::parts::{message, words};
 
@@ -39,8 +40,7 @@ pub(super) enum What {
     /// Period and width in nanoseconds; none where there must be no pulses.
     Pulses(Option<(u64, u64)>),
     Millivolts(f64),
-    /// A transfer to a chip; so many bytes of it say what it is for.
-    Write(Vec<u8>, usize),
+    Write(Written),
     /// A message of a serial port.
     Message(u8, Vec<u8>),
     Frame(Sent),
@@ -126,7 +126,7 @@ pub(super) fn told(job: &BoardJob<'_>, one: &JobDevice<'_>, raw: &[f64]) -> Vec<
 }
 
 /// What a device must put out before the host has set it; nothing where that is not said.
-pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Vec<Expected> {
+pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>, now_ns: u64) -> Vec<Expected> {
     let wires = wires(job, one);
     let safe = start(one);
     if let Some(safe) = safe {
@@ -138,13 +138,10 @@ pub(super) fn untold(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Vec<Expected> {
             Kind::Digital(own) => Some(level(*at, wire, element, own, own.initial)),
             Kind::Pwm(_) => Some(expected(*at, wire, element, What::Pulses(None))),
             Kind::Dac(_) => Some(expected(*at, wire, element, What::Millivolts(0.0))),
-            Kind::I2c(_)
-            | Kind::Spi(_)
-            | Kind::Uart(_)
-            | Kind::Can(_)
-            | Kind::Analog(_)
-            | Kind::Icu(_)
-            | Kind::Encoder(_) => None,
+            Kind::I2c(_) | Kind::Spi(_) => written::first(job, (*at, wire), one, now_ns),
+            Kind::Uart(_) | Kind::Can(_) | Kind::Analog(_) | Kind::Icu(_) | Kind::Encoder(_) => {
+                None
+            }
         }
     };
     wires.iter().filter_map(each).collect()
@@ -171,7 +168,12 @@ pub(super) fn failsafe(one: &JobDevice<'_>) -> Option<f64> {
     one.device.coding.failsafe.or_else(|| start(one))
 }
 
-fn expected(at: ConnectionIndex, wire: &JobConnection<'_>, element: usize, what: What) -> Expected {
+pub(super) fn expected(
+    at: ConnectionIndex,
+    wire: &JobConnection<'_>,
+    element: usize,
+    what: What,
+) -> Expected {
     let pins: Vec<String> = wire.pads.iter().map(|pad| pad.pin.name.to_string()).collect();
     let wire = format!("{} at {}", wire.title, pins.join(", "));
     Expected { element, wire, at, what }
@@ -232,37 +234,6 @@ fn bridge(
         | Kind::Can(_) => None,
     };
     all.filter_map(each).collect()
-}
-
-/// A value in registers: their number, then its bytes.
-fn write(
-    job: &BoardJob<'_>,
-    (at, wire): (ConnectionIndex, &JobConnection<'_>),
-    one: &JobDevice<'_>,
-    raw: &[f64],
-) -> Option<Expected> {
-    let number = match &one.device.kind {
-        Kind::I2c(own) => own.register,
-        Kind::Spi(own) => own.register,
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => return None,
-    };
-    let chip = job.design.part(one.device.part)?.chip.as_ref();
-    let is_wide = chip.is_some_and(|chip| chip.register_bytes == 2);
-    let mut bytes: Vec<u8> = match number {
-        None => Vec::new(),
-        Some(number) if is_wide => number.to_be_bytes().to_vec(),
-        Some(number) => number.to_le_bytes().into_iter().take(1).collect(),
-    };
-    let begins = bytes.len();
-    bytes.extend(words::bytes(&Words::of(one.device)?, raw));
-    Some(expected(at, wire, 0, What::Write(bytes, begins)))
 }
 
 /// A value in a frame, which is as long as the values in it ask for.

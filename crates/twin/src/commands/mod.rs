@@ -9,6 +9,7 @@ mod expect;
 pub mod outputs;
 mod script;
 mod tried;
+mod written;
 
 use sensedsl_codegen::job::BoardJob;
 use sensedsl_model::design::DeviceIndex;

@@ -216,7 +216,7 @@ impl Actor {
     /// Before it is told anything.
     pub(super) fn look_untold(&mut self, job: &BoardJob<'_>, now_ns: u64, outputs: &Outputs) {
         let Some(one) = job.devices.get(self.index) else { return };
-        let expected = expect::untold(job, one);
+        let expected = expect::untold(job, one, now_ns);
         if self.is_excused(0, now_ns) {
             self.tried.excused += 1;
         } else {
@@ -314,7 +314,11 @@ fn raw(value: &[Scalar]) -> Vec<f64> {
 
 /// What is still there without being sent again.
 fn is_lasting(one: &Expected) -> bool {
-    matches!(one.what, What::Level(..) | What::Pulses(_) | What::Millivolts(_))
+    match &one.what {
+        What::Level(..) | What::Pulses(_) | What::Millivolts(_) => true,
+        What::Write(written) => written.is_shared(),
+        What::Message(..) | What::Frame(_) => false,
+    }
 }
 
 /// What is sent again while the host speaks.

@@ -105,6 +105,8 @@ pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
         prefix: bytes(&one.prefix),
         item: item(job, &one.field),
         value: coding(&one.value),
+        own: one.own.as_ref().map_or(&[], |own| bytes(&own.bits)),
+        kept: one.own.as_ref().map_or(0, |own| own.kept),
     });
     let calibration = plan.calibration.iter();
     let calibration =
@@ -120,6 +122,7 @@ pub(super) fn chip(job: &BoardJob<'_>, plan: &BusPlan) -> ChipTable {
         transfers: all(transfers),
         readings: all(readings),
         commands: all(commands),
+        kept: bytes(&plan.kept),
         formula: plan.formula.map(formula),
         parameters: all(plan.parameters.iter().copied()),
         cycle_ms: plan.cycle_ms,

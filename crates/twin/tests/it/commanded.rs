@@ -27,9 +27,30 @@ const RIGHT: &str = "board STM32F407G_DISC1 {
     actuator Say accepts uint16 { id = 11; type = uart; baud = 9600; start = [0x55, 0xAA]; length = 2; checksum = xor8; end = [0x0D]; failsafe = 1; }
 }";
 
+/// Outputs of an expander, of which one board has each as a chip of its own: these do not know each other's bits.
+const EXPANDER: &str = "board STM32F407G_DISC1 {
+    link { transport = uart; unit = USART3; silence = 400 ms; }
+    chip Pins {
+        driver = mcp23017_pins;
+        unit = I2C1;
+        delay = 20 ms;
+        actuator Relay accepts bool { id = 1; reading = gpb3; failsafe = false; }
+        actuator Pump accepts bool { id = 2; reading = gpb4; initial = true; }
+    }
+}";
+const STRANGERS: &str = "board STM32F407G_DISC1 {
+    link { transport = uart; unit = USART3; silence = 400 ms; }
+    actuator Relay accepts bool { driver = mcp23017_pins; unit = I2C1; delay = 20 ms; id = 1; reading = gpb3; failsafe = false; }
+    actuator Pump accepts bool { driver = mcp23017_pins; unit = I2C1; delay = 20 ms; id = 2; reading = gpb4; initial = true; }
+}";
+
 /// What is found out about the outputs of a board, before the judge of the right design.
 fn tried(wrong: &str, world: &str) -> Vec<Tried> {
-    with_job(RIGHT, |right| {
+    tried_as(RIGHT, wrong, world)
+}
+
+fn tried_as(right: &str, wrong: &str, world: &str) -> Vec<Tried> {
+    with_job(right, |right| {
         with_job(wrong, |wrong| {
             assert_eq!(right.schema.hash(), wrong.schema.hash());
             let (world, said) = read(right, world, 7);
@@ -69,6 +90,29 @@ fn what_is_right_is_found_right() {
     assert_eq!(all.iter().filter(|one| one.is_set).count(), 12);
     // STBY of one bridge, the enables of the other.
     assert_eq!(all.iter().filter(|one| !one.is_set).count(), 3);
+}
+
+#[test]
+fn outputs_of_an_expander_are_judged_bit_by_bit() {
+    for one in tried_as(EXPANDER, EXPANDER, "") {
+        assert_eq!((one.wrong, one.left, one.is_silence_left), (0, 0, false), "{one:#?}");
+        assert!(one.looks >= 5 && one.commands >= 4, "{one:#?}");
+    }
+    let amiss = |wrong: &str| {
+        let all = tried_as(EXPANDER, wrong, "").into_iter().filter(|one| one.wrong > 0);
+        all.map(|one| one.name).collect::<Vec<String>>()
+    };
+    assert!(!amiss(STRANGERS).is_empty(), "a board whose outputs undo each other");
+    let seeds = [
+        ("initial = true", "initial = false", "Pump"),
+        ("failsafe = false", "failsafe = true", "Relay"),
+        ("reading = gpb3", "reading = gpb5", "Relay"),
+        ("reading = gpb4", "reading = gpb6", "Pump"),
+    ];
+    for (from, to, name) in seeds {
+        let found = amiss(&EXPANDER.replacen(from, to, 1));
+        assert!(found.iter().any(|one| one == name), "{from} -> {to}: {found:?}");
+    }
 }
 
 #[test]

@@ -37,6 +37,9 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Made<String> {
         let commands = plan.commands.iter().map(|one| command(context, one));
         line("commands", list(commands.collect::<Made<Vec<String>>>()?.into_iter()));
     }
+    if !plan.kept.is_empty() {
+        line("kept", bytes(&plan.kept));
+    }
     if let Some(one) = plan.formula {
         line("formula", format!("Some({})", formula(one)));
         let parameters: Vec<String> = plan.parameters.iter().map(ToString::to_string).collect();
@@ -94,8 +97,11 @@ fn reading(context: &Context<'_>, plan: &ReadingPlan) -> Made<String> {
 }
 
 fn command(context: &Context<'_>, plan: &CommandPlan) -> Made<String> {
+    let own = plan.own.as_ref().map_or("..Command::NEW".to_owned(), |own| {
+        format!("own: {}, kept: {}", bytes(&own.bits), own.kept)
+    });
     Ok(format!(
-        "Command {{ prefix: {}, item: {}, value: {} }}",
+        "Command {{ prefix: {}, item: {}, value: {}, {own} }}",
         bytes(&plan.prefix),
         context.item(&plan.field)?,
         coding(&plan.value)

@@ -1,0 +1,264 @@
+//! Why a device is on its pins, for people.
+//!
+//! In: the pins that each of its wires could have, with what the best wiring with each would cost. Out: a line a wire
+//! that says the pin and the reason, then the other pins, those that stand in the way of nothing first; or all of them
+//! as a table.
+
+use std::collections::BTreeMap;
+
+use sensedsl_diagnostics::visible;
+use sensedsl_model::design::Design;
+use sensedsl_wiring::Alternative;
+use sensedsl_wiring::assignment::Assignment;
+
+use super::table::table;
+
+/// Where a line of pins ends.
+const WIDTH: usize = 100;
+/// Where the pins of a group begin.
+const PINS_AT: usize = 32;
+
+/// What there is to say of a pin; the order is that in which people want to know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Verdict {
+    Chosen,
+    Better,
+    AsGood,
+    Costs(u64),
+    Shared(u64),
+    Unmet(u64),
+    Impossible,
+}
+
+impl Verdict {
+    fn of(wiring: &Assignment, one: &Alternative) -> Self {
+        match one.best {
+            _ if one.chosen => Self::Chosen,
+            None => Self::Impossible,
+            Some(best) if best.violated > wiring.violated => {
+                Self::Unmet(u64::from(best.violated - wiring.violated))
+            }
+            Some(best) if best.violated < wiring.violated => Self::Better,
+            Some(best) if best.shared > wiring.shared => {
+                Self::Shared(u64::from(best.shared - wiring.shared))
+            }
+            Some(best) if best.shared < wiring.shared => Self::Better,
+            Some(best) if best.cost > wiring.cost => {
+                Self::Costs(u64::from(best.cost - wiring.cost))
+            }
+            Some(_) => Self::AsGood,
+        }
+    }
+
+    /// The same without numbers: what is listed together.
+    const fn group(self) -> Self {
+        match self {
+            Self::Costs(_) => Self::Costs(0),
+            Self::Shared(_) => Self::Shared(0),
+            Self::Unmet(_) => Self::Unmet(0),
+            Self::Chosen | Self::Better | Self::AsGood | Self::Impossible => self,
+        }
+    }
+
+    /// What a group of pins is called.
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Chosen => "chosen",
+            Self::Better => "better",
+            Self::AsGood => "as good, later in order",
+            Self::Costs(_) => "costs more in all",
+            Self::Shared(_) => "shared with the board",
+            Self::Unmet(_) => "a wish less is met",
+            Self::Impossible => "needed by other devices",
+        }
+    }
+
+    /// What stands behind a pin in its group.
+    fn mark(self, one: &Alternative) -> String {
+        match (self, &one.shared_with) {
+            (Self::Costs(more), _) => format!(" (+{more})"),
+            (Self::Shared(1), Some(with)) => format!(" ({})", visible(with)),
+            _ => String::new(),
+        }
+    }
+
+    /// The last column of the table.
+    fn long(self, design: &Design, one: &Alternative) -> String {
+        match (self, &one.shared_with) {
+            (Self::Chosen, _) => "chosen".to_owned(),
+            (Self::Impossible, _) => "no wiring: the others need it".to_owned(),
+            (Self::Unmet(more), _) => format!("{more} more unmet wishes"),
+            (Self::Better, _) => "better".to_owned(),
+            (Self::Shared(1), Some(with)) => format!("shared with {}", visible(with)),
+            (Self::Shared(1), None) => "one more shared pin".to_owned(),
+            (Self::Shared(more), _) => format!("{more} more shared pins"),
+            (Self::Costs(more), _) => format!("costs {more} more in all"),
+            (Self::AsGood, _) => {
+                let has_spares = one.best.is_some_and(|best| best.spares > 0)
+                    && design.boards.iter().any(|board| board.spare);
+                let why = if has_spares {
+                    "as good in cost; needs as many spare boards or comes later in order"
+                } else {
+                    "as good; comes later in order"
+                };
+                why.to_owned()
+            }
+        }
+    }
+}
+
+/// Every pin that could be, as a table.
+pub(super) fn all(design: &Design, wiring: &Assignment, alternatives: &[Alternative]) -> String {
+    let row = |one: &Alternative| {
+        let why = Verdict::of(wiring, one).long(design, one);
+        [one.wire.clone(), pin(design, one), one.signal.clone(), one.usages.to_string(), why]
+    };
+    let rows: Vec<[String; 5]> = alternatives.iter().map(row).collect();
+    let heads =
+        [("Role", false), ("Pin", false), ("Signal", false), ("Usages", true), ("Why", false)];
+    table(heads, &rows)
+}
+
+/// The pins of the wiring with the reasons, then the other pins in groups.
+pub(super) fn summary(
+    design: &Design,
+    wiring: &Assignment,
+    alternatives: &[Alternative],
+) -> String {
+    let mut wires: Vec<Vec<(Verdict, &Alternative)>> = Vec::new();
+    for one in alternatives {
+        let judged = (Verdict::of(wiring, one), one);
+        // The wires of a chip's connections may have one name; each has one pin that is chosen.
+        match wires.last_mut().filter(|wire| is_same(wire, one)) {
+            Some(wire) => wire.push(judged),
+            None => wires.push(vec![judged]),
+        }
+    }
+    let chosen: Vec<[String; 4]> = wires.iter().filter_map(|wire| row(design, wire)).collect();
+    let heads = [("Role", false), ("Pin", false), ("Signal", false), ("Why", false)];
+    let mut out = table(heads, &chosen);
+    out.push_str(&others(design, &wires));
+    out
+}
+
+fn is_same(wire: &[(Verdict, &Alternative)], one: &Alternative) -> bool {
+    let has_chosen = wire.iter().any(|(_, other)| other.chosen);
+    let is_repeated = |other: &Alternative| {
+        (&other.board, &other.pin, &other.signal) == (&one.board, &one.pin, &one.signal)
+    };
+    wire.iter().all(|(_, other)| other.wire == one.wire)
+        && !(has_chosen && one.chosen)
+        && !wire.iter().any(|(_, other)| is_repeated(other))
+}
+
+fn pin(design: &Design, one: &Alternative) -> String {
+    if design.boards.len() > 1 { format!("{} {}", one.board, one.pin) } else { one.pin.clone() }
+}
+
+/// A wire with the pin that it has and why.
+fn row(design: &Design, wire: &[(Verdict, &Alternative)]) -> Option<[String; 4]> {
+    let (_, chosen) = wire.iter().find(|(verdict, _)| *verdict == Verdict::Chosen)?;
+    let why = reason(design, wire);
+    Some([chosen.wire.clone(), pin(design, chosen), chosen.signal.clone(), why])
+}
+
+/// Why the chosen pin is the chosen one.
+fn reason(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
+    let mut rest: Vec<&(Verdict, &Alternative)> =
+        wire.iter().filter(|(verdict, _)| *verdict != Verdict::Chosen).collect();
+    rest.sort_by_key(|(verdict, _)| *verdict);
+    let Some((best, next)) = rest.first() else { return "no other pin can be it".to_owned() };
+    let next = pin(design, next);
+    match best {
+        Verdict::Better => format!("not the best there is: {next} is better"),
+        Verdict::AsGood => {
+            let count = rest.iter().filter(|(verdict, _)| *verdict == Verdict::AsGood).count();
+            let them =
+                if count == 1 { format!("{next} is") } else { format!("{count} others are") };
+            format!("costs least; {them} as good and later in order")
+        }
+        Verdict::Costs(more) => format!("costs least; the next, {next}, costs {more} more in all"),
+        Verdict::Shared(_) => "all others are shared with something on the board".to_owned(),
+        Verdict::Unmet(_) => "with any other a wish would be unmet".to_owned(),
+        Verdict::Impossible | Verdict::Chosen => {
+            "all others are needed by other devices".to_owned()
+        }
+    }
+}
+
+/// The pins that are not chosen, those of wires with the same ones together.
+fn others(design: &Design, wires: &[Vec<(Verdict, &Alternative)>]) -> String {
+    let mut texts: Vec<(Vec<&str>, String)> = Vec::new();
+    let mut count = 0;
+    for wire in wires {
+        count += wire.len();
+        let text = groups(design, wire);
+        let name = wire.first().map_or("", |(_, one)| one.wire.as_str());
+        match texts.iter_mut().find(|(_, other)| *other == text) {
+            Some((names, _)) => names.push(name),
+            None => texts.push((vec![name], text)),
+        }
+    }
+    texts.retain(|(_, text)| !text.is_empty());
+    if texts.is_empty() {
+        return String::new();
+    }
+    let blocks = texts.iter().map(|(names, text)| format!("  {}\n{text}", names.join(", ")));
+    format!(
+        "\nOther pins:\n\n{}\n`--all` lists all {count} places, one a line.\n",
+        blocks.collect::<Vec<_>>().join("\n")
+    )
+}
+
+/// A line for each group of pins of a wire.
+fn groups(design: &Design, wire: &[(Verdict, &Alternative)]) -> String {
+    let mut groups: BTreeMap<Verdict, Vec<(Verdict, String, String)>> = BTreeMap::new();
+    for (verdict, one) in wire.iter().filter(|(verdict, _)| *verdict != Verdict::Chosen) {
+        let group = groups.entry(verdict.group()).or_default();
+        let pin = pin(design, one);
+        let mark = verdict.mark(one);
+        match group.iter_mut().find(|(_, other, _)| *other == pin) {
+            // A pin counts with the best of its signals.
+            Some(other) if *verdict < other.0 => *other = (*verdict, pin, mark),
+            Some(_) => {}
+            None => group.push((*verdict, pin, mark)),
+        }
+    }
+    let line = |(group, mut pins): (Verdict, Vec<(Verdict, String, String)>)| {
+        pins.sort_by_key(|(verdict, ..)| *verdict);
+        let pins: Vec<String> = pins.into_iter().map(|(_, pin, mark)| pin + &mark).collect();
+        format!("    {:<1$}{2}\n", group.title(), PINS_AT - 4, listed(&pins))
+    };
+    groups.into_iter().map(line).collect()
+}
+
+/// As many as fit into a line, and how many there are beside them.
+fn listed(pins: &[String]) -> String {
+    const REST: usize = " … 999 more".len();
+    let mut out = String::new();
+    for (at, pin) in pins.iter().enumerate() {
+        let is_last = at + 1 == pins.len();
+        let room = WIDTH - PINS_AT - if is_last { 0 } else { REST };
+        let text = if at == 0 { pin.clone() } else { format!(", {pin}") };
+        if at > 0 && out.chars().count() + text.chars().count() > room {
+            return format!("{out} … {} more", pins.len() - at);
+        }
+        out.push_str(&text);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PINS_AT, WIDTH, listed};
+
+    #[test]
+    fn a_line_ends_in_time_and_says_what_is_left() {
+        let pins: Vec<String> = (0..40).map(|number| format!("PD{number}")).collect();
+        let line = listed(&pins);
+        assert!(line.chars().count() <= WIDTH - PINS_AT, "{line}");
+        let shown = line.split(',').count();
+        assert!(line.ends_with(&format!(" … {} more", 40 - shown)), "{line}");
+        assert_eq!(listed(&pins[..2]), "PD0, PD1");
+    }
+}

@@ -1,0 +1,134 @@
+//! What must be written to chips.
+
+use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_model::design::ConnectionIndex;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::protocol::{InitStep, Protocol};
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use super::expect::{Expected, What, expected};
+use crate::parts::words;
+
+/// A transfer to a chip.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Written {
+    pub(super) bytes: Vec<u8>,
+    /// So many of them say what it is for.
+    pub(super) begins: usize,
+    /// The bits that are checked; the others belong to other devices.
+    mask: Vec<u8>,
+}
+
+impl Written {
+    /// Whether a transfer is it, as far as it is of this device.
+    pub(super) fn is(&self, found: &[u8]) -> bool {
+        let mut pairs = self.bytes.iter().zip(found).zip(&self.mask);
+        found.len() == self.bytes.len()
+            && pairs.all(|((one, other), mask)| (one ^ other) & mask == 0)
+    }
+
+    /// Whether other devices have bits of the same register, whose transfers must keep the value.
+    pub(super) fn is_shared(&self) -> bool {
+        self.mask.iter().any(|mask| *mask != 0xFF)
+    }
+
+    /// The bits that are checked, where these are not all.
+    pub(super) fn mask(&self) -> Option<&[u8]> {
+        self.is_shared().then_some(&self.mask)
+    }
+}
+
+/// The register that a device is written to.
+fn register(one: &JobDevice<'_>) -> Option<Option<u16>> {
+    match &one.device.kind {
+        Kind::I2c(own) => Some(own.register),
+        Kind::Spi(own) => Some(own.register),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    }
+}
+
+/// A value in registers: their number, then its bytes. The bits of a register that no device has are as the
+/// initialisation leaves them.
+pub(super) fn write(
+    job: &BoardJob<'_>,
+    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    one: &JobDevice<'_>,
+    raw: &[f64],
+) -> Option<Expected> {
+    let number = register(one)?;
+    let chip = job.design.part(one.device.part)?.chip.as_ref();
+    let is_wide = chip.is_some_and(|chip| chip.register_bytes == 2);
+    let mut bytes: Vec<u8> = match number {
+        None => Vec::new(),
+        Some(number) if is_wide => number.to_be_bytes().to_vec(),
+        Some(number) => number.to_le_bytes().into_iter().take(1).collect(),
+    };
+    let begins = bytes.len();
+    let words = Words::of(one.device)?;
+    bytes.extend(words::bytes(&words, raw));
+    let mut mask = vec![0xFF; bytes.len()];
+    let is_narrow = words.crc.is_none() && bytes.len() <= begins + size_of::<u64>();
+    if is_narrow {
+        let own = words.in_frame(0).to_le_bytes();
+        let start = chip.and_then(|chip| left_by_init(chip, &bytes, begins));
+        if is_shared(job, one) {
+            mask.iter_mut().skip(begins).zip(own).for_each(|(mask, own)| *mask = own);
+        } else if let Some(start) = start {
+            let all = bytes.iter_mut().zip(start).skip(begins).zip(own);
+            all.for_each(|((byte, start), own)| *byte |= start & !own);
+        }
+    }
+    Some(expected(at, wire, 0, What::Write(Written { bytes, begins, mask })))
+}
+
+/// The last transfer of the initialisation that is as long and begins alike.
+fn left_by_init(chip: &Protocol, bytes: &[u8], begins: usize) -> Option<Vec<u8>> {
+    let is_alike =
+        |one: &&Vec<u8>| one.len() == bytes.len() && one.get(..begins) == bytes.get(..begins);
+    let writes = chip.init.iter().filter_map(|step| match step {
+        InitStep::Write(bytes) => Some(bytes),
+        InitStep::Wait { .. } => None,
+    });
+    writes.filter(is_alike).next_back().cloned()
+}
+
+/// Whether another device of the chip is written to the same register.
+fn is_shared(job: &BoardJob<'_>, one: &JobDevice<'_>) -> bool {
+    let is_beside = |other: &&JobDevice<'_>| {
+        other.device.part == one.device.part
+            && other.device.id.value != one.device.id.value
+            && other.device.direction == Direction::Actuator
+            && register(other) == register(one)
+    };
+    job.devices.iter().any(|other| is_beside(&other))
+}
+
+/// The most that starting a chip takes beside its pauses.
+const START_MS: u64 = 40;
+
+/// What a switch of a chip must have been written to before the host has set it; nothing where that is not said, or the
+/// chip may not have started yet.
+pub(super) fn first(
+    job: &BoardJob<'_>,
+    (at, wire): (ConnectionIndex, &JobConnection<'_>),
+    one: &JobDevice<'_>,
+    now_ns: u64,
+) -> Option<Expected> {
+    let is_on = one.device.coding.initial?;
+    let chip = job.design.part(one.device.part)?.chip.as_ref()?;
+    let pause_ms = chip.init.iter().map(|step| match step {
+        InitStep::Write(_) => 0,
+        InitStep::Wait { ms } => u64::from(*ms),
+    });
+    let starts_ms = u64::from(wire.cycle.start_ms) + pause_ms.sum::<u64>() + START_MS;
+    let is_started = now_ns >= starts_ms * 1_000_000;
+    write(job, (at, wire), one, &[f64::from(u8::from(is_on))]).filter(|_| is_started)
+}
