@@ -93,11 +93,11 @@ pub(super) fn write(
 fn left_by_init(chip: &Protocol, bytes: &[u8], begins: usize) -> Option<Vec<u8>> {
     let is_alike =
         |one: &&Vec<u8>| one.len() == bytes.len() && one.get(..begins) == bytes.get(..begins);
-    let writes = chip.init.iter().filter_map(|step| match step {
+    let mut writes = chip.init.iter().filter_map(|step| match step {
         InitStep::Write(bytes) => Some(bytes),
         InitStep::Wait { .. } => None,
     });
-    writes.filter(is_alike).next_back().cloned()
+    writes.rfind(is_alike).cloned()
 }
 
 /// Whether another device of the chip is written to the same register.
