@@ -122,6 +122,7 @@ fn run(
                     reports.push((ms * 1_000_000, values));
                 }
                 Event::Health(said) => {
+                    judge.answered();
                     judge.health(ms * 1_000_000, &said);
                     is_healthy = true;
                 }
