@@ -473,14 +473,18 @@ impl Maps {
     }
 }
 
-/// The devices that violate a rule, each with the places where it does: 0, or the role and 1.
+/// The devices that violate a rule, each with the places where it does: 0, or the role and 1. What all candidates of a
+/// role violate is also violated at 0.
 pub(crate) fn violators(statement: &Statement, rule: usize) -> BTreeSet<(usize, usize)> {
-    let place = |part: &Part| match part {
-        Part::Way(way) => (statement.ways[*way].device, 0),
+    let places = |part: &Part| match part {
+        Part::Way(way) => vec![(statement.ways[*way].device, 0)],
         Part::Wire(wire) => {
             let of = &statement.wires[*wire];
-            (of.device, of.role - statement.ways[of.way].roles.start + 1)
+            let way = &statement.ways[of.way];
+            let own = (of.device, of.role - way.roles.start + 1);
+            let whole = way.implied.contains(&rule).then_some((of.device, 0));
+            std::iter::once(own).chain(whole).collect()
         }
     };
-    statement.rules[rule].iter().map(place).collect()
+    statement.rules[rule].iter().flat_map(places).collect()
 }

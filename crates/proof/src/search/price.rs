@@ -316,6 +316,8 @@ impl Market<'_> {
             sum += prices.links.get(&(*facility, of.device)).copied().unwrap_or(0);
         }
         sum += self.rules(state, prices, (of.device, 0), &of.rules);
+        let implied = of.implied.iter().filter(|rule| self.paying[**rule] == Paying::Parts);
+        sum += self.rules(state, prices, (of.device, 0), implied);
         for user in &of.users {
             let direct = self.facilities.direct[*user].is_some_and(|resource| {
                 of.claims.iter().any(|claim| claim.resource == resource && claim.holder == 0)
@@ -358,14 +360,14 @@ impl Market<'_> {
         sum
     }
 
-    fn rules(
+    fn rules<'r>(
         &self,
         state: &State,
         prices: &Prices,
         (device, place): (usize, usize),
-        rules: &[usize],
+        rules: impl IntoIterator<Item = &'r usize>,
     ) -> i128 {
-        let open = rules.iter().filter(|rule| state.rule[**rule] != Charge::Paid);
+        let open = rules.into_iter().filter(|rule| state.rule[**rule] != Charge::Paid);
         let paid = open.map(|rule| match self.paying[*rule] {
             Paying::Full => self.weights.rule * prices.scale,
             Paying::Parts => prices.rules.get(&(*rule, device, place)).copied().unwrap_or(0),

@@ -31,6 +31,8 @@ pub(crate) struct Way {
     pub(crate) board: usize,
     pub(crate) claims: Vec<Claim>,
     pub(crate) rules: Vec<usize>,
+    /// Further ones, which all candidates of a role violate.
+    pub(crate) implied: BTreeSet<usize>,
     pub(crate) users: Vec<usize>,
     /// Its roles.
     pub(crate) roles: Range<usize>,
@@ -256,6 +258,7 @@ impl Statement {
             board: number(&names.boards, &of.board),
             claims,
             rules: names.rules(&of.violates),
+            implied: BTreeSet::new(),
             users: of.dma.iter().map(|user| number(&names.users, user)).collect(),
             roles: first..self.roles.len(),
         });
@@ -294,6 +297,12 @@ impl Statement {
             };
             let common = wires.iter().map(groups).reduce(|one, other| &one & &other);
             role.ties = common.unwrap_or_default().into_iter().collect();
+            let violated = |wire: &Wire| wire.rules.iter().copied().collect::<BTreeSet<usize>>();
+            let common = wires.iter().map(violated).reduce(|one, other| &one & &other);
+            self.ways[role.way].implied.extend(common.unwrap_or_default());
+        }
+        for way in &mut self.ways {
+            way.implied.retain(|rule| !way.rules.contains(rule));
         }
     }
 
