@@ -11,8 +11,8 @@ use sensedsl_solve::trace::{Exchange, Multipliers, Question, Record, Step};
 use serde_json::{Map, Value, json};
 
 use crate::labels::Labels;
-use crate::model::holders;
 use crate::swaps::Swap;
+use crate::write::holders;
 
 /// Where everything stands in the order of names.
 pub(crate) struct Places {

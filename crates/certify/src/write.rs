@@ -1,26 +1,27 @@
-//! The certificate as text: the problem in names, the answer, the proofs.
+//! The certificate as text: the problem in names, the answer, the record of the search.
 #![expect(clippy::indexing_slicing, reason = "labels are there for all numbers, which are checked")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use sensedsl_diagnostics::visible_json;
 use sensedsl_solve::problem::{Alternative, Candidate, Claim, Holder, Problem, Role, RuleId};
 use sensedsl_solve::{Answer, Objective};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::Subject;
-use crate::ascent::Closing;
-use crate::case::Weighed;
 use crate::labels::{Labels, distinct};
-use crate::model::{Thing, holders};
-use crate::tree::Node;
 
-/// A proof on its way to the text.
-pub(crate) struct Proof<'a> {
-    pub(crate) of: &'static str,
-    pub(crate) weighed: &'a Weighed<'a>,
-    pub(crate) nodes: Vec<Node>,
+/// Who holds each resource. A device that holds one for several groups cannot share it.
+pub fn holders(claims: &[Claim]) -> BTreeMap<u32, Holder> {
+    let mut holders = BTreeMap::new();
+    for Claim { resource, holder } in claims {
+        let held = holders.entry(resource.0).or_insert(*holder);
+        if held != holder {
+            *held = Holder::Own;
+        }
+    }
+    holders
 }
 
 pub(crate) struct Writer<'a> {
@@ -46,8 +47,7 @@ impl Writer<'_> {
         &self,
         subject: &Subject,
         answer: Option<&Answer>,
-        proofs: &[String],
-        search: Option<&str>,
+        search: &str,
     ) -> String {
         let Self { problem, labels } = self;
         let boards = labels.boards.iter().zip(&problem.boards);
@@ -77,11 +77,7 @@ impl Writer<'_> {
             Some(answer) => self.answer(&mut text, answer),
             None => text.push_str("null"),
         }
-        let _ = write!(text, ",\n\"proofs\": [{}]", proofs.join(",\n"));
-        if let Some(search) = search {
-            let _ = write!(text, ",\n\"search\": {search}");
-        }
-        text.push_str("\n}\n");
+        let _ = write!(text, ",\n\"search\": {search}\n}}\n");
         text
     }
 
@@ -174,84 +170,6 @@ impl Writer<'_> {
             object(streams)
         );
     }
-
-    /// The text of a proof about the writer's problem.
-    pub(crate) fn proof(&self, proof: &Proof<'_>) -> String {
-        let Proof { of, weighed, nodes } = proof;
-        let nodes: Vec<String> =
-            nodes.iter().map(|node| self.node(weighed, node).to_string()).collect();
-        let weights = objective(&weighed.weights);
-        let of = json!(of);
-        format!("{{\"of\": {of}, \"weights\": {weights}, \"nodes\": [\n{}\n]}}", nodes.join(",\n"))
-    }
-
-    fn node(&self, weighed: &Weighed<'_>, node: &Node) -> Value {
-        let cases = |cases: &[(Vec<usize>, usize)], name: &dyn Fn(usize) -> String| -> Value {
-            let case = |(keep, then): &(Vec<usize>, usize)| {
-                let keep: Vec<String> = keep.iter().map(|one| name(*one)).collect();
-                json!({ "keep": keep, "then": then })
-            };
-            cases.iter().map(case).collect()
-        };
-        match node {
-            Node::Device { device, cases: parts } => {
-                let name = |a: usize| self.labels.alternatives[*device][a].name.clone();
-                let device = &self.labels.devices[*device];
-                json!({ "device": { "device": device, "cases": cases(parts, &name) } })
-            }
-            Node::Role { device, alternative, role, cases: parts } => {
-                let of = &self.problem.devices[*device].alternatives[*alternative].roles[*role];
-                let name = |c: usize| self.candidate(&of.candidates[c]);
-                let role = &self.labels.alternatives[*device][*alternative].roles[*role];
-                let device = &self.labels.devices[*device];
-                let cases = cases(parts, &name);
-                json!({ "role": { "device": device, "role": role, "cases": cases } })
-            }
-            Node::Rule { rule, kept, violated } => {
-                let rule = &self.labels.rules[*rule];
-                json!({ "rule": { "rule": rule, "kept": kept, "violated": violated } })
-            }
-            Node::Leaf(None) => json!({ "leaf": { "scale": 1, "prices": {}, "tolls": {} } }),
-            Node::Leaf(Some(closing)) => json!({ "leaf": self.leaf(weighed, closing) }),
-        }
-    }
-
-    fn leaf(&self, weighed: &Weighed<'_>, closing: &Closing) -> Value {
-        let Closing { scale, tolls, used } = closing;
-        let mut prices = Map::new();
-        for (thing, rent) in tolls.rents.iter().enumerate().filter(|(_, rent)| **rent > 0) {
-            let (kind, name) = self.thing(weighed.model.things[thing]);
-            let price = weighed.of_things[thing] as i64 * scale + rent;
-            put(&mut prices, kind)[name] = price.into();
-        }
-        for (stream, price) in tolls.streams.iter().enumerate().filter(|(_, price)| **price > 0) {
-            put(&mut prices, "stream")[&self.labels.streams[stream]] = (*price).into();
-        }
-        let mut all = Map::new();
-        for share in used.iter().filter(|share| tolls.shares[**share] > 0) {
-            let (thing, device) = weighed.model.shares[*share];
-            let (kind, name) = self.thing(weighed.model.things[thing]);
-            let of_thing = &mut put(&mut all, kind)[name];
-            if of_thing.is_null() {
-                *of_thing = json!({});
-            }
-            of_thing[&self.labels.devices[device]] = tolls.shares[*share].into();
-        }
-        json!({ "scale": scale, "prices": prices, "tolls": all })
-    }
-
-    /// Kind and name.
-    fn thing(&self, thing: Thing) -> (&'static str, &str) {
-        let Labels { boards, pins, resources, rules, dma, .. } = self.labels;
-        match thing {
-            Thing::Pin(pin) => ("pin", &pins[pin]),
-            Thing::Moved(pin) => ("moved", &pins[pin]),
-            Thing::Resource(resource) => ("resource", &resources[resource]),
-            Thing::Rule(rule) => ("rule", &rules[rule]),
-            Thing::Spare(board) => ("spare", &boards[board]),
-            Thing::Dma(user) => ("dma", &dma[user]),
-        }
-    }
 }
 
 /// The text of a subject. Names of files may hold what cannot be seen.
@@ -267,10 +185,6 @@ fn of(subject: &Subject) -> String {
         json!(tool)
     );
     visible_json(&text).into_owned()
-}
-
-fn put<'m>(map: &'m mut Map<String, Value>, kind: &str) -> &'m mut Value {
-    map.entry(kind).or_insert_with(|| json!({}))
 }
 
 fn objective(objective: &Objective) -> Value {

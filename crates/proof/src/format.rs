@@ -72,12 +72,8 @@ pub struct Certificate {
     /// The claim; `null` claims that there is no wiring.
     #[serde(deserialize_with = "stated")]
     pub answer: Option<Answer>,
-    /// One for each part of the objective that is not 0, or one of existence; none where there is a
-    /// search.
-    pub proofs: Vec<Proof>,
-    /// One proof of everything: the record of a search.
-    #[serde(default)]
-    pub search: Option<Search>,
+    /// The proof: the record of a search.
+    pub search: Search,
 }
 
 /// A value that may be `null`, but not left out.
@@ -174,7 +170,7 @@ pub struct Choice {
     pub wires: Map<String>,
 }
 
-/// The objective, or the weights of its parts.
+/// The objective.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Objective {
@@ -195,12 +191,6 @@ impl Objective {
     pub(crate) const fn parts(self) -> [u32; 5] {
         [self.moved, self.violated, self.shared, self.cost, self.spares]
     }
-
-    /// The sum of the parts, each times its weight.
-    pub(crate) fn weigh(self, objective: Self) -> i128 {
-        let pairs = self.parts().into_iter().zip(objective.parts());
-        pairs.map(|(weight, part)| i128::from(weight) * i128::from(part)).sum()
-    }
 }
 
 impl fmt::Display for Objective {
@@ -209,108 +199,6 @@ impl fmt::Display for Objective {
         write!(f, "moved {moved}, violated {violated}, shared {shared}, ")?;
         write!(f, "cost {cost}, spares {spares}")
     }
-}
-
-/// What a proof is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[expect(missing_docs, reason = "the fields of Objective, and whether there is a wiring at all")]
-pub enum Part {
-    Moved,
-    Violated,
-    Shared,
-    Cost,
-    Spares,
-    Existence,
-}
-
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Moved => "moved",
-            Self::Violated => "violated",
-            Self::Shared => "shared",
-            Self::Cost => "cost",
-            Self::Spares => "spares",
-            Self::Existence => "existence",
-        })
-    }
-}
-
-impl Part {
-    /// In the order of [`Objective::parts`].
-    pub(crate) const OF_OBJECTIVE: [Self; 5] =
-        [Self::Moved, Self::Violated, Self::Shared, Self::Cost, Self::Spares];
-}
-
-/// A proof that all wirings weigh more than some limit.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Proof {
-    /// What follows from it.
-    pub of: Part,
-    /// What each part of the objective weighs.
-    pub weights: Objective,
-    /// The case distinction: a tree, its root first. Children are named by their place here.
-    pub nodes: Vec<Node>,
-}
-
-/// A case: distinguished further, or a leaf.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum Node {
-    /// By what a device takes: in each case one of the alternatives named.
-    Device {
-        /// The device.
-        device: String,
-        /// The cases.
-        cases: Vec<Case>,
-    },
-    /// By where a wire goes, of a device that has one alternative left.
-    Role {
-        /// The device.
-        device: String,
-        /// The wire.
-        role: String,
-        /// The cases.
-        cases: Vec<Case>,
-    },
-    /// By whether a soft rule is violated.
-    Rule {
-        /// The rule.
-        rule: String,
-        /// The case that it is kept: what violates it is gone.
-        kept: usize,
-        /// The case that it is violated: its weight is paid, once.
-        violated: usize,
-    },
-    /// Not distinguished further.
-    Leaf(Leaf),
-}
-
-/// One case of several.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Case {
-    /// What can still be taken.
-    pub keep: BTreeSet<String>,
-    /// The node of this case.
-    pub then: usize,
-}
-
-/// Tolls that show what all wirings of a case weigh; see the module `leaf`.
-///
-/// The outer key is the kind of a thing: `pin`, `moved` (the move of the wire on that pin),
-/// `resource`, `rule`, `spare` (that board), `dma` (that peripheral), for prices also `stream`.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Leaf {
-    /// How many units of toll a unit of weight is.
-    pub scale: u32,
-    /// Kind, thing: what a device pays that uses it for itself; otherwise it pays its weight.
-    pub prices: Map<Map<u32>>,
-    /// Kind, thing, device: what that device pays that uses it with others; otherwise nothing.
-    pub tolls: Map<Map<Map<u32>>>,
 }
 
 /// Numbers in a row; what belongs together stands side by side.

@@ -1,33 +1,26 @@
 //! Verifies certificates: that a wiring is valid and no better one exists, or that there is none.
 //!
 //! A certificate is one JSON text ([`mod@format`]) with the whole problem in names, the answer, and
-//! proofs. This crate reads nothing else, shares no code with the solver and does not search:
+//! the record of a search. This crate reads nothing else, shares no code with the solver and does
+//! not search:
 //! 1. `wiring` goes through the rules for the one wiring given and adds up what it costs;
-//! 2. `tree` walks each proof's case distinction and sees that no case is left out;
-//! 3. `leaf` computes, from the tolls that the certificate proposes, a weight below which no
-//!    wiring of that case can be.
+//! 2. `search` walks through the record's cases, sees that none is left out, and computes from the
+//!    multipliers that it states a weight below which no wiring of a case can be.
 //!
-//! `budget` bounds how much it reads and how many steps it takes; `subject` compares files with what
-//! the problem was made of.
+//! `budget` bounds how much it reads and how long it takes; `subject` compares files with what the
+//! problem was made of.
 //!
-//! The objective is (moved, violated, shared, cost, spares), the first difference decides. There is a
-//! proof for each part that is not 0: no wiring that equals the claim in the parts before is lower
-//! in this one. It gives each part a weight, none to the parts after, and shows that every wiring
-//! weighs more than one that were lower by 1 in its part. Any weights do: with unsuitable ones the
-//! proof does not come out.
+//! The objective is (moved, violated, shared, cost, spares), the first difference decides.
 
 pub mod budget;
 pub mod format;
-mod leaf;
 mod search;
 pub mod subject;
-mod tree;
 mod wiring;
 
 use budget::Budget;
-use format::{Alternative, Answer, Certificate, Objective, Part, Problem, Proof};
+use format::{Alternative, Certificate, Objective, Problem};
 use serde::Deserialize;
-use std::borrow::Borrow;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -98,71 +91,16 @@ pub fn read(text: &str) -> Result<Certificate, Unusable> {
 /// # Errors
 /// The first thing that is wrong with it.
 pub fn verify(certificate: &Certificate) -> Result<Verified, Refuted> {
-    let Certificate { format: _, subject: _, problem, answer, proofs, search } = certificate;
+    let Certificate { format: _, subject: _, problem, answer, search } = certificate;
     named(problem)?;
-    let mut parts = proofs.iter().enumerate().map(|(at, proof)| (at, proof.of));
-    let twice = parts.find(|(at, of)| proofs.iter().take(*at).any(|before| before.of == *of));
-    ensure(twice.is_none(), || "two proofs are of one part".into())?;
-    let budget = &mut Budget::new();
-    if let Some(search) = search {
-        ensure(proofs.is_empty(), || "there are proofs beside the search".into())?;
-        let claimed = answer.as_ref().map(|answer| answer.objective);
-        if let Some(answer) = answer {
-            let actual = wiring::objective(problem, answer)?;
-            let claimed = answer.objective;
-            ensure(actual == claimed, || format!("the wiring has {actual}, not {claimed}"))?;
-        }
-        search::check(problem, search, claimed, budget)?;
-        return Ok(claimed.map_or(Verified::NoWiring, Verified::Best));
+    let claimed = answer.as_ref().map(|answer| answer.objective);
+    if let Some(answer) = answer {
+        let actual = wiring::objective(problem, answer)?;
+        let claimed = answer.objective;
+        ensure(actual == claimed, || format!("the wiring has {actual}, not {claimed}"))?;
     }
-    match answer {
-        Some(answer) => best(problem, answer, proofs, budget),
-        None => no_wiring(problem, proofs, budget),
-    }
-}
-
-fn best(
-    problem: &Problem,
-    answer: &Answer,
-    proofs: &[Proof],
-    budget: &mut Budget,
-) -> Result<Verified, Refuted> {
-    let claimed = answer.objective;
-    let actual = wiring::objective(problem, answer)?;
-    ensure(actual == claimed, || format!("the wiring has {actual}, not {claimed}"))?;
-    for (place, part) in Part::OF_OBJECTIVE.into_iter().enumerate() {
-        let value = claimed.parts().get(place).copied().unwrap_or(0);
-        if value == 0 {
-            continue; // Nothing is lower than 0.
-        }
-        let proof = find(proofs, part)?;
-        let weights = proof.weights.parts();
-        let mut after = weights.iter().skip(place + 1);
-        let own = i128::from(weights.get(place).copied().unwrap_or(0));
-        ensure(own > 0, || format!("the proof of {part} gives it no weight"))?;
-        ensure(after.all(|weight| *weight == 0), || {
-            format!("the proof of {part} weighs later parts")
-        })?;
-        tree::check(problem, proof, proof.weights.weigh(claimed) - own, budget)?;
-    }
-    Ok(Verified::Best(claimed))
-}
-
-/// Without weights every wiring weighs 0: a proof that all weigh more leaves none.
-fn no_wiring(
-    problem: &Problem,
-    proofs: &[Proof],
-    budget: &mut Budget,
-) -> Result<Verified, Refuted> {
-    let proof = find(proofs, Part::Existence)?;
-    ensure(proof.weights == Objective::default(), || "a proof of existence has weights".into())?;
-    tree::check(problem, proof, 0, budget)?;
-    Ok(Verified::NoWiring)
-}
-
-fn find(proofs: &[Proof], part: Part) -> Result<&Proof, Refuted> {
-    let found = proofs.iter().find(|proof| proof.of == part);
-    found.ok_or_else(|| Refuted(format!("there is no proof of `{part}`")))
+    search::check(problem, search, claimed, &mut Budget::new())?;
+    Ok(claimed.map_or(Verified::NoWiring, Verified::Best))
 }
 
 /// Checks that only boards, pins and peripherals are named that are there.
@@ -182,13 +120,9 @@ fn named(problem: &Problem) -> Result<(), Refuted> {
     Ok(())
 }
 
-/// The thing of that name.
-fn known<'m, K: Borrow<str> + Ord, T>(
-    things: &'m BTreeMap<K, T>,
-    kind: &str,
-    name: &str,
-) -> Result<&'m T, Refuted> {
-    things.get(name).ok_or_else(|| Refuted(format!("there is no {kind} {name:?}")))
+/// Checks that there is a thing of that name.
+fn known<T>(things: &BTreeMap<String, T>, kind: &str, name: &str) -> Result<(), Refuted> {
+    ensure(things.contains_key(name), || format!("there is no {kind} {name:?}"))
 }
 
 /// Makes a [`Refuted`] of a condition that does not hold.

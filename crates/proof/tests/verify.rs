@@ -7,7 +7,7 @@ use sensedsl_proof::subject::{compare, sha256};
 use sensedsl_proof::{Verified, read, verify};
 
 /// Two sensors of one kind on three pins that cost 1, 2 and 5: the cheapest wiring costs 3. Who
-/// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least.
+/// takes PA1 pays 1 more than it costs, so that each sensor pays 2 at least, and that 1 is given back.
 const TWO_OF_THREE: &str = r#"{
 "format": "SenseDSL certificate 4",
 "subject": {"tool": "a tool", "options": {}, "files": {}, "built_in": {}},
@@ -35,18 +35,16 @@ const TWO_OF_THREE: &str = r#"{
   },
   "streams": {}
 },
-"proofs": [{"of": "cost", "weights": {"moved": 3, "violated": 3, "shared": 3, "cost": 1, "spares": 0}, "nodes": [
-  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}
-]}]
+"search": {"weights": [1000, 200, 40, 1, 1], "facilities": [], "covers": [], "swaps": [{"devices": [0, 1]}], "steps": [
+  {"closed": {"scale": 1, "pins": [0, 1]}}
+]}
 }"#;
 
-/// Three cases, none of which is needed for the bound.
-const SPLIT: &str = r#"{"device": {"device": "Left", "cases": [{"keep": ["any"], "then": 1}]}},
-  {"role": {"device": "Right", "role": "in", "cases": [
-    {"keep": ["PA1", "PA2"], "then": 3}, {"keep": ["PA3"], "then": 2}]}},
-  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}},
-  {"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
-const LEAF: &str = r#"{"leaf": {"scale": 1, "prices": {"pin": {"PA1": 2}}, "tolls": {}}}"#;
+/// Two cases, one of which is not needed for the bound: Left is on PA1, or neither of the two is.
+const SPLIT: &str = r#"{"split": {"on": {"wire": [0, 0, 0, 0]}, "swaps": [0]}},
+  {"closed": {"scale": 1, "pins": [0, 1]}},
+  {"closed": {"scale": 1}}"#;
+const CLOSED: &str = r#"{"closed": {"scale": 1, "pins": [0, 1]}}"#;
 
 /// What it says of files, each with its content, or why it refuses them.
 fn compared(subject: &str, given: &[(&str, &str)]) -> Result<String, String> {
@@ -74,7 +72,7 @@ fn changed(text: &str, from: &str, to: &str) -> String {
 fn a_proof_is_verified() {
     let objective = Objective { moved: 0, violated: 0, shared: 0, cost: 3, spares: 0 };
     assert_eq!(verified(TWO_OF_THREE), Ok(Verified::Best(objective)));
-    assert_eq!(verified(&changed(TWO_OF_THREE, LEAF, SPLIT)), Ok(Verified::Best(objective)));
+    assert_eq!(verified(&changed(TWO_OF_THREE, CLOSED, SPLIT)), Ok(Verified::Best(objective)));
 }
 
 #[test]
@@ -123,21 +121,17 @@ fn shared_pins_come_before_the_cost() {
     let told = changed(&shared, "\"shared\": 0, \"cost\": 3", "\"shared\": 1, \"cost\": 3");
     let why = verified(&shared).expect_err("PA1 is shared");
     assert!(why.starts_with("the wiring has moved 0, violated 0, shared 1, cost 3"), "{why}");
-    assert_eq!(verified(&told), Err("there is no proof of `shared`".into()));
+    assert_eq!(verified(&told), Err("step 0 does not show what it has to".into()));
     let nowhere = changed(TWO_OF_THREE, "\"shared\": []", "\"shared\": [\"PA4\"]");
     assert_eq!(verified(&nowhere), Err("there is no pin \"PA4\"".into()));
 }
 
 #[test]
-fn a_claim_is_stated_and_proved_once() {
+fn a_claim_is_stated() {
     let (before, after) = TWO_OF_THREE.split_once("\"answer\"").expect("two parts");
-    let (_, after) = after.split_once("\"proofs\"").expect("two parts");
-    let error = read(&format!("{before}\"proofs\"{after}")).expect_err("nothing is claimed");
+    let (_, after) = after.split_once("\"search\"").expect("two parts");
+    let error = read(&format!("{before}\"search\"{after}")).expect_err("nothing is claimed");
     assert!(error.0.contains("missing field `answer`"), "{}", error.0);
-    let (start, proof) = TWO_OF_THREE.split_once("\"proofs\": [").expect("two parts");
-    let proof = proof.strip_suffix("]\n}").expect("the end");
-    let twice = format!("{start}\"proofs\": [{proof}, {proof}]\n}}");
-    assert_eq!(verified(&twice), Err("two proofs are of one part".into()));
 }
 
 #[test]
@@ -146,16 +140,16 @@ fn no_wiring_is_verified() {
     let one_pin = problem.lines().filter(|line| !line.contains("\"PA1\": {\"pin\""));
     let one_pin: String = one_pin.collect();
     let one_pin = one_pin.replace("\"PA3\": {\"pin\": \"PA3\"", "\"PA3\": {\"pin\": \"PA2\"");
-    let rest = r#""answer": null, "proofs": [{"of": "existence",
-        "weights": {"moved": 0, "violated": 0, "shared": 0, "cost": 0, "spares": 0},
-        "nodes": [{"leaf": {"scale": 1, "prices": {"pin": {"PA2": 1}}, "tolls": {}}}]}]}"#;
+    // A price of 20 on PA2: two pay it, and it is taken in once.
+    let rest = r#""answer": null, "search": {"weights": [1000, 200, 40, 1, 1],
+        "facilities": [], "covers": [], "swaps": [], "steps": [{"closed": {"scale": 1, "pins": [1, 20]}}]}}"#;
     assert_eq!(verified(&format!("{one_pin}{rest}")), Ok(Verified::NoWiring));
     assert!(verified(&format!("{problem}{rest}")).is_err(), "there are wirings");
 }
 
 #[test]
 fn what_is_not_proved_is_refused() {
-    let split = changed(TWO_OF_THREE, LEAF, SPLIT);
+    let split = changed(TWO_OF_THREE, CLOSED, SPLIT);
     for (text, from, to, why) in [
         (TWO_OF_THREE, "\"cost\": 3,", "\"cost\": 2,", "the wiring has"),
         (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{\"in\": \"PA1\"}", "held twice"),
@@ -163,26 +157,22 @@ fn what_is_not_proved_is_refused() {
         (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{\"in\": \"PA4\"}", "not wired"),
         (TWO_OF_THREE, "{\"in\": \"PA2\"}", "{}", "not wired"),
         (TWO_OF_THREE, "\"streams\": {}", "\"streams\": {\"I2C1\": []}", "streams"),
-        (TWO_OF_THREE, "{\"pin\": {\"PA1\": 2}}", "{\"pin\": {\"PA1\": 1}}", "does not show"),
+        (TWO_OF_THREE, "\"pins\": [0, 1]", "\"pins\": []", "does not show"),
+        (TWO_OF_THREE, "\"pins\": [0, 1]", "\"pins\": [7, 1]", "no pin 7"),
+        (TWO_OF_THREE, "\"pins\": [0, 1]", "\"pins\": [0]", "odd end"),
         (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 0", "scale"),
-        (TWO_OF_THREE, "\"scale\": 1", "\"scale\": 2", "does not show"),
-        (TWO_OF_THREE, "\"of\": \"cost\"", "\"of\": \"violated\"", "no proof of `cost`"),
-        (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 0, \"spares\": 0", "no weight"),
-        (TWO_OF_THREE, "\"cost\": 1, \"spares\": 0", "\"cost\": 1, \"spares\": 1", "later parts"),
+        (TWO_OF_THREE, "200, 40, 1, 1", "200, 1, 1, 1", "is not larger"),
         (TWO_OF_THREE, "\"board\": \"B\"", "\"board\": \"C\"", "no board"),
         (TWO_OF_THREE, "\"PA3\": 5", "\"PA4\": 5", "no pin"),
-        (TWO_OF_THREE, LEAF, "", "not there"),
-        (&split, "{\"keep\": [\"PA3\"], \"then\": 2}", "", "leaves out"),
-        (&split, ", \"PA2\"]", "]", "leaves out"),
-        (&split, "\"then\": 2", "\"then\": 3", "not new"),
-        (&split, "\"then\": 2", "\"then\": 0", "not new"),
-        (&split, "\"then\": 2", "\"then\": 9", "not there"),
-        (&split, "\"device\": \"Left\"", "\"device\": \"Middle\"", "no device"),
-        (&split, "\"role\": \"in\"", "\"role\": \"out\"", "no such role"),
+        (TWO_OF_THREE, CLOSED, "", "leaves out"),
+        (TWO_OF_THREE, "[0, 1]}],", "[0, 2]}],", "no device 2"),
+        (&split, "[0, 0, 0, 0]", "[0, 0, 0, 1]", "does not show"),
+        (&split, ",\n  {\"closed\": {\"scale\": 1}}", "", "leaves out"),
+        (&split, "\"swaps\": [0]}", "\"swaps\": [1]}", "no swap 1"),
+        (&split, "[0, 0, 0, 0]", "[2, 0, 0, 0]", "no device 2"),
+        (&split, "[0, 0, 0, 0]", "[0, 0, 0, 3]", "no candidate 3"),
     ] {
-        let text = changed(text, from, to).replace(", ]", "]").replace(",  ]", "]");
-        let text = text.replace("\"then\": 3}, ]", "\"then\": 3}]");
-        let said = verified(&text).expect_err(from);
+        let said = verified(&changed(text, from, to)).expect_err(from);
         assert!(said.contains(why), "{from} to {to}: {said}");
     }
 }
@@ -200,7 +190,7 @@ fn what_is_no_certificate_is_told_from_a_wrong_one() {
         ("\"PA3\": 5", "\"PA3\": 5, \"PA1\": 1"),
         ("\"moved\": false", "\"moved\": 0"),
         ("\"scale\": 1", "\"scale\": 1, \"hint\": 1"),
-        ("{\"leaf\"", "{\"twig\""),
+        ("{\"closed\"", "{\"shut\""),
     ] {
         assert!(read(&changed(TWO_OF_THREE, from, to)).is_err(), "{from} to {to}");
     }

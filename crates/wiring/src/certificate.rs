@@ -30,9 +30,8 @@ impl Wiring<'_> {
 
     fn uncertified(&self, why: &Uncertified) -> Box<Diagnostic> {
         let why = match why {
-            Uncertified::GivenUp => "none was found within the effort that is allowed for it",
+            Uncertified::GivenUp => "the proof is longer than a certificate may be",
             Uncertified::Stopped => "time ran out before the proof was complete",
-            Uncertified::TooLarge => "the costs are too large",
             Uncertified::Refuted(why) => return Box::new(self.disagrees(why)),
         };
         Box::new(e0403_no_certificate::no_certificate(self.place(), why))

@@ -3,7 +3,7 @@
 use rustix::fs::{CWD, FileType, Mode, mknodat};
 use sensedsl_tests::{Scratch, root, verifier};
 
-use super::{expect, expect_of, repeat, sparse};
+use super::{expect, expect_of, sparse};
 
 #[test]
 fn answers_to_keep() {
@@ -39,18 +39,18 @@ fn certificates() {
 const SUBJECT: &str = r#"{"tool":"","options":{},"files":{},"built_in":{}}"#;
 
 /// A certificate that claims that there is no wiring.
-fn certificate(devices: &str, dma: &str, nodes: &str) -> String {
+fn certificate(devices: &str, dma: &str, swaps: &str, steps: &str) -> String {
     let problem = format!(
         r#"{{"boards":{{"B":false}},"pins":{{"PA1":1}},"shared":[],"dma":{{{dma}}},"devices":{{{devices}}}}}"#
     );
-    let weights = r#"{"moved":0,"violated":0,"shared":0,"cost":0,"spares":0}"#;
     format!(
-        r#"{{"format":"SenseDSL certificate 4","subject":{SUBJECT},"problem":{problem},"answer":null,"proofs":[
-        {{"of":"existence","weights":{weights},"nodes":[{nodes}]}}]}}"#
+        r#"{{"format":"SenseDSL certificate 4","subject":{SUBJECT},"problem":{problem},"answer":null,
+        "search":{{"weights":[1000,100,10,1,1],"facilities":[],"covers":[],"swaps":[{swaps}],"steps":[{steps}]}}}}"#
     )
 }
 
-const LEAF: &str = r#"{"leaf":{"scale":1,"prices":{},"tolls":{}}}"#;
+/// A step that removes nothing, and looks at everything for it.
+const STEP: &str = r#"{"narrowed":{"scale":1}}"#;
 
 fn alternative(roles: &str) -> String {
     format!(r#"{{"board":"B","claims":{{}},"violates":[],"dma":[],"roles":{{{roles}}}}}"#)
@@ -68,30 +68,19 @@ fn device(name: &str, candidates: usize, more: &str) -> String {
 }
 
 #[test]
-fn certificates_of_many_cases_and_choices() {
+fn certificates_of_many_steps_and_choices() {
     let folder = Scratch::new("limits");
     let refused = |text: &str, status, why| {
         folder.write("proof.json", text);
         expect_of(verifier(), &folder, &["proof.json"], status, why);
     };
-    // Each case goes through all choices, and a device without any makes all leaves true.
-    let n = 15_000;
-    let case = |leaf: bool, at: usize| {
-        let (last, leaf_at) = (at + 1 == n, n + at);
-        let then = if last { 2 * n } else { at + 1 };
-        let (kept, violated) = if leaf { (then, leaf_at) } else { (leaf_at, then) };
-        format!(r#"{{"rule":{{"rule":"x{at}","kept":{kept},"violated":{violated}}}}},"#)
-    };
-    let leaves = vec![LEAF; n + 1].join(",");
-    let devices = format!(r#"{},"z":{{}}"#, device("a", 1_000, ""));
-    for leaf_first in [true, false] {
-        let nodes = repeat(n, |at| case(leaf_first, at));
-        refused(&certificate(&devices, "", &format!("{nodes}{leaves}")), 1, "longer");
-    }
-    // Devices that are alike but for their last alternative.
-    let last = |at| format!(r#","z{at}":{}"#, alternative(""));
-    let alike: Vec<String> = (0..800).map(|at| device(&format!("d{at}"), 90, &last(at))).collect();
-    refused(&certificate(&alike.join(","), "", LEAF), 1, "leaf 0");
+    // Each step goes through all choices.
+    let steps = vec![STEP; 50_000].join(",");
+    refused(&certificate(&device("a", 4_000, ""), "", "", &steps), 1, "longer");
+    // Each swap is compared with all choices of all devices.
+    let alike: Vec<String> = (0..800).map(|at| device(&format!("d{at}"), 90, "")).collect();
+    let swaps = vec![r#"{"devices":[0,1]}"#; 20_000].join(",");
+    refused(&certificate(&alike.join(","), "", &swaps, STEP), 1, "longer");
     let requests = vec![r#"["a"]"#; 1_000_000].join(",");
-    refused(&certificate("", &format!(r#""u":[{requests}]"#), LEAF), 2, "lists");
+    refused(&certificate("", &format!(r#""u":[{requests}]"#), "", STEP), 2, "lists");
 }

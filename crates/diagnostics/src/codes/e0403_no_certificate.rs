@@ -9,10 +9,9 @@ pub const INFO: CodeInfo = CodeInfo {
     code: "E0403",
     severity: Severity::Error,
     title: "no certificate was found",
-    explanation: r#"`solve --proof` looks for a proof that a separate checker can follow, independently of the search that
-found the answer. For some requests that only just fit a board, or only just do not, there is none within the effort
-that is allowed for it; or `--timeout` came first. This says nothing against the answer, which is printed as
-always; no certificate was written.
+    explanation: r#"`solve --proof` records the search that proves the answer, for a separate checker to follow. A record has a
+bounded number of steps and a certificate a bounded size; or `--timeout` came first. This says nothing against the
+answer, which is printed as always; no certificate was written.
 
 Way out: solve without `--proof`, give `--timeout` more seconds, or fix some pins, units or boards: the fewer
 choices are left, the shorter is the proof.
