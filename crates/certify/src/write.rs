@@ -34,6 +34,18 @@ fn object(entries: impl IntoIterator<Item = (String, Value)>) -> Value {
     Value::Object(entries.into_iter().collect())
 }
 
+/// An object of those values that say anything.
+fn stated<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    let says = |value: &Value| match value {
+        Value::Null => false,
+        Value::Array(all) => !all.is_empty(),
+        Value::Object(all) => !all.is_empty(),
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => true,
+    };
+    let stated = entries.into_iter().filter(|(_, value)| says(value));
+    object(stated.map(|(name, value)| (name.to_owned(), value)))
+}
+
 /// One entry a line.
 fn lines(entries: impl IntoIterator<Item = (String, Value)>) -> String {
     let entries = entries.into_iter().map(|(name, value)| format!("{}: {value}", json!(name)));
@@ -98,25 +110,32 @@ impl Writer<'_> {
         let roles = roles.map(|(name, role)| (name.clone(), self.role(role)));
         let dma: BTreeSet<_> =
             alternative.dma.iter().map(|one| &self.labels.dma[one.0 as usize]).collect();
-        json!({
-            "board": self.labels.boards[alternative.board.0 as usize],
-            "claims": self.claims(&alternative.claims),
-            "violates": self.violates(&alternative.violates),
-            "dma": dma,
-            "roles": object(roles),
-        })
+        stated([
+            ("board", self.labels.boards[alternative.board.0 as usize].as_str().into()),
+            ("claims", self.claims(&alternative.claims)),
+            ("violates", self.violates(&alternative.violates)),
+            ("dma", json!(dma)),
+            ("roles", object(roles)),
+        ])
     }
 
     fn role(&self, role: &Role) -> Value {
         object(role.candidates.iter().map(|one| {
-            let value = json!({
-                "pin": self.labels.pins[one.pin.0 as usize],
-                "holder": self.holder(one.holder),
-                "signal": self.labels.signals[&one.signal.0],
-                "claims": self.claims(&one.claims),
-                "violates": self.violates(&one.violates),
-                "moved": one.moved,
-            });
+            let value = stated([
+                ("pin", self.labels.pins[one.pin.0 as usize].as_str().into()),
+                (
+                    "holder",
+                    if one.holder == Holder::Own {
+                        Value::Null
+                    } else {
+                        self.holder(one.holder).into()
+                    },
+                ),
+                ("signal", self.labels.signals[&one.signal.0].as_str().into()),
+                ("claims", self.claims(&one.claims)),
+                ("violates", self.violates(&one.violates)),
+                ("moved", if one.moved { true.into() } else { Value::Null }),
+            ]);
             (self.candidate(one), value)
         }))
     }

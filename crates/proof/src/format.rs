@@ -14,8 +14,14 @@ use std::ops::Deref;
 pub const NAME: &str = "SenseDSL certificate 4";
 
 /// Things by name, no name twice.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Map<T>(BTreeMap<String, T>);
+
+impl<T> Default for Map<T> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}
 
 impl<T> Deref for Map<T> {
     type Target = BTreeMap<String, T>;
@@ -118,12 +124,16 @@ pub struct Alternative {
     /// Where it is.
     pub board: String,
     /// Resources taken, each with its holder: [`OWN`], or what several devices take it for.
+    #[serde(default)]
     pub claims: Map<String>,
     /// Soft rules violated.
+    #[serde(default)]
     pub violates: BTreeSet<String>,
     /// Peripherals whose DMA requests have to be served.
+    #[serde(default)]
     pub dma: BTreeSet<String>,
     /// The wires; each takes one of its candidates.
+    #[serde(default)]
     pub roles: Map<Map<Candidate>>,
 }
 
@@ -134,19 +144,27 @@ pub struct Candidate {
     /// The pin.
     pub pin: String,
     /// [`OWN`], or what several devices hold the pin for.
+    #[serde(default = "own")]
     pub holder: String,
     /// The pin's function; devices that hold a pin together agree on it.
     pub signal: String,
     /// Further resources taken, each with its holder.
+    #[serde(default)]
     pub claims: Map<String>,
     /// Soft rules violated.
+    #[serde(default)]
     pub violates: BTreeSet<String>,
     /// Whether the wire differs from the wiring that was to be kept.
+    #[serde(default)]
     pub moved: bool,
 }
 
 /// The holder of what a device has for itself.
 pub const OWN: &str = "own";
+
+fn own() -> String {
+    OWN.to_owned()
+}
 
 /// The claim: this wiring, with this objective, is the best.
 #[derive(Debug, Deserialize)]
