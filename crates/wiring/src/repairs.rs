@@ -172,10 +172,10 @@ impl Repair {
 const TRIED_MAX: usize = 256;
 
 /// Steps of the search that a change is worth, in the first round and in the second.
-const SHARES: [u64; 2] = [400, 8_000];
+const SHARES: [u64; 2] = [400, 3_000];
 
 /// Steps that all changes are worth together.
-const STEPS_MAX: u64 = 40_000;
+const STEPS_MAX: u64 = 12_000;
 
 /// The repairs that work, the gentlest first: another link where the file asks for none, then
 /// freeing what was fixed, then sharing, then moving, then doing without something, then leaving a
