@@ -15,7 +15,7 @@ than 200 MB. They are far above what a real project needs. What is beyond gets t
 `sensedsl explain CODE` says what to do.
 
 The figures stand in `crates/limits/src/lib.rs`. `sensedsl-verify` reads certificates of up to 8 MiB with 120,000 lists
-and objects, and refuses proofs that take more than 1,250,000 steps; `solve --proof` writes none that are larger
+and objects, and refuses proofs that look at more than 150,000,000 choices; `solve --proof` writes none that are larger
 (E0403).
 
 Measured with a release build on the inputs of `tests/tests/limits`, one by one, on a quiet machine: at most 0.5 s and

@@ -60,7 +60,7 @@ fn alternative(roles: &str) -> String {
 fn device(name: &str, candidates: usize, more: &str) -> String {
     let candidate = |at| {
         format!(
-            r#""c{at}":{{"pin":"PA1","holder":"g","signal":"s","claims":{{}},"violates":[],"moved":false}}"#
+            r#""c{at}":{{"pin":"PA1","holder":"g","signal":"s{at}","claims":{{}},"violates":[],"moved":false}}"#
         )
     };
     let all: Vec<String> = (0..candidates).map(candidate).collect();

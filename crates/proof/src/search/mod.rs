@@ -41,6 +41,9 @@ enum Asked {
     Member(usize),
 }
 
+/// What a look at a choice costs that may be removed, in looks at one that may not.
+const NARROWING: usize = 8;
+
 /// A case that waits for its question to be refused.
 struct Waiting {
     decided: usize,
@@ -72,9 +75,9 @@ pub(crate) fn check(
     if claim.is_none() {
         weights.limit = Market::new(&statement, &facilities, weights).most();
     }
+    budget.work(statement.wires.len().saturating_mul(1 + search.swaps.len()))?;
     let swaps = search.swaps.iter().map(|swap| Swap::new(&statement, swap));
     let swaps = swaps.collect::<Result<Vec<Swap>, Refuted>>()?;
-    budget.work(statement.wires.len() * (1 + swaps.len()))?;
     let number = facilities.all.len();
     let mut walk = Walk {
         market: Market::new(&statement, &facilities, weights),
@@ -162,7 +165,8 @@ impl Walk<'_> {
                 Ok(true)
             }
             Step::Narrowed(by) => {
-                budget.work(self.market.narrow(&mut self.left, by)?)?;
+                // All is looked at once for the prices, and again for what is too dear.
+                budget.work(NARROWING * self.market.narrow(&mut self.left, by)?)?;
                 Ok(false)
             }
             Step::Split { on, swaps } => {
