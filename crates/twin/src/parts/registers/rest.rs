@@ -5,6 +5,8 @@ use sensedsl_model::protocol::InitStep;
 const MS_NS: u64 = 1_000_000;
 /// What a pause may be short of, in per cent: a driver names the longest time.
 const PERCENT: u64 = 2;
+/// And in time: firmware counts from when it hands over the last byte, which is then on the bus for 90 us at 100 kHz.
+const BYTE_NS: u64 = 100_000;
 
 /// The pause that a part is in.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +27,8 @@ impl Rest {
     pub(super) fn touch(&mut self, now_ns: u64) {
         let Some((since_ns, ms, bytes)) = self.now.take() else { return };
         let waited_ns = now_ns.saturating_sub(since_ns);
-        if self.broken.is_none() && waited_ns < MS_NS * ms * (100 - PERCENT) / 100 {
+        let least_ns = (MS_NS * ms * (100 - PERCENT) / 100).saturating_sub(BYTE_NS);
+        if self.broken.is_none() && waited_ns < least_ns {
             let waited = crate::arith::number(waited_ns / 100_000) / 10.0;
             let bytes = super::odd::hex(&bytes);
             self.broken = Some(format!(
