@@ -2,7 +2,6 @@
 
 use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
-use sensedsl_model::kind::Kind;
 use sensedsl_model::protocol::{InitStep, Protocol};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
@@ -39,20 +38,10 @@ impl Written {
     }
 }
 
-/// The register that a device is written to.
+/// The register that a device is written to, if it is on a register bus; its number is none where the chip has one.
 fn register(one: &JobDevice<'_>) -> Option<Option<u16>> {
-    match &one.device.kind {
-        Kind::I2c(own) => Some(own.register),
-        Kind::Spi(own) => Some(own.register),
-        Kind::Analog(_)
-        | Kind::Icu(_)
-        | Kind::Encoder(_)
-        | Kind::Digital(_)
-        | Kind::Uart(_)
-        | Kind::Pwm(_)
-        | Kind::Dac(_)
-        | Kind::Can(_) => None,
-    }
+    let kind = &one.device.kind;
+    kind.i2c().map(|own| own.register).or_else(|| kind.spi().map(|own| own.register))
 }
 
 /// A value in registers: their number, then its bytes. The bits of a register that no device has are as the
