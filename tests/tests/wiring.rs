@@ -86,6 +86,27 @@ fn parts_of_the_board_are_spared_until_released() {
     assert_eq!(best(&by_part), ["PA5"]);
 }
 
+/// The least cost after a repair takes long to prove here, and that there is a wiring does not.
+#[test]
+fn what_helps_is_told_also_where_its_best_wiring_is_not_known() {
+    let sonar = |at| format!("sensor S{at} returns uint16 {{ driver = srf02; address = 0x72; }}");
+    let row = |at, pins| {
+        format!("sensor R{at} returns uint16[{pins}] {{ type = analog; together = unit; }}")
+    };
+    let rows = format!("{} {} {} {} {}", row(0, 3), row(1, 3), row(2, 3), row(3, 3), row(4, 5));
+    let boards = |one: &str, two: &str| {
+        format!("board A on NUCLEO_F303RE {{{one}}} board B on NUCLEO_F303RE {{{two}}} {rows}")
+    };
+    let [first, second, third] = [sonar(0), sonar(1), sonar(2)];
+    let ran = solve(boards(&format!("{first}{second}{third}"), ""), &[]).exits(1);
+    let help = "move S2 to B, or leave out one of S0, S1 and S2";
+    assert!(ran.stderr.contains(help), "{}", ran.stderr);
+    let repairs = ran.json()["conflict"]["repairs"].clone();
+    assert!(repairs.as_array().unwrap().iter().any(|one| one["best"] == false), "{repairs}");
+    let moved = solve(boards(&format!("{first}{second}"), &third), &["--any"]);
+    assert_eq!(moved.exits(0).json()["status"], "feasible");
+}
+
 /// The rules and the repairs of an impossible design.
 fn conflict(text: &str, arguments: &[&str]) -> (Vec<String>, Vec<String>) {
     let value = solve(text, arguments).exits(1).json();

@@ -118,12 +118,13 @@ pub fn infeasible(design: &Design, conflict: &NoWiring) -> Value {
     let repairs: Vec<Value> = conflict
         .repairs
         .iter()
-        .map(|Repaired { repair, cost }| {
+        .map(|Repaired { repair, cost, is_best }| {
             json!({
                 "action": repair.action(),
                 "device": repair.device().and_then(|device| name(&device)),
                 "message": repair.describe(design),
                 "cost": cost,
+                "best": is_best,
             })
         })
         .collect();

@@ -28,8 +28,11 @@ pub struct NoWiring {
     /// The rules without which the devices could be wired. Minimal like the devices where at most
     /// 256 are in force for them; of more, the others are in the list without having been tried.
     pub rules: Vec<Rule>,
-    /// What would help; each was checked by solving. Of more than 256 changes the first are tried.
+    /// What would help; each was checked by solving.
     pub repairs: Vec<Repaired>,
+    /// Whether nothing else of the kind would help: of more than 256 changes only the first are tried,
+    /// and some are too hard.
+    pub all_tried: bool,
     /// False when time ran out before it was known that each of the devices is needed for the
     /// conflict; nothing is known of rules and repairs then.
     pub minimal: bool,
@@ -67,7 +70,8 @@ pub(crate) fn read(
     if named.links.is_empty() {
         named.rules = blame::rules(design, &named.parts, cancel);
     }
-    named.repairs = repairs::find(design, formulation, &named.parts, cancel);
+    let repairs = repairs::find(design, formulation, &named.parts, cancel);
+    (named.repairs, named.all_tried) = (repairs.found, repairs.complete);
     named.explained = !cancel.is_over();
     named
 }
@@ -114,7 +118,7 @@ pub(crate) fn named(
     let resources = resources(formulation, conflict);
     let (rules, repairs) = (Vec::new(), Vec::new());
     let minimal = conflict.minimal;
-    NoWiring { parts, links, resources, rules, repairs, minimal, explained: true }
+    NoWiring { parts, links, resources, rules, repairs, all_tried: true, minimal, explained: true }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
@@ -251,10 +255,13 @@ impl NoWiring {
                     .to_owned();
             }
             [] if names_one(self) => "take another board, or another kind of device".to_owned(),
-            [] => {
+            [] if self.all_tried => {
                 "without any one of them the others can be connected, but there are other conflicts"
                     .to_owned()
             }
+            [] => "without any one of them the others can be connected; whether the whole design \
+                   then can was too hard to tell"
+                .to_owned(),
             [..] => format!("it works if you {}", ways.join(", or ")),
         };
         if self.rules.iter().any(|rule| matches!(rule, Rule::Target(_))) {

@@ -38,13 +38,24 @@ pub enum Repair {
     Drop(PartIndex),
 }
 
-/// A repair and the opportunity cost of the best wiring after it.
+/// A repair with a wiring after it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repaired {
     /// The change.
     pub repair: Repair,
-    /// What the best wiring costs then.
+    /// The opportunity cost of that wiring.
     pub cost: u32,
+    /// Whether that is known to be the least there is after the change.
+    pub is_best: bool,
+}
+
+/// What is known of changes that could help.
+#[derive(Debug, Default)]
+pub(crate) struct Repairs {
+    /// Those that do, the gentlest first.
+    pub found: Vec<Repaired>,
+    /// Whether all others are known not to help: none was too hard, and none too many.
+    pub complete: bool,
 }
 
 impl Repair {
@@ -109,6 +120,29 @@ impl Repair {
                 format!("write `link {{ transport = {to}; }}` in {}{why}", board(on))
             }
             Self::Drop(index) => format!("leave out {}", device(index)),
+        }
+    }
+
+    /// Whether it does something to devices alone, and nothing to a board.
+    const fn is_of_devices(&self) -> bool {
+        match self {
+            Self::Free(_) | Self::Share(_) | Self::Retune(..) | Self::Move(..) | Self::Drop(_) => {
+                true
+            }
+            Self::Unreserve(..) | Self::Release(..) | Self::Relink(..) => false,
+        }
+    }
+
+    /// The same change in a design that has only `parts`, which are in order.
+    fn renumbered(&self, parts: &[PartIndex]) -> Self {
+        let new = |old: &PartIndex| PartIndex(parts.partition_point(|part| part < old));
+        match self {
+            Self::Free(part) => Self::Free(new(part)),
+            Self::Share(all) => Self::Share(all.iter().map(new).collect()),
+            Self::Retune(part, hz) => Self::Retune(new(part), *hz),
+            Self::Move(part, to) => Self::Move(new(part), *to),
+            Self::Drop(part) => Self::Drop(new(part)),
+            Self::Unreserve(..) | Self::Release(..) | Self::Relink(..) => self.clone(),
         }
     }
 
@@ -187,15 +221,103 @@ pub(crate) fn find(
     formulation: &Formulation<'_>,
     parts: &[PartIndex],
     cancel: Cancel<'_>,
-) -> Vec<Repaired> {
-    let mut found = Vec::new();
-    // To leave out one of several devices that are alike helps as much as to leave out another.
-    let mut dropped: BTreeMap<Likeness, Option<u32>> = BTreeMap::new();
-    let alike = solver::alike(&formulation.problem).unwrap_or_default();
-    let likeness = |index: &PartIndex| -> Option<Likeness> {
+) -> Repairs {
+    let mut budget = Budget { steps: STEPS_MAX, cancel };
+    let mut proposals = proposals(design, parts);
+    proposals.sort_by_key(|repair| !is_of_one_device(repair));
+    let mut repairs = Repairs { found: Vec::new(), complete: proposals.len() <= TRIED_MAX };
+    proposals.truncate(TRIED_MAX);
+    // What has no wiring without any of the devices has none whatever is done to them.
+    let others = retained(design, |part| !parts.contains(&part));
+    if budget.is_impossible(&others) {
+        proposals.retain(|repair| !repair.is_of_devices());
+    }
+    // They are few, so most that is no help is soon known by them alone.
+    let devices = retained(design, |part| parts.contains(&part));
+    proposals.retain(|repair| match repair {
+        // The conflict is minimal.
+        Repair::Drop(_) => true,
+        _ => !budget.is_impossible(&repair.renumbered(parts).applied(&devices)),
+    });
+    let mut alike = Alike::new(formulation);
+    // What is quickly known of each first: a hard one does not cost the others their turn.
+    for share in SHARES {
+        alike.unknown.clear();
+        proposals.retain(|repair| {
+            let as_well_as = alike.of(design, formulation, repair);
+            let known = as_well_as.and_then(|change| alike.known(change));
+            let tried = known.unwrap_or_else(|| budget.tried(design, repair, share));
+            if let Some(change) = as_well_as {
+                alike.learn(change, tried);
+            }
+            if let Tried::Helps { cost, is_best } = tried {
+                repairs.found.push(Repaired { repair: repair.clone(), cost, is_best });
+            }
+            tried == Tried::Unknown
+        });
+    }
+    repairs.complete &= proposals.is_empty();
+    if !repairs.found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
+        repairs.found.extend(sharing(design, parts, &mut budget));
+    }
+    repairs.found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
+    repairs
+}
+
+/// The design with these of its parts alone, which get new numbers.
+fn retained(design: &Design, holds: impl Fn(PartIndex) -> bool) -> Design {
+    let mut some = design.clone();
+    some.retain_parts(|part, _| holds(part));
+    some
+}
+
+/// What is known of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tried {
+    /// There is a wiring after it that costs so much.
+    Helps { cost: u32, is_best: bool },
+    /// There is none.
+    IsNoHelp,
+    /// It takes more than its share of the steps to tell.
+    Unknown,
+}
+
+/// What devices have in common that can stand for each other: their choices, and what decides on
+/// their converters.
+type Likeness = (usize, u32, i8);
+
+/// What is done to a device that may be one of several that are alike: it goes to a board, or is left
+/// out. To do it to another of them helps as much.
+type Change = (Likeness, Option<BoardIndex>);
+
+/// What is known of changes to devices that are alike.
+struct Alike {
+    /// For each device of the problem the first that is like it.
+    first: Vec<usize>,
+    tried: BTreeMap<Change, Tried>,
+    unknown: BTreeSet<Change>,
+}
+
+impl Alike {
+    fn new(formulation: &Formulation<'_>) -> Self {
+        let first = solver::alike(&formulation.problem).unwrap_or_default();
+        Self { first, tried: BTreeMap::new(), unknown: BTreeSet::new() }
+    }
+
+    fn of(
+        &self,
+        design: &Design,
+        formulation: &Formulation<'_>,
+        repair: &Repair,
+    ) -> Option<Change> {
+        let (index, to) = match repair {
+            Repair::Drop(index) => (*index, None),
+            Repair::Move(index, to) => (*index, Some(*to)),
+            _ => return None,
+        };
         let of_part = |asker: &Asker| {
             let Asker::Connection(connection) = asker else { return None };
-            design.connection(*connection).filter(|one| one.part == *index)
+            design.connection(*connection).filter(|one| one.part == index)
         };
         let mut all = formulation.askers.iter().enumerate();
         let (number, connection) = all.find_map(|(at, asker)| Some((at, of_part(asker)?)))?;
@@ -204,43 +326,24 @@ pub(crate) fn find(
             return None;
         }
         let device = design.device(connection.device)?;
-        Some((*alike.get(number)?, device.delay_ms, device.prio))
-    };
-    let mut proposals = proposals(design, parts);
-    proposals.sort_by_key(|repair| !is_of_one_device(repair));
-    proposals.truncate(TRIED_MAX);
-    let mut budget = Budget { steps: STEPS_MAX, cancel };
-    // What is quickly known of each first: a hard one does not cost the others their turn.
-    for share in SHARES {
-        let mut open = Vec::new();
-        for repair in proposals {
-            let likeness = if let Repair::Drop(index) = &repair { likeness(index) } else { None };
-            let known = likeness.and_then(|likeness| dropped.get(&likeness));
-            if let Some(cost) = known {
-                found.extend(cost.map(|cost| Repaired { repair, cost }));
-                continue;
-            }
-            let Some(tried) = budget.tried(design, &repair, share) else {
-                open.push(repair);
-                continue;
-            };
-            if let Some(likeness) = likeness {
-                dropped.insert(likeness, tried);
-            }
-            found.extend(tried.map(|cost| Repaired { repair, cost }));
-        }
-        proposals = open;
+        Some(((*self.first.get(number)?, device.delay_ms, device.prio), to))
     }
-    if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
-        found.extend(sharing(design, parts, &mut budget));
-    }
-    found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
-    found
-}
 
-/// What devices have in common that can stand for each other: their choices, and what decides on
-/// their converters.
-type Likeness = (usize, u32, i8);
+    fn known(&self, change: Change) -> Option<Tried> {
+        if self.unknown.contains(&change) {
+            return Some(Tried::Unknown);
+        }
+        self.tried.get(&change).copied()
+    }
+
+    fn learn(&mut self, change: Change, tried: Tried) {
+        if tried == Tried::Unknown {
+            self.unknown.insert(change);
+        } else {
+            self.tried.insert(change, tried);
+        }
+    }
+}
 
 /// What may still be spent on repairs. It counts steps of the search, so that the same file gets the
 /// same repairs on every machine; the end of the command bounds it in addition.
@@ -250,9 +353,32 @@ struct Budget<'a> {
 }
 
 impl Budget<'_> {
-    /// The cost of the best wiring after the change, if there is one; nothing where that is not known
-    /// within the share.
-    fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> Option<Option<u32>> {
+    fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> Tried {
+        let best = self.spend(&repair.applied(design), share, |wiring| wiring.one_of_the_best());
+        match best {
+            Some(Some(Solved::Wired(wiring))) => {
+                Tried::Helps { cost: wiring.cost, is_best: wiring.bound.is_none() }
+            }
+            Some(Some(Solved::Failed(why))) if why.code == e0404_out_of_time::CODE => {
+                Tried::Unknown
+            }
+            Some(None | Some(Solved::Infeasible(_) | Solved::Failed(_))) => Tried::IsNoHelp,
+            None => Tried::Unknown,
+        }
+    }
+
+    /// Whether it is soon known that the design has no wiring.
+    fn is_impossible(&mut self, design: &Design) -> bool {
+        self.spend(design, SHARES[0], |wiring| wiring.is_impossible()) == Some(true)
+    }
+
+    /// Asks within the share of the steps; nothing where there are no more.
+    fn spend<T>(
+        &mut self,
+        design: &Design,
+        share: u64,
+        ask: impl Fn(&Wiring<'_>) -> T,
+    ) -> Option<T> {
         let share = share.min(self.steps);
         let spent = AtomicU64::new(0);
         // What it takes to put the problem is no step.
@@ -264,17 +390,12 @@ impl Budget<'_> {
         if share == 0 || self.cancel.is_over() {
             return None;
         }
-        let changed = repair.applied(design);
-        let wiring = Wiring::within(&changed, None, Cancel::when(&over));
+        let wiring = Wiring::within(design, None, Cancel::when(&over));
         is_put.store(true, Ordering::Relaxed);
-        let best = wiring.one_of_the_best();
+        let answer = ask(&wiring);
+        drop(wiring);
         self.steps -= spent.into_inner().min(share);
-        match best {
-            Some(Solved::Wired(wiring)) if wiring.bound.is_none() => Some(Some(wiring.cost)),
-            Some(Solved::Failed(why)) if why.code != e0404_out_of_time::CODE => Some(None),
-            Some(Solved::Wired(_) | Solved::Failed(_)) => None,
-            None | Some(Solved::Infeasible(_)) => Some(None),
-        }
+        Some(answer)
     }
 }
 
@@ -286,8 +407,10 @@ fn sharing(design: &Design, parts: &[PartIndex], budget: &mut Budget<'_>) -> Opt
     let pairs = others.iter().map(|other| vec![*first, *other]);
     pairs.take(TRIED_MAX).chain([exclusive.clone()]).find_map(|some| {
         let repair = Repair::Share(some);
-        let cost = budget.tried(design, &repair, SHARES[1]).flatten()?;
-        Some(Repaired { repair, cost })
+        match budget.tried(design, &repair, SHARES[1]) {
+            Tried::Helps { cost, is_best } => Some(Repaired { repair, cost, is_best }),
+            Tried::IsNoHelp | Tried::Unknown => None,
+        }
     })
 }
 
