@@ -1,0 +1,82 @@
+//! Devices that are alike: what helps if it is done to one of them helps if it is done to another.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_model::design::{BoardIndex, Design};
+
+use super::{Repair, Tried};
+use crate::formulate::{Asker, Formulation};
+use crate::solver;
+
+/// What devices have in common that can stand for each other: their choices, and what decides on
+/// their converters.
+type Likeness = (usize, u32, i8);
+
+/// What is done to a device that may be one of several that are alike: it goes to a board, or is left
+/// out. To do it to another of them helps as much.
+pub(super) type Change = (Likeness, Option<BoardIndex>);
+
+/// What is known of changes to devices that are alike.
+pub(super) struct Alike {
+    /// For each device of the problem the first that is like it.
+    first: Vec<usize>,
+    tried: BTreeMap<Change, Tried>,
+    unknown: BTreeSet<Change>,
+}
+
+impl Alike {
+    pub(super) fn new(formulation: &Formulation<'_>) -> Self {
+        let first = solver::alike(&formulation.problem).unwrap_or_default();
+        Self { first, tried: BTreeMap::new(), unknown: BTreeSet::new() }
+    }
+
+    pub(super) fn of(
+        &self,
+        design: &Design,
+        formulation: &Formulation<'_>,
+        repair: &Repair,
+    ) -> Option<Change> {
+        let (index, to) = match repair {
+            Repair::Drop(index) => (*index, None),
+            Repair::Move(index, to) => (*index, Some(*to)),
+            Repair::Free(_)
+            | Repair::Share(_)
+            | Repair::Retune(..)
+            | Repair::Unreserve(..)
+            | Repair::Release(..)
+            | Repair::Relink(..) => return None,
+        };
+        let of_part = |asker: &Asker| {
+            let Asker::Connection(connection) = asker else { return None };
+            design.connection(*connection).filter(|one| one.part == index)
+        };
+        let mut all = formulation.askers.iter().enumerate();
+        let (number, connection) = all.find_map(|(at, asker)| Some((at, of_part(asker)?)))?;
+        // Several sets of wires are alike only as a whole.
+        if all.any(|(_, asker)| of_part(asker).is_some()) {
+            return None;
+        }
+        let device = design.device(connection.device)?;
+        Some(((*self.first.get(number)?, device.delay_ms, device.prio), to))
+    }
+
+    pub(super) fn known(&self, change: Change) -> Option<Tried> {
+        if self.unknown.contains(&change) {
+            return Some(Tried::Unknown);
+        }
+        self.tried.get(&change).copied()
+    }
+
+    /// What was too hard may be tried once more.
+    pub(super) fn begin_round(&mut self) {
+        self.unknown.clear();
+    }
+
+    pub(super) fn learn(&mut self, change: Change, tried: Tried) {
+        if tried == Tried::Unknown {
+            self.unknown.insert(change);
+        } else {
+            self.tried.insert(change, tried);
+        }
+    }
+}

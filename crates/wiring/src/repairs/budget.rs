@@ -1,0 +1,78 @@
+//! What may be spent on repairs, and what is learned for it.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use sensedsl_diagnostics::codes::e0404_out_of_time;
+use sensedsl_model::design::Design;
+
+use super::Repair;
+use crate::{Cancel, Solved, Wiring};
+
+/// Steps of the search that a change is worth, in the first round and in the second.
+pub(super) const SHARES: [u64; 2] = [400, 3_000];
+
+/// Steps that all changes are worth together.
+const STEPS_MAX: u64 = 12_000;
+
+/// What is known of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tried {
+    /// There is a wiring after it that costs so much.
+    Helps { cost: u32, is_best: bool },
+    /// There is none.
+    IsNoHelp,
+    /// It takes more than its share of the steps to tell.
+    Unknown,
+}
+
+/// What may still be spent on repairs. It counts steps of the search, so that the same file gets the
+/// same repairs on every machine; the end of the command bounds it in addition.
+pub(super) struct Budget<'a> {
+    steps: u64,
+    cancel: Cancel<'a>,
+}
+
+impl<'a> Budget<'a> {
+    pub(super) const fn new(cancel: Cancel<'a>) -> Self {
+        Self { steps: STEPS_MAX, cancel }
+    }
+
+    pub(super) fn tried(&mut self, design: &Design, repair: &Repair, share: u64) -> Tried {
+        self.spend(&repair.applied(design), share, |wiring| match wiring.one_of_the_best() {
+            Some(Solved::Wired(found)) => {
+                Tried::Helps { cost: found.cost, is_best: found.bound.is_none() }
+            }
+            Some(Solved::Failed(why)) if why.code == e0404_out_of_time::CODE => Tried::Unknown,
+            None | Some(Solved::Infeasible(_) | Solved::Failed(_)) => Tried::IsNoHelp,
+        })
+    }
+
+    /// Whether it is soon known that the design has no wiring.
+    pub(super) fn is_impossible(&mut self, design: &Design) -> bool {
+        let tried = self.spend(design, SHARES[0], |wiring| {
+            if wiring.is_impossible() { Tried::IsNoHelp } else { Tried::Unknown }
+        });
+        tried == Tried::IsNoHelp
+    }
+
+    /// Asks within the share of the steps.
+    fn spend(&mut self, design: &Design, share: u64, ask: impl Fn(&Wiring<'_>) -> Tried) -> Tried {
+        let share = share.min(self.steps);
+        if share == 0 || self.cancel.is_over() {
+            return Tried::Unknown;
+        }
+        let spent = AtomicU64::new(0);
+        // What it takes to put the problem is no step.
+        let is_put = AtomicBool::new(false);
+        let over = || {
+            let counts = is_put.load(Ordering::Relaxed);
+            counts && spent.fetch_add(1, Ordering::Relaxed) >= share || self.cancel.is_over()
+        };
+        let wiring = Wiring::within(design, None, Cancel::when(&over));
+        is_put.store(true, Ordering::Relaxed);
+        let tried = ask(&wiring);
+        drop(wiring);
+        self.steps -= spent.into_inner().min(share);
+        tried
+    }
+}
