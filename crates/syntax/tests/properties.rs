@@ -321,11 +321,15 @@ const HOSTILE: &[&str] = &[
 fn hostile_texts_take_linear_time_and_little_stack() {
     for piece in HOSTILE {
         let text = piece.repeat(1_000_000 / piece.len());
-        let start = std::time::Instant::now();
-        let parsed = parse_within(&text, usize::MAX);
-        assert!(parsed.syntax().text() == text.as_str(), "{piece:?} is not spelled whole");
-        // Linear time is some 100 ms here; quadratic time would be minutes.
-        assert!(start.elapsed().as_secs() < 5, "{piece:?} takes {:?}", start.elapsed());
+        // Linear time is some 100 ms here; quadratic time would be minutes. What else the machine does
+        // may take seconds once, and not three times.
+        let is_quick = (0..3).any(|_| {
+            let start = std::time::Instant::now();
+            let parsed = parse_within(&text, usize::MAX);
+            assert!(parsed.syntax().text() == text.as_str(), "{piece:?} is not spelled whole");
+            start.elapsed().as_secs() < 5
+        });
+        assert!(is_quick, "{piece:?}");
     }
 }
 
