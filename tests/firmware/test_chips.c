@@ -354,6 +354,24 @@ static void test_idle(void) {
   CHECK(steps < 500U);
 }
 
+/* A transfer that is made a little early is not due earlier the next time: it keeps to its grid. */
+static void test_early(void) {
+  static const up_chip_transfer_t transfers[] = {{.select = at9, .select_count = 1U, .length = 2U, .cycle_ms = 100U}};
+  static const up_chip_reading_t readings[] = {{.field = 2U, .value = {.word_bytes = 2U}}};
+  static const up_chip_t chip = {.transfers = transfers, .readings = readings, .cycle_ms = 10U, .address = 0x68U,
+                                 .transfers_count = 1U, .readings_count = 1U};
+  static const uint32_t times_ms[] = {0U, 97U, 98U, 196U, 198U, 297U, 300U};
+  static const unsigned told[] = {1U, 1U, 2U, 2U, 3U, 3U, 4U};
+  board_t board;
+  size_t i;
+
+  set_up(&board, &chip);
+  for (i = 0U; i < sizeof told / sizeof told[0]; i++) {
+    step(&board, &chip, times_ms[i]);
+    CHECK(board.heard.told[2] == told[i]);
+  }
+}
+
 /* A measurement that needs no time is triggered and read in one step. */
 static void test_no_wait(void) {
   static const up_chip_transfer_t transfers[] = {{.trigger = first_trigger, .trigger_count = 2U, .length = 2U}};
@@ -502,6 +520,7 @@ void test_chips(void) {
   test_command();
   test_turns();
   test_idle();
+  test_early();
   test_no_wait();
   test_crc();
   test_exchange();

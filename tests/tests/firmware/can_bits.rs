@@ -3,7 +3,9 @@
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use sensedsl_board::catalog;
 use sensedsl_tests::text;
@@ -18,8 +20,13 @@ const RATES: [u32; 24] = [
     842_105, 900_000, 1_000_000,
 ];
 
-/// The runtime with the registers of one kind of controller.
-fn program(is_fdcan: bool) -> std::path::PathBuf {
+/// The runtime with the registers of one kind of controller, compiled once for all tests.
+fn program(is_fdcan: bool) -> &'static Path {
+    static PROGRAMS: [OnceLock<PathBuf>; 2] = [const { OnceLock::new() }; 2];
+    PROGRAMS[usize::from(is_fdcan)].get_or_init(|| compile(is_fdcan))
+}
+
+fn compile(is_fdcan: bool) -> PathBuf {
     let name = if is_fdcan { "fdcan" } else { "bxcan" };
     let folder = scratch(&format!("can-{name}"));
     for file in ["chconf.h", "halconf.h", "mcuconf.h"] {
