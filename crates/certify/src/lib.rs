@@ -11,7 +11,7 @@ mod swaps;
 mod write;
 
 use sensedsl_solve::problem::{DeviceId, Problem};
-use sensedsl_solve::{Answer, Cancel};
+use sensedsl_solve::{Answer, Cancel, Experience};
 
 pub use labels::{AlternativeLabels, Labels, distinct};
 pub use sensedsl_proof::subject::sha256;
@@ -36,8 +36,8 @@ pub struct Subject {
 /// What a certificate is to prove.
 #[derive(Clone, Copy, Debug)]
 pub enum Claim<'a> {
-    /// This answer is valid and none is better.
-    Best(&'a Answer),
+    /// This answer is valid and none is better. The search that has found it has learned so much.
+    Best(&'a Answer, &'a Experience),
     /// There is no answer: these devices alone have none.
     NoWiring(&'a [DeviceId]),
 }
@@ -68,15 +68,16 @@ pub fn certify(
     cancel: Cancel<'_>,
 ) -> Result<String, Uncertified> {
     match claim {
-        Claim::Best(answer) => {
-            Case { problem, labels, subject, answer: Some(answer), cancel }.certify()
+        Claim::Best(answer, learned) => {
+            Case { problem, labels, subject, answer: Some(answer), learned, cancel }.certify()
         }
         Claim::NoWiring(devices) => {
             let devices: Vec<usize> = devices.iter().map(|device| device.0 as usize).collect();
             let mut part = problem.clone();
             part.devices = labels::pick(&problem.devices, &devices);
             let labels = &labels.with_devices(&devices);
-            Case { problem: &part, labels, subject, answer: None, cancel }.certify()
+            let learned = &Experience::default();
+            Case { problem: &part, labels, subject, answer: None, learned, cancel }.certify()
         }
     }
 }
@@ -87,12 +88,13 @@ struct Case<'a> {
     labels: &'a Labels,
     subject: &'a Subject,
     answer: Option<&'a Answer>,
+    learned: &'a Experience,
     cancel: Cancel<'a>,
 }
 
 impl Case<'_> {
     fn certify(&self) -> Result<String, Uncertified> {
-        let Self { problem, labels, subject, answer, cancel } = *self;
+        let Self { problem, labels, subject, answer, cancel, .. } = *self;
         let unknown = if cancel.is_over() { Uncertified::Stopped } else { Uncertified::GivenUp };
         let search = self.recorded().ok_or(unknown)?;
         let text = Writer { problem, labels }.certificate(subject, answer, &search);
@@ -101,13 +103,13 @@ impl Case<'_> {
 
     /// The record of the search; none where it holds more than the format has.
     fn recorded(&self) -> Option<String> {
-        let Self { problem, labels, answer, cancel, .. } = *self;
+        let Self { problem, labels, answer, learned, cancel, .. } = *self;
         let best = answer.map(|answer| answer.objective);
         let equal = sensedsl_solve::equal_boards(problem).ok()?;
         let swaps = equal.iter().enumerate().all(|(board, first)| {
             board == *first || swaps::Swap::of_boards(problem, (*first, board)).is_some()
         });
-        let record = sensedsl_solve::record(problem, best, swaps, cancel).ok()??;
+        let record = sensedsl_solve::record(problem, best, swaps, learned, cancel).ok()??;
         search::Text::of(problem, &search::Places::new(problem, labels), &record)
     }
 }

@@ -11,7 +11,7 @@ use sensedsl_certify::{AlternativeLabels, Claim, Labels, Subject, certify, sha25
 use sensedsl_proof::format::{Alternative, Candidate, Certificate, Objective};
 use sensedsl_proof::{Verified, read, verify};
 use sensedsl_solve::problem::{Holder, Problem, RuleId};
-use sensedsl_solve::{Cancel, Options, Outcome, solve};
+use sensedsl_solve::{Cancel, Options, Outcome, solve_and_learn};
 use serde_json::Value;
 use support::generate::{self, Mix, Rng};
 
@@ -89,10 +89,12 @@ fn problem(seed: u64, pins: u64, devices: u64) -> Problem {
 /// is found.
 fn certificate(problem: &Problem) -> Option<(String, Option<Objective>)> {
     let labels = numbered(problem);
-    match solve(problem, &Options::default()).expect("a proper problem") {
+    let (outcome, learned) =
+        solve_and_learn(problem, &Options::default()).expect("a proper problem");
+    match outcome {
         Outcome::Solved(answer) => {
-            let text =
-                certify(problem, &labels, &subject(), Claim::Best(&answer), Cancel::NEVER).ok()?;
+            let claim = Claim::Best(&answer, &learned);
+            let text = certify(problem, &labels, &subject(), claim, Cancel::NEVER).ok()?;
             let sensedsl_solve::Objective { moved, violated, shared, cost, spares } =
                 answer.objective;
             Some((text, Some(Objective { moved, violated, shared, cost, spares })))

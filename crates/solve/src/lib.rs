@@ -22,5 +22,7 @@ pub use check::{Violation, check};
 pub use problem::Problem;
 pub use questions::count::count;
 pub use questions::enumerate::{Answers, enumerate};
-pub use questions::solve::{Options, alike, feasible, one_of_the_best, solve};
+pub use questions::solve::{
+    Experience, Options, alike, feasible, one_of_the_best, solve, solve_and_learn,
+};
 pub use search::recorded::{equal_boards, record};

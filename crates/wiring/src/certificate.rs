@@ -3,7 +3,7 @@
 use sensedsl_certify::{Claim, Subject, Uncertified, certify};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::e0403_no_certificate;
-use sensedsl_solve::{Fault, Outcome};
+use sensedsl_solve::{Experience, Fault, Outcome};
 
 use crate::Wiring;
 use crate::labels::labels;
@@ -13,10 +13,11 @@ impl Wiring<'_> {
     pub(crate) fn certificate(
         &self,
         outcome: &Result<Outcome, Fault>,
+        learned: &Experience,
         subject: &Subject,
     ) -> Option<Result<String, Box<Diagnostic>>> {
         let claim = match outcome {
-            Ok(Outcome::Solved(answer)) => Claim::Best(answer),
+            Ok(Outcome::Solved(answer)) => Claim::Best(answer, learned),
             Ok(Outcome::Infeasible(conflict)) => Claim::NoWiring(&conflict.devices),
             Ok(Outcome::Stopped { .. }) => {
                 return Some(Err(self.uncertified(&Uncertified::Stopped)));

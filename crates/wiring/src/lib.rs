@@ -31,7 +31,7 @@ use sensedsl_diagnostics::{Diagnostic, Span};
 use std::collections::BTreeSet;
 
 use sensedsl_model::design::{ConnectionIndex, Design, Wish, WishFor};
-use sensedsl_solve::{Answers, Conflict, Count, Fault, Objective, Options, Outcome};
+use sensedsl_solve::{Answers, Conflict, Count, Experience, Fault, Objective, Options, Outcome};
 
 use alloy::Known;
 use assignment::{Assignment, Bound};
@@ -216,8 +216,11 @@ impl<'a> Wiring<'a> {
     /// `of` is what the design was made of.
     #[must_use]
     pub fn solve_with_proof(&self, of: &Subject) -> Proved {
-        let outcome = self.search(&Search { any: false });
-        let certificate = self.certificate(&outcome, of);
+        let (outcome, learned) = match self.search_and_learn(&Search { any: false }) {
+            Ok((outcome, learned)) => (Ok(outcome), learned),
+            Err(fault) => (Err(fault), Experience::default()),
+        };
+        let certificate = self.certificate(&outcome, &learned, of);
         let solved = match self.named(outcome) {
             Meant::Solved(solved) => solved,
             Meant::NoStreams => match self.with_converters() {
@@ -232,11 +235,16 @@ impl<'a> Wiring<'a> {
     }
 
     fn search(&self, search: &Search) -> Result<Outcome, Fault> {
+        Ok(self.search_and_learn(search)?.0)
+    }
+
+    fn search_and_learn(&self, search: &Search) -> Result<(Outcome, Experience), Fault> {
         if !self.formulation.complete {
-            return Ok(Outcome::Stopped { answer: None, bound: Objective::default() });
+            let stopped = Outcome::Stopped { answer: None, bound: Objective::default() };
+            return Ok((stopped, Experience::default()));
         }
         let options = Options { any: search.any, cancel: self.cancel };
-        solver::solve(&self.formulation.problem, &options)
+        solver::solve_and_learn(&self.formulation.problem, &options)
     }
 
     fn named(&self, outcome: Result<Outcome, Fault>) -> Meant {

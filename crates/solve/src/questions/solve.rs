@@ -8,7 +8,7 @@ use crate::domains::{Pruned, streams};
 use crate::index::Id;
 use crate::model::{Choices, Model};
 use crate::problem::{DeviceId, DmaUserId, Problem};
-use crate::search::{Effort, Engine};
+use crate::search::{Effort, Engine, PseudoCosts};
 use std::collections::BTreeSet;
 
 /// What is asked for.
@@ -20,16 +20,34 @@ pub struct Options<'a> {
     pub cancel: Cancel<'a>,
 }
 
+/// What a search has learned of the branches of its problem. It is no part of an answer and proves
+/// nothing; a search of the same problem that has it takes less time.
+#[derive(Clone, Debug, Default)]
+pub struct Experience(pub(crate) PseudoCosts);
+
 /// Finds the best answer, or a minimal conflict. That none is better is proved; of equally good ones it is the first, as
 /// far as a bounded effort shows, and the same one on every machine.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed, or when an answer fails [`check`].
 pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault> {
-    match search(problem, options, true)? {
-        Searched::Ended(outcome) => Ok(outcome),
-        Searched::Infeasible(seed) => conflict::explain(problem, seed, options.cancel),
-    }
+    Ok(solve_and_learn(problem, options)?.0)
+}
+
+/// As [`solve`], with what [`record`](crate::record) starts with.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_and_learn(
+    problem: &Problem,
+    options: &Options<'_>,
+) -> Result<(Outcome, Experience), Fault> {
+    let mut learned = Experience::default();
+    let outcome = match search(problem, options, true, &mut learned)? {
+        Searched::Ended(outcome) => outcome,
+        Searched::Infeasible(seed) => conflict::explain(problem, seed, options.cancel)?,
+    };
+    Ok((outcome, learned))
 }
 
 /// Finds one of the best answers, whichever comes first; nothing where there is none. What that
@@ -38,7 +56,8 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
 /// # Errors
 /// As [`solve`].
 pub fn one_of_the_best(problem: &Problem, cancel: Cancel<'_>) -> Result<Option<Outcome>, Fault> {
-    Ok(match search(problem, &Options { any: false, cancel }, false)? {
+    let options = Options { any: false, cancel };
+    Ok(match search(problem, &options, false, &mut Experience::default())? {
         Searched::Ended(outcome) => Some(outcome),
         Searched::Infeasible(_) => None,
     })
@@ -51,7 +70,12 @@ enum Searched {
     Infeasible(Option<Vec<DeviceId>>),
 }
 
-fn search(problem: &Problem, options: &Options<'_>, least: bool) -> Result<Searched, Fault> {
+fn search(
+    problem: &Problem,
+    options: &Options<'_>,
+    least: bool,
+    learned: &mut Experience,
+) -> Result<Searched, Fault> {
     let cancel = options.cancel;
     if cancel.is_over() {
         let bound = Objective::default();
@@ -67,6 +91,9 @@ fn search(problem: &Problem, options: &Options<'_>, least: bool) -> Result<Searc
     }
     let bound = engine.bound();
     let found = engine.search(u64::MAX, options.any);
+    if let Some(pricing) = &engine.pricing {
+        learned.0 = pricing.pseudo_costs().clone();
+    }
     let proved = model.weights.unpack(engine.goal.proved.max(bound));
     let stopped = |answer| Searched::Ended(Outcome::Stopped { answer, bound: proved });
     let Some((weight, choices)) = found else {

@@ -25,7 +25,7 @@ mod worked_example;
 
 pub(crate) use self::progress::{Budget, Effort, Goal, Progress};
 
-use self::pseudo_costs::PseudoCosts;
+pub(crate) use self::pseudo_costs::PseudoCosts;
 use self::read_off::Holders;
 use crate::bounds::dualized::Dualized;
 use crate::bounds::flow::{Flow, Saved};
@@ -46,6 +46,8 @@ pub(crate) struct Engine<'a> {
     holders: Holders,
     /// The second bound, made when the flow is not enough.
     pub(crate) pricing: Option<Box<Pricing>>,
+    /// What an earlier search of the problem has learned, for the second bound.
+    pub(crate) learned: PseudoCosts,
     pub(crate) goal: Goal,
     pub(crate) progress: Progress,
     /// Whether a choice may be refused on all equal boards at once. It may be while every restriction
@@ -129,6 +131,7 @@ impl<'a> Engine<'a> {
             flow,
             holders,
             pricing,
+            learned: PseudoCosts::default(),
             goal: Goal::default(),
             progress: Progress::after(nodes),
             board_symmetry: false,
@@ -301,8 +304,10 @@ impl<'a> Engine<'a> {
     /// The bound by the best prices that so many steps find, as the linear program sees it.
     pub(crate) fn bound_by_prices(&mut self, steps: usize) -> Result<f64, Pruned> {
         let (problem, model, domains) = (self.problem, self.model, &self.domains);
-        let pricing =
-            self.pricing.get_or_insert_with(|| Box::new(Pricing::new(problem, model, domains)));
+        let learned = &self.learned;
+        let pricing = self
+            .pricing
+            .get_or_insert_with(|| Box::new(Pricing::new(problem, model, domains, learned)));
         let Pricing { dualized, lagrangian, relaxation, bound, .. } = &mut **pricing;
         let unused = |f| dualized.facilities[f].alts.iter().all(|&alt| !domains.has_alt(alt));
         if domains.opened.iter().any(|f| unused(*f)) {
@@ -320,11 +325,16 @@ impl<'a> Engine<'a> {
 }
 
 impl Pricing {
-    fn new(problem: &Problem, model: &Model, domains: &Domains) -> Self {
+    /// What it has learned of branches.
+    pub(crate) const fn pseudo_costs(&self) -> &PseudoCosts {
+        &self.pseudo_costs
+    }
+
+    fn new(problem: &Problem, model: &Model, domains: &Domains, learned: &PseudoCosts) -> Self {
         let dualized = Dualized::new(problem, model);
         let lagrangian = Lagrangian::new(&dualized);
         let relaxation = Relaxation::new(&dualized, model, domains);
-        let pseudo_costs = PseudoCosts::default();
+        let pseudo_costs = learned.clone();
         Self { dualized, lagrangian, relaxation, pseudo_costs, bound: 0 }
     }
 }

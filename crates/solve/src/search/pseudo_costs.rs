@@ -34,7 +34,7 @@ impl Fractional {
 /// enough: *Branching rules revisited* (T. Achterberg, T. Koch and A. Martin, 2005) tries up to eight times
 /// before it relies on the mean, but our programs are small and a try costs more than what it saves.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PseudoCosts {
+pub(crate) struct PseudoCosts {
     known: BTreeMap<Key, [f64; 2]>,
 }
 

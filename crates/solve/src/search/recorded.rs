@@ -16,6 +16,7 @@ use crate::index::{AltId, FacilityId, Id};
 use crate::model::bundles::Bundle;
 use crate::model::{Holding, Model};
 use crate::problem::{BoardId, DeviceId, Problem};
+use crate::questions::solve::Experience;
 use crate::trace::{Cover, Exchange, Facility, Multipliers, Question, Record, Step, Way};
 
 /// Steps of a record; what is longer nobody would verify.
@@ -25,7 +26,8 @@ const STEPS_MAX: usize = 20_000;
 struct GivenUp;
 
 /// Records why no answer weighs less than the best one, `best`, or that there is none.
-/// Equal boards may stand for each other where `boards` says so.
+/// Equal boards may stand for each other where `boards` says so. `learned` is of the search that has
+/// found the answer, or nothing; the record is shorter to find with it.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed. There is no record when the search was stopped, or
@@ -34,6 +36,7 @@ pub fn record(
     problem: &Problem,
     best: Option<crate::Objective>,
     boards: bool,
+    learned: &Experience,
     cancel: Cancel<'_>,
 ) -> Result<Option<Record>, Fault> {
     let model = Model::new(problem)?;
@@ -58,6 +61,7 @@ pub fn record(
         return Ok(Some(record));
     };
     engine.board_symmetry = boards;
+    engine.learned = learned.0.clone();
     engine.goal.limit = limit;
     let done = engine.recorded(&mut record.steps);
     if let Some(pricing) = &engine.pricing {
