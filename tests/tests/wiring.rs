@@ -86,9 +86,9 @@ fn parts_of_the_board_are_spared_until_released() {
     assert_eq!(best(&by_part), ["PA5"]);
 }
 
-/// The least cost after a repair takes long to prove here, and that there is a wiring does not.
+/// Here a wiring after a repair is soon found, and that none is cheaper takes long to prove.
 #[test]
-fn what_helps_is_told_also_where_its_best_wiring_is_not_known() {
+fn what_helps_is_shown_even_where_its_least_cost_is_unknown() {
     let sonar = |at| format!("sensor S{at} returns uint16 {{ driver = srf02; address = 0x72; }}");
     let row = |at, pins| {
         format!("sensor R{at} returns uint16[{pins}] {{ type = analog; together = unit; }}")

@@ -36,7 +36,7 @@ pub struct Subject {
 /// What a certificate is to prove.
 #[derive(Clone, Copy, Debug)]
 pub enum Claim<'a> {
-    /// This answer is valid and none is better. The search that has found it has learned so much.
+    /// This answer is valid and none is better; with what the search that found it learned.
     Best(&'a Answer, &'a Experience),
     /// There is no answer: these devices alone have none.
     NoWiring(&'a [DeviceId]),

@@ -28,11 +28,11 @@ pub struct NoWiring {
     /// The rules without which the devices could be wired. Minimal like the devices where at most
     /// 256 are in force for them; of more, the others are in the list without having been tried.
     pub rules: Vec<Rule>,
-    /// What would help; each was checked by solving.
+    /// What would help; each was checked by solving. Of more than 256 changes the first are tried, and
+    /// those that are too hard are left out.
     pub repairs: Vec<Repaired>,
-    /// Whether nothing else of the kind would help: of more than 256 changes only the first are tried,
-    /// and some are too hard.
-    pub all_tried: bool,
+    /// Whether it is known that no wiring is left whichever of the parts is left out.
+    pub others_remain: bool,
     /// False when time ran out before it was known that each of the devices is needed for the
     /// conflict; nothing is known of rules and repairs then.
     pub minimal: bool,
@@ -71,7 +71,7 @@ pub(crate) fn read(
         named.rules = blame::rules(design, &named.parts, cancel);
     }
     let repairs = repairs::find(design, formulation, &named.parts, cancel);
-    (named.repairs, named.all_tried) = (repairs.found, repairs.complete);
+    (named.repairs, named.others_remain) = (repairs.found, repairs.others_remain);
     named.explained = !cancel.is_over();
     named
 }
@@ -118,7 +118,16 @@ pub(crate) fn named(
     let resources = resources(formulation, conflict);
     let (rules, repairs) = (Vec::new(), Vec::new());
     let minimal = conflict.minimal;
-    NoWiring { parts, links, resources, rules, repairs, all_tried: true, minimal, explained: true }
+    NoWiring {
+        parts,
+        links,
+        resources,
+        rules,
+        repairs,
+        others_remain: false,
+        minimal,
+        explained: true,
+    }
 }
 
 fn resources(formulation: &Formulation<'_>, conflict: &Conflict) -> Vec<Contested> {
@@ -255,7 +264,7 @@ impl NoWiring {
                     .to_owned();
             }
             [] if names_one(self) => "take another board, or another kind of device".to_owned(),
-            [] if self.all_tried => {
+            [] if self.others_remain => {
                 "without any one of them the others can be connected, but there are other conflicts"
                     .to_owned()
             }

@@ -27,12 +27,12 @@ pub struct Repaired {
 }
 
 /// What is known of changes that could help.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Repairs {
     /// Those that do, the gentlest first.
     pub found: Vec<Repaired>,
-    /// Whether all others are known not to help: none was too hard, and none too many.
-    pub complete: bool,
+    /// Whether it is known that no wiring is left whichever of the devices is left out.
+    pub others_remain: bool,
 }
 
 /// So many changes are tried; each costs a search for the best wiring. Of a conflict in a robot
@@ -53,8 +53,10 @@ pub(crate) fn find(
     let mut budget = Budget::new(cancel);
     let mut proposals = proposals(design, parts);
     proposals.sort_by_key(|repair| !is_of_one_device(repair));
-    let mut repairs = Repairs { found: Vec::new(), complete: proposals.len() <= TRIED_MAX };
+    let is_drop = |repair: &Repair| matches!(repair, Repair::Drop(_));
+    let is_cut = proposals.iter().skip(TRIED_MAX).any(is_drop);
     proposals.truncate(TRIED_MAX);
+    let mut found = Vec::new();
     // What has no wiring without any of the devices has none whatever is done to them.
     let others = retained(design, |part| !parts.contains(&part));
     if budget.is_impossible(&others) {
@@ -64,8 +66,7 @@ pub(crate) fn find(
     let devices = retained(design, |part| parts.contains(&part));
     proposals.retain(|repair| {
         // The conflict is minimal.
-        matches!(repair, Repair::Drop(_))
-            || !budget.is_impossible(&repair.renumbered(parts).applied(&devices))
+        is_drop(repair) || !budget.is_impossible(&repair.renumbered(parts).applied(&devices))
     });
     let mut alike = Alike::new(formulation);
     // What is quickly known of each first: a hard one does not cost the others their turn.
@@ -79,17 +80,18 @@ pub(crate) fn find(
                 alike.learn(change, tried);
             }
             if let Tried::Helps { cost, is_best } = tried {
-                repairs.found.push(Repaired { repair: repair.clone(), cost, is_best });
+                found.push(Repaired { repair: repair.clone(), cost, is_best });
             }
             tried == Tried::Unknown
         });
     }
-    repairs.complete &= proposals.is_empty();
-    if !repairs.found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
-        repairs.found.extend(sharing(design, parts, &mut budget));
+    let is_open = is_cut || proposals.iter().any(is_drop);
+    let others_remain = !is_open && !found.iter().any(|one| is_drop(&one.repair));
+    if !found.iter().any(|one| matches!(one.repair, Repair::Share(_))) {
+        found.extend(sharing(design, parts, &mut budget));
     }
-    repairs.found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
-    repairs
+    found.sort_by_key(|one| (rank(design, &one.repair), one.cost));
+    Repairs { found, others_remain }
 }
 
 /// The design with these of its parts alone, which get new numbers.

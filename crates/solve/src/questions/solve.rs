@@ -20,8 +20,8 @@ pub struct Options<'a> {
     pub cancel: Cancel<'a>,
 }
 
-/// What a search has learned of the branches of its problem. It is no part of an answer and proves
-/// nothing; a search of the same problem that has it takes less time.
+/// What a search learned about the branches of its problem. Searching the same problem again is faster
+/// with it; the answer is as good without it, and no proof relies on it.
 #[derive(Clone, Debug, Default)]
 pub struct Experience(pub(crate) PseudoCosts);
 
@@ -34,7 +34,7 @@ pub fn solve(problem: &Problem, options: &Options<'_>) -> Result<Outcome, Fault>
     Ok(solve_and_learn(problem, options)?.0)
 }
 
-/// As [`solve`], with what [`record`](crate::record) starts with.
+/// As [`solve`], and also returns what [`record`](crate::record) starts from.
 ///
 /// # Errors
 /// As [`solve`].

@@ -46,7 +46,7 @@ pub(crate) struct Engine<'a> {
     holders: Holders,
     /// The second bound, made when the flow is not enough.
     pub(crate) pricing: Option<Box<Pricing>>,
-    /// What an earlier search of the problem has learned, for the second bound.
+    /// What an earlier search of the same problem learned; the second bound starts with it.
     pub(crate) learned: PseudoCosts,
     pub(crate) goal: Goal,
     pub(crate) progress: Progress,

@@ -26,8 +26,8 @@ const STEPS_MAX: usize = 20_000;
 struct GivenUp;
 
 /// Records why no answer weighs less than the best one, `best`, or that there is none.
-/// Equal boards may stand for each other where `boards` says so. `learned` is of the search that has
-/// found the answer, or nothing; the record is shorter to find with it.
+/// Equal boards may stand for each other where `boards` says so. `learned` comes from the search that
+/// found the answer, or is empty; the record is found faster with it.
 ///
 /// # Errors
 /// [`Fault`] when the problem is not well-formed. There is no record when the search was stopped, or
