@@ -2,7 +2,7 @@
 #![expect(clippy::disallowed_methods, reason = "a benchmark reads its data")]
 
 use divan::Bencher;
-use sensedsl_codegen::Selection;
+use sensedsl_generate::Selection;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::assignment::Assignment;
@@ -79,7 +79,7 @@ fn count(bencher: Bencher<'_, '_>, example: &str) {
 fn generate(bencher: Bencher<'_, '_>, example: &str) {
     let design = design(&text(example));
     let assignment = solved(&design);
-    bencher.bench(|| sensedsl_codegen::project("pipeline", &design, &assignment, &Selection::ALL));
+    bencher.bench(|| sensedsl_generate::project("pipeline", &design, &assignment, &Selection::ALL));
 }
 
 #[divan::bench(args = EXAMPLES)]
@@ -88,6 +88,6 @@ fn all(bencher: Bencher<'_, '_>, example: &str) {
     bencher.bench(|| {
         let design = design(&text);
         let assignment = solved(&design);
-        sensedsl_codegen::project("pipeline", &design, &assignment, &Selection::ALL)
+        sensedsl_generate::project("pipeline", &design, &assignment, &Selection::ALL)
     });
 }

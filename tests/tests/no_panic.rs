@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
-use sensedsl_codegen::Selection;
 use sensedsl_diagnostics::render;
+use sensedsl_generate::Selection;
 use sensedsl_model::{Files, Request, Unread, Wanted, apply_allows, resolve};
 use sensedsl_report::{csv, human, json, markdown, svg};
 use sensedsl_tests::{Random, files, is_thorough, read, root};
@@ -56,7 +56,7 @@ fn pipeline(input: &Input) {
                     let _ = svg::svg(design, &assignment);
                     let _ = json::wired(design, &assignment);
                     let _ =
-                        sensedsl_codegen::project("mutant", design, &assignment, &Selection::ALL);
+                        sensedsl_generate::project("mutant", design, &assignment, &Selection::ALL);
                 }
                 Solved::Infeasible(conflict) => {
                     diagnostics.push(conflict.diagnostic(design));

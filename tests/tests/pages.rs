@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sensedsl_board::profile;
-use sensedsl_codegen::firmware::chibios;
+use sensedsl_firmware_chibios as chibios;
 use sensedsl_tests::{read, root, text};
 
 /// The firmware page names the families that there is firmware for, without `STM32`, and no other.

@@ -12,7 +12,7 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::profile::{self, DmaRequest, LineFacts};
-use sensedsl_codegen::firmware::chibios::Names;
+use sensedsl_firmware_chibios::Names;
 
 /// The target whose profiles are compared.
 const TARGET: &str = "chibios";

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::catalog;
 use sensedsl_board::profile;
-use sensedsl_codegen::firmware::embassy::profile_of;
+use sensedsl_firmware_embassy::profile_of;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::job::{BoardJob, JobConnection};
+use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, Device, DeviceIndex, PartIndex};
 use sensedsl_model::kind::{Kind, Role};
 use sensedsl_model::words::Words;

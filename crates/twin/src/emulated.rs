@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 
 use crate::bench::{Bench, number_of};

@@ -4,7 +4,7 @@
 //! generators, which decide the same a second time.
 
 use sensedsl_board::signal::{Function, Signal};
-use sensedsl_codegen::job::{BoardJob, Pad as Wired};
+use sensedsl_job::{BoardJob, Pad as Wired};
 use sensedsl_model::kind::digital::Pull as Wanted;
 use sensedsl_model::kind::{Kind, Role};
 

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::Parity;
 

@@ -12,8 +12,8 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::target;
 use sensedsl_diagnostics::render;
+use sensedsl_generate::target;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_report::{json, svg};
 use sensedsl_session::{Answer, Ask, On, Workspace};

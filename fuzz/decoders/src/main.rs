@@ -1,5 +1,5 @@
 //! The fuzzer's entry for the three decoders: what crate `wire`, `runtime/core` in C and
-//! `crates/codegen/src/host/cpp/runtime` in C++ make of one stream is compared.
+//! `crates/host-cpp/src/runtime` in C++ make of one stream is compared.
 #![allow(clippy::disallowed_methods, reason = "what the macro of the engine makes writes files")]
 #![no_main]
 

@@ -4,9 +4,9 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use sensedsl_certify::Subject;
-use sensedsl_codegen::Selection;
-use sensedsl_codegen::fileset::FileSet;
 use sensedsl_diagnostics::{Diagnostic, Severity, SourceMap, render};
+use sensedsl_files::FileSet;
+use sensedsl_generate::Selection;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Request, Resolved, apply_allows, resolve, sort};
 use sensedsl_proof::Verified;
@@ -201,7 +201,7 @@ fn generate(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<FileSet> {
     count(Stage::Generate);
-    let made = sensedsl_codegen::project("robot", design, assignment, &Selection::ALL);
+    let made = sensedsl_generate::project("robot", design, assignment, &Selection::ALL);
     if !made.files.is_empty() {
         checked(&made.files);
     }
@@ -285,7 +285,7 @@ fn laid_out(input: &Input, files: Option<&FileSet>) {
     let Solved::Wired(again) = wiring.solve(&Search { any: false }) else {
         panic!("a file that is laid out has no wiring");
     };
-    let again = sensedsl_codegen::project("robot", &design, &again, &Selection::ALL);
+    let again = sensedsl_generate::project("robot", &design, &again, &Selection::ALL);
     for ((path, one), (_, two)) in files.iter().zip(again.files.iter()) {
         assert!(one == two, "{path} differs once the file is laid out");
     }

@@ -132,7 +132,7 @@ impl Program {
             let mut command = Command::new(compiler);
             command.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow"]);
             command.args(["-Werror", "-D_POSIX_C_SOURCE=199309L", "-c"]).args(flags);
-            command.args([include("runtime/core"), include("crates/codegen/src/host/cpp/runtime")]);
+            command.args([include("runtime/core"), include("crates/host-cpp/src/runtime")]);
             run(command.arg(root.join(source)).arg("-o").arg(&object));
             objects.push(object);
         }

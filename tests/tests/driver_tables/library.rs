@@ -1,6 +1,6 @@
 //! The library as parts of designs: one driver with all its values each.
 
-use sensedsl_codegen::part::has_coding;
+use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Design, Device, Part};
 use sensedsl_model::kind::KindName;
 use sensedsl_model::kind::can::Can;

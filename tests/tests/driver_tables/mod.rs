@@ -15,7 +15,7 @@ mod vectors;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_codegen::part::has_coding;
+use sensedsl_job::part::has_coding;
 use sensedsl_model::design::{Device, Presentation};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;

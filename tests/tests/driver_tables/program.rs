@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-use sensedsl_codegen::part::{PartPlan, ValuePlan, Wiring, formula_in_c};
+use sensedsl_firmware_c::{self as c, Wiring};
+use sensedsl_job::part::{PartPlan, ValuePlan};
 use sensedsl_model::design::{Device, PartIndex};
 use sensedsl_model::words::{Code, Words};
 use sensedsl_tests::{files, has, root};
@@ -92,7 +93,7 @@ pub fn tables(unit: &Unit) -> String {
     )
     .unwrap();
     if let Some(plan) = plan(unit) {
-        text.push_str(&plan.c(Wiring::default()));
+        text.push_str(&c::tables(&plan, Wiring::default()));
         text.push('\n');
     }
     text.push_str(&unit_fields(unit));
@@ -145,7 +146,7 @@ fn unit_field(plan: &PartPlan, name: &str) -> String {
     });
     let formula = plan.formulas.iter().find(|one| one.field == name);
     let formula = formula.map_or("NULL, NULL, 0U".to_owned(), |one| {
-        format!("&{}, {}_parameters, {}U", formula_in_c(&one.formula), one.ident, one.output)
+        format!("&{}, {}_parameters, {}U", c::words::formula(&one.formula), one.ident, one.output)
     });
     let train = plan.trains.iter().find(|one| one.field == name);
     let train = train.map_or("NULL".to_owned(), |one| format!("&{}_train_config", one.ident));

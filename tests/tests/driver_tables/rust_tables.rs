@@ -5,7 +5,7 @@ use sense_rt::{
     FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable,
     Number, Range, Reading, Scalar, Schema, TrainConfig, Transfer, WIDE,
 };
-use sensedsl_codegen::part::{
+use sensedsl_job::part::{
     self, BridgePlan, BusPlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
     PartPlan, TrainPlan, ValuePlan,
 };

@@ -9,9 +9,9 @@ mod seeds;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_codegen::firmware::embassy::{TypeCheck, profile_of, type_check};
-use sensedsl_codegen::job::{BoardJob, JobConnection, jobs};
-use sensedsl_codegen::target;
+use sensedsl_firmware_embassy::{TypeCheck, profile_of, type_check};
+use sensedsl_generate::target;
+use sensedsl_job::{BoardJob, JobConnection, jobs};
 use sensedsl_model::kind::KindName;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};

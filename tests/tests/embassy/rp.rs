@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use sensedsl_codegen::target;
+use sensedsl_generate::target;
 use sensedsl_tests::{Scratch, is_exhaustive, is_thorough, missing, sensedsl, tree};
 
 use super::{

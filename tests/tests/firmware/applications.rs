@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::fileset::FileSet;
-use sensedsl_codegen::target;
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_files::FileSet;
+use sensedsl_generate::target;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_wiring::{Search, Solved, Wiring};
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use sensedsl_codegen::firmware::c::{self, Role};
+use sensedsl_firmware_c::{self as c, Role};
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 
 /// Schemas of tests that are no vectors, in the words of these.

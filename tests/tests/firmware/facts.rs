@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_codegen::target;
+use sensedsl_generate::target;
 use sensedsl_model::design::Design;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::{Files, Unread, Wanted};
@@ -33,7 +33,7 @@ pub(crate) fn with<T>(text: &str, then: impl FnOnce(&Design, &Assignment, Folder
     let answer = snapshot.solve(&Ask::default());
     let (design, wiring) = answer.wired().unwrap();
     let files = target::firmware(design, wiring).unwrap();
-    let file = |(path, entry): (&str, &sensedsl_codegen::fileset::FileEntry)| {
+    let file = |(path, entry): (&str, &sensedsl_files::FileEntry)| {
         let (_, path) = path.split_once('/').unwrap();
         (path.to_owned(), String::from_utf8(entry.bytes.clone()).unwrap())
     };

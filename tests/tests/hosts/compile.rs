@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use sensedsl_codegen::host::{self, Compile, HOSTS, HostPlan};
+use sensedsl_generate::host::{self, HOSTS};
+use sensedsl_job::host::{Compile, HostPlan};
 use sensedsl_tests::few;
 
 use super::{designs, files, tools};

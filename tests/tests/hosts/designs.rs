@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_job::host::HostBoard;
 use sensedsl_model::design::Presentation;
 use sensedsl_wire::{Checksum, Direction, Item, ScalarType, Schema, ValueType};
 

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use sensedsl_codegen::host::{self, HostBoard, HostPlan};
+use sensedsl_generate::host;
+use sensedsl_job::host::{HostBoard, HostPlan};
 
 /// A folder of this test run, empty.
 pub(crate) fn folder(name: &str) -> PathBuf {

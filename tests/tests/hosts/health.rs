@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_job::host::HostBoard;
 use sensedsl_wire::{
     Causes, Checksum, Decoder, DeviceHealth, Direction, Event, Health, NEVER_MS, ResetCause,
     Scalar, Schema, Stamp, Status, UNKNOWN_LOAD, UNKNOWN_STACK, encode_health, encode_hello,

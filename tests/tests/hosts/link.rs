@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_job::host::HostBoard;
 use sensedsl_wire::{Direction, Scalar, Schema, encode_hello, encode_hello_request, encode_report};
 
 use super::terminal::Line;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::{self, Compile, HostBoard};
+use sensedsl_generate::host;
+use sensedsl_job::host::{Compile, HostBoard};
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, ScalarType, encode_hello, encode_hello_request,
     encode_report,

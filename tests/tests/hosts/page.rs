@@ -1,7 +1,7 @@
 //! The table of `docs/hosts.md` is what the hosts say of themselves.
 //! `SENSEDSL_BLESS=1 cargo test -p sensedsl-tests hosts::page` writes it anew.
 
-use sensedsl_codegen::host::HOSTS;
+use sensedsl_generate::host::HOSTS;
 use sensedsl_tests::{root, text};
 
 const HEAD: &str = "| host | language | needs | gives |\n| --- | --- | --- | --- |\n";
@@ -11,7 +11,7 @@ fn the_page_has_every_host() {
     let page = text("docs/hosts.md");
     let (before, table) = page.split_once(HEAD).expect("docs/hosts.md has the table's head");
     let (_, after) = table.split_once("\n\n").expect("text behind the table");
-    let row = |host: &&dyn sensedsl_codegen::host::Host| {
+    let row = |host: &&dyn sensedsl_job::host::Host| {
         let about = host.about();
         format!("| `{}` | {} | {} | {} |\n", host.name(), about.language, about.needs, about.gives)
     };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_job::host::HostBoard;
 use sensedsl_tests::{read, sensedsl};
 use sensedsl_wire::{Checksum, Decoder, Direction, Event, Scalar, encode_hello, encode_report};
 use serde_json::{Value, json};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sensedsl_codegen::host::HostBoard;
+use sensedsl_job::host::HostBoard;
 use sensedsl_wire::{
     Decoder, Direction, Event, Scalar, encode_health_request, encode_hello, encode_hello_request,
     encode_report,

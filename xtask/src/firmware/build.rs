@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
-use sensedsl_codegen::fileset::FileSet;
+use sensedsl_files::FileSet;
 
 /// What our files are compiled with; the tree's own warnings are not looked at.
 const WARNINGS: &str = "-Wall -Wextra -Wundef -Wstrict-prototypes -Wconversion";

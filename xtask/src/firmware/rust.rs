@@ -11,7 +11,7 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use sensedsl_board::catalog;
-use sensedsl_codegen::fileset::FileSet;
+use sensedsl_files::FileSet;
 
 use super::cells::{self, Made, Notes};
 use super::table::wrapped;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use sensedsl_codegen::job::jobs;
+use sensedsl_job::jobs;
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wire::{Decoder, DeviceHealth, Direction, Event, Scalar, Schema};

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::table::Occupation;
 use sensedsl_board::{catalog, mcu};
-use sensedsl_codegen::target;
+use sensedsl_generate::target;
 use sensedsl_session::printed_board;
 
 use super::table::{INDENT, table};

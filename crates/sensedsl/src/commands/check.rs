@@ -1,8 +1,8 @@
 //! `sensedsl check`: what is wrong, and whether there is a wiring.
 
 use anyhow::Result;
-use sensedsl_codegen::target;
 use sensedsl_diagnostics::{Diagnostic, Severity, render, visible};
+use sensedsl_generate::target;
 use sensedsl_session::Answer;
 use sensedsl_wiring::Solved;
 

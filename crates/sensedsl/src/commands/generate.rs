@@ -3,15 +3,16 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use sensedsl_codegen::fileset::FileSet;
-use sensedsl_codegen::host::{HOSTS, Host, find};
-use sensedsl_codegen::{Selection, target};
 use sensedsl_diagnostics::codes::{
     e0502_foreign_files, e0503_out_of_date, e0505_unknown_host, e0507_folder_busy,
     e0509_not_written, e0510_unfinished, e0524_through_a_link, e0525_not_our_work,
     e0526_unproved_files,
 };
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span, visible};
+use sensedsl_files::FileSet;
+use sensedsl_generate::host::{HOSTS, find};
+use sensedsl_generate::{Selection, target};
+use sensedsl_job::{Target, host::Host};
 use sensedsl_model::design::Design;
 use sensedsl_model::{drop_allowed, sort};
 use sensedsl_report::human;
@@ -106,7 +107,7 @@ fn files(
     let firmware = !args.without.contains(&Without::Firmware);
     let wanted = Selection { firmware, hosts: &hosts };
     let name = design_name(&args.file);
-    let made = sensedsl_codegen::project(&name, design, assignment, &wanted);
+    let made = sensedsl_generate::project(&name, design, assignment, &wanted);
     if made.gaps.is_empty() { Ok(made.files) } else { Err(made.gaps) }
 }
 
@@ -299,7 +300,7 @@ fn report(
         return Ok(());
     }
     let targets = assignment.used(design).filter_map(|(_, board)| target::of(board.profile()?));
-    let option = targets.map(<dyn target::Target>::build_option).max().unwrap_or_default();
+    let option = targets.map(<dyn Target>::build_option).max().unwrap_or_default();
     let folder = output::typed(&args.output, "");
     terminal.note(&format!("next: sensedsl build {folder}{option}\n"))?;
     Ok(())

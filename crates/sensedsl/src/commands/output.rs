@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
-use sensedsl_codegen::fileset::FileSet;
+use sensedsl_files::FileSet;
 
 use crate::files::state::{State, digest};
 use crate::files::tree::layout::{

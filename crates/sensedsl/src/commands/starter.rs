@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use sensedsl_board::{catalog, profile};
-use sensedsl_codegen::{Selection, project};
+use sensedsl_generate::{Selection, project};
 use sensedsl_session::{Ask, Goal, On, Workspace, has_errors};
 
 use crate::files::Disk;

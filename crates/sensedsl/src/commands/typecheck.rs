@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use anyhow::{Context as _, Result};
-use sensedsl_codegen::firmware::embassy::{TypeCheck, type_check};
-use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{
     e0530_wiring_not_of_the_chip, e0531_no_cargo, e0532_typecheck_stopped,
     e0533_typecheck_not_known,
 };
+use sensedsl_firmware_embassy::{TypeCheck, type_check};
+use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::design::Design;
 use sensedsl_wiring::assignment::Assignment;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! The chips on a board's buses.
 
-use sensedsl_codegen::job::{BoardJob, JobConnection};
+use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::design::{ConnectionIndex, PartIndex};
 use sensedsl_model::words::Words;
 

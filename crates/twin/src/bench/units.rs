@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::kind::KindName;
 
 /// Where the numbers begin of units that have none of their own.

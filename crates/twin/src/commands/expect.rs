@@ -3,7 +3,7 @@
 //!
 //! In: a device and the raw values that it has been set to. Out: what each of its wires must carry.
 
-use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::digital::Digital;
 use sensedsl_model::kind::pwm::Pwm;

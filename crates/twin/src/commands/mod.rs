@@ -11,7 +11,7 @@ mod script;
 mod tried;
 mod written;
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::design::DeviceIndex;
 use sensedsl_wire::{Direction, Scalar, encode_hello_request, encode_report};
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use sensedsl_board::signal::{Function, TimerLine};
-use sensedsl_codegen::job::JobConnection;
+use sensedsl_job::JobConnection;
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, Role};
 

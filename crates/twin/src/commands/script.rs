@@ -1,7 +1,7 @@
 //! What a host sets actuators to, so that everything about them shows: both ends, the middle, both signs, what lies
 //! beyond, and another value for each element and each device.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::words::Words;
 use sensedsl_wire::{Direction, Scalar, ScalarType};

@@ -1,6 +1,6 @@
 //! One actuator: what it is told when, when it must have done so, and what was found out.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Kind;
 use sensedsl_wire::{Direction, Scalar};

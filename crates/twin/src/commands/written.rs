@@ -1,6 +1,6 @@
 //! What must be written to chips.
 
-use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::protocol::{InitStep, Protocol};
 use sensedsl_model::words::Words;

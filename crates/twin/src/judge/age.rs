@@ -1,6 +1,6 @@
 //! How old a value can be when it arrives.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::{Icu, Mode};

@@ -2,7 +2,7 @@
 //!
 //! In: when a value came, and the one before it. Out: how long the world had counted on by then, on average.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
 

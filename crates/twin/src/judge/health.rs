@@ -2,7 +2,7 @@
 //!
 //! A device with which nothing is wrong must not fail, and nothing may be counted against it.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_wire::{Causes, DeviceHealth, Health, NEVER_MS, ResetCause, Status};
 
 use super::{Finding, Judged, MS, Wrong};

@@ -18,7 +18,7 @@ mod silence;
 mod tolerance;
 mod words;
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_wire::{Direction, Health, Scalar};
 
 use crate::bench::Bench;

@@ -1,6 +1,6 @@
 //! How often a device ought to report, and how often it does.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;
 
@@ -121,7 +121,7 @@ pub(super) fn reporter_ns(job: &BoardJob<'_>) -> u64 {
         return cycle_ns_of(rate_hz);
     }
     let cycles = job.devices.iter().flat_map(|one| [one.cycle.delay_ms, one.device.delay_ms]);
-    let cycles = cycles.chain(sensedsl_codegen::kinds::can::repeats_ms(job));
+    let cycles = cycles.chain(sensedsl_job::kinds::can::repeats_ms(job));
     cycles.filter(|ms| *ms > 0).map(|ms| MS * u64::from(ms)).fold(REPORTER_NS, u64::min)
 }
 

@@ -3,7 +3,7 @@
 //! In: the values that came. Out: how often the world has such a moment, where none of them was ever told. A contact
 //! that must last for longer in the firmware than in the file never sees them, and nothing else shows it.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
 use sensedsl_wire::ScalarType;
 

@@ -1,6 +1,6 @@
 //! The judge of one sensor: its values against the world, and its silences.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::Mode;

@@ -1,6 +1,6 @@
 //! By how much a right value can be off.
 
-use sensedsl_codegen::job::{BoardJob, JobDevice};
+use sensedsl_job::{BoardJob, JobDevice};
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::{Icu, Mode};
 use sensedsl_model::protocol::Format;

@@ -3,7 +3,7 @@
 use sense_rt::{
     Chip, ChipTable, Item, MessageField, MessageStream, MessageTable, Outcome, Schema, Step,
 };
-use sensedsl_codegen::job::{BoardJob, Cycle};
+use sensedsl_job::{BoardJob, Cycle};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_wire::Direction;

@@ -16,7 +16,7 @@ use sense_rt::{
     BoardHealth, Cause, Channel, Filter, FilterTable, Health, Host, Outcome, Record, Reporter,
     ReporterConfig, Schema, Store,
 };
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 use sensedsl_model::kind::KindName;
 use sensedsl_wire::Direction;
@@ -382,7 +382,7 @@ fn wrapped(ms: u64) -> u32 {
 }
 
 /// Whether a cycle begins in this millisecond.
-const fn begins(since_ms: u64, cycle: sensedsl_codegen::job::Cycle) -> bool {
+const fn begins(since_ms: u64, cycle: sensedsl_job::Cycle) -> bool {
     let start = cycle.start_ms as u64;
     let delay = if cycle.delay_ms == 0 { 1 } else { cycle.delay_ms as u64 };
     since_ms >= start && (since_ms - start).is_multiple_of(delay)

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use sense_rt::{
     Bridge, BridgeMode, BridgeState, Coding, Compose, Item, LEVEL_FULL, Scalar, Schema, pulse_level,
 };
-use sensedsl_codegen::job::{BoardJob, JobConnection, JobDevice};
-use sensedsl_codegen::kinds::can;
-use sensedsl_codegen::part::BridgePlan;
+use sensedsl_job::kinds::can;
+use sensedsl_job::part::BridgePlan;
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;

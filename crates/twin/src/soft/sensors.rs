@@ -5,7 +5,7 @@ use sense_rt::{
     Elements, Formula, Item, Outcome, Repeat, Train, TrainConfig, store_count, store_mean,
     store_signed,
 };
-use sensedsl_codegen::job::{BoardJob, Cycle, JobDevice};
+use sensedsl_job::{BoardJob, Cycle, JobDevice};
 use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::digital::{self, Pull};
 use sensedsl_model::kind::icu::{self, Mode};

@@ -8,8 +8,8 @@ use sense_rt::{
     FilterTable, Formula, Identity, InitStep, Item, MessageChecksum, MessageField, MessageTable,
     Number, Range, Reading, Scalar, Schema, Transfer, WIDE,
 };
-use sensedsl_codegen::job::BoardJob;
-use sensedsl_codegen::part::{
+use sensedsl_job::BoardJob;
+use sensedsl_job::part::{
     self, BusPlan, ComposePlan, FieldCoding, FilterPlan, InitPlan, MessageFieldPlan, MessagePlan,
     ValuePlan,
 };

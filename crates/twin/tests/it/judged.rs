@@ -1,6 +1,6 @@
 //! What the judge has to catch: reports that were tampered with.
 
-use sensedsl_codegen::job::JobDevice;
+use sensedsl_job::JobDevice;
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::judge::{Finding, Judge, Judged};
 use sensedsl_wire::{Causes, DeviceHealth, Health, ResetCause, Scalar, Status};

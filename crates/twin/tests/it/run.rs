@@ -1,7 +1,7 @@
 //! Simulating a text with a world, as the command does.
 
-use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
+use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::{Bench, Unasked};

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target, TargetProfile};
-use sensedsl_codegen::firmware::chibios::Names;
+use sensedsl_firmware_chibios::Names;
 
 use super::super::facts::Folder;
 use super::super::tools::{has, root, scratch};

@@ -1,9 +1,9 @@
 //! From a design's text to the files of its firmware.
 
-use sensedsl_codegen::fileset::FileEntry;
-use sensedsl_codegen::host::HOSTS;
-use sensedsl_codegen::{Selection, project};
 use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_files::FileEntry;
+use sensedsl_generate::host::HOSTS;
+use sensedsl_generate::{Selection, project};
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 

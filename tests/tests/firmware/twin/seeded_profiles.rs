@@ -6,10 +6,10 @@
 use std::path::{Path, PathBuf};
 
 use sensedsl_board::profile;
-use sensedsl_codegen::fileset::FileSet;
-use sensedsl_codegen::job::jobs;
-use sensedsl_codegen::target::firmware;
 use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_files::FileSet;
+use sensedsl_generate::target::firmware;
+use sensedsl_job::jobs;
 use sensedsl_model::design::Design;
 use sensedsl_report::json;
 use sensedsl_session::{On, Workspace};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::SourceMap;
+use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::Bench;

@@ -1,7 +1,7 @@
 //! The board that is simulated: its job in this program, or an image of firmware on an emulated MCU.
 
-use sensedsl_codegen::job::BoardJob;
 use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_job::BoardJob;
 use sensedsl_twin::bench::{Bench, Unasked};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::soft::SoftBoard;

@@ -17,13 +17,13 @@ mod slcan;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use sensedsl_codegen::job::{BoardJob, jobs};
 use sensedsl_diagnostics::codes::e0519_which_board;
 #[cfg(feature = "twin")]
 use sensedsl_diagnostics::codes::e0546_image_refused;
 #[cfg(not(feature = "twin"))]
 use sensedsl_diagnostics::codes::e0547_no_machine;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
+use sensedsl_job::{BoardJob, jobs};
 use sensedsl_model::What;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;

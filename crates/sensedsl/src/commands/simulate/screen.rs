@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_codegen::job::BoardJob;
+use sensedsl_job::BoardJob;
 use sensedsl_model::design::Device;
 use sensedsl_twin::truth::{Scale, real};
 use sensedsl_wire::{Direction, Scalar, ScalarType};

@@ -1,0 +1,52 @@
+//! What is C but no system's: the values of a board and its wire, for firmware and for programs on a computer.
+//!
+//! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table, and `sense_codec.c`, straight lines of
+//! code from values to payloads and back; and of each part its tables. They need `runtime/core` and nothing else.
+
+mod schema;
+mod tables;
+pub mod words;
+
+use askama::Template;
+use sensedsl_wire::Schema;
+
+pub use schema::{Role, SchemaPlan};
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+pub use tables::{DmaBuffer, Wiring, tables};
+
+/// Declares a template that prints a model.
+macro_rules! templates {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                board: &'a str,
+                s: &'a SchemaPlan,
+            }
+        )*
+    };
+}
+
+templates! {
+    ModelHeader = "templates/sense_model.h.txt";
+    Model = "templates/sense_model.c.txt";
+    Codec = "templates/sense_codec.c.txt";
+}
+
+/// The files of one end of a board's link.
+#[must_use]
+pub fn files(board: &str, schema: &Schema, role: Role) -> FileSet {
+    render(board, &SchemaPlan::new(schema, role))
+}
+
+/// Prints them.
+#[must_use]
+pub fn render(board: &str, s: &SchemaPlan) -> FileSet {
+    let mut files = FileSet::default();
+    files.add("sense_model.h", print(&ModelHeader { board, s }));
+    files.add("sense_model.c", print(&Model { board, s }));
+    files.add("sense_codec.c", print(&Codec { board, s }));
+    files
+}

@@ -1,0 +1,39 @@
+//! Analog sensors: the driver of the converters.
+//!
+//! `plan.rs` decides what is converted together and by which thread, alike for all versions of the driver; a file each
+//! says how a version is told. `tables.c.txt` has what the runtime is told.
+
+mod f1;
+mod group;
+mod plan;
+#[cfg(test)]
+mod tests;
+mod v1;
+mod v2;
+mod v3;
+mod v4;
+mod v5;
+
+use sensedsl_model::kind::KindName;
+
+use super::section::{Peripheral, Version, nothing};
+
+/// See the module.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "ADC",
+    kind: Some(KindName::Analog),
+    version: |drivers| &drivers.adc,
+    versions: &[
+        Version { name: "ADCv1", plan: v1::plan },
+        Version { name: "ADCv2", plan: v2::plan },
+        Version { name: "ADCv3", plan: v3::plan },
+        Version { name: "ADCv4", plan: v4::plan },
+        Version { name: "ADCv5", plan: v5::plan },
+        Version { name: "STM32F1xx", plan: f1::plan },
+    ],
+    lacks: nothing,
+    runtime: &[
+        ("chibios/up_adc.c", include_str!("../../../../runtime/chibios/up_adc.c")),
+        ("chibios/up_adc.h", include_str!("../../../../runtime/chibios/up_adc.h")),
+    ],
+};

@@ -1,0 +1,23 @@
+//! Devices on CAN buses: the same tables for all controllers; what differs between these is in the runtime.
+
+mod frames;
+
+use super::section::{Peripheral, Version, nothing};
+use sensedsl_model::kind::KindName;
+
+/// See the module.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "CAN",
+    kind: Some(KindName::Can),
+    version: |drivers| &drivers.can,
+    versions: &[
+        Version { name: "CANv1", plan: frames::plan },
+        Version { name: "FDCANv1", plan: frames::plan },
+        Version { name: "FDCANv2", plan: frames::plan },
+    ],
+    lacks: nothing,
+    runtime: &[
+        ("chibios/up_can.c", include_str!("../../../../runtime/chibios/up_can.c")),
+        ("chibios/up_can.h", include_str!("../../../../runtime/chibios/up_can.h")),
+    ],
+};

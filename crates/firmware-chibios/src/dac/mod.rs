@@ -1,0 +1,20 @@
+//! Voltages of DAC outputs.
+
+mod v1;
+
+use sensedsl_model::kind::KindName;
+
+use super::section::{Peripheral, Version, nothing};
+
+/// See the module.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "DAC",
+    kind: Some(KindName::Dac),
+    version: |drivers| &drivers.dac,
+    versions: &[Version { name: "DACv1", plan: v1::plan }],
+    lacks: nothing,
+    runtime: &[
+        ("chibios/up_dac.c", include_str!("../../../../runtime/chibios/up_dac.c")),
+        ("chibios/up_dac.h", include_str!("../../../../runtime/chibios/up_dac.h")),
+    ],
+};

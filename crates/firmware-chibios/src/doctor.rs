@@ -1,0 +1,75 @@
+//! What the board can find out about its wires: tables for the self test.
+
+use sensedsl_model::kind::{KindName, Role};
+
+use super::context::Context;
+use sensedsl_job::{JobConnection, Pad};
+
+/// All tables of the self test.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DoctorPlan {
+    /// Wires that somebody else drives or pulls.
+    pub(super) inputs: Vec<Input>,
+    /// Chips whose state says how they are.
+    pub(super) chips: Vec<Chip>,
+    /// Sensors that count.
+    pub(super) edges: Vec<Edges>,
+}
+
+/// An `up_input_t`.
+#[derive(Clone, Debug)]
+pub(super) struct Input {
+    /// `IRFront at PB0 (ADC12-IN8)`
+    pub(super) title: String,
+    pub(super) line: String,
+    /// Pulled up by a resistor, not driven.
+    pub(super) is_bus: bool,
+}
+
+/// An `up_chip_check_t`.
+#[derive(Clone, Debug)]
+pub(super) struct Chip {
+    pub(super) title: String,
+    /// What its tables begin with.
+    pub(super) prefix: String,
+}
+
+/// An `up_edges_t`.
+#[derive(Clone, Debug)]
+pub(super) struct Edges {
+    pub(super) title: String,
+    /// The device.
+    pub(super) field: String,
+}
+
+pub(super) fn plan(context: &Context<'_>) -> DoctorPlan {
+    let mut plan = DoctorPlan::default();
+    for one in &context.job.connections {
+        plan.inputs.extend(one.pads.iter().filter_map(|pad| input(context, one, pad)));
+        let counts = matches!(one.connection.kind.name(), KindName::Encoder | KindName::Icu);
+        let device = context.device_of(one).filter(|_| counts);
+        plan.edges.extend(
+            device.map(|device| Edges { title: one.place(), field: device.name().to_owned() }),
+        );
+    }
+    // Wires of a bus are those of all its devices.
+    plan.inputs.sort_by(|a, b| a.line.cmp(&b.line));
+    plan.inputs.dedup_by(|a, b| a.line == b.line);
+    for part in context.job.parts.iter().filter(|one| one.part.chip.is_some()) {
+        let own = context.job.connections.iter().filter(|one| one.connection.part == part.index);
+        let bus = own.filter_map(|own| Some((context.job.bus_of(own)?, own)));
+        plan.chips
+            .extend(bus.map(|(bus, own)| Chip { title: own.place(), prefix: bus.prefix.clone() }));
+    }
+    plan
+}
+
+/// A wire that the board can tell to be loose. The line of an SPI device is loose while nobody selects it.
+fn input(context: &Context<'_>, one: &JobConnection<'_>, pad: &Pad<'_>) -> Option<Input> {
+    let is_told = pad.role.is_driven_by_device() && pad.role != Role::Miso;
+    let line = context.line(&pad.pin.name).filter(|_| is_told)?;
+    let is_bus = matches!(pad.role, Role::Scl | Role::Sda);
+    let signal = pad.usage.map_or("GPIO", |usage| usage.spelled.as_str());
+    let name = if is_bus { one.unit.unwrap_or_default() } else { &one.title };
+    Some(Input { title: format!("{name} at {} ({signal})", pad.pin.name), line, is_bus })
+}

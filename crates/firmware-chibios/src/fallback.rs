@@ -1,0 +1,96 @@
+//! What actuators take when the host is silent, where it is sent to them as a value of the host would be.
+
+use sensedsl_wire::ScalarType;
+
+use super::context::Context;
+use sensedsl_job::JobDevice;
+
+/// A value that is set when the host is silent.
+#[derive(Clone, Debug)]
+pub(super) struct FallBackPlan {
+    /// The device, as in `SENSE_FIELD_` and its name.
+    pub(super) field: String,
+    pub(super) c_type: &'static str,
+    /// Each element, as a C literal.
+    pub(super) elements: Vec<String>,
+}
+
+pub(super) fn plan(context: &Context<'_>) -> Vec<FallBackPlan> {
+    context.job.devices.iter().filter_map(FallBackPlan::new).collect()
+}
+
+impl FallBackPlan {
+    fn new(one: &JobDevice<'_>) -> Option<Self> {
+        let value = one.device.value.value;
+        let element = literal(value.scalar, one.device.coding.failsafe?);
+        Some(Self {
+            field: one.name().to_owned(),
+            c_type: c_type(value.scalar),
+            elements: vec![element; value.count()],
+        })
+    }
+}
+
+/// The number as the type has it; the model has seen to it that the type holds it.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the type holds it")]
+fn literal(scalar: ScalarType, number: f64) -> String {
+    match scalar {
+        ScalarType::Bool => (number != 0.0).to_string(),
+        ScalarType::Float32 => format!("{:?}F", number as f32),
+        ScalarType::Float64 => format!("{number:?}"),
+        ScalarType::Uint8 | ScalarType::Uint16 | ScalarType::Uint32 | ScalarType::Uint64 => {
+            format!("UINT64_C({})", number as u64)
+        }
+        ScalarType::Int8 | ScalarType::Int16 | ScalarType::Int32 | ScalarType::Int64 => {
+            match number as i64 {
+                // The least one is not spelled as it is written.
+                i64::MIN => "INT64_MIN".to_owned(),
+                whole => format!("INT64_C({whole})"),
+            }
+        }
+    }
+}
+
+fn c_type(scalar: ScalarType) -> &'static str {
+    match scalar {
+        ScalarType::Bool => "bool",
+        ScalarType::Uint8 => "uint8_t",
+        ScalarType::Int8 => "int8_t",
+        ScalarType::Uint16 => "uint16_t",
+        ScalarType::Int16 => "int16_t",
+        ScalarType::Uint32 => "uint32_t",
+        ScalarType::Int32 => "int32_t",
+        ScalarType::Uint64 => "uint64_t",
+        ScalarType::Int64 => "int64_t",
+        ScalarType::Float32 => "float",
+        ScalarType::Float64 => "double",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ScalarType, literal};
+
+    #[test]
+    fn literals_of_all_sorts() {
+        let all = [
+            literal(ScalarType::Bool, 1.0),
+            literal(ScalarType::Int8, -128.0),
+            literal(ScalarType::Uint64, 18_446_744_073_709_551_615.0),
+            literal(ScalarType::Int64, -9_223_372_036_854_775_808.0),
+            literal(ScalarType::Int64, 9_223_372_036_854_775_808.0),
+            literal(ScalarType::Float32, 0.1),
+            literal(ScalarType::Float64, -2.0),
+        ];
+        let expected = [
+            "true",
+            "INT64_C(-128)",
+            "UINT64_C(18446744073709551615)",
+            "INT64_MIN",
+            "INT64_C(9223372036854775807)",
+            "0.1F",
+            "-2.0",
+        ];
+        assert_eq!(all, expected);
+    }
+}

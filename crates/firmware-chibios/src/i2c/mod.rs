@@ -1,0 +1,28 @@
+//! Devices on I2C buses: the driver of the buses.
+
+mod bus;
+mod v1;
+mod v2;
+
+use sensedsl_model::kind::KindName;
+
+use super::chips;
+use super::section::{Peripheral, Version};
+
+/// See the module. The drivers with a timing register differ in how they get their DMA streams alone.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "I2C",
+    kind: Some(KindName::I2c),
+    version: |drivers| &drivers.i2c,
+    versions: &[
+        Version { name: "I2Cv1", plan: v1::plan },
+        Version { name: "I2Cv2", plan: v2::plan },
+        Version { name: "I2Cv3", plan: v2::plan },
+        Version { name: "I2Cv4", plan: v2::plan },
+    ],
+    lacks: chips::lacks,
+    runtime: &[
+        ("chibios/up_i2c_bus.c", include_str!("../../../../runtime/chibios/up_i2c_bus.c")),
+        ("chibios/up_i2c_bus.h", include_str!("../../../../runtime/chibios/up_i2c_bus.h")),
+    ],
+};

@@ -1,0 +1,125 @@
+//! ChibiOS firmware: tables for the hand-written runtime, configuration as changes to the user's tree.
+//!
+//! In: a [`BoardJob`]. Out: a folder with a Makefile, `cfg/`, `generated/`, `user/` and a copy of the runtime.
+//! Each driver of the system is a folder here and adds a section (`section.rs`); `plan.rs` puts the sections together
+//! and looks into none; the templates only print. Names of the system are in the `[system]` part of a
+//! profile (`names.rs`). What the hardware or the system cannot do comes back as diagnostics, and then there are no files.
+
+mod adc;
+mod board;
+mod can;
+mod chips;
+mod context;
+mod dac;
+mod digital;
+mod doctor;
+mod encoder;
+mod fallback;
+mod gpio;
+mod i2c;
+mod icu;
+mod link;
+mod missed;
+mod names;
+mod parts;
+mod plan;
+mod pulse;
+mod pwm;
+mod render;
+mod runtime;
+mod section;
+mod settings;
+mod spi;
+mod stacks;
+mod timers;
+mod uart;
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+
+use context::Context;
+pub use names::Names;
+use section::Peripheral;
+use sensedsl_files::FileSet;
+use sensedsl_job::Target;
+use sensedsl_job::{BoardJob, JobConnection};
+
+/// All drivers, in the order in which their sections are printed and their threads are numbered.
+const PERIPHERALS: &[&Peripheral] = &[
+    &gpio::PERIPHERAL,
+    &adc::PERIPHERAL,
+    &dac::PERIPHERAL,
+    &i2c::PERIPHERAL,
+    &spi::PERIPHERAL,
+    &uart::PERIPHERAL,
+    &can::PERIPHERAL,
+    &icu::PERIPHERAL,
+    &encoder::PERIPHERAL,
+    &digital::PERIPHERAL,
+    &pwm::PERIPHERAL,
+    &pulse::PERIPHERAL,
+];
+
+/// The target `chibios`.
+pub struct Chibios;
+
+impl Target for Chibios {
+    fn name(&self) -> &'static str {
+        "chibios"
+    }
+
+    /// An MCU is served where code is made for its pins; a kind, where code is made for the version of its driver.
+    fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String> {
+        if facts.is_none_or(|facts| facts.chibios.is_none()) {
+            return Some("no ChibiOS board is known for its MCU".to_owned());
+        }
+        unserved(profile)
+    }
+
+    fn problems(&self, profile: &TargetProfile) -> Vec<String> {
+        match Names::of(profile) {
+            Ok(names) => names.problems(profile),
+            Err(message) => vec![message],
+        }
+    }
+
+    fn kinds(&self, profile: &TargetProfile) -> Vec<KindName> {
+        Names::of(profile).map(|names| section::kinds(&names.drivers)).unwrap_or_default()
+    }
+
+    fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+        let kind = connection.connection.kind.name();
+        let peripheral = PERIPHERALS.iter().find(|one| one.kind == Some(kind))?;
+        (peripheral.lacks)(job, connection)
+    }
+
+    fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        let context = Context::new(job);
+        let plan = context.and_then(|context| plan::plan(&context, &mut diagnostics));
+        match plan {
+            Some(plan) if diagnostics.is_empty() => Ok(render::render(&plan)),
+            _ => Err(diagnostics),
+        }
+    }
+
+    fn build_option(&self) -> &'static str {
+        " --chibios /path/to/ChibiOS"
+    }
+}
+
+/// A driver of the profile's MCUs that there is no code for, in words.
+fn unserved(profile: &TargetProfile) -> Option<String> {
+    match Names::of(profile) {
+        Ok(names) => section::unserved(&names.drivers),
+        Err(message) => Some(format!("its profile is damaged: {message}")),
+    }
+}
+
+/// Whether code is made for the drivers of the profile's MCUs.
+#[must_use]
+pub fn is_served(profile: &TargetProfile) -> bool {
+    unserved(profile).is_none()
+}

@@ -1,0 +1,53 @@
+//! What parts say in tables of the runtime, beside their wires: chips, messages, formulas, filters.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::KindName;
+
+use super::context::Context;
+use super::spi;
+use sensedsl_firmware_c::{self as c, DmaBuffer, Wiring};
+use sensedsl_job::{JobConnection, JobDevice, JobPart};
+
+/// All tables, and which fields have a filter.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PartsPlan {
+    /// The C of the tables of each part.
+    pub(super) tables: Vec<String>,
+    /// What each field's filter is called, in order; empty where no field has a filter.
+    pub(super) filters: Vec<Option<String>>,
+}
+
+pub(super) fn plan(context: &Context<'_>) -> PartsPlan {
+    let job = context.job;
+    let filtered: Vec<Option<String>> =
+        job.devices.iter().map(|one| filter(one, &job.parts)).collect();
+    let has_any = filtered.iter().any(Option::is_some);
+    PartsPlan {
+        tables: job.parts.iter().map(|one| tables(context, one)).collect(),
+        filters: if has_any { filtered } else { Vec::new() },
+    }
+}
+
+/// The tables of a part, with what only the wiring says: where the buffers of its bus lie, and its chip select.
+fn tables(context: &Context<'_>, one: &JobPart<'_>) -> String {
+    let of_part = |other: &&JobConnection<'_>| {
+        let is_bus = matches!(other.connection.kind.name(), KindName::I2c | KindName::Spi);
+        is_bus && other.connection.part == one.index
+    };
+    let wired = context.job.connections.iter().find(of_part);
+    c::tables(
+        &one.plan,
+        Wiring {
+            buffer: wired.map_or(DmaBuffer::Main, |wired| context.names.buffer(&wired.streams)),
+            select: spi::number_of(context.job, one.index),
+        },
+    )
+}
+
+/// The name of a device's filter, where it has one.
+fn filter(one: &JobDevice<'_>, parts: &[JobPart<'_>]) -> Option<String> {
+    let Device { part, name, .. } = one.device;
+    let plan = &parts.iter().find(|other| other.index == *part)?.plan;
+    let has_one = plan.filters.iter().any(|filter| filter.field == name.value);
+    has_one.then(|| one.ident.clone())
+}

@@ -1,0 +1,169 @@
+//! All decisions about the firmware of a board, ready to be printed.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+use sensedsl_wire::Direction;
+
+use super::board::{self, TreePlan};
+use super::context::{Context, PadPlan};
+use super::doctor::{self, DoctorPlan};
+use super::fallback::{self, FallBackPlan};
+use super::link::{self, ButtonPlan, LinkPlan};
+use super::missed;
+use super::parts::{self, PartsPlan};
+use super::section::{self, Apply, Counter, GuardPlan, Probe, Section, Size, Work};
+use super::settings::{self, SettingsPlan};
+use sensedsl_firmware_c::{Role, SchemaPlan};
+use sensedsl_job::part::uses;
+use sensedsl_job::{BoardJob, JobDevice};
+
+/// The firmware of one board.
+#[derive(Clone, Debug)]
+pub(super) struct BoardPlan {
+    pub(super) name: String,
+    pub(super) tree: TreePlan,
+    pub(super) settings: SettingsPlan,
+    pub(super) schema: SchemaPlan,
+    /// What no value needs of the core, as the compiler is told.
+    pub(super) left_out: Vec<String>,
+    pub(super) pads: Vec<PadPlan>,
+    pub(super) parts: PartsPlan,
+    pub(super) doctor: DoctorPlan,
+    pub(super) sections: Vec<Section>,
+    pub(super) tasks: Vec<TaskPlan>,
+    pub(super) link: LinkPlan,
+    pub(super) button: Option<ButtonPlan>,
+    pub(super) report_ms: u32,
+    /// How often each value comes; 0 where only something that happens brings one.
+    pub(super) cycles_ms: Vec<u32>,
+    pub(super) silence_ms: u32,
+    /// What is set when the host is silent, beside what sections do.
+    pub(super) fall_backs: Vec<FallBackPlan>,
+    pub(super) guards: Vec<GuardPlan>,
+}
+
+/// One thread.
+#[derive(Clone, Debug)]
+pub(super) struct TaskPlan {
+    /// `ADC1 60 ms +2`
+    pub(super) name: String,
+    /// The runtime's function and the table it works on.
+    pub(super) function: &'static str,
+    pub(super) work: String,
+    pub(super) delay_ms: u32,
+    pub(super) prio: i8,
+    pub(super) start_ms: u32,
+    /// The identifier of the first device that it serves.
+    pub(super) device: u8,
+    pub(super) stack_bytes: u32,
+}
+
+/// Decides the firmware of a board. What the hardware or the system cannot do goes to the diagnostics.
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<BoardPlan> {
+    let mut pads = Vec::new();
+    let link = link::plan(context, &mut pads, diagnostics)?;
+    let sections = section::sections(context, diagnostics);
+    pads.extend(sections.iter().flat_map(|section| section.pads.iter().cloned()));
+    pads.sort();
+    pads.dedup();
+    missed::tell(context, &pads, &sections, diagnostics);
+    let work = sections.iter().flat_map(|section| &section.work);
+    let tasks: Vec<TaskPlan> = work.map(|work| TaskPlan::new(context, work)).collect();
+    let settings = settings::plan(context, &sections, &link);
+    Some(BoardPlan {
+        name: context.job.board.name.value.clone(),
+        tree: board::plan(context),
+        schema: SchemaPlan::new(&context.job.schema, Role::Board),
+        left_out: left_out(context.job),
+        report_ms: link::report_ms(context, &tasks),
+        cycles_ms: context.job.devices.iter().map(cycle_ms).collect(),
+        silence_ms: context.job.board.link.silence_ms.unwrap_or(0),
+        fall_backs: fallback::plan(context),
+        button: link::button(context),
+        guards: settings::guards(context, &sections, &settings),
+        settings,
+        parts: parts::plan(context),
+        doctor: doctor::plan(context),
+        pads,
+        sections,
+        tasks,
+        link,
+    })
+}
+
+fn cycle_ms(device: &JobDevice<'_>) -> u32 {
+    let is_event = device.device.kind.name() == KindName::Icu
+        || device.device.direction == Direction::Actuator;
+    if is_event { 0 } else { device.cycle.delay_ms }
+}
+
+impl BoardPlan {
+    /// The sizes that drivers want the runtime to be compiled with.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = &Size> {
+        self.sections.iter().flat_map(|section| &section.sizes)
+    }
+
+    /// The headers of the drivers in use.
+    pub(super) fn headers(&self) -> Vec<&'static str> {
+        let all = self.sections.iter().flat_map(|section| section.headers.iter().copied());
+        let mut all: Vec<&str> = all.collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// What drivers count.
+    pub(super) fn counters(&self) -> Vec<&Counter> {
+        self.sections.iter().flat_map(|section| &section.counters).collect()
+    }
+
+    /// The buses that can be searched.
+    pub(super) fn probes(&self) -> Vec<&Probe> {
+        self.sections.iter().flat_map(|section| &section.probes).collect()
+    }
+
+    /// What starts the drivers.
+    pub(super) fn starts(&self) -> Vec<&str> {
+        self.lines(|section| &section.starts)
+    }
+
+    /// What the reporter does in each cycle.
+    pub(super) fn polls(&self) -> Vec<&str> {
+        self.lines(|section| &section.polls)
+    }
+
+    /// What brings actuators to safety.
+    pub(super) fn failsafes(&self) -> Vec<&str> {
+        self.lines(|section| &section.failsafes)
+    }
+
+    /// What is done when an actuator is set.
+    pub(super) fn applies(&self) -> Vec<&Apply> {
+        self.sections.iter().flat_map(|section| &section.applies).collect()
+    }
+
+    fn lines(&self, of: fn(&Section) -> &Vec<String>) -> Vec<&str> {
+        self.sections.iter().flat_map(of).map(String::as_str).collect()
+    }
+}
+
+impl TaskPlan {
+    fn new(context: &Context<'_>, work: &Work) -> Self {
+        Self {
+            name: work.cycle.title(&work.unit),
+            function: work.function,
+            work: work.table.clone(),
+            delay_ms: work.cycle.delay_ms,
+            prio: work.cycle.prio,
+            start_ms: work.cycle.start_ms,
+            device: work.device,
+            stack_bytes: work.depth.stack_bytes(context),
+        }
+    }
+}
+
+/// What is left out of the core, as its compiler is told (`-D`).
+fn left_out(job: &BoardJob<'_>) -> Vec<String> {
+    let unused = uses(job).into_iter().filter(|(_, is_used)| !is_used);
+    unused.map(|(name, _)| format!("UP_USES_{}=0", name.to_uppercase().replace('-', "_"))).collect()
+}

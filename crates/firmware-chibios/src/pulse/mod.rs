@@ -1,0 +1,23 @@
+//! Pulses that some captured devices want each cycle: plain pins, set by a thread.
+
+mod v2;
+
+use super::section::{Peripheral, Version, nothing};
+
+/// See the module. All other pads are set up by the same driver, so that its version is asked for even where
+/// nothing wants a pulse.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "GPIO",
+    kind: None,
+    version: |drivers| &drivers.gpio,
+    versions: &[
+        Version { name: "GPIOv1", plan: v2::plan },
+        Version { name: "GPIOv2", plan: v2::plan },
+        Version { name: "GPIOv3", plan: v2::plan },
+    ],
+    lacks: nothing,
+    runtime: &[
+        ("chibios/up_pulse.c", include_str!("../../../../runtime/chibios/up_pulse.c")),
+        ("chibios/up_pulse.h", include_str!("../../../../runtime/chibios/up_pulse.h")),
+    ],
+};

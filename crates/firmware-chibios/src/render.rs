@@ -1,0 +1,55 @@
+//! Printing: each file of a board is one template over its plan.
+
+use askama::Template;
+
+use super::PERIPHERALS;
+use super::plan::BoardPlan;
+use super::runtime;
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+use sensedsl_firmware_c as c;
+
+/// The user's file as it is made once.
+const USER: &str = include_str!("templates/user.c.txt");
+
+/// Declares a template that prints a [`BoardPlan`] under the name `b`.
+macro_rules! templates {
+    ($($name:ident = $path:literal;)*) => {
+        $(
+            #[derive(Template)]
+            #[template(path = $path, escape = "none")]
+            struct $name<'a> {
+                b: &'a BoardPlan,
+            }
+        )*
+    };
+}
+
+templates! {
+    Makefile = "templates/Makefile.txt";
+    Readme = "templates/README.md.txt";
+    Chconf = "templates/chconf.h.txt";
+    Halconf = "templates/halconf.h.txt";
+    Mcuconf = "templates/mcuconf.h.txt";
+    UpConf = "templates/up_conf.h.txt";
+    Hardware = "templates/sense_hw.c.txt";
+}
+
+/// Prints everything.
+pub(super) fn render(b: &BoardPlan) -> FileSet {
+    let mut files = FileSet::default();
+    files.add("Makefile", print(&Makefile { b }));
+    files.add("README.md", print(&Readme { b }));
+    files.add("cfg/chconf.h", print(&Chconf { b }));
+    files.add("cfg/halconf.h", print(&Halconf { b }));
+    files.add("cfg/mcuconf.h", print(&Mcuconf { b }));
+    files.add("cfg/up_conf.h", print(&UpConf { b }));
+    files.merge_under("generated", c::render(&b.name, &b.schema));
+    files.add("generated/sense_hw.c", print(&Hardware { b }));
+    files.add_once("user/user.c", USER);
+    let drivers = PERIPHERALS.iter().flat_map(|peripheral| peripheral.runtime);
+    for (path, text) in runtime::FILES.iter().chain(drivers) {
+        files.add(format!("uproxy/{path}"), *text);
+    }
+    files
+}

@@ -1,0 +1,29 @@
+//! Devices on SPI buses: the driver of the buses.
+
+mod bus;
+mod v1;
+mod v2;
+mod v3;
+
+use sensedsl_model::kind::KindName;
+
+use super::chips;
+use super::section::{Peripheral, Version};
+pub(super) use bus::number_of;
+
+/// See the module. All MCUs have the second driver model of the system.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "SPI",
+    kind: Some(KindName::Spi),
+    version: |drivers| &drivers.spi,
+    versions: &[
+        Version { name: "SPIv1/driver_v2", plan: v1::plan },
+        Version { name: "SPIv2/driver_v2", plan: v2::plan },
+        Version { name: "SPIv3/driver_v2", plan: v3::plan },
+    ],
+    lacks: chips::lacks,
+    runtime: &[
+        ("chibios/up_spi_bus.c", include_str!("../../../../runtime/chibios/up_spi_bus.c")),
+        ("chibios/up_spi_bus.h", include_str!("../../../../runtime/chibios/up_spi_bus.h")),
+    ],
+};

@@ -1,0 +1,33 @@
+//! Devices on serial ports. The driver of the system is the same in all its versions but for how a port inverts.
+
+mod v1;
+
+use super::section::{Lacks, Peripheral, Version};
+use sensedsl_job::{BoardJob, JobConnection};
+use sensedsl_model::kind::KindName;
+use sensedsl_wire::Direction;
+
+/// See the module.
+pub(super) const PERIPHERAL: Peripheral = Peripheral {
+    name: "serial",
+    kind: Some(KindName::Uart),
+    version: |drivers| &drivers.serial,
+    versions: &[
+        Version { name: "USARTv1", plan: v1::plan },
+        Version { name: "USARTv2", plan: v1::plan },
+        Version { name: "USARTv3", plan: v1::plan },
+    ],
+    lacks: LACKS,
+    runtime: &[
+        ("chibios/up_uart.c", include_str!("../../../../runtime/chibios/up_uart.c")),
+        ("chibios/up_uart.h", include_str!("../../../../runtime/chibios/up_uart.h")),
+    ],
+};
+
+/// A number in a text can be read and not yet be written.
+const LACKS: Lacks = |job: &BoardJob<'_>, connection: &JobConnection<'_>| {
+    let mut own = connection.devices.iter().filter_map(|field| job.devices.get(*field));
+    let is_text = own
+        .any(|one| one.device.direction == Direction::Actuator && one.device.coding.text.is_some());
+    is_text.then_some("values that are sent as a text")
+};

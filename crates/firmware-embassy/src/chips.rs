@@ -1,0 +1,185 @@
+//! Parts on register buses, I²C and SPI alike: which task serves which part.
+
+use std::collections::BTreeMap;
+
+use sensedsl_board::signal::UnitName;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+
+use super::context::{Context, late};
+use super::lack::{self, Lack, Made};
+use super::section::{Field, Section, Start, Watched};
+use super::{chip, filter};
+use sensedsl_job::part::BusPlan;
+use sensedsl_job::snake;
+use sensedsl_job::{Cycle, JobConnection, by_unit};
+
+/// Time for a part to think, beside the bits.
+const TIMEOUT_BASE_MS: u32 = 10;
+
+/// A bus with what is on it.
+pub(super) struct Bus<'a> {
+    pub(super) unit: UnitName,
+    /// The runtime's type of it.
+    type_: String,
+    /// One of those on it: all have the wires of the bus.
+    pub(super) first: &'a JobConnection<'a>,
+    pub(super) all: Vec<&'a JobConnection<'a>>,
+}
+
+/// The buses of a kind; `type_` is the runtime's type of one.
+pub(super) fn buses<'a>(
+    context: &Context<'a>,
+    kind: KindName,
+    type_: impl Fn(&UnitName) -> String,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Bus<'a>> {
+    for wire in context.connections(kind) {
+        context.tell(wire.part, lack::unit(wire).map(drop), diagnostics);
+    }
+    let buses = by_unit(context.connections(kind)).into_iter();
+    let bus = |(unit, all): (UnitName, Vec<&'a JobConnection<'a>>)| {
+        Some(Bus { type_: type_(&unit), unit, first: all.first()?, all })
+    };
+    buses.filter_map(bus).collect()
+}
+
+impl Bus<'_> {
+    /// What is on it, for a comment.
+    pub(super) fn titles(&self) -> String {
+        let titles: Vec<&str> = self.all.iter().map(|one| one.title.as_str()).collect();
+        titles.join(", ")
+    }
+
+    /// Hands the bus over to its tasks, which take turns.
+    pub(super) fn share(&self, field: Field, section: &mut Section) {
+        let Self { unit, type_, .. } = self;
+        section.items.push(format!("static {unit}_BUS: StaticCell<{type_}> = StaticCell::new();"));
+        section.starts.push(Start::Make(format!(
+            "let {0}: &'static {type_} = {unit}_BUS.init(Mutex::new(wiring.{0}));",
+            field.name
+        )));
+        section.fields.push(field);
+    }
+}
+
+/// A part that a task serves.
+pub(super) struct Served<'a> {
+    pub(super) plan: BusPlan,
+    pub(super) wire: &'a JobConnection<'a>,
+}
+
+/// How a task of a bus reaches its parts.
+pub(super) struct Reach {
+    /// Parameters of the task beside the bus.
+    pub(super) parameters: String,
+    /// What they are called with.
+    pub(super) arguments: String,
+    /// Statements that make `NAME_line` for each part.
+    pub(super) lines: String,
+}
+
+/// The tasks of a bus: one for each cycle. `hz`: bits a second of the slowest part.
+pub(super) fn tasks(
+    context: &Context<'_>,
+    bus: &Bus<'_>,
+    hz: u32,
+    reach: impl Fn(&[Served<'_>]) -> Made<Reach>,
+    section: &mut Section,
+) -> Made<()> {
+    for (cycle, served) in cycles(context, bus)? {
+        task(context, bus, hz, cycle, &served, &reach(&served)?, section)?;
+    }
+    Ok(())
+}
+
+/// The parts of each cycle, in the design's order.
+fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Made<BTreeMap<Cycle, Vec<Served<'a>>>> {
+    let mut cycles: BTreeMap<Cycle, Vec<Served<'a>>> = BTreeMap::new();
+    for wire in &bus.all {
+        let plan = context.job.bus_of(wire).ok_or_else(|| Lack::table("registers"))?.clone();
+        cycles.entry(wire.cycle).or_default().push(Served { plan, wire });
+    }
+    Ok(cycles)
+}
+
+fn task(
+    context: &Context<'_>,
+    bus: &Bus<'_>,
+    hz: u32,
+    cycle: Cycle,
+    served: &[Served<'_>],
+    reach: &Reach,
+    section: &mut Section,
+) -> Made<()> {
+    let ident = cycle.ident(bus.unit.as_str());
+    let constant = ident.to_uppercase();
+    let bytes = served.iter().map(|one| one.plan.work_bytes + 4).max().unwrap_or(4);
+    let bits_ms =
+        u32::try_from(bytes).unwrap_or(u32::MAX).saturating_mul(2 * 9 * 1_000) / hz.max(1);
+    let mut text = format!(
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}(bus: &'static {}{}) {{\n{}",
+        cycle.title(bus.unit.as_str()),
+        bus.type_,
+        reach.parameters,
+        late(cycle)
+    );
+    text.push_str(&reach.lines);
+    for Served { plan, .. } in served {
+        section.tables.push(chip::table(context, plan)?);
+        text.push_str(&state(plan));
+    }
+    let is_own = |index: usize| served.iter().any(|one| one.wire.devices.contains(&index));
+    let (filters, pass) = filter::of_items(context, is_own, section);
+    text.push_str(&filters);
+    text.push_str(&format!(
+        "    let timeout = Duration::from_millis({});\n    loop {{\n        let mut idle_ms = {};\n        \
+         let mut tell = |index: usize, outcome, value: &mut [u8]| BOARD.tell({pass}, index, outcome, value);\n",
+        TIMEOUT_BASE_MS + bits_ms,
+        cycle.delay_ms
+    ));
+    for Served { plan, .. } in served {
+        text.push_str(&turn(&plan.prefix, !plan.commands.is_empty()));
+    }
+    text.push_str(&format!(
+        "        WATCH.beat(tables::{constant}, now_ms());\n        \
+         rt::bus::rest(idle_ms).await;\n    }}\n}}"
+    ));
+    section.items.push(text);
+    let call = format!("{ident}({}{})", snake(bus.unit.as_str()), reach.arguments);
+    section.starts.push(Start::Task(cycle.prio, call));
+    let device = served.first().map_or(0, |one| context.id_of(one.wire));
+    section.watched.push(Watched::new(constant, cycle, device));
+    section.runtime.insert("bus.rs");
+    Ok(())
+}
+
+/// What a task keeps of a part.
+fn state(plan: &BusPlan) -> String {
+    let (ident, table) = (&plan.prefix, plan.prefix.to_uppercase());
+    let mut text = format!(
+        "    let mut {ident}: Chip<[u8; tables::{table}_CHIP.chip_bytes(&SCHEMA)]> = \
+         Chip::new(&tables::{table}_CHIP, &SCHEMA);\n"
+    );
+    if !plan.commands.is_empty() {
+        text.push_str(&format!(
+            "    let mut {ident}_written = [Written::NEW; {}];\n",
+            plan.commands.len()
+        ));
+    }
+    text
+}
+
+/// What a task does with a part in each cycle.
+fn turn(ident: &str, has_commands: bool) -> String {
+    let mut text = format!(
+        "        idle_ms = idle_ms.min(rt::bus::serve(&mut {ident}_line, &mut {ident}, timeout, &mut tell).await);\n"
+    );
+    if has_commands {
+        text.push_str(&format!(
+            "        let value = &mut [0; SCHEMA.value_bytes_max()];\n        \
+             rt::bus::write(&mut {ident}_line, &mut {ident}, &mut {ident}_written, timeout, &BOARD, value).await;\n"
+        ));
+    }
+    text
+}

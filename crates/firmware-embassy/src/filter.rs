@@ -1,0 +1,92 @@
+//! What becomes of values before they are reported: constants of the runtime's types, and the state beside a task.
+
+use super::context::Context;
+use super::section::Section;
+use sensedsl_job::part::{FilterPlan, Number};
+
+/// What a task hands over with the values of an item: its filter, or `None`. The filter's table is added to the
+/// section, and its state to what the task keeps.
+pub(super) fn pass(
+    context: &Context<'_>,
+    index: usize,
+    section: &mut Section,
+    state: &mut String,
+) -> String {
+    let Some(plan) = plan_of(context, index) else { return "None".to_owned() };
+    let (ident, upper) = (&plan.ident, plan.ident.to_uppercase());
+    section.tables.push(table(plan));
+    state.push_str(&format!(
+        "let mut {ident}_filter: Filter<[u8; tables::{upper}_FILTER.bytes(&SCHEMA.items[{index}])]> = \
+         Filter::new(&tables::{upper}_FILTER);\n"
+    ));
+    format!("Some(&mut *{ident}_filter)")
+}
+
+/// [`pass`] for a device that the reporter polls: the state is the reporter's.
+pub(super) fn polled(context: &Context<'_>, index: usize, section: &mut Section) -> String {
+    let mut state = String::new();
+    let filter = pass(context, index, section, &mut state);
+    section.states.extend((!state.is_empty()).then(|| state.trim_end().to_owned()));
+    filter
+}
+
+/// The filters of items: what a task keeps, and an expression for that of the item `index`.
+pub(super) fn of_items(
+    context: &Context<'_>,
+    is_own: impl Fn(usize) -> bool,
+    section: &mut Section,
+) -> (String, String) {
+    let (mut state, mut arms) = (String::new(), String::new());
+    for index in (0..context.job.devices.len()).filter(|index| is_own(*index)) {
+        let mut own = String::new();
+        let pass = pass(context, index, section, &mut own);
+        if !own.is_empty() {
+            state.push_str(&format!("    {own}"));
+            arms.push_str(&format!("{index} => {pass}, "));
+        }
+    }
+    let pass = if arms.is_empty() {
+        "None".to_owned()
+    } else {
+        format!("match index {{ {arms}_ => None }}")
+    };
+    (state, pass)
+}
+
+/// The filter of an item.
+fn plan_of<'a>(context: &Context<'a>, index: usize) -> Option<&'a FilterPlan> {
+    let name = context.job.devices.get(index)?.name();
+    let mut all = context.job.parts.iter().flat_map(|part| &part.plan.filters);
+    all.find(|plan| plan.field == name)
+}
+
+fn table(plan: &FilterPlan) -> String {
+    let invalid: Vec<String> = plan
+        .invalid
+        .iter()
+        .map(|(low, high)| format!("Range {{ low: {}, high: {} }}", number(*low), number(*high)))
+        .collect();
+    let change = plan.change.map_or("None".to_owned(), |one| format!("Some({})", number(one)));
+    format!(
+        "pub const {}_FILTER: FilterTable = FilterTable {{\n    invalid: &[{}],\n    wide: {},\n    median: {},\n    \
+         smooth_ms: {},\n    change: {change},\n    heartbeat_ms: {},\n}};",
+        plan.ident.to_uppercase(),
+        invalid.join(", "),
+        if plan.is_wide { "Some(sense_rt::WIDE)" } else { "None" },
+        plan.median,
+        plan.smooth_ms,
+        plan.heartbeat_ms
+    )
+}
+
+/// A number in the runtime's words.
+fn number(number: Number) -> String {
+    match number {
+        Number::Unsigned(number) => format!("Number::unsigned({number})"),
+        // The least one is not spelled as it is written.
+        Number::Signed(i64::MIN) => "Number::signed(i64::MIN)".to_owned(),
+        Number::Signed(number) => format!("Number::signed({number})"),
+        Number::Float32(number) => format!("Number::float32({number:?})"),
+        Number::Float64(number) => format!("Number::float64({number:?})"),
+    }
+}

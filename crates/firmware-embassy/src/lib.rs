@@ -1,0 +1,93 @@
+//! Embassy firmware: a Cargo project in Rust, with the HAL's typed pins.
+//!
+//! In: a [`BoardJob`]. Out: a folder with a manifest, a lock file, `src/wiring.rs`, `src/main.rs`, `src/user/` and a copy of the
+//! runtime. `names.rs` reads how the HAL spells what a profile knows; `typed.rs` puts a wiring, of whatever target, into
+//! types that the Rust compiler judges.
+
+mod analog;
+mod bridge;
+mod can;
+mod cargo;
+mod chip;
+mod chips;
+mod clock;
+mod contacts;
+mod context;
+mod fallback;
+mod filter;
+mod gaps;
+mod hal;
+mod i2c;
+mod icu;
+mod inputs;
+mod lack;
+mod levels;
+mod link;
+mod message;
+mod moved;
+mod names;
+mod outputs;
+mod plan;
+mod pulse;
+mod render;
+mod rp;
+mod runtime;
+mod section;
+mod serial;
+mod spi;
+mod stm32;
+mod typed;
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::KindName;
+
+use context::Context;
+pub use names::{Chip, Names};
+use sensedsl_files::FileSet;
+use sensedsl_job::Target;
+use sensedsl_job::{BoardJob, JobConnection};
+pub use typed::{Judged, TypeCheck, profile_of, type_check};
+
+/// The target `embassy`.
+pub struct Embassy;
+
+impl Target for Embassy {
+    fn name(&self) -> &'static str {
+        "embassy"
+    }
+
+    fn refusal(&self, profile: &TargetProfile, _facts: Option<&catalog::Board>) -> Option<String> {
+        match Names::of(profile) {
+            Ok(_) => None,
+            Err(message) => Some(format!("its profile is damaged: {message}")),
+        }
+    }
+
+    fn problems(&self, profile: &TargetProfile) -> Vec<String> {
+        match Names::of(profile) {
+            Ok(names) => names.problems(profile),
+            Err(message) => vec![message],
+        }
+    }
+
+    fn kinds(&self, _profile: &TargetProfile) -> Vec<KindName> {
+        gaps::KINDS.to_vec()
+    }
+
+    fn lacks(&self, job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+        gaps::lacks(job, connection)
+    }
+
+    fn generate(&self, job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+        let context = Context::new(job)?;
+        let mut diagnostics = Vec::new();
+        let plan = plan::plan(&context, &mut diagnostics);
+        if diagnostics.is_empty() { Ok(render::render(&plan)) } else { Err(diagnostics) }
+    }
+
+    fn build_option(&self) -> &'static str {
+        ""
+    }
+}

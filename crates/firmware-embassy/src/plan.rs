@@ -1,0 +1,264 @@
+//! A board's whole project: the sections of its kinds, put together.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_board::catalog::Lever;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_wire::{Checksum, Direction};
+
+use super::context::{Context, scalar};
+use super::hal::{Hal, Speed};
+use super::levels::{self, Level};
+use super::section::{Field, Handlers, Keep, Peripheral, Section, Start, Watched};
+use super::{
+    analog, can, cargo, contacts, fallback, i2c, icu, inputs, link, outputs, pulse, rp, serial,
+    spi, stm32,
+};
+
+/// All kinds, in the order in which their tasks are started.
+const PERIPHERALS: &[Peripheral] = &[
+    link::plan,
+    outputs::plan,
+    analog::plan,
+    i2c::plan,
+    spi::plan,
+    serial::plan,
+    can::plan,
+    icu::plan,
+    pulse::plan,
+    contacts::plan,
+    inputs::plan,
+];
+
+/// The reporter's cycle where nothing asks for a shorter one.
+const REPORT_MS: u32 = 10;
+
+/// What the templates print.
+pub(super) struct Plan {
+    pub(super) board: String,
+    pub(super) chip: String,
+    /// What debug probes call it.
+    pub(super) probe: String,
+    /// The triple of the core.
+    pub(super) target: String,
+    pub(super) manifest: String,
+    pub(super) lock: String,
+    pub(super) runtime_manifest: String,
+    /// What `main.rs` and `wiring.rs` import of the HAL.
+    pub(super) main_uses: &'static str,
+    pub(super) wiring_uses: &'static str,
+    /// What starts the board anew.
+    pub(super) restart: &'static str,
+    pub(super) begin: Begin,
+    /// Functions of the wiring.
+    pub(super) helpers: BTreeSet<String>,
+    pub(super) hal: Hal,
+    pub(super) schema: SchemaPlan,
+    pub(super) fields: Vec<Field>,
+    pub(super) handlers: Vec<(String, String)>,
+    pub(super) outputs: Vec<Field>,
+    pub(super) items: Vec<String>,
+    pub(super) tables: Vec<String>,
+    pub(super) starts: Vec<String>,
+    /// Priorities above the lowest.
+    pub(super) levels: Vec<Level>,
+    pub(super) keeps: Vec<Keep>,
+    pub(super) states: Vec<String>,
+    pub(super) polls: Vec<String>,
+    /// By the constant of an item: what is done when the host sets it.
+    pub(super) sets: Vec<(String, String)>,
+    /// Whether the host sets anything.
+    pub(super) has_actuators: bool,
+    /// Whether there is anything that only the program drives.
+    pub(super) has_outputs: bool,
+    pub(super) hushes: Vec<String>,
+    pub(super) fails: Vec<String>,
+    /// What is done with outputs and interrupts at the start.
+    pub(super) begins: Vec<String>,
+    /// By the constant of an item: the value that is sent when the host is silent.
+    pub(super) fallbacks: Vec<(String, Vec<u8>)>,
+    pub(super) watched: Vec<Watched>,
+    pub(super) runtime: BTreeSet<&'static str>,
+    pub(super) report_ms: u32,
+    pub(super) silence_ms: u32,
+    /// The light, whether it shines when high, and what it is made of.
+    pub(super) led: Option<(String, bool, String)>,
+    pub(super) is_usb: bool,
+    pub(super) is_otg: bool,
+    pub(super) is_uart: bool,
+    /// Of the queue of a serial port for what the host sends.
+    pub(super) heard_bytes: u32,
+    /// Converters are told how long they sample.
+    pub(super) has_sample_times: bool,
+    /// Pulses are set at channels of timers.
+    pub(super) has_pulses: bool,
+}
+
+/// How a project begins, in the words of its HAL.
+pub(super) struct Begin {
+    /// The function `config` of `main.rs`.
+    pub(super) config: String,
+    /// The first statements of `main`, up to the wiring.
+    pub(super) start: Vec<String>,
+    pub(super) watchdog: Watchdog,
+    /// Arguments of the linker beside those of all cores.
+    pub(super) scripts: &'static str,
+    /// `memory.x`, where the HAL does not have it.
+    pub(super) memory: Option<&'static str>,
+}
+
+/// The watchdog: its type, and what it is made of.
+pub(super) struct Watchdog {
+    pub(super) type_: String,
+    pub(super) make: String,
+}
+
+/// The schema in the runtime's words.
+pub(super) struct SchemaPlan {
+    pub(super) hash: u32,
+    pub(super) stamp: bool,
+    pub(super) checksum: &'static str,
+    pub(super) items: Vec<ItemPlan>,
+    pub(super) cycles_ms: Vec<u32>,
+}
+
+pub(super) struct ItemPlan {
+    pub(super) constant: String,
+    pub(super) name: String,
+    pub(super) make: String,
+}
+
+/// Puts a project together.
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Plan {
+    let mut section = Section::default();
+    for peripheral in PERIPHERALS {
+        section.append(peripheral(context, diagnostics));
+    }
+    let (board, hal) = (context.job.board, context.names.hal);
+    let is_usb = section.runtime.contains("link_usb.rs");
+    let report_ms = report_ms(context);
+    let taken = |pin: &str| context.job.all_pads().any(|pad| pad.pin.name.as_str() == pin);
+    let led = board.facts.as_ref().and_then(|facts| facts.led.as_ref());
+    let led = led.filter(|led| !taken(led.pin.as_str()));
+    let mut call = "reporter(wiring.watchdog".to_owned();
+    call.push_str(if led.is_some() { ", wiring.led" } else { "" });
+    call.extend(section.keeps.iter().map(|keep| format!(", {}", keep.from)));
+    section.starts.push(Start::Task(0, call + ")"));
+    let levels = levels::levels(context, &section.starts, diagnostics);
+    let fallbacks: BTreeMap<usize, Vec<u8>> = fallback::values(context).into_iter().collect();
+    Plan {
+        board: board.name.value.clone(),
+        chip: context.chip.feature.clone(),
+        probe: context.chip.probe.clone(),
+        target: context.names.target.clone(),
+        manifest: cargo::manifest(context),
+        lock: cargo::lock(context),
+        runtime_manifest: cargo::runtime_manifest(context),
+        main_uses: hal.main_uses(),
+        wiring_uses: hal.wiring_uses(),
+        restart: hal.restart(),
+        begin: match hal {
+            Hal::Stm32 => stm32::begin(context, is_usb),
+            Hal::Rp => rp::begin(context),
+        },
+        helpers: section.helpers,
+        hal,
+        schema: schema(context),
+        handlers: handlers(&section.handlers),
+        has_actuators: context.job.has_actuators(),
+        has_outputs: !section.outputs.is_empty(),
+        sets: by_item(context, |index| Some(section.sets.get(&index)?.join("\n"))),
+        watched: section.watched,
+        begins: section.begins,
+        fallbacks: by_item(context, |index| fallbacks.get(&index).cloned()),
+        report_ms,
+        silence_ms: board.link.silence_ms.unwrap_or(0),
+        led: led.map(|led| light(context, led)),
+        is_usb,
+        is_otg: section.is_otg,
+        is_uart: section.runtime.contains("link_uart.rs"),
+        heard_bytes: link::heard_bytes(board.link.baud, report_ms),
+        has_pulses: hal == Hal::Stm32 && section.runtime.contains("pwm.rs"),
+        has_sample_times: hal == Hal::Stm32 && section.runtime.contains("analog.rs"),
+        fields: section.fields,
+        outputs: section.outputs,
+        items: section.items,
+        tables: section.tables,
+        starts: levels::statements(&section.starts, &levels),
+        levels,
+        keeps: section.keeps,
+        states: section.states,
+        polls: section.polls,
+        hushes: section.hushes,
+        fails: section.fails,
+        runtime: section.runtime,
+    }
+}
+
+/// As often as something can become due, or as the link says.
+fn report_ms(context: &Context<'_>) -> u32 {
+    if let Some(rate_hz) = context.job.board.link.rate_hz {
+        return 1_000_u32.div_ceil(rate_hz.max(1)).max(1);
+    }
+    let devices = context.job.devices.iter().map(|one| one.device);
+    let served = devices.filter(|device| !device.kind.name().spec().triggers_itself);
+    let repeats = sensedsl_job::kinds::can::repeats_ms(context.job);
+    served.map(|device| device.delay_ms).chain(repeats).fold(REPORT_MS, u32::min).max(1)
+}
+
+/// The board's light, which is off at first.
+fn light(context: &Context<'_>, led: &Lever) -> (String, bool, String) {
+    let off = if led.active_high { "Level::Low" } else { "Level::High" };
+    (led.pin.to_string(), led.active_high, context.output(&led.pin, off, Speed::Low))
+}
+
+fn handlers(all: &Handlers) -> Vec<(String, String)> {
+    let joined = |handlers: &BTreeSet<String>| {
+        handlers.iter().map(String::as_str).collect::<Vec<_>>().join(", ")
+    };
+    all.iter().map(|(interrupt, handlers)| (interrupt.clone(), joined(handlers))).collect()
+}
+
+/// What there is of each item, with the item's constant.
+fn by_item<T>(context: &Context<'_>, of: impl Fn(usize) -> Option<T>) -> Vec<(String, T)> {
+    let devices = context.job.devices.iter().enumerate();
+    devices.filter_map(|(at, one)| Some((one.ident.to_uppercase(), of(at)?))).collect()
+}
+
+fn schema(context: &Context<'_>) -> SchemaPlan {
+    let schema = &context.job.schema;
+    let items = context.job.devices.iter().map(|device| {
+        let (own, value) = (device.device, device.device.value.value);
+        let make = match own.direction {
+            Direction::Sensor => "sensor",
+            Direction::Actuator => "actuator",
+        };
+        ItemPlan {
+            constant: device.ident.to_uppercase(),
+            name: device.name().to_owned(),
+            make: format!(
+                "Item::{make}({}, {}, {})",
+                own.id.value,
+                scalar(value.scalar),
+                value.count()
+            ),
+        }
+    });
+    SchemaPlan {
+        hash: schema.hash(),
+        stamp: schema.stamp,
+        checksum: match schema.checksum {
+            Checksum::None => "Checksum::None",
+            Checksum::Crc16 => "Checksum::Crc16",
+            Checksum::Crc32 => "Checksum::Crc32",
+        },
+        items: items.collect(),
+        cycles_ms: context.job.devices.iter().map(|one| cycle_ms(one.device)).collect(),
+    }
+}
+
+/// How often a value is read; 0 where it comes by itself, or is set.
+fn cycle_ms(device: &sensedsl_model::design::Device) -> u32 {
+    let is_read = device.direction == Direction::Sensor && device.kind.icu().is_none();
+    if is_read { device.delay_ms } else { 0 }
+}

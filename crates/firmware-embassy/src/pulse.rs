@@ -1,0 +1,58 @@
+//! Pulses that make rangers measure: a task for each cycle and length.
+
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::Role;
+
+use super::context::{Context, late};
+use super::hal::Speed;
+use super::lack::{self, Made};
+use super::section::{Field, Section, Start, Watched};
+use sensedsl_job::kinds::pulse::{Pulses, pulses};
+
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    for one in pulses(context.job) {
+        let made = task(context, &one, &mut section);
+        if let Some(first) = one.lines.first() {
+            context.tell(first.wire.part, made, diagnostics);
+        }
+    }
+    section
+}
+
+fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Made<()> {
+    let Pulses { cycle, pulse_us, id, lines } = pulses;
+    let ident = format!("{}_{pulse_us}us", cycle.ident("pulse"));
+    let constant = ident.to_uppercase();
+    let (mut parameters, mut arguments, mut texts) = (Vec::new(), Vec::new(), String::new());
+    for line in lines {
+        let pad = lack::pad(line.wire, Role::Trigger)?;
+        let ident = format!("{}_trigger", line.wire.ident);
+        section.fields.push(Field {
+            name: ident.clone(),
+            comment: format!("{}: the pulse that makes it measure", line.wire.title),
+            type_: "Output<'static>".to_owned(),
+            make: context.output(&pad.pin.name, "Level::Low", Speed::Low),
+        });
+        parameters.push(format!("mut {ident}: Output<'static>"));
+        arguments.push(format!("wiring.{ident}"));
+        texts.push_str(&format!("        rt::capture::pulse(&mut {ident}, {pulse_us}).await;\n"));
+        if line.apart_ms > 0 {
+            texts.push_str(&format!("        Timer::after_millis({}).await;\n", line.apart_ms));
+        }
+    }
+    section.items.push(format!(
+        "/// {}.\n#[embassy_executor::task]\nasync fn {ident}({}) {{\n{}    \
+         let mut ticker = Ticker::every(Duration::from_millis({}));\n    loop {{\n{texts}        \
+         WATCH.beat(tables::{constant}, now_ms());\n        ticker.next().await;\n    }}\n}}",
+        cycle.title("pulse"),
+        parameters.join(", "),
+        late(*cycle),
+        cycle.delay_ms
+    ));
+    let call = format!("{ident}({})", arguments.join(", "));
+    section.starts.push(Start::Task(cycle.prio, call));
+    section.watched.push(Watched::new(constant, *cycle, *id));
+    section.runtime.insert("capture.rs");
+    Ok(())
+}

@@ -1,0 +1,54 @@
+//! What there is no code for on RP2040 and RP2350, beside what there is none for under Embassy at all.
+
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::digital::Digital;
+use sensedsl_model::kind::icu::{Edge, Icu, Mode};
+use sensedsl_wire::{Direction, ScalarType};
+
+use sensedsl_job::{BoardJob, JobConnection, JobDevice};
+
+/// What a connection needs and no code is made for.
+pub(crate) fn lacks(job: &BoardJob<'_>, connection: &JobConnection<'_>) -> Option<&'static str> {
+    let own = connection.devices.iter().filter_map(|index| job.devices.get(*index));
+    let devices: Vec<&JobDevice<'_>> = own.collect();
+    if devices.iter().any(|one| one.device.coding.drive.is_some()) {
+        return Some("motors behind H-bridges on RP2040 and RP2350");
+    }
+    match &connection.connection.kind {
+        Kind::Icu(icu) => of_capture(icu),
+        Kind::Digital(own) if counts(own, &devices) => Some(
+            "edges counted without `debounce` on RP2040 and RP2350, where `type = icu` counts them",
+        ),
+        Kind::Digital(_)
+        | Kind::Analog(_)
+        | Kind::I2c(_)
+        | Kind::Encoder(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    }
+}
+
+/// A slice counts edges of one direction, or how long its pin is active. It does not keep when an edge was.
+const fn of_capture(icu: &Icu) -> Option<&'static str> {
+    match (icu.mode, icu.edge) {
+        (Mode::Count, Edge::Both) => {
+            Some("counts of both edges on RP2040 and RP2350, whose PWM slices count one of them")
+        }
+        (Mode::Count, Edge::Rising | Edge::Falling) | (Mode::Width, _) => None,
+        (Mode::Period | Mode::Frequency | Mode::Duty | Mode::Ppm, _) => Some(
+            "times between edges on RP2040 and RP2350, whose PWM slices give widths and counts",
+        ),
+    }
+}
+
+/// Whether edges are counted that may be any number in any time: tasks are woken by them, and two of them can be one.
+fn counts(own: &Digital, devices: &[&JobDevice<'_>]) -> bool {
+    let is_count = |one: &&JobDevice<'_>| {
+        one.device.direction == Direction::Sensor
+            && one.device.value.value.scalar != ScalarType::Bool
+    };
+    own.edge.is_some() && own.debounce_us == 0 && devices.iter().any(is_count)
+}

@@ -1,0 +1,105 @@
+//! SPI: a bus for each unit, a chip select for each part, and a task for each bus and cycle.
+
+use sensedsl_board::signal::UnitName;
+use sensedsl_diagnostics::Diagnostic;
+use sensedsl_model::kind::spi::Spi;
+use sensedsl_model::kind::{KindName, Role};
+use sensedsl_timing::spi_divider;
+
+use super::chips::{self, Bus, Reach, Served};
+use super::context::Context;
+use super::hal::{Hal, Speed};
+use super::lack::{self, Made};
+use super::rp;
+use super::section::{Field, Section};
+use sensedsl_job::JobConnection;
+use sensedsl_job::snake;
+
+pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> Section {
+    let mut section = Section::default();
+    let type_ = |unit: &UnitName| match context.names.hal {
+        Hal::Stm32 => "SpiBus".to_owned(),
+        Hal::Rp => rp::buses::spi_type(unit),
+    };
+    for one in chips::buses(context, KindName::Spi, type_, diagnostics) {
+        let made = bus(context, &one, &mut section);
+        context.tell(one.first.part, made, diagnostics);
+    }
+    section
+}
+
+/// A chip select, which is high before it is an output.
+fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Field> {
+    let pin = &lack::pad(wire, Role::Cs)?.pin.name;
+    Ok(Field {
+        name: format!("{}_select", wire.ident),
+        comment: format!("{}, selected by {pin}", wire.title),
+        type_: "Output<'static>".to_owned(),
+        make: context.output(pin, "Level::High", Speed::Medium),
+    })
+}
+
+/// Every part is reached by its chip select, in its mode and at its clock.
+fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Made<Reach> {
+    let mut reach =
+        Reach { parameters: String::new(), arguments: String::new(), lines: String::new() };
+    for Served { plan, wire } in served {
+        let spi = lack::kind(wire.connection.kind.spi())?;
+        let select = format!("{}_select", wire.ident);
+        reach.parameters.push_str(&format!(", {select}: Output<'static>"));
+        reach.arguments.push_str(&format!(", wiring.{select}"));
+        reach.lines.push_str(&format!(
+            "    let mut {}_line = rt::spi::SpiLine {{ bus, select: {select}, config: rt::spi::config({}, {}) }};\n",
+            plan.prefix,
+            spi.mode,
+            clock_hz(context, unit, spi).unwrap_or(spi.clock_hz)
+        ));
+    }
+    Ok(reach)
+}
+
+/// The bus, in the words of the HAL, with the chip selects and the tasks that serve its parts.
+fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
+    let unit = bus.unit.as_str();
+    let hal = context.peripheral(unit);
+    let (tx, rx) =
+        (section.stream(context, bus.first, "_TX")?, section.stream(context, bus.first, "_RX")?);
+    let pin = |role| Ok(&lack::pad(bus.first, role)?.pin.name);
+    let (sck, mosi, miso) = (pin(Role::Sck)?, pin(Role::Mosi)?, pin(Role::Miso)?);
+    let type_ = match context.names.hal {
+        Hal::Stm32 => "hal::spi::Spi<'static, hal::mode::Async, hal::spi::mode::Master>".to_owned(),
+        Hal::Rp => format!("hal::spi::Spi<'static, {hal}, hal::spi::Async>"),
+    };
+    bus.share(
+        Field {
+            name: snake(unit),
+            comment: format!(
+                "{unit} at {sck} (SCK), {mosi} (MOSI) and {miso} (MISO): {}",
+                bus.titles()
+            ),
+            type_,
+            make: format!(
+                "hal::spi::Spi::new{}(p.{hal}, p.{}, p.{}, p.{}, p.{tx}, p.{rx}, Irqs, Default::default())",
+                context.generics(unit, &["_"; 3]),
+                context.pin(sck),
+                context.pin(mosi),
+                context.pin(miso)
+            ),
+        },
+        section,
+    );
+    for one in &bus.all {
+        section.fields.push(select(context, one)?);
+    }
+    section.runtime.insert("spi.rs");
+    let all = bus.all.iter().filter_map(|one| one.connection.kind.spi());
+    let hz = all.filter_map(|spi| clock_hz(context, unit, spi)).min().unwrap_or(1);
+    chips::tasks(context, bus, hz, |served| reach(context, unit, served), section)
+}
+
+/// The fastest clock of a unit that a part can follow. The HAL is asked for exactly that, because it takes the nearest.
+fn clock_hz(context: &Context<'_>, unit: &str, spi: &Spi) -> Option<u32> {
+    let unit_hz = context.unit_hz(unit)?;
+    // What is too slow for the unit has been told with the timing.
+    Some(unit_hz / spi_divider(context.profile, unit_hz, spi.clock_hz)?.max(1))
+}

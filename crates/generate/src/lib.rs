@@ -1,0 +1,7 @@
+//! From a wired design to all files of a project: the systems and hosts that there are, and what they lack.
+
+pub mod host;
+mod project;
+pub mod target;
+
+pub use project::{Project, Selection, project};

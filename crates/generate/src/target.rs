@@ -1,0 +1,157 @@
+//! The systems that firmware is generated for.
+//!
+//! In: a [`BoardJob`], which names no system. Out: the files of one board, or what cannot be. A system is a crate
+//! that implements [`Target`], and a line of [`TARGETS`]; its profiles are data. What a system lacks is a gap: it is reported,
+//! and there is no firmware at all, but everything beside the firmware can still be made.
+
+use sensedsl_board::catalog;
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_diagnostics::codes::{
+    e0501_no_generator, e0504_no_firmware_target, w0615_no_firmware,
+};
+use sensedsl_diagnostics::{Diagnostic, Severity};
+use sensedsl_model::design::Design;
+use sensedsl_model::{drop_allowed, sort};
+use sensedsl_wiring::assignment::Assignment;
+
+use sensedsl_files::FileSet;
+use sensedsl_firmware_chibios::Chibios;
+use sensedsl_firmware_embassy::Embassy;
+use sensedsl_job::{BoardJob, JobConnection, Target, jobs};
+
+/// Every system, in the order in which people read of them.
+pub const TARGETS: &[&dyn Target] = &[&Chibios, &Embassy];
+
+/// The system of a profile.
+#[must_use]
+pub fn of(profile: &TargetProfile) -> Option<&'static dyn Target> {
+    TARGETS.iter().copied().find(|target| target.name() == profile.system())
+}
+
+/// The system that a board gets its firmware from, or why there is none.
+///
+/// # Errors
+///
+/// Why there is none, in words that follow a colon.
+pub fn serving(
+    profile: Option<&TargetProfile>,
+    facts: Option<&catalog::Board>,
+) -> Result<&'static dyn Target, String> {
+    let profile = profile.ok_or("its target is `none`")?;
+    let target = of(profile);
+    let target = target.ok_or_else(|| format!("there is no generator for {}", profile.system()))?;
+    target.refusal(profile, facts).map_or(Ok(target), Err)
+}
+
+/// What a board's system lacks for it.
+#[must_use]
+pub fn gaps(job: &BoardJob<'_>) -> Vec<Diagnostic> {
+    let mut gaps = Vec::new();
+    if let Err(why) = serving(job.profile, job.board.facts.as_ref()) {
+        let name = &job.board.name;
+        gaps.push(e0504_no_firmware_target::no_firmware_target(name.span, &name.value, &why));
+    }
+    if let Some((target, profile)) = job.profile.and_then(|one| Some((of(one)?, one))) {
+        gaps.extend(missing_kinds(target, profile, job));
+        // All wires of a chip or an array have one thing to say.
+        for gap in job.connections.iter().filter_map(|one| unmade(target, job, one)) {
+            if gaps.last() != Some(&gap) {
+                gaps.push(gap);
+            }
+        }
+    }
+    gaps
+}
+
+/// What a connection needs and the target does not do.
+fn unmade(
+    target: &dyn Target,
+    job: &BoardJob<'_>,
+    connection: &JobConnection<'_>,
+) -> Option<Diagnostic> {
+    let what = target.lacks(job, connection)?;
+    let name = &connection.part.name;
+    Some(e0501_no_generator::not_made_yet(name.span, &name.value, what))
+}
+
+fn missing_kinds(
+    target: &dyn Target,
+    profile: &TargetProfile,
+    job: &BoardJob<'_>,
+) -> Vec<Diagnostic> {
+    let kinds = target.kinds(profile);
+    let can: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+    let is_missing = |one: &&JobConnection<'_>| !kinds.contains(&one.connection.kind.name());
+    let missing = job.connections.iter().filter(is_missing);
+    let mut all: Vec<Diagnostic> = Vec::new();
+    for one in missing {
+        let device = job.design.device(one.connection.device);
+        let at = device.map_or(one.part.name.span, |device| device.kind_span);
+        let kind = one.connection.kind.name().with_article();
+        let gap = e0501_no_generator::no_generator(at, &kind, &can.join(", "));
+        if all.last() != Some(&gap) {
+            all.push(gap);
+        }
+    }
+    all
+}
+
+/// The firmware of all boards, each in a folder of its name.
+///
+/// # Errors
+///
+/// What is lacking for any of them: there is all of the firmware or none.
+pub fn firmware(design: &Design, wiring: &Assignment) -> Result<FileSet, Vec<Diagnostic>> {
+    let mut files = FileSet::default();
+    let mut diagnostics = Vec::new();
+    for job in jobs(design, wiring) {
+        match of_board(&job) {
+            Ok(one) => files.merge_under(&job.board.name.value, one),
+            Err(reports) => diagnostics.extend(reports),
+        }
+    }
+    if diagnostics.is_empty() { Ok(files) } else { Err(diagnostics) }
+}
+
+/// The firmware of one board.
+fn of_board(job: &BoardJob<'_>) -> Result<FileSet, Vec<Diagnostic>> {
+    let mut diagnostics = gaps(job);
+    let Ok(target) = serving(job.profile, job.board.facts.as_ref()) else {
+        return Err(diagnostics);
+    };
+    diagnostics.extend(sensedsl_timing::refusals_of(job.design, job.board, job.wiring));
+    match target.generate(job) {
+        Ok(files) if diagnostics.is_empty() => return Ok(files),
+        Ok(_) => {}
+        Err(reports) if reports.is_empty() => {
+            let (name, why) = (&job.board.name, "a name that it needs is not in its profile");
+            let report = e0504_no_firmware_target::no_firmware_target(name.span, &name.value, why);
+            diagnostics.push(report);
+        }
+        Err(reports) => diagnostics.extend(reports),
+    }
+    Err(diagnostics)
+}
+
+/// Adds what [`firmware`] would refuse to what is said of a design, as warnings for whoever does not generate yet. A
+/// board whose target is `none` has asked for no firmware, a design with errors gets none.
+pub fn foresee(design: &Design, wiring: &Assignment, said: &mut Vec<Diagnostic>) {
+    if said.iter().any(|one| one.severity == Severity::Error) {
+        return;
+    }
+    let is_known = |gap: &Diagnostic| {
+        said.iter().any(|one| (one.code, one.primary.span) == (gap.code, gap.primary.span))
+    };
+    let mut found = Vec::new();
+    for job in jobs(design, wiring) {
+        let Some(profile) = job.profile else { continue };
+        let gaps = of_board(&job).err().unwrap_or_default();
+        let gaps = gaps.into_iter().filter(|gap| !is_known(gap));
+        found.extend(gaps.map(|gap| w0615_no_firmware::no_firmware(gap, profile.system())));
+    }
+    drop_allowed(design, &mut found);
+    if !found.is_empty() {
+        said.append(&mut found);
+        sort(said);
+    }
+}

@@ -1,0 +1,49 @@
+//! The C++ hosts: what they share, and one folder each.
+//!
+//! In: a [`HostPlan`]. Out: files. `names.rs` makes names of C++, `view.rs` says the plan
+//! in C++ words, `runtime/` is hand-written and copied beside what is generated, `shared/` is
+//! printed for several hosts.
+
+mod libcluon;
+mod names;
+mod opendavinci;
+mod plain;
+mod runtime;
+mod view;
+
+pub use libcluon::Libcluon;
+pub use opendavinci::{OpenDavinci, OpenDavinci2014};
+pub use plain::Plain;
+
+use askama::Template;
+
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+use view::{BoardView, DesignView};
+
+#[derive(Template)]
+#[template(path = "shared/schema.hpp.txt", escape = "none")]
+struct SchemaHeader<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "shared/sense.odvd.txt", escape = "none")]
+struct Odvd<'a> {
+    design: &'a DesignView,
+}
+
+/// What each of them has: the hand-written headers, and for each board its tables.
+fn shared(design: &DesignView) -> FileSet {
+    let mut files = runtime::files();
+    for board in &design.boards {
+        let path = format!("include/sense/{}/{}_schema.hpp", design.ident, board.ident);
+        files.add(path, print(&SchemaHeader { board }));
+    }
+    files
+}
+
+/// The messages of all boards for OpenDaVINCI's and libcluon's tools.
+fn odvd(design: &DesignView) -> String {
+    print(&Odvd { design })
+}

@@ -1,0 +1,60 @@
+//! Host `libcluon`: one OD4 microservice a board, and the messages of all boards in one file.
+
+use askama::Template;
+
+use super::view::{BoardView, DesignView};
+use super::{odvd, shared};
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+use sensedsl_job::host::{About, Compile, Host, HostPlan};
+
+/// See the module.
+pub struct Libcluon;
+
+#[derive(Template)]
+#[template(path = "libcluon/service.cpp.txt", escape = "none")]
+struct Service<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "libcluon/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "libcluon/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
+}
+
+impl Host for Libcluon {
+    fn name(&self) -> &'static str {
+        "libcluon"
+    }
+
+    fn about(&self) -> About {
+        About {
+            language: "C++14",
+            needs: "`cluon-complete.hpp`",
+            gives: "a microservice of an OD4 session, and the messages as `sense.odvd`",
+        }
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++14", Some("LIBCLUON"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Service { board }));
+        }
+        files.add("sense.odvd", odvd(design));
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}

@@ -1,0 +1,141 @@
+//! The OpenDaVINCI hosts: one application a board, and one that prints its Containers.
+//!
+//! `opendavinci` is for OpenDaVINCI 4, `opendavinci2014` for that of the paper's time, in C++98. What
+//! they have in common word for word is printed once and included by both.
+
+use askama::Template;
+
+use super::view::{BoardView, DesignView};
+use super::{odvd, shared};
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+use sensedsl_job::host::{About, Compile, Host, HostPlan};
+
+/// For OpenDaVINCI 4.
+pub struct OpenDavinci;
+
+/// For the OpenDaVINCI of 2014.
+pub struct OpenDavinci2014;
+
+#[derive(Template)]
+#[template(path = "opendavinci/v4/messages.h.txt", escape = "none")]
+struct Messages<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v4/board.cpp.txt", escape = "none")]
+struct Application<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v4/print.cpp.txt", escape = "none")]
+struct Printer<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v4/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v4/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v2014/messages.h.txt", escape = "none")]
+struct Messages2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v2014/board.cpp.txt", escape = "none")]
+struct Application2014<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v2014/print.cpp.txt", escape = "none")]
+struct Printer2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v2014/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists2014<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "opendavinci/v2014/README.md.txt", escape = "none")]
+struct Readme2014<'a> {
+    design: &'a DesignView,
+}
+
+impl Host for OpenDavinci {
+    fn name(&self) -> &'static str {
+        "opendavinci"
+    }
+
+    fn about(&self) -> About {
+        About {
+            language: "C++11",
+            needs: "OpenDaVINCI 4 (namespace `odcore`)",
+            gives: "a time-triggered module that sends each value as a Container, and a printer",
+        }
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++11", Some("OPENDAVINCI"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Application { board }));
+        }
+        files.add("include/messages.h", print(&Messages { design }));
+        files.add("src/print.cpp", print(&Printer { design }));
+        files.add("sense.odvd", odvd(design));
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}
+
+impl Host for OpenDavinci2014 {
+    fn name(&self) -> &'static str {
+        "opendavinci2014"
+    }
+
+    fn about(&self) -> About {
+        About {
+            language: "C++98",
+            needs: "OpenDaVINCI of 2014 (namespace `core`), the paper's",
+            gives: "the same",
+        }
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++98", Some("OPENDAVINCI2014"))
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for board in &design.boards {
+            files.add(format!("src/{}.cpp", board.ident), print(&Application2014 { board }));
+        }
+        files.add("include/messages.h", print(&Messages2014 { design }));
+        files.add("src/print.cpp", print(&Printer2014 { design }));
+        files.add("CMakeLists.txt", print(&CMakeLists2014 { design }));
+        files.add("README.md", print(&Readme2014 { design }));
+        files
+    }
+}

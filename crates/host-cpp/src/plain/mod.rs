@@ -1,0 +1,72 @@
+//! Host `cpp`: a header-only C++17 library and an example, no middleware.
+
+use askama::Template;
+
+use super::runtime;
+use super::shared;
+use super::view::{BoardView, DesignView};
+use sensedsl_files::FileSet;
+use sensedsl_files::print;
+use sensedsl_job::host::{About, Compile, Host, HostPlan};
+
+/// See the module.
+pub struct Plain;
+
+#[derive(Template)]
+#[template(path = "plain/board.hpp.txt", escape = "none")]
+struct BoardHeader<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "plain/monitor.cpp.txt", escape = "none")]
+struct Monitor<'a> {
+    board: &'a BoardView,
+}
+
+#[derive(Template)]
+#[template(path = "plain/CMakeLists.txt.txt", escape = "none")]
+struct CMakeLists<'a> {
+    design: &'a DesignView,
+}
+
+#[derive(Template)]
+#[template(path = "plain/README.md.txt", escape = "none")]
+struct Readme<'a> {
+    design: &'a DesignView,
+}
+
+impl Host for Plain {
+    fn name(&self) -> &'static str {
+        "cpp"
+    }
+
+    fn about(&self) -> About {
+        About {
+            language: "C++17",
+            needs: "nothing",
+            gives: "headers, and a monitor that prints values",
+        }
+    }
+
+    fn compile(&self) -> Compile {
+        Compile::cpp("-std=c++17", None)
+    }
+
+    fn render(&self, plan: &HostPlan) -> FileSet {
+        let design = &DesignView::new(plan);
+        let mut files = shared(design);
+        for (path, text) in runtime::BOARD {
+            files.add(path, text);
+        }
+        for board in &design.boards {
+            let ident = &board.ident;
+            let header = format!("include/sense/{}/{ident}.hpp", design.ident);
+            files.add(header, print(&BoardHeader { board }));
+            files.add(format!("src/monitor_{ident}.cpp"), print(&Monitor { board }));
+        }
+        files.add("CMakeLists.txt", print(&CMakeLists { design }));
+        files.add("README.md", print(&Readme { design }));
+        files
+    }
+}

@@ -1,0 +1,44 @@
+//! The hand-written files that C++ hosts share, copied beside what is generated.
+
+use sensedsl_files::FileSet;
+
+/// A file of `runtime/` and where a host has it.
+macro_rules! shared {
+    ($name:literal) => {
+        (concat!("include/sensedsl/", $name), include_str!(concat!("runtime/sensedsl/", $name)))
+    };
+}
+
+/// From C++98 on: what every host is made of.
+const EVERY_HOST: [(&str, &str); 17] = [
+    shared!("cause.hpp"),
+    shared!("clock.hpp"),
+    shared!("command.hpp"),
+    shared!("connection.hpp"),
+    shared!("decode.hpp"),
+    shared!("difference.hpp"),
+    shared!("health.hpp"),
+    shared!("link.hpp"),
+    shared!("memo.hpp"),
+    shared!("options.hpp"),
+    shared!("scaling.hpp"),
+    shared!("serial.hpp"),
+    shared!("session.hpp"),
+    shared!("text.hpp"),
+    shared!("thread.hpp"),
+    shared!("usb.hpp"),
+    shared!("wire.hpp"),
+];
+
+/// For C++17.
+pub(super) const BOARD: [(&str, &str); 3] =
+    [shared!("board.hpp"), shared!("handlers.hpp"), shared!("typed.hpp")];
+
+/// All that a host of any C++ includes.
+pub(super) fn files() -> FileSet {
+    let mut files = FileSet::default();
+    for (path, text) in EVERY_HOST {
+        files.add(path, text);
+    }
+    files
+}

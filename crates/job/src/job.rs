@@ -1,0 +1,424 @@
+//! One board's work, in words that name no system: what any target starts from, and a simulator.
+//!
+//! In: a design and its wiring. Out: for each board that carries a device a [`BoardJob`]: the devices in the
+//! file's order, the connections with their units, pads, DMA streams, interrupt lines and cycles, the parts with their
+//! tables, the link, and the schema whose items are the devices in the same order. How a system spells any of it is
+//! the target's.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sensedsl_board::profile::TargetProfile;
+use sensedsl_board::signal::UnitName;
+use sensedsl_board::table::{Pin, Usage};
+use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
+use sensedsl_model::kind::{KindName, Role};
+use sensedsl_timing::{Starts, starts};
+use sensedsl_wire::{Direction, Schema};
+use sensedsl_wiring::assignment::{
+    Assignment, BoardAssignment, ConnectionWiring, DeviceWiring, Wire,
+};
+
+use crate::part::{BusPlan, PartPlan};
+use crate::snake;
+
+/// One board with everything that is to run on it.
+#[derive(Clone, Debug)]
+pub struct BoardJob<'a> {
+    /// The design that it is of.
+    pub design: &'a Design,
+    /// The board.
+    pub board: &'a Board,
+    /// Its part of the answer.
+    pub wiring: &'a BoardAssignment,
+    /// What silicon and system can do; none without a system.
+    pub profile: Option<&'a TargetProfile>,
+    /// What is reported and what is set, in the file's order.
+    pub devices: Vec<JobDevice<'a>>,
+    /// What is wired, in the design's order: one for each device by itself, each element of an array, each connection
+    /// of a chip.
+    pub connections: Vec<JobConnection<'a>>,
+    /// What needs tables of the runtime, in the design's order.
+    pub parts: Vec<JobPart<'a>>,
+    /// The port of a serial link.
+    pub link: Option<SerialLink<'a>>,
+    /// The wire; its items are `devices`, in the same order.
+    pub schema: Schema,
+}
+
+/// A part whose values need more than what the hardware does with them.
+#[derive(Clone, Debug)]
+pub struct JobPart<'a> {
+    /// The part.
+    pub part: &'a Part,
+    /// Which part of the design.
+    pub index: PartIndex,
+    /// Its tables.
+    pub plan: PartPlan,
+}
+
+/// A connection with everything the wiring gave it.
+#[derive(Clone, Debug)]
+pub struct JobConnection<'a> {
+    /// The connection.
+    pub connection: &'a Connection,
+    /// The part that it is of.
+    pub part: &'a Part,
+    /// What code calls it, in snake case: `ir_front`, `line_3`, `left_in1`.
+    pub ident: String,
+    /// For people: `IRFront`, `Line[3]`, `Left.in1`.
+    pub title: String,
+    /// Indices into [`BoardJob::devices`] of those whose value goes over it; none where only the part itself needs it.
+    pub devices: Vec<usize>,
+    /// The peripheral instance; none for a bare pin.
+    pub unit: Option<&'a str>,
+    /// In the order of the roles.
+    pub pads: Vec<Pad<'a>>,
+    /// The DMA streams of its unit.
+    pub streams: Vec<JobStream<'a>>,
+    /// When it is served: as often as the fastest of its devices wants.
+    pub cycle: Cycle,
+}
+
+/// A device with everything the wiring gave it.
+#[derive(Clone, Debug)]
+pub struct JobDevice<'a> {
+    /// The device.
+    pub device: &'a Device,
+    /// Which device of the design.
+    pub index: DeviceIndex,
+    /// What code calls it, in snake case: `ir_front`.
+    pub ident: String,
+    /// The peripheral instance; none for a bare pin.
+    pub unit: Option<&'a str>,
+    /// In the order of the roles.
+    pub pads: Vec<Pad<'a>>,
+    /// The DMA streams of its unit.
+    pub streams: Vec<JobStream<'a>>,
+    /// When it is served.
+    pub cycle: Cycle,
+}
+
+/// A pin that is put to use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pad<'a> {
+    /// What it is to the device.
+    pub role: Role,
+    /// The pin.
+    pub pin: &'a Pin,
+    /// What it carries; none for a plain pin.
+    pub usage: Option<&'a Usage>,
+    /// The number by which the pad is switched to that. The table's comes first, then the profile's.
+    pub alternate: Option<u8>,
+    /// The interrupt line of its edges; none where every pin has its own.
+    pub interrupt: Option<u8>,
+}
+
+/// A DMA stream that serves a request: `1,0` for `I2C1_RX`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JobStream<'a> {
+    /// The request of the unit's driver.
+    pub request: &'a str,
+    /// Controller and stream.
+    pub stream: &'a str,
+}
+
+/// The port of a serial link.
+#[derive(Clone, Debug)]
+pub struct SerialLink<'a> {
+    /// The peripheral instance.
+    pub unit: &'a str,
+    /// TX and RX.
+    pub pads: Vec<Pad<'a>>,
+}
+
+/// When a device is served. Devices of one unit and one cycle are a class: one thread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cycle {
+    /// From one reading to the next.
+    pub delay_ms: u32,
+    /// Priority of the thread.
+    pub prio: i8,
+    /// When the first cycle begins, so that devices of a group take turns.
+    pub start_ms: u32,
+}
+
+/// The work of every board that carries a device, in the file's order.
+pub fn jobs<'a>(
+    design: &'a Design,
+    wiring: &'a Assignment,
+) -> impl Iterator<Item = BoardJob<'a>> + use<'a> {
+    wiring.used(design).map(|(on, board)| BoardJob::new(design, board, on))
+}
+
+/// Connections by the unit that they share; those without a unit are left out.
+pub fn by_unit<'w, 'a>(
+    connections: impl Iterator<Item = &'w JobConnection<'a>>,
+) -> BTreeMap<UnitName, Vec<&'w JobConnection<'a>>> {
+    let mut units: BTreeMap<UnitName, Vec<&JobConnection<'a>>> = BTreeMap::new();
+    for one in connections {
+        let Some(unit) = one.unit.map(UnitName::new) else { continue };
+        units.entry(unit).or_default().push(one);
+    }
+    units
+}
+
+/// What code calls the second element of an array `Wheels` is what it calls a device `Wheels_1`: the element is renamed.
+fn tell_apart(connections: &mut [JobConnection<'_>], devices: &[JobDevice<'_>]) {
+    let mut taken: BTreeSet<String> = devices.iter().map(|one| one.ident.clone()).collect();
+    for one in connections {
+        // The wire of a device by itself is called like the device.
+        let is_own = one.connection.name.is_none() && one.connection.element.is_none();
+        while !is_own && !taken.insert(one.ident.clone()) {
+            one.ident.push('_');
+        }
+    }
+}
+
+impl<'a> BoardJob<'a> {
+    /// Gathers everything about one board.
+    #[must_use]
+    pub fn new(design: &'a Design, board: &'a Board, wiring: &'a BoardAssignment) -> Self {
+        let starts = starts(design, wiring);
+        let indices: Vec<_> = wiring.devices.iter().map(|wiring| wiring.device).collect();
+        let job = Self {
+            design,
+            board,
+            wiring,
+            profile: board.profile(),
+            devices: Vec::new(),
+            connections: Vec::new(),
+            parts: Vec::new(),
+            link: None,
+            schema: design.schema(wiring.board, &indices),
+        };
+        let devices = wiring.devices.iter().filter_map(|wiring| job.device(wiring, &starts));
+        let devices: Vec<JobDevice<'a>> = devices.collect();
+        let connections = wiring.connections.iter();
+        let connections = connections.filter_map(|one| job.connection(one, &devices));
+        let mut connections: Vec<JobConnection<'a>> = connections.collect();
+        tell_apart(&mut connections, &devices);
+        let link = wiring.link.as_ref();
+        let link = link.map(|link| SerialLink { unit: &link.unit, pads: job.pads(&link.wires) });
+        Self { parts: job.tables(&devices), devices, connections, link, ..job }
+    }
+
+    /// The system it is for: `chibios` of `chibios-21.11`.
+    #[must_use]
+    pub fn system(&self) -> Option<&'a str> {
+        self.profile.map(TargetProfile::system)
+    }
+
+    /// Whether the host sets any value.
+    #[must_use]
+    pub fn has_actuators(&self) -> bool {
+        self.devices.iter().any(|one| one.device.direction == Direction::Actuator)
+    }
+
+    /// The pads of all devices and of a serial link.
+    pub fn all_pads(&self) -> impl Iterator<Item = &Pad<'a>> {
+        let link = self.link.iter().flat_map(|link| &link.pads);
+        self.connections.iter().flat_map(|one| &one.pads).chain(link)
+    }
+
+    /// The connections of a kind, in the design's order.
+    pub fn connections(&self, kind: KindName) -> impl Iterator<Item = &JobConnection<'a>> {
+        self.connections.iter().filter(move |one| one.connection.kind.name() == kind)
+    }
+
+    /// The connections of a device, in the order in which its value goes over them.
+    #[must_use]
+    pub fn wires_of(&self, device: &Device) -> Vec<&JobConnection<'a>> {
+        let connections = device.connections.iter();
+        let connections = connections.filter_map(|index| self.design.connection(*index));
+        let wired = |one: &Connection| {
+            self.connections.iter().find(|wire| std::ptr::eq(wire.connection, one))
+        };
+        connections.filter_map(wired).collect()
+    }
+
+    /// The tables of the part that a connection is of.
+    #[must_use]
+    pub fn tables_of(&self, connection: &JobConnection<'_>) -> Option<&PartPlan> {
+        let mut parts = self.parts.iter();
+        Some(&parts.find(|one| one.index == connection.connection.part)?.plan)
+    }
+
+    /// The table of a connection to a register bus.
+    #[must_use]
+    pub fn bus_of(&self, wire: &JobConnection<'_>) -> Option<&BusPlan> {
+        let is_own = |plan: &&BusPlan| {
+            let connection = self.design.connection(plan.connection);
+            connection.is_some_and(|own| std::ptr::eq(own, wire.connection))
+        };
+        self.tables_of(wire)?.buses.iter().find(is_own)
+    }
+
+    /// What a part that is on several register buses needs and no table says; none where all is said. What is of the
+    /// whole part has no bus.
+    #[must_use]
+    pub fn lacks_on_buses(&self, wire: &JobConnection<'_>) -> Option<&'static str> {
+        let buses = &self.tables_of(wire)?.buses;
+        let protocol = wire.part.chip.as_ref().filter(|_| buses.len() > 1)?;
+        let kinds = buses.iter().filter_map(|bus| self.design.connection(bus.connection));
+        let kinds: BTreeSet<&str> = kinds.map(|one| one.kind.name().name()).collect();
+        let has_start = !protocol.init.is_empty() || protocol.identity.is_some();
+        if has_start || !protocol.calibration.is_empty() || protocol.formula.is_some() {
+            Some("the start or the formula of a part on two buses")
+        } else if kinds.len() > 1 && protocol.read_mask != 0 {
+            Some("a mark of what is read (`read_mask`) of a part on I2C and SPI")
+        } else {
+            None
+        }
+    }
+
+    /// The tables of all parts on the board that have some.
+    fn tables(&self, devices: &[JobDevice<'a>]) -> Vec<JobPart<'a>> {
+        let mut parts: Vec<JobPart<'a>> = Vec::new();
+        for index in devices.iter().map(|one| one.device.part) {
+            let is_known = parts.iter().any(|one| one.index == index);
+            let Some(part) = self.design.part(index).filter(|_| !is_known) else { continue };
+            let plan = PartPlan::new(self.design, index);
+            parts.extend(plan.map(|plan| JobPart { part, index, plan }));
+        }
+        parts
+    }
+
+    fn connection(
+        &self,
+        wiring: &'a ConnectionWiring,
+        devices: &[JobDevice<'a>],
+    ) -> Option<JobConnection<'a>> {
+        let index = wiring.connection;
+        let connection = self.design.connection(index)?;
+        let part = self.design.part(connection.part)?;
+        let own = devices.iter().enumerate();
+        let own: Vec<usize> = own
+            .filter(|(_, one)| one.device.connections.contains(&index))
+            .map(|(field, _)| field)
+            .collect();
+        let all = own.iter().filter_map(|field| devices.get(*field));
+        let of_part = devices.iter().find(|one| one.device.part == connection.part);
+        let cycle = all.min_by_key(|one| one.cycle.delay_ms).or(of_part)?.cycle;
+        let (unit, name) = (wiring.unit.as_deref(), &part.name.value);
+        let (mut ident, mut title) = (snake(name), name.clone());
+        if let Some(own) = &connection.name {
+            ident.push_str(&format!("_{}", snake(own)));
+            title.push_str(&format!(".{own}"));
+        }
+        if let Some(element) = connection.element {
+            ident.push_str(&format!("_{element}"));
+            title.push_str(&format!("[{element}]"));
+        }
+        Some(JobConnection {
+            connection,
+            part,
+            ident,
+            title,
+            devices: own,
+            unit,
+            pads: self.pads(&wiring.wires),
+            streams: self.streams(unit),
+            cycle,
+        })
+    }
+
+    fn streams(&self, unit: Option<&str>) -> Vec<JobStream<'a>> {
+        let streams = self.wiring.dma.iter().filter(|dma| Some(dma.unit.as_str()) == unit);
+        streams.map(|dma| JobStream { request: &dma.request, stream: &dma.stream }).collect()
+    }
+
+    fn device(&self, wiring: &'a DeviceWiring, starts: &Starts) -> Option<JobDevice<'a>> {
+        let device = self.design.device(wiring.device)?;
+        let unit = wiring.unit.as_deref();
+        Some(JobDevice {
+            device,
+            index: wiring.device,
+            ident: snake(&device.name.value),
+            unit,
+            pads: self.pads(&wiring.wires),
+            streams: self.streams(unit),
+            cycle: Cycle {
+                delay_ms: device.delay_ms,
+                prio: device.prio,
+                start_ms: starts.get(&wiring.device).copied().unwrap_or_default(),
+            },
+        })
+    }
+
+    fn pads(&self, wires: &[Wire]) -> Vec<Pad<'a>> {
+        let pad = |wire: &Wire| {
+            let (pin, usage) = (wire.pin(self.board)?, wire.usage(self.board));
+            let usual = || self.profile?.alternate(&usage?.signal, &pin.name);
+            Some(Pad {
+                role: wire.role,
+                pin,
+                usage,
+                alternate: usage.and_then(|usage| usage.alternate).or_else(usual),
+                interrupt: self.profile.and_then(|profile| profile.exti_group(&pin.name)),
+            })
+        };
+        wires.iter().filter_map(pad).collect()
+    }
+}
+
+impl<'a> JobDevice<'a> {
+    /// The pad of a role.
+    #[must_use]
+    pub fn pad(&self, role: Role) -> Option<&Pad<'a>> {
+        self.pads.iter().find(|pad| pad.role == role)
+    }
+
+    /// Its name in the file.
+    #[must_use]
+    pub fn name(&self) -> &'a str {
+        &self.device.name.value
+    }
+}
+
+impl<'a> JobConnection<'a> {
+    /// The pad of a role.
+    #[must_use]
+    pub fn pad(&self, role: Role) -> Option<&Pad<'a>> {
+        self.pads.iter().find(|pad| pad.role == role)
+    }
+
+    /// Which element of an array it carries, from 0; 0 where it is no array.
+    #[must_use]
+    pub fn element(&self) -> u16 {
+        self.connection.element.unwrap_or(0)
+    }
+
+    /// For a comment: what it is and the row of the board's table: `IRFront at PB0 (ADC12-IN8)`.
+    #[must_use]
+    pub fn place(&self) -> String {
+        let pad = |pad: &Pad<'_>| {
+            let signal = pad.usage.map_or("GPIO", |usage| usage.spelled.as_str());
+            format!("{} ({signal})", pad.pin.name)
+        };
+        let pads: Vec<String> = self.pads.iter().map(pad).collect();
+        format!("{} at {}", self.title, pads.join(", "))
+    }
+}
+
+impl Cycle {
+    /// What code calls a thread of a unit: `adc1_60ms`, `i2c1_250ms_prio_minus_2_at_66`.
+    #[must_use]
+    pub fn ident(self, unit: &str) -> String {
+        let mut ident = format!("{}_{}ms", snake(unit), self.delay_ms);
+        if self.prio != 0 {
+            let sign = if self.prio < 0 { "minus_" } else { "" };
+            ident.push_str(&format!("_prio_{sign}{}", self.prio.unsigned_abs()));
+        }
+        if self.start_ms > 0 {
+            ident.push_str(&format!("_at_{}", self.start_ms));
+        }
+        ident
+    }
+
+    /// For a comment and a thread's name.
+    #[must_use]
+    pub fn title(self, unit: &str) -> String {
+        let Self { delay_ms, prio, start_ms } = self;
+        sensedsl_timing::Cycle { delay_ms, prio, start_ms }.title(unit)
+    }
+}

@@ -1,0 +1,284 @@
+//! A part on a register bus: `up_chip_t` and what it points to.
+
+use std::collections::BTreeMap;
+
+use sensedsl_model::design::{Connection, ConnectionIndex, Design, Device};
+use sensedsl_model::kind::Kind;
+use sensedsl_model::protocol::{Formula, Identity, InitStep, Protocol};
+use sensedsl_model::registers::{self, Register};
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use super::transfers::{self, Place, TransferPlan, register_to_read};
+use super::{Source, ValuePlan};
+use crate::snake;
+
+/// An `up_chip_t`.
+#[derive(Clone, Debug)]
+pub struct BusPlan {
+    /// What the names of its tables begin with.
+    pub prefix: String,
+    /// The connection that it goes over.
+    pub connection: ConnectionIndex,
+    /// The 7-bit address; 0 on SPI, where a chip select takes its place.
+    pub address: u8,
+    /// How it is started.
+    pub init: Vec<InitPlan>,
+    /// What must be read where.
+    pub identity: Option<IdentityPlan>,
+    /// What the formula is told of the part.
+    pub calibration: Vec<CalibrationPlan>,
+    /// What is read together.
+    pub transfers: Vec<TransferPlan>,
+    /// The values in it.
+    pub readings: Vec<ReadingPlan>,
+    /// The values that are written.
+    pub commands: Vec<CommandPlan>,
+    /// What the registers that commands share begin with, one behind the other.
+    pub kept: Vec<u8>,
+    /// The runtime's formula.
+    pub formula: Option<Formula>,
+    /// Its constants.
+    pub parameters: Vec<i32>,
+    /// How often the part is looked after.
+    pub cycle_ms: u32,
+    /// Bytes of all calibration blocks.
+    pub calibration_bytes: u16,
+    /// The most that any transfer writes and reads together.
+    pub work_bytes: usize,
+    /// 64-bit words that hold the largest value.
+    pub scratch_words: usize,
+}
+
+/// An `up_chip_init_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InitPlan {
+    /// What is written; empty where there is only a pause.
+    pub bytes: Vec<u8>,
+    /// Waited after them.
+    pub pause_ms: u16,
+}
+
+/// An `up_chip_identity_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IdentityPlan {
+    /// The register.
+    pub select: Vec<u8>,
+    /// What must be there.
+    pub expected: Vec<u8>,
+    /// The bits that count; empty for all.
+    pub mask: Vec<u8>,
+}
+
+/// An `up_chip_calibration_t`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CalibrationPlan {
+    /// The register.
+    pub select: Vec<u8>,
+    /// Bytes from there on.
+    pub count: u16,
+}
+
+/// An `up_chip_reading_t`.
+#[derive(Clone, Debug)]
+pub struct ReadingPlan {
+    /// The device.
+    pub field: String,
+    /// What code calls it.
+    pub ident: String,
+    /// Index of the transfer.
+    pub transfer: usize,
+    /// Where it begins there, with checksums.
+    pub offset: u16,
+    /// Which output of the formula it is.
+    pub output: Option<u8>,
+    /// How it is coded; none where the formula makes it.
+    pub value: Option<ValuePlan>,
+}
+
+/// An `up_chip_command_t`.
+#[derive(Clone, Debug)]
+pub struct CommandPlan {
+    /// The device.
+    pub field: String,
+    /// What code calls it.
+    pub ident: String,
+    /// Written in front of the value.
+    pub prefix: Vec<u8>,
+    /// How it is coded.
+    pub value: ValuePlan,
+    /// Its own bits of a register that others have bits of, and where it is among those kept; none for all of it.
+    pub own: Option<OwnBitsPlan>,
+    /// Bytes of the value.
+    bytes: u16,
+}
+
+/// The bits of a command in a register that it shares.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OwnBitsPlan {
+    /// Those bits, as many bytes as the value.
+    pub bits: Vec<u8>,
+    /// Where the register begins in [`BusPlan::kept`].
+    pub kept: u16,
+}
+
+/// The part's tables, one for each connection to a register bus that a value goes over.
+pub(super) fn plans(source: Source<'_>, prefix: &str) -> Vec<BusPlan> {
+    let connections = source.design.connections.iter().enumerate();
+    let own: Vec<(ConnectionIndex, &Connection)> = connections
+        .map(|(at, one)| (ConnectionIndex(at), one))
+        .filter(|(_, one)| one.part == source.index)
+        .filter(|(_, one)| matches!(one.kind, Kind::I2c(_) | Kind::Spi(_)))
+        .collect();
+    let is_one = own.len() < 2;
+    let plan = |(index, one): (ConnectionIndex, &Connection)| {
+        let name = one.name.as_deref().filter(|_| !is_one);
+        let prefix =
+            name.map_or_else(|| prefix.to_owned(), |name| format!("{prefix}_{}", snake(name)));
+        plan(source, index, prefix)
+    };
+    own.into_iter().filter_map(plan).collect()
+}
+
+fn plan(source: Source<'_>, connection: ConnectionIndex, prefix: String) -> Option<BusPlan> {
+    let protocol = source.protocol;
+    let all: Vec<&Device> = source
+        .devices(|kind| matches!(kind, Kind::I2c(_) | Kind::Spi(_)))
+        .filter(|device| device.connections.contains(&connection))
+        .collect();
+    let address = all.first()?.kind.i2c().map_or(0, |i2c| i2c.address);
+    let of = |direction| all.iter().copied().filter(move |one| one.direction == direction);
+    let sensors: Vec<&Device> = of(Direction::Sensor).collect();
+    let (transfers, places) = transfers::plan(&sensors, protocol);
+    let readings = sensors.iter().zip(places);
+    let sizes = all.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
+    let calibration = protocol.calibration.iter().map(|&(number, count)| CalibrationPlan {
+        select: register_to_read(u32::from(number), protocol),
+        count,
+    });
+    let (commands, kept) = commands(source.design, of(Direction::Actuator), protocol);
+    let plan = BusPlan {
+        prefix,
+        connection,
+        address,
+        init: init(&protocol.init),
+        identity: protocol.identity.as_ref().map(|one| IdentityPlan::new(one, protocol)),
+        calibration: calibration.collect(),
+        transfers,
+        readings: readings.filter_map(|(device, place)| reading(device, place?)).collect(),
+        commands,
+        kept,
+        formula: protocol.formula,
+        parameters: protocol.parameters.clone(),
+        cycle_ms: all.iter().map(|device| device.delay_ms).min().unwrap_or(0),
+        calibration_bytes: protocol.calibration.iter().map(|(_, count)| count).sum(),
+        work_bytes: 0,
+        scratch_words: sizes.max().unwrap_or(1),
+    };
+    Some(BusPlan { work_bytes: plan.work_bytes(), ..plan })
+}
+
+/// Bytes and the pause behind them are one step.
+pub(super) fn init(steps: &[InitStep]) -> Vec<InitPlan> {
+    let mut all: Vec<InitPlan> = Vec::new();
+    for step in steps {
+        match step {
+            InitStep::Write(bytes) => {
+                all.push(InitPlan { bytes: bytes.clone(), pause_ms: 0 });
+            }
+            InitStep::Wait { ms } => match all.last_mut().filter(|last| last.pause_ms == 0) {
+                Some(last) => last.pause_ms = *ms,
+                None => all.push(InitPlan { bytes: Vec::new(), pause_ms: *ms }),
+            },
+        }
+    }
+    all
+}
+
+impl IdentityPlan {
+    fn new(identity: &Identity, protocol: &Protocol) -> Self {
+        Self {
+            select: register_to_read(u32::from(identity.register), protocol),
+            expected: identity.expected.clone(),
+            mask: identity.mask.clone(),
+        }
+    }
+}
+
+fn reading(device: &Device, place: Place) -> Option<ReadingPlan> {
+    let output = device.coding.output;
+    let value = match output {
+        Some(_) => None,
+        None => Some(ValuePlan::of(device)?),
+    };
+    let name = &device.name.value;
+    Some(ReadingPlan {
+        field: name.clone(),
+        ident: snake(name),
+        transfer: place.transfer,
+        offset: place.offset,
+        output,
+        value,
+    })
+}
+
+/// The commands, and what the registers that they share begin with.
+fn commands<'a>(
+    design: &Design,
+    devices: impl Iterator<Item = &'a Device>,
+    protocol: &Protocol,
+) -> (Vec<CommandPlan>, Vec<u8>) {
+    let mut kept: Vec<u8> = Vec::new();
+    let mut places: BTreeMap<Register, usize> = BTreeMap::new();
+    let mut all = Vec::new();
+    for device in devices {
+        let own = registers::own(design, device).map(|own| {
+            let place = *places.entry(own.register).or_insert_with(|| {
+                let place = kept.len();
+                kept.extend(&own.start);
+                place
+            });
+            OwnBitsPlan { bits: own.bits, kept: u16::try_from(place).unwrap_or(u16::MAX) }
+        });
+        all.extend(command(device, own, protocol));
+    }
+    (all, kept)
+}
+
+fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Option<CommandPlan> {
+    let words = Words::of(device)?;
+    let of_i2c = device.kind.i2c().and_then(|i2c| i2c.register);
+    let number = of_i2c.or_else(|| device.kind.spi()?.register);
+    let prefix = number.map(|number| protocol.register(u32::from(number))).unwrap_or_default();
+    Some(CommandPlan {
+        field: device.name.value.clone(),
+        ident: snake(&device.name.value),
+        prefix,
+        value: ValuePlan::new(&words),
+        own,
+        bytes: words.wire_bytes(),
+    })
+}
+
+impl BusPlan {
+    /// Whether a formula makes any of its values.
+    pub(crate) fn is_computed(&self) -> bool {
+        self.formula.is_some() || !self.calibration.is_empty()
+    }
+
+    /// As `up_chip_work_bytes()` counts.
+    fn work_bytes(&self) -> usize {
+        let init = self.init.iter().map(|step| step.bytes.len());
+        let identity = self.identity.iter().map(|one| one.select.len() + one.expected.len());
+        let calibration =
+            self.calibration.iter().map(|one| one.select.len() + usize::from(one.count));
+        let transfers = self.transfers.iter().map(|one| {
+            let length = usize::from(one.length);
+            let select = if one.is_exchange { length } else { one.select.len() };
+            one.trigger.len().max(select + length)
+        });
+        let commands = self.commands.iter().map(|one| one.prefix.len() + usize::from(one.bytes));
+        let all = init.chain(identity).chain(calibration).chain(transfers).chain(commands);
+        all.max().unwrap_or(0).max(1)
+    }
+}

@@ -1,0 +1,172 @@
+//! A part on a serial port: `up_message_t` and what it points to.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
+use sensedsl_model::kind::uart::{MessageChecksum, Uart};
+use sensedsl_model::protocol::TextField;
+use sensedsl_model::words::Words;
+use sensedsl_wire::Direction;
+
+use super::bus::{self, InitPlan};
+use super::{Source, ValuePlan};
+use crate::snake;
+
+/// The longest message whose length nothing tells, with start and end: a line of NMEA 0183 has 82 characters, and
+/// receivers with more digits send longer ones.
+const OPEN_BYTES_MAX: u16 = 128;
+
+/// An `up_message_t`.
+#[derive(Clone, Debug)]
+pub struct MessagePlan {
+    /// What the names of its tables begin with.
+    pub prefix: String,
+    /// Written once to start the part.
+    pub init: Vec<InitPlan>,
+    /// First bytes of every message.
+    pub start: Vec<u8>,
+    /// Last bytes of every message.
+    pub end: Vec<u8>,
+    /// Bytes of the body; 0: as far as `end`.
+    pub length: u16,
+    /// Of the longest message.
+    pub bytes_max: u16,
+    /// What the message ends with.
+    pub checksum: MessageChecksum,
+    /// The first byte that is summed.
+    pub checksum_from: u8,
+    /// The values.
+    pub fields: Vec<MessageFieldPlan>,
+    /// The values that are sent.
+    pub commands: Vec<ComposePlan>,
+    /// 64-bit words that hold the largest value.
+    pub scratch_words: usize,
+}
+
+/// An `up_compose_t`: a value that is sent as a message of its own.
+#[derive(Clone, Debug)]
+pub struct ComposePlan {
+    /// The device.
+    pub field: String,
+    /// How the value is coded.
+    pub value: ValuePlan,
+    /// First bytes of the message.
+    pub start: Vec<u8>,
+    /// Last bytes of the message.
+    pub end: Vec<u8>,
+    /// What the message ends with.
+    pub checksum: MessageChecksum,
+    /// The first byte that is summed.
+    pub checksum_from: u8,
+    /// Of the whole message.
+    pub bytes: u16,
+}
+
+/// An `up_message_field_t`.
+#[derive(Clone, Debug)]
+pub struct MessageFieldPlan {
+    /// The device.
+    pub field: String,
+    /// What code calls it.
+    pub ident: String,
+    /// Where it stands in the message, and how.
+    pub how: FieldCoding,
+}
+
+/// How a number stands in a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FieldCoding {
+    /// As bytes.
+    Binary {
+        /// Where they begin behind the start.
+        byte: u16,
+        /// How they are coded.
+        value: ValuePlan,
+    },
+    /// As a text.
+    Text(TextField),
+}
+
+impl FieldCoding {
+    /// How it is coded as bytes; none where it is a text.
+    #[must_use]
+    pub const fn value(&self) -> Option<&ValuePlan> {
+        match self {
+            Self::Binary { value, .. } => Some(value),
+            Self::Text(_) => None,
+        }
+    }
+}
+
+/// The part's table; none where nothing comes from it over a serial port.
+pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
+    let all: Vec<&Device> = source.devices(|kind| matches!(kind, Kind::Uart(_))).collect();
+    let is_sensor = |device: &&&Device| device.direction == Direction::Sensor;
+    let devices: Vec<&Device> = all.iter().filter(is_sensor).copied().collect();
+    let first = devices.first().or(all.first())?;
+    let uart = source.design.main_connection(first)?.kind.uart()?;
+    let is_text = devices.iter().any(|device| device.coding.text.is_some());
+    let is_chip = source.part.chip.is_some();
+    let is_open = !uart.end.is_empty() && !uart.is_length_given && (is_chip || is_text);
+    let sizes = devices.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
+    Some(MessagePlan {
+        prefix: prefix.to_owned(),
+        init: bus::init(&source.protocol.init),
+        start: uart.start.clone(),
+        end: uart.end.clone(),
+        length: if is_open { 0 } else { uart.length_bytes },
+        bytes_max: if is_open { OPEN_BYTES_MAX } else { bytes(uart) },
+        checksum: uart.checksum,
+        checksum_from: uart.checksum_from,
+        fields: devices.iter().filter_map(|device| field(device)).collect(),
+        commands: all.iter().filter_map(|device| command(device)).collect(),
+        scratch_words: sizes.max().unwrap_or(1),
+    })
+}
+
+/// Bytes of a checksum.
+const fn checksum_bytes(checksum: MessageChecksum) -> u16 {
+    match checksum {
+        MessageChecksum::None => 0,
+        MessageChecksum::Sum8 | MessageChecksum::Xor8 | MessageChecksum::Crc8DvbS2 => 1,
+        MessageChecksum::Ibus => 2,
+        MessageChecksum::Nmea => 3,
+    }
+}
+
+/// Bytes of a message whose length is known.
+fn bytes(uart: &Uart) -> u16 {
+    let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
+    uart.length_bytes.saturating_add(ends).saturating_add(checksum_bytes(uart.checksum))
+}
+
+/// A value that is sent; none where it comes in.
+fn command(device: &Device) -> Option<ComposePlan> {
+    let Kind::Uart(uart) = &device.kind else { return None };
+    let is_sent = device.direction == Direction::Actuator;
+    let words = Words::of(device).filter(|_| is_sent)?;
+    let ends = u16::try_from(uart.start.len() + uart.end.len()).unwrap_or(u16::MAX);
+    Some(ComposePlan {
+        field: device.name.value.clone(),
+        value: ValuePlan::new(&words),
+        start: uart.start.clone(),
+        end: uart.end.clone(),
+        checksum: uart.checksum,
+        checksum_from: uart.checksum_from,
+        bytes: words
+            .wire_bytes()
+            .saturating_add(ends)
+            .saturating_add(checksum_bytes(uart.checksum)),
+    })
+}
+
+fn field(device: &Device) -> Option<MessageFieldPlan> {
+    let how = match &device.coding.text {
+        Some(text) => FieldCoding::Text(text.clone()),
+        None => {
+            let value = ValuePlan::new(&Words::of(device)?);
+            FieldCoding::Binary { byte: device.coding.byte, value }
+        }
+    };
+    let field = device.name.value.clone();
+    Some(MessageFieldPlan { ident: snake(&field), field, how })
+}

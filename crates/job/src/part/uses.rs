@@ -1,0 +1,38 @@
+//! What the values of a board need of the runtime, in C and in Rust; the rest is left out of the program.
+
+use sensedsl_model::design::Device;
+use sensedsl_model::words::{Code, Words};
+use sensedsl_wire::{Checksum, ScalarType};
+
+use super::BusPlan;
+use crate::BoardJob;
+
+/// What can be left out, as the features of `sense-rt` are called, and whether any value needs it; `runtime/core/up_uses.h`
+/// says what each is.
+#[must_use]
+pub fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 12] {
+    let device = |uses: fn(&Device) -> bool| job.devices.iter().any(|one| uses(one.device));
+    let word = |uses: fn(&Words) -> bool| {
+        job.devices.iter().filter_map(|one| Words::of(one.device)).any(|words| uses(&words))
+    };
+    let bus =
+        |uses: fn(&BusPlan) -> bool| job.parts.iter().flat_map(|one| &one.plan.buses).any(uses);
+    [
+        ("crc32", job.schema.checksum == Checksum::Crc32),
+        ("reals", device(is_real)),
+        ("codes", word(|words| words.code != Code::Integer)),
+        ("word-crc", word(|words| words.crc.is_some())),
+        ("median", device(|device| device.filter.median > 1)),
+        ("smooth", device(|device| device.filter.smooth_ms > 0)),
+        ("change", device(|device| device.filter.change.is_some())),
+        ("chip-init", bus(|bus| !bus.init.is_empty())),
+        ("chip-identity", bus(|bus| bus.identity.is_some())),
+        ("chip-formulas", bus(BusPlan::is_computed)),
+        ("chip-commands", bus(|bus| !bus.commands.is_empty())),
+        ("chip-exchanges", bus(|bus| bus.transfers.iter().any(|one| one.is_exchange))),
+    ]
+}
+
+fn is_real(device: &Device) -> bool {
+    matches!(device.value.value.scalar, ScalarType::Float32 | ScalarType::Float64)
+}
