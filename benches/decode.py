@@ -129,11 +129,11 @@ def build(folder):
     for compiler, source in [
         ("gcc -std=c99 -O2 -D_POSIX_C_SOURCE=199309L -DDECODERS_C_FRAMES=2", "tests/decoders/c.c"),
         ("gcc -std=c99 -O2 -D_POSIX_C_SOURCE=199309L", "tests/decoders/main.c"),
-        *(("gcc -std=c99 -O2", f"runtime/core/up_{name}.c") for name in ["decode", "encode", "memo", "schema"]),
+        *(("gcc -std=c99 -O2", f"crates/firmware-c/runtime/up_{name}.c") for name in ["decode", "encode", "memo", "schema"]),
         ("g++ -std=c++98 -O2", "tests/decoders/cpp.cpp"),
     ]:
         objects.append(f"{folder}/{pathlib.Path(source).stem}.o")
-        includes = [f"-I{ROOT}/runtime/core", f"-I{ROOT}/crates/codegen/src/host/cpp/runtime"]
+        includes = [f"-I{ROOT}/crates/firmware-c/runtime", f"-I{ROOT}/crates/host-cpp/runtime"]
         subprocess.run([*compiler.split(), *includes, "-c", ROOT / source, "-o", objects[-1]], check=True)
     subprocess.run(["g++", *objects, "-o", f"{folder}/decoders"], check=True)
     cargo = "cargo build -q --release -p sensedsl-wire --example decode_time --message-format json"

@@ -47,8 +47,8 @@ def toml(path):
         return tomllib.load(file)
 
 
-SILICON = [toml(f"silicon/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "silicon"))) if name.endswith(".toml")]
-TARGETS = [toml(f"targets/chibios-21.11/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "targets/chibios-21.11")))]
+SILICON = [toml(f"crates/board/silicon/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "crates/board/silicon"))) if name.endswith(".toml")]
+TARGETS = [toml(f"crates/board/targets/chibios-21.11/{name}") for name in sorted(os.listdir(os.path.join(ROOT, "crates/board/targets/chibios-21.11")))]
 
 
 def begins(mcu, start):
@@ -457,7 +457,7 @@ def natural(text):
 def library():
     """The chips of `drivers/` that are drawn: their connections, and for each value which of them it uses."""
     text = "\n".join(re.sub(r"//.*", "", open(os.path.join(ROOT, "drivers", name), encoding="utf-8").read())
-                     for name in sorted(os.listdir(os.path.join(ROOT, "drivers"))) if name.endswith(".sense"))
+                     for name in sorted(os.listdir(os.path.join(ROOT, "crates/model/drivers"))) if name.endswith(".sense"))
     found = {}
     for name in CHIPS:
         kind, body = re.search(rf"^driver {name}(?: for (\w+))? {{\n(.*?)^}}", text, re.M | re.S).groups()

@@ -301,7 +301,7 @@ fn the_printed_table_is_whole() {
     }
     // The table of the paper is printed as it stands.
     let printed = sensedsl(["boards", "STM32F4DiscoveryBoard"]).run().exits(0).stdout;
-    assert_eq!(printed, text("boards/STM32F4DiscoveryBoard/pins.csv"));
+    assert_eq!(printed, text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv"));
 }
 
 /// The picture stands as the board does: by connector and place, with what is printed there.

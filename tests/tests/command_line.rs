@@ -156,7 +156,7 @@ fn the_standard_input_is_a_file_like_any_other() {
     let from_file = sensedsl(["solve", FIG2, "-q"]).run().exits(0).stdout;
     let from_stdin = sensedsl(["solve", "-", "-q"]).stdin(text(FIG2)).run().exits(0).stdout;
     assert_eq!(from_file, from_stdin);
-    let table = text("boards/STM32F4DiscoveryBoard/pins.csv");
+    let table = text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
     let ran = sensedsl(["solve", FIG2, "-q", "--board", "-"]).stdin(table).run().exits(0);
     assert_eq!(ran.stdout, from_file);
     let kept = sensedsl(["solve", FIG2, "-q", "--format", "json"]).run().exits(0).stdout;
@@ -217,7 +217,7 @@ fn the_layout_is_canonical_once_and_for_all() {
 /// All `.sense` files that ship with the tool.
 fn shipped() -> Vec<std::path::PathBuf> {
     let mut all = files(&root().join("examples"), "sense");
-    all.extend(files(&root().join("drivers"), "sense"));
+    all.extend(files(&root().join("crates/model/drivers"), "sense"));
     assert!(all.len() >= 6);
     all
 }

@@ -29,7 +29,7 @@ fn what_disagrees_is_told() {
         return;
     }
     let copy = Scratch::new("driver-vectors");
-    for (folder, ending) in [("drivers", "sense"), (VECTORS, "txt"), (VECTORS, "py")] {
+    for (folder, ending) in [("crates/model/drivers", "sense"), (VECTORS, "txt"), (VECTORS, "py")] {
         fs::create_dir_all(copy.join(folder)).unwrap();
         for file in files(&root().join(folder), ending) {
             fs::copy(&file, copy.join(folder).join(file.file_name().unwrap())).unwrap();
@@ -41,7 +41,7 @@ fn what_disagrees_is_told() {
         fs::write(copy.join(path), text.replacen(from, to, 1)).unwrap();
     };
     change("tests/vectors/drivers/adxl345.txt", "00 01 00 00 00 F0", "00 01 00 00 00 F1");
-    change("drivers/position.sense", "bits = 13..0;", "bits = 12..0;");
+    change("crates/model/drivers/position.sense", "bits = 13..0;", "bits = 12..0;");
     fs::remove_file(copy.join("tests/vectors/drivers/srf02.txt")).unwrap();
     let ran = check(copy.path());
     let said = String::from_utf8_lossy(&ran.stdout).into_owned();

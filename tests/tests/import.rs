@@ -54,7 +54,7 @@ fn a_project_becomes_a_file_that_solves_on_its_pins() {
 
 #[test]
 fn workbooks_give_table_1_back() {
-    let expected = text("boards/STM32F4DiscoveryBoard/pins.csv");
+    let expected = text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
     for name in ["table1.xlsx", "table1.ods"] {
         let book = root().join("crates/import/tests/data").join(name);
         let made = sensedsl(["import"]).arg(&book).run().exits(0);

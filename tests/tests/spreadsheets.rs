@@ -83,8 +83,8 @@ fn table_1_comes_back_from_libreoffice() {
         return;
     }
     let scratch = Scratch::new("libreoffice");
-    let table = root().join("boards/STM32F4DiscoveryBoard/pins.csv");
-    let expected = text("boards/STM32F4DiscoveryBoard/pins.csv");
+    let table = root().join("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
+    let expected = text("crates/board/boards/STM32F4DiscoveryBoard/pins.csv");
     for format in ["xlsx", "ods"] {
         let made = import(&converted(&scratch, &table, format));
         assert_eq!(

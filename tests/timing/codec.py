@@ -85,7 +85,7 @@ def main():
     scratch = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
     scratch.mkdir(exist_ok=True)
     codec, nanopb = codec_of_fig2(scratch / "ours"), fetch(scratch)
-    bench, core = ROOT / "tests/timing/codec", ROOT / "runtime/core"
+    bench, core = ROOT / "tests/timing/codec", ROOT / "crates/firmware-c/runtime"
     ours = counts(scratch / "ours.elf", [bench / "ours.c", codec / "sense_codec.c", *(core / name for name in OURS),
                                          core / "up_health.c"], [f"-I{core}", f"-I{codec}", f"-I{bench}", *LEFT_OUT])
     theirs = counts(scratch / "theirs.elf", [bench / "theirs.c", scratch / "fig2.pb.c", *(nanopb / name for name in THEIRS)],

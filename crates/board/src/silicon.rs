@@ -14,9 +14,9 @@ use crate::pin::PinName;
 
 /// The files of `silicon/`.
 const FILES: &[&str] = &[
-    include_str!("../../../silicon/atmega.toml"),
-    include_str!("../../../silicon/rp2.toml"),
-    include_str!("../../../silicon/stm32.toml"),
+    include_str!("../silicon/atmega.toml"),
+    include_str!("../silicon/rp2.toml"),
+    include_str!("../silicon/stm32.toml"),
 ];
 
 /// What is known of a family.

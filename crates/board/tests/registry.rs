@@ -30,12 +30,16 @@ fn entries(folder: &Path) -> Vec<(String, PathBuf)> {
 }
 
 fn boards() -> Vec<(String, PathBuf)> {
-    entries(&root().join("boards")).into_iter().filter(|(_, path)| path.is_dir()).collect()
+    entries(&root().join("crates/board/boards"))
+        .into_iter()
+        .filter(|(_, path)| path.is_dir())
+        .collect()
 }
 
 /// Target files as (`chibios-21.11`, `stm32f4.toml`, path).
 fn targets() -> Vec<(String, String, PathBuf)> {
-    let folders = entries(&root().join("targets")).into_iter().filter(|(_, path)| path.is_dir());
+    let folders =
+        entries(&root().join("crates/board/targets")).into_iter().filter(|(_, path)| path.is_dir());
     folders
         .flat_map(|(target, path)| {
             entries(&path).into_iter().map(move |(file, path)| (target.clone(), file, path))
@@ -70,8 +74,8 @@ fn generate() -> String {
          ($name:literal, $aliases:expr, $mcu:literal, $description:literal) => {\n        \
          Entry::new(\n            ($name, $aliases),\n            $mcu,\n            \
          $description,\n            (\n                \
-         include_str!(concat!(\"../../../boards/\", $name, \"/board.toml\")),\n                \
-         include_str!(concat!(\"../../../boards/\", $name, \"/pins.csv\")),\n            \
+         include_str!(concat!(\"../boards/\", $name, \"/board.toml\")),\n                \
+         include_str!(concat!(\"../boards/\", $name, \"/pins.csv\")),\n            \
          ),\n        )\n    };\n}\n\n\
          #[rustfmt::skip]\npub(crate) const BOARDS: &[Entry] = &[\n",
     );
@@ -90,7 +94,7 @@ fn generate() -> String {
         write!(
             text,
             "    Target {{\n        target: {target:?},\n        family: {:?},\n        \
-             parts: &{:?},\n        text: include_str!(\"../../../targets/{target}/{file}\"),\n    \
+             parts: &{:?},\n        text: include_str!(\"../targets/{target}/{file}\"),\n    \
              }},\n",
             family(&read(&path)),
             parts(&read(&path)),

@@ -7,7 +7,7 @@ use sensedsl_board::pin::PinName;
 use sensedsl_board::signal::Signal;
 use sensedsl_board::table::{self, Occupation, Table, load};
 
-const TABLE_1: &str = include_str!("../../../boards/STM32F4DiscoveryBoard/pins.csv");
+const TABLE_1: &str = include_str!("../boards/STM32F4DiscoveryBoard/pins.csv");
 
 /// Every finding as `ROW:COLUMN TEXT KIND`.
 fn findings(text: &str) -> Vec<String> {

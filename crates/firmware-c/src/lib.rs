@@ -3,6 +3,7 @@
 //! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table, and `sense_codec.c`, straight lines of
 //! code from values to payloads and back; and of each part its tables. They need `runtime/core` and nothing else.
 
+pub mod runtime;
 mod schema;
 mod tables;
 pub mod words;

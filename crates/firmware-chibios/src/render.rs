@@ -47,8 +47,10 @@ pub(super) fn render(b: &BoardPlan) -> FileSet {
     files.merge_under("generated", c::render(&b.name, &b.schema));
     files.add("generated/sense_hw.c", print(&Hardware { b }));
     files.add_once("user/user.c", USER);
+    let core = PERIPHERALS.iter().flat_map(|peripheral| peripheral.core.iter().copied().flatten());
     let drivers = PERIPHERALS.iter().flat_map(|peripheral| peripheral.runtime);
-    for (path, text) in runtime::FILES.iter().chain(drivers) {
+    let always = c::runtime::BASE.iter().chain(runtime::FILES);
+    for (path, text) in always.chain(core).chain(drivers) {
         files.add(format!("uproxy/{path}"), *text);
     }
     files

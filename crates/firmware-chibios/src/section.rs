@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::Diagnostic;
+use sensedsl_firmware_c::runtime::File;
 use sensedsl_model::kind::KindName;
 
 use super::PERIPHERALS;
@@ -27,8 +28,10 @@ pub(super) struct Peripheral {
     pub(super) versions: &'static [Version],
     /// What a connection needs and is not made: [`nothing`] where everything is.
     pub(super) lacks: Lacks,
+    /// What it needs of the core in C.
+    pub(super) core: &'static [&'static [File]],
     /// Its hand-written files: path below `uproxy/`, and text.
-    pub(super) runtime: &'static [(&'static str, &'static str)],
+    pub(super) runtime: &'static [File],
 }
 
 /// See [`sensedsl_job::Target::lacks`].

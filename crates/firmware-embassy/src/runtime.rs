@@ -8,13 +8,13 @@ use super::hal::Hal;
 /// Path and text.
 macro_rules! files {
     ($folder:literal, $($path:literal,)*) => {
-        &[$(($path, include_str!(concat!("../../../", $folder, $path))),)*]
+        &[$(($path, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), $folder, $path))),)*]
     };
 }
 
 /// Between the runtime and whatever HAL; path below `src/rt/`.
 const SHARED: &[(&str, &str)] = files![
-    "runtime/embassy/",
+    "/runtime/",
     "analog.rs",
     "bus.rs",
     "capture.rs",
@@ -29,7 +29,7 @@ const SHARED: &[(&str, &str)] = files![
 
 /// Those between it and `embassy-stm32`.
 const STM32: &[(&str, &str)] = files![
-    "runtime/embassy/stm32/",
+    "/runtime/stm32/",
     "again.rs",
     "can.rs",
     "can_banks.rs",
@@ -48,7 +48,7 @@ const STM32: &[(&str, &str)] = files![
 
 /// Those between it and `embassy-rp`.
 const RP: &[(&str, &str)] = files![
-    "runtime/embassy/rp/",
+    "/runtime/rp/",
     "converter.rs",
     "edges.rs",
     "gate.rs",
@@ -77,7 +77,7 @@ pub(super) const fn always(hal: Hal) -> &'static [&'static str] {
 }
 
 /// How the module of the adapters begins.
-const MODULE: &str = include_str!("../../../runtime/embassy/mod.rs");
+const MODULE: &str = include_str!("../runtime/mod.rs");
 
 /// The module of the adapters that a project has.
 pub(super) fn module(own: &BTreeSet<&'static str>, always: &[&'static str]) -> String {
@@ -101,7 +101,7 @@ pub(super) fn module(own: &BTreeSet<&'static str>, always: &[&'static str]) -> S
 
 /// The runtime; path below `sense-rt/src/`.
 pub(super) const RUNTIME: &[(&str, &str)] = files![
-    "crates/sense-rt/src/",
+    "/../sense-rt/src/",
     "bits.rs",
     "bytes.rs",
     "capture.rs",

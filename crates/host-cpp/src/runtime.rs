@@ -5,7 +5,7 @@ use sensedsl_files::FileSet;
 /// A file of `runtime/` and where a host has it.
 macro_rules! shared {
     ($name:literal) => {
-        (concat!("include/sensedsl/", $name), include_str!(concat!("runtime/sensedsl/", $name)))
+        (concat!("include/sensedsl/", $name), include_str!(concat!("../runtime/sensedsl/", $name)))
     };
 }
 

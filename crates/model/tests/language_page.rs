@@ -100,7 +100,7 @@ fn every_kind_is_described_with_its_properties() {
 
 #[test]
 fn the_library_is_the_folder() {
-    let entries = std::fs::read_dir(root().join("drivers")).unwrap();
+    let entries = std::fs::read_dir(root().join("crates/model/drivers")).unwrap();
     let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
     let names = names.filter(|name| name.ends_with(".sense"));
     let names: BTreeSet<String> = names.map(|name| format!("drivers/{name}")).collect();

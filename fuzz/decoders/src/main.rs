@@ -1,5 +1,5 @@
-//! The fuzzer's entry for the three decoders: what crate `wire`, `runtime/core` in C and
-//! `crates/host-cpp/src/runtime` in C++ make of one stream is compared.
+//! The fuzzer's entry for the three decoders: what crate `wire`, `crates/firmware-c/runtime` in C and
+//! `crates/host-cpp/runtime` in C++ make of one stream is compared.
 #![allow(clippy::disallowed_methods, reason = "what the macro of the engine makes writes files")]
 #![no_main]
 

@@ -119,12 +119,12 @@ impl Program {
         for (compiler, standard, source) in [
             ("gcc", "-std=c99", "tests/decoders/c.c"),
             ("gcc", "-std=c99", "tests/decoders/main.c"),
-            ("gcc", "-std=c99", "runtime/core/up_decode.c"),
-            ("gcc", "-std=c99", "runtime/core/up_encode.c"),
-            ("gcc", "-std=c99", "runtime/core/up_health.c"),
-            ("gcc", "-std=c99", "runtime/core/up_memo.c"),
-            ("gcc", "-std=c99", "runtime/core/up_schema.c"),
-            ("gcc", "-std=c99", "runtime/core/up_wire.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_decode.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_encode.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_health.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_memo.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_schema.c"),
+            ("gcc", "-std=c99", "crates/firmware-c/runtime/up_wire.c"),
             ("g++", "-std=c++98", "tests/decoders/cpp.cpp"),
         ] {
             let object = folder.join(Path::new(source).file_name().unwrap()).with_extension("o");
@@ -132,7 +132,8 @@ impl Program {
             let mut command = Command::new(compiler);
             command.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow"]);
             command.args(["-Werror", "-D_POSIX_C_SOURCE=199309L", "-c"]).args(flags);
-            command.args([include("runtime/core"), include("crates/host-cpp/src/runtime")]);
+            command
+                .args([include("crates/firmware-c/runtime"), include("crates/host-cpp/runtime")]);
             run(command.arg(root.join(source)).arg("-o").arg(&object));
             objects.push(object);
         }

@@ -24,7 +24,7 @@ fn build() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("devices");
     std::fs::create_dir_all(&folder).unwrap();
     let program = folder.join("devices");
-    let core = root().join("runtime/core");
+    let core = root().join("crates/firmware-c/runtime");
     let entries = std::fs::read_dir(&core).unwrap().map(|entry| entry.unwrap().path());
     let mut sources: Vec<_> =
         entries.filter(|path| path.extension().is_some_and(|found| found == "c")).collect();

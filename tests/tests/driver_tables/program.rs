@@ -50,7 +50,7 @@ fn build(units: &[Unit]) -> PathBuf {
     units.iter().for_each(|unit| text.push_str(&entry(unit)));
     text.push_str("};\n");
     std::fs::write(folder.join("tables.c"), text).unwrap();
-    let (core, program) = (root().join("runtime/core"), folder.join("drivers"));
+    let (core, program) = (root().join("crates/firmware-c/runtime"), folder.join("drivers"));
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
     command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);

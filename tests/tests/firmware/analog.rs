@@ -91,23 +91,30 @@ fn runtime_says(scratch_name: &str, change: Option<(&str, &str)>) -> Option<(boo
     }
     let folder = scratch(scratch_name);
     let (root, program) = (root(), folder.join("analog"));
-    let adc = std::fs::read_to_string(root.join("runtime/chibios/up_adc.c")).unwrap();
+    let adc =
+        std::fs::read_to_string(root.join("crates/firmware-chibios/runtime/up_adc.c")).unwrap();
     let changed = change.map_or(adc.clone(), |(original, changed)| {
         assert_eq!(adc.matches(original).count(), 1, "{original}");
         adc.replace(original, changed)
     });
     std::fs::write(folder.join("up_adc.c"), changed).unwrap();
     let core = ["convert", "schema", "value", "checksum", "formula_ntc", "text"];
-    let core = core.map(|name| root.join(format!("runtime/core/up_{name}.c")));
+    let core = core.map(|name| root.join(format!("crates/firmware-c/runtime/up_{name}.c")));
     let warnings =
         ["-Wall", "-Wextra", "-Wundef", "-Wstrict-prototypes", "-Wconversion", "-Wshadow"];
     let mut compiler = Command::new("gcc");
     compiler.args(["-std=c11", "-Werror", "-fsanitize=address,undefined"]).args(warnings);
-    for include in ["tests/firmware/analog", "runtime/core", "runtime/chibios"] {
+    for include in
+        ["tests/firmware/analog", "crates/firmware-c/runtime", "crates/firmware-chibios/runtime"]
+    {
         compiler.arg("-I").arg(root.join(include));
     }
     compiler.arg(root.join("tests/firmware/analog/main.c")).arg(folder.join("up_adc.c"));
-    compiler.arg(root.join("runtime/chibios/up_dac.c")).args(core).arg("-o").arg(&program);
+    compiler
+        .arg(root.join("crates/firmware-chibios/runtime/up_dac.c"))
+        .args(core)
+        .arg("-o")
+        .arg(&program);
     let built = compiler.output().unwrap();
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     let ran = Command::new(&program).output().unwrap();

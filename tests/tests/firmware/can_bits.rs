@@ -43,10 +43,13 @@ fn compile(is_fdcan: bool) -> PathBuf {
     cc.args(["-DSTUB_CORTEX=4", "-DSTUB_WINDOWED=0"]);
     cc.args(if is_fdcan { vec!["-DSTUB_G4", "-DSTUB_FDCAN"] } else { vec!["-DSTUB_F4"] });
     cc.arg("-I").arg(&folder);
-    for path in ["tests/firmware/stubs", "runtime/core", "runtime/chibios"] {
+    for path in
+        ["tests/firmware/stubs", "crates/firmware-c/runtime", "crates/firmware-chibios/runtime"]
+    {
         cc.arg("-I").arg(root().join(path));
     }
-    cc.arg(root().join("tests/firmware/can/main.c")).arg(root().join("runtime/chibios/up_can.c"));
+    cc.arg(root().join("tests/firmware/can/main.c"))
+        .arg(root().join("crates/firmware-chibios/runtime/up_can.c"));
     let _ = run(cc.arg("-o").arg(&program));
     program
 }

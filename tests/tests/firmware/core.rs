@@ -13,7 +13,7 @@ const STRICT: &[&str] =
     &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-O2"];
 
 fn sources() -> Vec<PathBuf> {
-    files(&root().join("runtime/core"), "c")
+    files(&root().join("crates/firmware-c/runtime"), "c")
 }
 
 fn tests() -> Vec<PathBuf> {
@@ -48,7 +48,7 @@ fn compile(compiler: &str, flags: &[&str], sources: &[PathBuf], output: &Path) {
     let include = |folder: &str| format!("-I{}", root().join(folder).display());
     let mut command = Command::new(compiler);
     command.args(STRICT).args(flags);
-    command.args([include("runtime/core"), include("tests/firmware")]);
+    command.args([include("crates/firmware-c/runtime"), include("tests/firmware")]);
     command.arg(format!("-I{}", codecs().display()));
     command.args(sources).arg("-o").arg(output);
     // The tests compare with the C library's functions; the core itself has none of them.
@@ -278,7 +278,7 @@ fn notices_a_broken_core() {
         let mut command = Command::new("gcc");
         command.args(["-std=c99", "-O1", "-w", "-fsanitize=address,undefined"]);
         command.arg("-fno-sanitize-recover=all");
-        for include in ["runtime/core", "tests/firmware"] {
+        for include in ["crates/firmware-c/runtime", "tests/firmware"] {
             command.arg(format!("-I{}", root().join(include).display()));
         }
         command.arg(format!("-I{}", codecs().display()));

@@ -27,7 +27,7 @@ fn compile_model(compiler: &str, board: &Path) {
         "-trigraphs",
         "-fsyntax-only",
     ]);
-    command.arg(format!("-I{}", root().join("runtime/core").display()));
+    command.arg(format!("-I{}", root().join("crates/firmware-c/runtime").display()));
     run(command.arg(board.join("generated/sense_model.c")));
 }
 

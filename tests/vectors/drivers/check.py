@@ -327,7 +327,7 @@ def uncovered(driver, cases):
 
 def main():
     drivers = {}
-    for path in sorted((ROOT / "drivers").glob("*.sense")):
+    for path in sorted((ROOT / "crates/model/drivers").glob("*.sense")):
         for driver in Parser(path.read_text(), path.name).drivers():
             if driver["name"] in drivers:
                 print(f"{path.name}: {driver['name']} twice")

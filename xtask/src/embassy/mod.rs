@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
             families.entry(chip.family.clone()).or_default().push(chip);
         }
     }
-    let target = root.join("targets").join(&facts.target);
+    let target = root.join("crates/board/targets").join(&facts.target);
     std::fs::create_dir_all(&target)?;
     let mut stale = Vec::new();
     for (family, chips) in &families {

@@ -16,6 +16,7 @@ mod v5;
 
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -32,8 +33,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "STM32F1xx", plan: f1::plan },
     ],
     lacks: nothing,
-    runtime: &[
-        ("chibios/up_adc.c", include_str!("../../../../runtime/chibios/up_adc.c")),
-        ("chibios/up_adc.h", include_str!("../../../../runtime/chibios/up_adc.h")),
-    ],
+    core: &[],
+    runtime: own!["up_adc.c", "up_adc.h"],
 };

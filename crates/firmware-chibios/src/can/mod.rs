@@ -2,6 +2,7 @@
 
 mod frames;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 use sensedsl_model::kind::KindName;
 
@@ -16,8 +17,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "FDCANv2", plan: frames::plan },
     ],
     lacks: nothing,
-    runtime: &[
-        ("chibios/up_can.c", include_str!("../../../../runtime/chibios/up_can.c")),
-        ("chibios/up_can.h", include_str!("../../../../runtime/chibios/up_can.h")),
-    ],
+    core: &[],
+    runtime: own!["up_can.c", "up_can.h"],
 };

@@ -4,6 +4,7 @@ mod v1;
 
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -13,8 +14,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     version: |drivers| &drivers.dac,
     versions: &[Version { name: "DACv1", plan: v1::plan }],
     lacks: nothing,
-    runtime: &[
-        ("chibios/up_dac.c", include_str!("../../../../runtime/chibios/up_dac.c")),
-        ("chibios/up_dac.h", include_str!("../../../../runtime/chibios/up_dac.h")),
-    ],
+    core: &[],
+    runtime: own!["up_dac.c", "up_dac.h"],
 };

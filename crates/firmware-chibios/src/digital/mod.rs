@@ -2,8 +2,10 @@
 
 mod v1;
 
+use sensedsl_firmware_c::runtime as core;
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -17,10 +19,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "GPIOv3", plan: v1::plan },
     ],
     lacks: nothing,
-    runtime: &[
-        ("core/up_debounce.c", include_str!("../../../../runtime/core/up_debounce.c")),
-        ("core/up_debounce.h", include_str!("../../../../runtime/core/up_debounce.h")),
-        ("chibios/up_digital.c", include_str!("../../../../runtime/chibios/up_digital.c")),
-        ("chibios/up_digital.h", include_str!("../../../../runtime/chibios/up_digital.h")),
-    ],
+    core: &[core::DEBOUNCE],
+    runtime: own!["up_digital.c", "up_digital.h"],
 };

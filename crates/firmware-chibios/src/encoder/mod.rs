@@ -2,8 +2,10 @@
 
 mod v1;
 
+use sensedsl_firmware_c::runtime as core;
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -13,10 +15,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     version: |drivers| &drivers.timer,
     versions: &[Version { name: "TIMv1", plan: v1::plan }],
     lacks: nothing,
-    runtime: &[
-        ("core/up_count.c", include_str!("../../../../runtime/core/up_count.c")),
-        ("core/up_count.h", include_str!("../../../../runtime/core/up_count.h")),
-        ("chibios/up_encoder.c", include_str!("../../../../runtime/chibios/up_encoder.c")),
-        ("chibios/up_encoder.h", include_str!("../../../../runtime/chibios/up_encoder.h")),
-    ],
+    core: &[core::COUNT],
+    runtime: own!["up_encoder.c", "up_encoder.h"],
 };

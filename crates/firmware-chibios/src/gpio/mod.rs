@@ -18,6 +18,7 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "GPIOv3", plan: by_pin },
     ],
     lacks: nothing,
+    core: &[],
     runtime: &[],
 };
 

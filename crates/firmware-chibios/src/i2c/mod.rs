@@ -7,6 +7,7 @@ mod v2;
 use sensedsl_model::kind::KindName;
 
 use super::chips;
+use super::runtime::own;
 use super::section::{Peripheral, Version};
 
 /// See the module. The drivers with a timing register differ in how they get their DMA streams alone.
@@ -21,8 +22,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "I2Cv4", plan: v2::plan },
     ],
     lacks: chips::lacks,
-    runtime: &[
-        ("chibios/up_i2c_bus.c", include_str!("../../../../runtime/chibios/up_i2c_bus.c")),
-        ("chibios/up_i2c_bus.h", include_str!("../../../../runtime/chibios/up_i2c_bus.h")),
-    ],
+    core: &[],
+    runtime: own!["up_i2c_bus.c", "up_i2c_bus.h"],
 };

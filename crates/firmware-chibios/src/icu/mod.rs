@@ -2,8 +2,10 @@
 
 mod v1;
 
+use sensedsl_firmware_c::runtime as core;
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -13,14 +15,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     version: |drivers| &drivers.timer,
     versions: &[Version { name: "TIMv1", plan: v1::plan }],
     lacks: nothing,
-    runtime: &[
-        ("core/up_capture.c", include_str!("../../../../runtime/core/up_capture.c")),
-        ("core/up_capture.h", include_str!("../../../../runtime/core/up_capture.h")),
-        ("core/up_count.c", include_str!("../../../../runtime/core/up_count.c")),
-        ("core/up_count.h", include_str!("../../../../runtime/core/up_count.h")),
-        ("core/up_elements.c", include_str!("../../../../runtime/core/up_elements.c")),
-        ("core/up_elements.h", include_str!("../../../../runtime/core/up_elements.h")),
-        ("chibios/up_icu.c", include_str!("../../../../runtime/chibios/up_icu.c")),
-        ("chibios/up_icu.h", include_str!("../../../../runtime/chibios/up_icu.h")),
-    ],
+    core: &[core::CAPTURE, core::COUNT, core::ELEMENTS],
+    runtime: own!["up_icu.c", "up_icu.h"],
 };

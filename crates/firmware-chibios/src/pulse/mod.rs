@@ -2,6 +2,7 @@
 
 mod v2;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module. All other pads are set up by the same driver, so that its version is asked for even where
@@ -16,8 +17,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "GPIOv3", plan: v2::plan },
     ],
     lacks: nothing,
-    runtime: &[
-        ("chibios/up_pulse.c", include_str!("../../../../runtime/chibios/up_pulse.c")),
-        ("chibios/up_pulse.h", include_str!("../../../../runtime/chibios/up_pulse.h")),
-    ],
+    core: &[],
+    runtime: own!["up_pulse.c", "up_pulse.h"],
 };

@@ -3,8 +3,10 @@
 mod rate;
 mod v1;
 
+use sensedsl_firmware_c::runtime as core;
 use sensedsl_model::kind::KindName;
 
+use super::runtime::own;
 use super::section::{Peripheral, Version, nothing};
 
 /// See the module.
@@ -14,10 +16,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
     version: |drivers| &drivers.timer,
     versions: &[Version { name: "TIMv1", plan: v1::plan }],
     lacks: nothing,
-    runtime: &[
-        ("core/up_pulse_width.c", include_str!("../../../../runtime/core/up_pulse_width.c")),
-        ("core/up_pulse_width.h", include_str!("../../../../runtime/core/up_pulse_width.h")),
-        ("chibios/up_pwm.c", include_str!("../../../../runtime/chibios/up_pwm.c")),
-        ("chibios/up_pwm.h", include_str!("../../../../runtime/chibios/up_pwm.h")),
-    ],
+    core: &[core::PULSE_WIDTH],
+    runtime: own!["up_pwm.c", "up_pwm.h"],
 };

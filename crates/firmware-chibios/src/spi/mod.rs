@@ -8,6 +8,7 @@ mod v3;
 use sensedsl_model::kind::KindName;
 
 use super::chips;
+use super::runtime::own;
 use super::section::{Peripheral, Version};
 pub(super) use bus::number_of;
 
@@ -22,8 +23,6 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "SPIv3/driver_v2", plan: v3::plan },
     ],
     lacks: chips::lacks,
-    runtime: &[
-        ("chibios/up_spi_bus.c", include_str!("../../../../runtime/chibios/up_spi_bus.c")),
-        ("chibios/up_spi_bus.h", include_str!("../../../../runtime/chibios/up_spi_bus.h")),
-    ],
+    core: &[],
+    runtime: own!["up_spi_bus.c", "up_spi_bus.h"],
 };

@@ -2,6 +2,7 @@
 
 mod v1;
 
+use super::runtime::own;
 use super::section::{Lacks, Peripheral, Version};
 use sensedsl_job::{BoardJob, JobConnection};
 use sensedsl_model::kind::KindName;
@@ -18,10 +19,8 @@ pub(super) const PERIPHERAL: Peripheral = Peripheral {
         Version { name: "USARTv3", plan: v1::plan },
     ],
     lacks: LACKS,
-    runtime: &[
-        ("chibios/up_uart.c", include_str!("../../../../runtime/chibios/up_uart.c")),
-        ("chibios/up_uart.h", include_str!("../../../../runtime/chibios/up_uart.h")),
-    ],
+    core: &[],
+    runtime: own!["up_uart.c", "up_uart.h"],
 };
 
 /// A number in a text can be read and not yet be written.

@@ -19,7 +19,8 @@ use self::answer::Desk;
 fn build() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).to_path_buf();
     let program = folder.join(format!("sense-rt-core-{}", std::process::id()));
-    let (core, own) = (root().join("runtime/core"), root().join("crates/sense-rt/tests/same"));
+    let (core, own) =
+        (root().join("crates/firmware-c/runtime"), root().join("crates/sense-rt/tests/same"));
     let mut command = Command::new("gcc");
     command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]);
     command.args(["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);

@@ -15,8 +15,10 @@ fn root() -> &'static Path {
 
 /// A driver of the library under another name, and with another text in it.
 fn changed(driver: &str, find: &str, with: &str) -> String {
-    let mut files: Vec<_> =
-        fs::read_dir(root().join("drivers")).unwrap().map(|one| one.unwrap().path()).collect();
+    let mut files: Vec<_> = fs::read_dir(root().join("crates/model/drivers"))
+        .unwrap()
+        .map(|one| one.unwrap().path())
+        .collect();
     files.sort();
     let head = format!("driver {driver} for ");
     let found = files.iter().find_map(|path| {
