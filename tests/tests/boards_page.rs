@@ -18,9 +18,9 @@ neither: `board Robot on NUCLEO_F411RE { … }`. `sensedsl boards` lists the boa
 those with all of the words in what is known of them, and `sensedsl boards NAME` prints the [table](board-tables.md) of
 one.
 
-Each is a folder of `boards/`: `pins.csv` says which pins there are, where they are brought out, and what on the board
-is connected to them; `board.toml` has the other facts, each with its source. What a pin can be used for comes from the
-MCU's part. The names of the Discovery, Nucleo and other boards are those of their makers.
+Each is a folder of `crates/board/boards/`: `pins.csv` says which pins there are, where they are brought out, and what
+on the board is connected to them; `board.toml` has the other facts, each with its source. What a pin can be used for
+comes from the MCU's part. The names of the Discovery, Nucleo and other boards are those of their makers.
 
 - **Pins**: how many the table lists, and how many of them nothing on the board has taken. A pin that is *usable with
   care* (a light, a button) is among them and gives a warning; `release` frees a taken one.
@@ -30,7 +30,7 @@ MCU's part. The names of the Discovery, Nucleo and other boards are those of the
   firmware in [Rust](firmware.md#in-rust-on-embassy) where Embassy [knows the MCU](embassy-boards.md), and otherwise
   wiring alone; `sensedsl boards` has the systems of each board.
 
-This page is made from `boards/`.
+This page is made from `crates/board/boards/`.
 ";
 
 /// The page, from the boards.

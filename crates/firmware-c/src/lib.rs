@@ -1,7 +1,8 @@
 //! What is C but no system's: the values of a board and its wire, for firmware and for programs on a computer.
 //!
-//! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table, and `sense_codec.c`, straight lines of
-//! code from values to payloads and back; and of each part its tables. They need `runtime/core` and nothing else.
+//! In: a schema. Out: `sense_model.[ch]`, the values and their fields as a table, and `sense_codec.c`, straight lines
+//! of code from values to payloads and back; and of each part its tables. They need `crates/firmware-c/runtime` and
+//! nothing else.
 
 pub mod runtime;
 mod schema;

@@ -32,9 +32,9 @@ struct Tables<'a> {
     wiring: Wiring,
 }
 
-/// The tables of a part in C. They name the fields of the schema `SENSE_FIELD_` and the device's name, as the header of a
-/// board does, and the types of `runtime/core`. The plan is the same for all targets; what only C is told of the wiring
-/// comes with it.
+/// The tables of a part in C. They name the fields of the schema `SENSE_FIELD_` and the device's name, as the header of
+/// a board does, and the types of `crates/firmware-c/runtime`. The plan is the same for all targets; what only C is
+/// told of the wiring comes with it.
 #[must_use]
 pub fn tables(plan: &PartPlan, wiring: Wiring) -> String {
     block(&Tables { p: plan, wiring })

@@ -15,7 +15,7 @@
 //! `static`: `Store<[u8; SCHEMA.values_bytes()]>`. Each such type dereferences to its unsized form
 //! (`Store<[u8]>`), which has the methods: one copy of the code serves all sizes.
 //!
-//! `runtime/core` is the same in C; tests hold both to the same vectors and to each other.
+//! `crates/firmware-c/runtime` is the same in C; tests hold both to the same vectors and to each other.
 #![no_std]
 #![forbid(unsafe_code)]
 

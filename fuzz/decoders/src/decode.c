@@ -1,4 +1,4 @@
-/* The decoder of the board (`runtime/core`), as the fuzzer calls it. */
+/* The decoder of the board (`crates/firmware-c/runtime`), as the fuzzer calls it. */
 #include "decode.h"
 
 #include <stdlib.h>

@@ -7,8 +7,8 @@ use sensedsl_wire::{Checksum, ScalarType};
 use super::BusPlan;
 use crate::BoardJob;
 
-/// What can be left out, as the features of `sense-rt` are called, and whether any value needs it; `runtime/core/up_uses.h`
-/// says what each is.
+/// What can be left out, as the features of `sense-rt` are called, and whether any value needs it;
+/// `crates/firmware-c/runtime/up_uses.h` says what each is.
 #[must_use]
 pub fn uses(job: &BoardJob<'_>) -> [(&'static str, bool); 12] {
     let device = |uses: fn(&Device) -> bool| job.devices.iter().any(|one| uses(one.device));

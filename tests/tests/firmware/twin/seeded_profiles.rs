@@ -178,8 +178,8 @@ const HEADING: &str = "In profiles";
 
 const INTRO: &str = "\
 The rover with a contact whose edges are counted, and the paper's Fig. 2, are wired, generated and built from a changed
-file of `targets/`, as if we did not know the system; only what has to moves from the right wiring. The twin knows the
-STM32F407 from its reference manual and not from these files. Written by
+file of `crates/board/targets/`, as if we did not know the system; only what has to moves from the right wiring. The
+twin knows the STM32F407 from its reference manual and not from these files. Written by
 `tests/tests/firmware/twin/seeded_profiles.rs`.
 
 ";
