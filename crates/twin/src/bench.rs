@@ -1,6 +1,6 @@
 //! The bench: a board's wiring, with parts behind its pins and a world around them.
 //!
-//! In: what is to run on a board, and a world. Out: [`Surroundings`](crate::Surroundings) for an emulated MCU, and
+//! In: what is to run on a board, and a world. Out: [`Surroundings`](sensedsl_surroundings::Surroundings) for an emulated MCU, and
 //! the same by connections for a board that knows no pads. Faults of the world happen here.
 
 use std::collections::BTreeMap;
@@ -17,9 +17,9 @@ use crate::commands::outputs::Recorder;
 use crate::parts::line::{Edges, Line, Spikes};
 use crate::parts::{can, formula, message};
 use crate::range::is_counter;
-use crate::surroundings::{Pad, TimerOutput};
 use crate::truth::Subject;
 use crate::world::{Fault, FaultKind, World, usual};
+use sensedsl_surroundings::{Pad, TimerOutput};
 
 mod chips;
 mod log;

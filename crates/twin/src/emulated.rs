@@ -9,9 +9,9 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 
 use crate::bench::{Bench, number_of};
-use crate::machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
 use crate::pads::{Misled, Planned, misled, planned};
 use crate::ports::{self, PlannedPort};
+use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
 
 /// The crystal where the board's is not known.
 const CRYSTAL_HZ: u64 = 8_000_000;
@@ -250,7 +250,7 @@ impl EmulatedBoard {
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
     #[must_use]
-    pub fn waves(&self) -> std::collections::BTreeMap<crate::TimerOutput, (u64, u64)> {
+    pub fn waves(&self) -> std::collections::BTreeMap<sensedsl_surroundings::TimerOutput, (u64, u64)> {
         self.bench().waves().clone()
     }
 

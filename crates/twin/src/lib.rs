@@ -3,11 +3,12 @@
 //! What comes in are bytes: an image, what a host sends. What goes out are events with times. Time is virtual and
 //! counted in nanoseconds since the board got power, so that a run is the same each time, to the byte.
 //!
-//! [`Surroundings`] is the seam: the machine (feature `machine`) asks it what is on its pads and buses, and whoever
-//! models the world answers.
+//! [`Surroundings`](sensedsl_surroundings::Surroundings) is the seam: an emulated MCU (feature `machine`) asks it what is
+//! on its pads and buses, and the parts here answer.
 //!
 //! [`world`] says what happens around a board, [`mod@bench`] puts parts behind its pins, [`soft`] does the board's job in
-//! this program, `emulated` does it with an image on the machine, and [`judge`] compares what it reports with the world. No part of it reads a file or a clock.
+//! this program, `emulated` does it with an image on the machine, and [`judge`] compares what it reports with the world.
+//! No part of it reads a file or a clock.
 
 mod arith;
 pub mod bench;
@@ -16,16 +17,11 @@ pub mod commands;
 pub mod emulated;
 pub mod judge;
 #[cfg(feature = "machine")]
-pub mod machine;
-#[cfg(feature = "machine")]
 pub mod pads;
 mod parts;
 #[cfg(feature = "machine")]
 mod ports;
 pub mod range;
 pub mod soft;
-pub mod surroundings;
 pub mod truth;
 pub mod world;
-
-pub use surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};

@@ -8,8 +8,8 @@ use sensedsl_job::{BoardJob, Pad as Wired};
 use sensedsl_model::kind::digital::Pull as Wanted;
 use sensedsl_model::kind::{Kind, Role};
 
-use crate::machine::{Mode, PadState, Pull};
-use crate::surroundings::Pad;
+use sensedsl_machine::{Mode, PadState, Pull};
+use sensedsl_surroundings::Pad;
 
 /// How a pad must be set up.
 #[derive(Clone, Debug, PartialEq, Eq)]

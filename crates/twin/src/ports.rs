@@ -10,8 +10,8 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::Parity;
 
-use crate::machine::{PortState, Setting};
 use crate::pads::Misled;
+use sensedsl_machine::{PortState, Setting};
 
 /// A serial port takes characters whose speed is off by up to so many per cent.
 const BAUD_PERCENT: u64 = 2;

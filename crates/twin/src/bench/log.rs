@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write as _};
 
 use super::Bench;
-use crate::surroundings::{CanFrame, I2cEvent, I2cReply};
+use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply};
 
 /// The lines so far.
 #[derive(Clone, Debug)]

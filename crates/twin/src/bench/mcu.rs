@@ -4,8 +4,8 @@ use sensedsl_model::design::PartIndex;
 use sensedsl_model::kind::Role;
 
 use super::{Bench, Chip};
-use crate::surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use crate::world::FaultKind;
+use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 
 impl Surroundings for Bench {
     fn millivolts(&mut self, pad: Pad, now_ns: u64) -> f64 {

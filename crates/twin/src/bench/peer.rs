@@ -7,7 +7,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::kind::Kind;
 
 use super::Bench;
-use crate::surroundings::CanFrame;
+use sensedsl_surroundings::CanFrame;
 
 /// Frames that wait at most, each way: a peer that does not read loses the oldest.
 const WAITING_MAX: usize = 4_096;

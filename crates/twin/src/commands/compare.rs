@@ -5,7 +5,7 @@ use sensedsl_model::design::ConnectionIndex;
 use super::expect::{Expected, Sent, What};
 use super::outputs::Outputs;
 use super::written::Written;
-use crate::surroundings::CanFrame;
+use sensedsl_surroundings::CanFrame;
 
 /// How many bytes of a transfer are shown.
 const SHOWN: usize = 24;

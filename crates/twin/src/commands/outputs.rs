@@ -8,7 +8,7 @@ use sensedsl_model::design::ConnectionIndex;
 use sensedsl_model::kind::{Kind, Role};
 
 use crate::bench::number_of;
-use crate::surroundings::{CanFrame, TimerOutput};
+use sensedsl_surroundings::{CanFrame, TimerOutput};
 
 /// Transfers, bytes and frames that are kept of each wire: more than a step of a script makes.
 const KEPT: usize = 4_096;

@@ -3,8 +3,8 @@
 use sensedsl_model::words::Words;
 
 use super::words::bytes;
-use crate::surroundings::CanFrame;
 use crate::truth::Subject;
+use sensedsl_surroundings::CanFrame;
 
 /// The longest time between two frames.
 const PERIOD_NS_MAX: u64 = 50_000_000;

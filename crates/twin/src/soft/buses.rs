@@ -11,7 +11,7 @@ use sensedsl_wire::Direction;
 use super::tables::{self, kept};
 use super::{Core, begins, wrapped};
 use crate::bench::{Bench, Units};
-use crate::surroundings::{I2cEvent, I2cReply, Surroundings as _};
+use sensedsl_surroundings::{I2cEvent, I2cReply, Surroundings as _};
 
 /// Transfers that a chip makes in a millisecond at most, so that nothing goes on for ever.
 const TRANSFERS_MAX: usize = 1_000;

@@ -16,7 +16,7 @@ use sensedsl_wire::Direction;
 
 use super::tables;
 use crate::bench::{Bench, Units};
-use crate::surroundings::{CanFrame, Surroundings as _};
+use sensedsl_surroundings::{CanFrame, Surroundings as _};
 
 const FULL_CODE: u64 = 4_095;
 const FULL_MV: f64 = 3_300.0 / 4_096.0;

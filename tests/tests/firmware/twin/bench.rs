@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use sensedsl_twin::machine::{LinkPort, Machine, Settings};
-use sensedsl_twin::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
+use sensedsl_machine::{LinkPort, Machine, Settings};
+use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
 };

@@ -1,7 +1,7 @@
 //! Two controllers of a kind at once, and outputs that are complements, on both targets.
 
-use sensedsl_twin::machine::LinkPort;
-use sensedsl_twin::{CanFrame, TimerOutput};
+use sensedsl_machine::LinkPort;
+use sensedsl_surroundings::{CanFrame, TimerOutput};
 use sensedsl_wire::Direction::{Actuator, Sensor};
 use sensedsl_wire::ScalarType::{Int16, Uint16};
 

@@ -1,7 +1,7 @@
 //! The examples as firmware for both targets, over both links, before a judge for ten virtual seconds, as `simulate
 //! --firmware IMAGE --judge` runs them, with the generated program of the host at the other end.
 
-use sensedsl_twin::machine::Event;
+use sensedsl_machine::Event;
 
 use super::hosted::Host;
 use super::trial::{System, Trial, run, run_with};

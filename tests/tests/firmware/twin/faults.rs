@@ -1,7 +1,7 @@
 //! What breaks around a board, on a real image: the others go on, health names the device and the cause, and the broken
 //! one comes back.
 
-use sensedsl_twin::machine::{Event, ResetCause};
+use sensedsl_machine::{Event, ResetCause};
 use sensedsl_wire::{Causes, DeviceHealth, ResetCause as Cause, Status};
 
 use super::bench::folder;

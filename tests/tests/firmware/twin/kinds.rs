@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use sensedsl_twin::CanFrame;
-use sensedsl_twin::machine::LinkPort;
+use sensedsl_machine::LinkPort;
+use sensedsl_surroundings::CanFrame;
 use sensedsl_wire::Direction::{Actuator, Sensor};
 use sensedsl_wire::ScalarType::{Bool, Float32, Int16, Int32, Uint8, Uint16, Uint32};
 use sensedsl_wire::{Checksum, Scalar, Schema};

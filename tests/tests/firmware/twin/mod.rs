@@ -19,7 +19,7 @@ mod trial;
 
 use std::collections::BTreeMap;
 
-use sensedsl_twin::machine::{Event, LinkPort, ResetCause};
+use sensedsl_machine::{Event, LinkPort, ResetCause};
 use sensedsl_wire::Direction::Sensor;
 use sensedsl_wire::ScalarType::{Uint8, Uint16, Uint32};
 use sensedsl_wire::{Checksum, Schema};

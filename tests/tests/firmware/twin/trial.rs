@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_job::{BoardJob, jobs};
+use sensedsl_machine::{Event as Told, Lockup};
 use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::judge::{Judge, Judged};
-use sensedsl_twin::machine::{Event as Told, Lockup};
 use sensedsl_twin::pads::Misled;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{

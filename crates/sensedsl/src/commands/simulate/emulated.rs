@@ -3,10 +3,10 @@
 use sensedsl_diagnostics::codes::e0550_pad_not_as_planned::not_as_planned;
 use sensedsl_diagnostics::codes::e0553_no_watchdog::no_watchdog;
 use sensedsl_diagnostics::{Diagnostic, Span};
+use sensedsl_machine::{Event, ResetCause};
 use sensedsl_twin::bench::{Unasked, seconds};
 use sensedsl_twin::commands::outputs::Outputs;
 use sensedsl_twin::emulated::EmulatedBoard;
-use sensedsl_twin::machine::{Event, ResetCause};
 
 use super::board::Board;
 

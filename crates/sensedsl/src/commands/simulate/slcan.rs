@@ -3,7 +3,7 @@
 //! `t1232AABB` is a frame with 11 bits of identifier, two bytes long; `T0000012321234` one with 29; `r` and `R` ask for a
 //! frame. A line ends with a carriage return. `O` opens the bus, `C` closes it, and each command is answered.
 
-use sensedsl_twin::CanFrame;
+use sensedsl_surroundings::CanFrame;
 
 /// The longest line of the protocol.
 const LINE_MAX: usize = 32;

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::gpio::Gpio;
-use crate::surroundings::{Pad, Surroundings};
+use sensedsl_surroundings::{Pad, Surroundings};
 
 /// No event is due.
 pub(super) const NEVER: u64 = u64::MAX;

@@ -402,6 +402,6 @@ impl Chip {
 /// The levels of a port's pads.
 fn levels(wires: &Wires, port: usize) -> u32 {
     let port = u8::try_from(port).unwrap_or(0);
-    let is_high = |pin: u8| wires.level(crate::surroundings::Pad { port, pin });
+    let is_high = |pin: u8| wires.level(sensedsl_surroundings::Pad { port, pin });
     (0..16_u8).filter(|pin| is_high(*pin)).fold(0, |levels, pin| levels | 1 << pin)
 }

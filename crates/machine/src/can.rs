@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
-use crate::surroundings::CanFrame;
+use sensedsl_surroundings::CanFrame;
 
 /// Bits of MCR and MSR.
 const INIT: u32 = 1;

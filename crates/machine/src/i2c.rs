@@ -2,7 +2,7 @@
 
 use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
-use crate::surroundings::{I2cEvent, I2cReply};
+use sensedsl_surroundings::{I2cEvent, I2cReply};
 
 /// Fast mode; this unit has no fast mode plus.
 const FASTEST_HZ: u64 = 400_000;

@@ -2,7 +2,7 @@
 
 use super::timer::Timer;
 use super::wires::{NEVER, Wires};
-use crate::surroundings::Pad;
+use sensedsl_surroundings::Pad;
 
 /// What a timer's first two inputs, or four, see.
 #[derive(Debug)]

@@ -18,7 +18,7 @@ use super::lockup::Lockup;
 use super::map::DEBUG_BASE;
 use super::transfer::{FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
-use crate::surroundings::Surroundings;
+use sensedsl_surroundings::Surroundings;
 
 /// Peripherals are from here to the core's own.
 const PERIPHERALS: u32 = 0x4000_0000;

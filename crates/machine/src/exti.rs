@@ -1,7 +1,7 @@
 //! External interrupts of pads, and which port each line is of (SYSCFG).
 
 use super::wires::{NEVER, Wires, merge};
-use crate::surroundings::Pad;
+use sensedsl_surroundings::Pad;
 
 /// A line of a pad.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,7 @@
 
 use super::capture::Inputs;
 use super::wires::{NEVER, Wires, merge, periods_in, periods_ns};
-use crate::surroundings::TimerOutput;
+use sensedsl_surroundings::TimerOutput;
 
 /// Bits of SR and DIER.
 const UPDATE: u32 = 1;

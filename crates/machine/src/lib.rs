@@ -2,13 +2,17 @@
 //!
 //! In comes an image ([`Machine::load`]) and what a host sends; out go what the host receives, and events. The core,
 //! its interrupt controller and its exceptions are rsemu's (`core.rs`); everything else on the chip is here, a file a
-//! device (`chip.rs`). What the pads are connected to says [`Surroundings`](crate::Surroundings).
+//! device (`chip.rs`). What the pads are connected to says [`Surroundings`](sensedsl_surroundings::Surroundings).
 //!
 //! The core counts cycles of its own clock, all else nanoseconds; where the core waits in a loop of one instruction the
 //! time jumps to the next event. Nothing here reads a clock or draws numbers, so a run is the same each time.
 //!
+//! Without the feature `cpu` the crate is empty: rsemu takes a minute or two to compile, and only what runs an image needs
+//! it.
+//!
 //! Not modelled: wait states, the write buffer, noise, the time that the DMA takes, the analog and digital filters.
 
+#![cfg(feature = "cpu")]
 #![expect(
     clippy::indexing_slicing,
     reason = "registers are decoded from addresses that `map` has found, units from tables of their number"
@@ -54,7 +58,7 @@ pub use ports::{PortState, Setting};
 pub use wires::{Event, LinkPort, ResetCause};
 
 use self::core::Core;
-use crate::surroundings::Surroundings;
+use sensedsl_surroundings::Surroundings;
 
 /// What of a board the machine has to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::image::{ImageError, flash_of};
 use super::transfer::{Memory, SRAM_BASE};
 use super::wires::Wires;
 use super::{LinkPort, Machine, Settings};
-use crate::surroundings::{I2cEvent, I2cReply, Pad, Surroundings};
+use sensedsl_surroundings::{I2cEvent, I2cReply, Pad, Surroundings};
 
 const RCC: u32 = 0x4002_3800;
 const US: u64 = 1_000;

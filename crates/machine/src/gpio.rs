@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::wires::merge;
-use crate::surroundings::Pad;
+use sensedsl_surroundings::Pad;
 
 /// Ports A to I.
 const PORTS: usize = 9;
