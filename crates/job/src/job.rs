@@ -10,7 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_board::profile::TargetProfile;
 use sensedsl_board::signal::UnitName;
 use sensedsl_board::table::{Pin, Usage};
-use sensedsl_model::design::{Board, Connection, Design, Device, DeviceIndex, Part, PartIndex};
+use sensedsl_model::design::{
+    Board, Connection, ConnectionIndex, Design, Device, DeviceIndex, Part, PartIndex,
+};
 use sensedsl_model::kind::{KindName, Role};
 use sensedsl_timing::{Starts, starts};
 use sensedsl_wire::{Direction, Schema};
@@ -61,6 +63,8 @@ pub struct JobPart<'a> {
 pub struct JobConnection<'a> {
     /// The connection.
     pub connection: &'a Connection,
+    /// Which connection of the design.
+    pub index: ConnectionIndex,
     /// The part that it is of.
     pub part: &'a Part,
     /// What code calls it, in snake case: `ir_front`, `line_3`, `left_in1`.
@@ -228,12 +232,8 @@ impl<'a> BoardJob<'a> {
     /// The connections of a device, in the order in which its value goes over them.
     #[must_use]
     pub fn wires_of(&self, device: &Device) -> Vec<&JobConnection<'a>> {
-        let connections = device.connections.iter();
-        let connections = connections.filter_map(|index| self.design.connection(*index));
-        let wired = |one: &Connection| {
-            self.connections.iter().find(|wire| std::ptr::eq(wire.connection, one))
-        };
-        connections.filter_map(wired).collect()
+        let wired = |index: &ConnectionIndex| self.connections.iter().find(|wire| wire.index == *index);
+        device.connections.iter().filter_map(wired).collect()
     }
 
     /// The tables of the part that a connection is of.
@@ -246,11 +246,7 @@ impl<'a> BoardJob<'a> {
     /// The table of a connection to a register bus.
     #[must_use]
     pub fn bus_of(&self, wire: &JobConnection<'_>) -> Option<&BusPlan> {
-        let is_own = |plan: &&BusPlan| {
-            let connection = self.design.connection(plan.connection);
-            connection.is_some_and(|own| std::ptr::eq(own, wire.connection))
-        };
-        self.tables_of(wire)?.buses.iter().find(is_own)
+        self.tables_of(wire)?.buses.iter().find(|plan| plan.connection == wire.index)
     }
 
     /// What a part that is on several register buses needs and no table says; none where all is said. What is of the
@@ -311,6 +307,7 @@ impl<'a> BoardJob<'a> {
         }
         Some(JobConnection {
             connection,
+            index,
             part,
             ident,
             title,

@@ -107,8 +107,8 @@ impl Bench {
             seed,
             log: None,
         };
-        for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
-            bench.add(job, wiring.connection, one);
+        for one in &job.connections {
+            bench.add(job, one.index, one);
         }
         bench.broken = world.faults.iter().map(|fault| broken(job, fault)).collect();
         bench

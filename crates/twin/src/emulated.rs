@@ -250,7 +250,9 @@ impl EmulatedBoard {
 
     /// Period and width in nanoseconds of the pulses that the board sends, by timer and channel.
     #[must_use]
-    pub fn waves(&self) -> std::collections::BTreeMap<sensedsl_surroundings::TimerOutput, (u64, u64)> {
+    pub fn waves(
+        &self,
+    ) -> std::collections::BTreeMap<sensedsl_surroundings::TimerOutput, (u64, u64)> {
         self.bench().waves().clone()
     }
 

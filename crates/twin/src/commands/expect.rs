@@ -68,12 +68,7 @@ pub(super) fn wires<'j, 'a>(
     job: &'j BoardJob<'a>,
     one: &JobDevice<'a>,
 ) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
-    let own = one.device.connections.iter();
-    let found = |index: &ConnectionIndex| {
-        let place = job.wiring.connections.iter().position(|wired| wired.connection == *index)?;
-        Some((*index, job.connections.get(place)?))
-    };
-    own.filter_map(found).collect()
+    job.wires_of(one.device).into_iter().map(|wire| (wire.index, wire)).collect()
 }
 
 /// The number of a wire's unit on the bench.
@@ -83,12 +78,11 @@ fn number(job: &BoardJob<'_>, wire: &JobConnection<'_>) -> Option<u8> {
 
 /// The levels that no value ever changes, such as that of a standby input.
 pub(super) fn constants(job: &BoardJob<'_>) -> Vec<Expected> {
-    let places = job.wiring.connections.iter().map(|wiring| wiring.connection);
-    let all = places.zip(&job.connections).filter(|(_, one)| one.devices.is_empty());
-    let constant = |(at, one): (ConnectionIndex, &JobConnection<'_>)| {
+    let all = job.connections.iter().filter(|one| one.devices.is_empty());
+    let constant = |one: &JobConnection<'_>| {
         let Kind::Digital(own) = &one.connection.kind else { return None };
         let is_driven = one.connection.direction == Direction::Actuator;
-        is_driven.then(|| level(at, one, 0, own, own.initial))
+        is_driven.then(|| level(one.index, one, 0, own, own.initial))
     };
     all.filter_map(constant).collect()
 }

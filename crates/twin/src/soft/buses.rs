@@ -186,7 +186,7 @@ fn exchange(bench: &mut Bench, way: Way, out: &[u8], answer: &mut [u8], now_ns: 
 pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
     let units = Units::new(job);
     let mut all = Vec::new();
-    for (wiring, one) in job.wiring.connections.iter().zip(&job.connections) {
+    for one in &job.connections {
         let is_spi = match one.connection.kind {
             Kind::I2c(_) => false,
             Kind::Spi(_) => true,
@@ -209,7 +209,7 @@ pub(super) fn buses(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Bus> {
             schema,
             chip: Box::new(Chip::new(table, schema)),
             unit: one.unit.and_then(|name| units.number(name)).unwrap_or(0),
-            selected: is_spi.then_some(wiring.connection),
+            selected: is_spi.then_some(one.index),
             start_ms: one.cycle.start_ms,
             wakes_ms: u64::from(one.cycle.start_ms),
             owed: vec![None; commands],

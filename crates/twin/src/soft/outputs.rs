@@ -248,8 +248,7 @@ fn wires<'j, 'a>(
     job: &'j BoardJob<'a>,
     holds: impl Fn(&JobConnection<'a>) -> bool,
 ) -> Vec<(ConnectionIndex, &'j JobConnection<'a>)> {
-    let places = job.wiring.connections.iter().map(|wiring| wiring.connection);
-    places.zip(&job.connections).filter(|(_, one)| holds(one)).collect()
+    job.connections.iter().filter(|one| holds(one)).map(|one| (one.index, one)).collect()
 }
 
 /// What pulses and voltages begin with.
@@ -276,13 +275,7 @@ fn sink(job: &BoardJob<'_>, one: &JobDevice<'_>) -> Option<Sink> {
         let unit = one.unit.and_then(|name| Units::new(job).number(name))?;
         return Some(Sink::Message(unit, tables::compose(plan)));
     }
-    let all = wires(job, |wire| own.iter().any(|one| std::ptr::eq(*one, wire)));
-    // In the order in which the value goes over them.
-    let in_order = one.device.connections.iter().filter_map(|at| {
-        let (at, wire) = all.iter().find(|(place, _)| place == at)?;
-        pin(*at, wire)
-    });
-    let pins: Vec<Pin> = in_order.collect();
+    let pins: Vec<Pin> = own.iter().filter_map(|wire| pin(wire.index, wire)).collect();
     let bridge = tables.and_then(|all| all.bridges.iter().find(|plan| plan.field == one.name()));
     match bridge {
         Some(plan) => Some(Sink::Bridge(bridge_of(plan), BridgeState::NEW, pins)),
