@@ -1,24 +1,13 @@
-//! Manifests and lock files: which crates are built, in which versions, with which features.
-//!
-//! The lock files are part of this program, so that a project is built from the same sources everywhere and for good.
+//! Manifests: which crates are built, with which features; and which lock file goes with them.
 
 use std::collections::BTreeSet;
 
 use super::context::Context;
 use super::hal::Hal;
+use super::lock::lock;
 use super::names::Chip;
 use sensedsl_job::BoardJob;
 use sensedsl_job::part::uses;
-
-/// The crates of a check.
-const CHECK: &str = include_str!("templates/check.lock.txt");
-/// As that, with the crates that the HAL takes for the high-resolution timers of STM32G4 and of STM32F3.
-const CHECK_G4: &str = include_str!("templates/check-g4.lock.txt");
-const CHECK_F3: &str = include_str!("templates/check-f3.lock.txt");
-/// Those on the HAL of RP.
-pub(super) const CHECK_RP: &str = include_str!("templates/check-rp.lock.txt");
-/// What the lock file lacks where no timer is left for the clock.
-const CLOCK: &str = " \"embassy-time-driver\",\n \"embassy-time-queue-utils\",\n";
 
 /// The manifest of a check.
 pub(super) fn check_manifest(job: &BoardJob<'_>, chip: &Chip, timer: Option<&str>) -> String {
@@ -51,35 +40,30 @@ pub(super) fn check_manifest_rp(chip: &Chip) -> String {
     )
 }
 
-/// The lock file of a check.
+/// The lock file of a check on a chip of STM32.
 pub(super) fn check_lock(chip: &Chip, timer: Option<&str>) -> String {
-    let starts = |starts: &[&str]| starts.iter().any(|start| chip.feature.starts_with(start));
-    let text = if starts(&["stm32g474", "stm32g484"]) {
-        CHECK_G4
-    } else if starts(&["stm32f334"]) {
-        CHECK_F3
-    } else {
-        CHECK
-    };
-    if timer.is_some() { text.to_owned() } else { text.replacen(&hal_clock(text), "", 1) }
+    let clock = timer.map(|_| "clock");
+    let all: Vec<&str> = ["check", "stm32"].into_iter().chain(timers(chip)).chain(clock).collect();
+    lock("wiring-check", &all)
 }
 
-/// The lines of the clock's crates among those that the HAL needs.
-fn hal_clock(text: &str) -> String {
-    let of_hal = text.split_once("name = \"embassy-stm32\"").map_or("", |(_, rest)| rest);
-    if of_hal.split("[[package]]").next().is_some_and(|own| own.contains(CLOCK)) {
-        CLOCK.to_owned()
+/// That of a check on a chip of RP.
+pub(super) fn check_lock_rp() -> String {
+    lock("wiring-check", &["check", "rp"])
+}
+
+/// The high-resolution timers of a chip, for which the HAL takes further crates.
+fn timers(chip: &Chip) -> Option<&'static str> {
+    let starts = |starts: &[&str]| starts.iter().any(|start| chip.feature.starts_with(start));
+    if starts(&["stm32g474", "stm32g484"]) {
+        Some("g4")
+    } else if starts(&["stm32f334"]) {
+        Some("f3")
     } else {
-        String::new()
+        None
     }
 }
 
-/// The crates of a firmware, and further ones of two families.
-const FIRMWARE: &str = include_str!("templates/firmware.lock.txt");
-const FIRMWARE_G4: &str = include_str!("templates/firmware-g4.lock.txt");
-const FIRMWARE_F3: &str = include_str!("templates/firmware-f3.lock.txt");
-/// Those on another HAL.
-const FIRMWARE_RP: &str = include_str!("templates/firmware-rp.lock.txt");
 /// How the manifest goes on behind the package.
 const MANIFEST: &str = include_str!("templates/Cargo.toml.txt");
 
@@ -144,18 +128,12 @@ pub(super) fn runtime_manifest(context: &Context<'_>) -> String {
 }
 
 /// The lock file of a firmware.
-pub(super) fn lock(context: &Context<'_>) -> String {
-    if context.names.hal == Hal::Rp {
-        return FIRMWARE_RP.to_owned();
-    }
-    let starts =
-        |starts: &[&str]| starts.iter().any(|start| context.chip.feature.starts_with(start));
-    let text = if starts(&["stm32g474", "stm32g484"]) {
-        FIRMWARE_G4
-    } else if starts(&["stm32f334"]) {
-        FIRMWARE_F3
-    } else {
-        FIRMWARE
+pub(super) fn firmware_lock(context: &Context<'_>) -> String {
+    let hal = match context.names.hal {
+        Hal::Stm32 => "stm32",
+        Hal::Rp => "rp",
     };
-    text.to_owned()
+    let all: Vec<&str> =
+        ["firmware", "clock", hal].into_iter().chain(timers(&context.chip)).collect();
+    lock("firmware", &all)
 }

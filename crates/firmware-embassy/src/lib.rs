@@ -23,6 +23,7 @@ mod inputs;
 mod lack;
 mod levels;
 mod link;
+mod lock;
 mod message;
 mod moved;
 mod names;

@@ -152,7 +152,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         probe: context.chip.probe.clone(),
         target: context.names.target.clone(),
         manifest: cargo::manifest(context),
-        lock: cargo::lock(context),
+        lock: cargo::firmware_lock(context),
         runtime_manifest: cargo::runtime_manifest(context),
         main_uses: hal.main_uses(),
         wiring_uses: hal.wiring_uses(),

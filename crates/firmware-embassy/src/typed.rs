@@ -116,7 +116,7 @@ pub fn type_check(job: &BoardJob<'_>) -> Result<TypeCheck, String> {
         }
         Hal::Rp => {
             files.add("Cargo.toml", cargo::check_manifest_rp(&chip));
-            files.add("Cargo.lock", cargo::CHECK_RP);
+            files.add("Cargo.lock", cargo::check_lock_rp());
             if names.target.starts_with("thumbv8m") {
                 files.add(".cargo/config.toml", rp::typed::CONFIG);
             }

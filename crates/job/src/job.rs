@@ -232,7 +232,8 @@ impl<'a> BoardJob<'a> {
     /// The connections of a device, in the order in which its value goes over them.
     #[must_use]
     pub fn wires_of(&self, device: &Device) -> Vec<&JobConnection<'a>> {
-        let wired = |index: &ConnectionIndex| self.connections.iter().find(|wire| wire.index == *index);
+        let wired =
+            |index: &ConnectionIndex| self.connections.iter().find(|wire| wire.index == *index);
         device.connections.iter().filter_map(wired).collect()
     }
 
