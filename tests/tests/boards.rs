@@ -4,11 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use sensedsl_board::catalog::{self, Board, Entry};
+use sensedsl_board::catalog::{self, Entry};
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{self, Target, Transport};
 use sensedsl_board::signal::Function;
 use sensedsl_board::table::{Occupation, Pin, Table};
+use sensedsl_firmware_chibios::Facts;
 use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
 use sensedsl_parts::{Completion, complete, find};
@@ -239,7 +240,8 @@ fn places_in_the_tree_exist() {
     };
     let tree = Path::new(&tree);
     for entry in catalog::all() {
-        let Board { chibios: Some(chibios), name, .. } = entry.board().unwrap() else { continue };
+        let facts = entry.board().unwrap();
+        let (Some(chibios), name) = (Facts::of(&facts).unwrap(), entry.name) else { continue };
         let board = tree.join("os/hal/boards").join(&chibios.board).join("board.mk");
         assert!(board.is_file(), "{name}: {}", board.display());
         let mcuconf = tree.join(&chibios.demo).join(&chibios.cfg).join("mcuconf.h");

@@ -9,6 +9,7 @@ use sensedsl_board::mcu;
 use sensedsl_board::pin::natural;
 use sensedsl_board::profile::Transport;
 use sensedsl_board::table::{Occupation, Pin};
+use sensedsl_firmware_chibios::Facts;
 use sensedsl_tests::{root, text};
 
 const HEAD: &str = "# Built-in boards
@@ -70,7 +71,8 @@ fn row(entry: &Entry) -> String {
         format!("{unit} ({})", names.join(" "))
     });
     let links: Vec<String> = links.collect();
-    let chibios = board.chibios.map(|chibios| format!("`{}`", chibios.board)).unwrap_or_default();
+    let chibios = Facts::of(&board).unwrap();
+    let chibios = chibios.map(|chibios| format!("`{}`", chibios.board)).unwrap_or_default();
     format!(
         "| {} | {} | {} | {} of {} | {places} | {parts} | {} | {chibios} |\n",
         board.name,

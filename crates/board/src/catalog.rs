@@ -59,7 +59,7 @@ pub fn nearest_name(name: &str) -> Option<&'static str> {
 #[must_use]
 pub fn of_mcu(name: &str) -> Option<&'static Entry> {
     let alike = || BOARDS.iter().filter(|entry| mcu::same_part(entry.mcu, name));
-    let built = |entry: &&Entry| entry.board().is_ok_and(|board| board.chibios.is_some());
+    let built = |entry: &&Entry| entry.board().is_ok_and(|board| !board.system.is_empty());
     alike().find(built).or_else(|| alike().next())
 }
 
@@ -113,7 +113,7 @@ impl Entry {
 }
 
 /// A board beside its pins: the file `board.toml`.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Board {
     /// The name.
@@ -130,8 +130,9 @@ pub struct Board {
     /// Crystals.
     #[serde(default)]
     pub crystal: Crystal,
-    /// What ChibiOS has for the board.
-    pub chibios: Option<Chibios>,
+    /// What systems have for the board, by their names.
+    #[serde(default)]
+    pub system: BTreeMap<String, SystemFacts>,
     /// Links to a host; the first is the default one.
     #[serde(default)]
     pub link: Vec<Link>,
@@ -139,6 +140,15 @@ pub struct Board {
     pub button: Option<Lever>,
     /// A light that the firmware may blink.
     pub led: Option<Lever>,
+}
+
+impl Board {
+    /// What a system has for the board; where it has nothing, what any other one has.
+    #[must_use]
+    pub fn facts_of(&self, system: Option<&str>) -> Option<&SystemFacts> {
+        let own = system.and_then(|system| self.system.get(system));
+        own.or_else(|| self.system.values().next())
+    }
 }
 
 /// Where facts come from.
@@ -166,37 +176,17 @@ pub struct Crystal {
     pub lse_hz: Option<u32>,
 }
 
-/// What ChibiOS has for a board; paths are relative to its tree.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Chibios {
-    /// The folder below `os/hal/boards`.
-    pub board: String,
-    /// The demo whose configuration is the base.
-    pub demo: String,
-    /// The folder of the configuration below the demo.
-    pub cfg: String,
-    /// The linker script.
-    pub ldscript: String,
-    /// The memory that the linker script gives to data, where it is known.
+/// What a system has for a board beside its profile of the MCU.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub struct SystemFacts {
+    /// The memory that its linker script gives to data, where it is known.
     pub ram_bytes: Option<u32>,
-    /// Bytes of the main thread's stack and of that of interrupts, where the usual ones are too large.
-    pub stacks_bytes: Option<[u32; 2]>,
-    /// The macro by which the configuration tells its MCU.
-    pub mcuconf: String,
-    /// Macros that the files of the tree want to be told.
-    #[serde(default)]
-    pub defines: Vec<String>,
-    /// What of the board's folder and the demo's configuration is not right for this board: macros, and what they
-    /// are to be; nothing for one that must not be defined.
-    #[serde(default)]
-    pub changes: BTreeMap<String, String>,
-    /// Pins that the folder makes outputs and that are free on this board.
-    #[serde(default, deserialize_with = "pins")]
-    pub released: Vec<PinName>,
-    /// What the configuration's clock tree gives, by macro.
+    /// What its clock tree gives, by the system's name of the clock.
     #[serde(default)]
     pub clocks_hz: BTreeMap<String, u32>,
+    /// What only its generator reads.
+    #[serde(flatten)]
+    pub own: toml::Table,
 }
 
 /// A link to a host.

@@ -148,8 +148,8 @@ fn the_paper_s_board_has_what_its_firmware_needs() {
     assert_eq!(pins.to_csv(), entry.csv());
     assert_eq!(table::load(entry.csv()).findings, []);
     let board = entry.board().unwrap();
-    let chibios = board.chibios.unwrap();
-    assert_eq!(chibios.board, "ST_STM32F4_DISCOVERY");
+    let chibios = &board.system["chibios"];
+    assert_eq!(chibios.own["board"].as_str(), Some("ST_STM32F4_DISCOVERY"));
     assert_eq!(chibios.clocks_hz["STM32_TIMCLK2"], 168_000_000);
     let link = board.link.first().unwrap();
     assert_eq!((link.transport, link.unit.as_str()), (Transport::Usb, "OTG1"));

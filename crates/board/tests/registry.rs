@@ -130,12 +130,12 @@ fn every_board_is_sound() {
         assert!(!loaded.board.pins.is_empty(), "{}: no pins", entry.name);
         let mcu = loaded.board.mcu.unwrap_or_else(|| board.mcu.clone());
         assert_eq!(mcu, board.mcu, "table and board name different MCUs");
-        if let Some(chibios) = &board.chibios {
+        for (system, facts) in &board.system {
             // Of a family without a profile the folders alone are known.
-            let target = profile::find("chibios", &board.mcu);
+            let target = profile::find(system, &board.mcu);
             let known = matches!(target, Ok(_) | Err(profile::NoProfile::UnknownMcu { .. }));
             assert!(known, "{}: {target:?}", board.name);
-            assert!(!chibios.clocks_hz.is_empty(), "{}: no clocks", board.name);
+            assert!(!facts.clocks_hz.is_empty(), "{}: no clocks", board.name);
         }
     }
 }

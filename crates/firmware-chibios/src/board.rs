@@ -33,7 +33,7 @@ pub(super) struct TreePlan {
 const STACKS_BYTES: [u32; 2] = [1_536, 1_024];
 
 pub(super) fn plan(context: &Context<'_>) -> TreePlan {
-    let (profile, chibios) = (context.profile, context.chibios);
+    let (profile, chibios) = (context.profile, &context.chibios);
     let tree = &context.names.tree;
     let [process_stack_bytes, exceptions_stack_bytes] =
         chibios.stacks_bytes.unwrap_or(STACKS_BYTES);

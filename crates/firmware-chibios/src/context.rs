@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use sensedsl_board::catalog;
 use sensedsl_board::pin::PinName;
 use sensedsl_board::profile::{Fallback, TargetProfile};
 use sensedsl_board::signal::UnitName;
@@ -10,6 +9,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_diagnostics::codes::{e0506_hardware_limit, e0511_unknown_port};
 use sensedsl_model::kind::{KindName, Role};
 
+use super::facts::Facts;
 use super::names::Names;
 use sensedsl_job::{BoardJob, JobConnection, JobDevice, Pad};
 
@@ -17,7 +17,7 @@ use sensedsl_job::{BoardJob, JobConnection, JobDevice, Pad};
 pub(super) struct Context<'a> {
     pub(super) job: &'a BoardJob<'a>,
     pub(super) profile: &'a TargetProfile,
-    pub(super) chibios: &'a catalog::Chibios,
+    pub(super) chibios: Facts,
     pub(super) names: Names,
     /// The timer that the kernel takes; none for the core's own tick.
     pub(super) kernel_timer: Option<String>,
@@ -50,7 +50,7 @@ impl<'a> Context<'a> {
     /// None where [`super::Chibios`] refuses the board.
     pub(super) fn new(job: &'a BoardJob<'a>) -> Option<Self> {
         let profile = job.profile?;
-        let chibios = job.board.facts.as_ref()?.chibios.as_ref()?;
+        let chibios = Facts::of(job.board.facts.as_ref()?).ok()??;
         let names = Names::of(profile).ok()?;
         let kernel_timer = kernel_timer(job, profile);
         Some(Self { job, profile, chibios, names, kernel_timer })

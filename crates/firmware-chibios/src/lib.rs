@@ -14,6 +14,7 @@ mod dac;
 mod digital;
 mod doctor;
 mod encoder;
+mod facts;
 mod fallback;
 mod gpio;
 mod i2c;
@@ -40,6 +41,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
 use context::Context;
+pub use facts::Facts;
 pub use names::Names;
 use section::Peripheral;
 use sensedsl_files::FileSet;
@@ -62,20 +64,24 @@ const PERIPHERALS: &[&Peripheral] = &[
     &pulse::PERIPHERAL,
 ];
 
+/// The name of the target.
+const NAME: &str = "chibios";
+
 /// The target `chibios`.
 pub struct Chibios;
 
 impl Target for Chibios {
     fn name(&self) -> &'static str {
-        "chibios"
+        NAME
     }
 
     /// An MCU is served where code is made for its pins; a kind, where code is made for the version of its driver.
     fn refusal(&self, profile: &TargetProfile, facts: Option<&catalog::Board>) -> Option<String> {
-        if facts.is_none_or(|facts| facts.chibios.is_none()) {
-            return Some("no ChibiOS board is known for its MCU".to_owned());
+        match facts.map(Facts::of) {
+            Some(Ok(Some(_))) => unserved(profile),
+            Some(Err(message)) => Some(format!("the facts of its board are damaged: {message}")),
+            None | Some(Ok(None)) => Some("no ChibiOS board is known for its MCU".to_owned()),
         }
-        unserved(profile)
     }
 
     fn problems(&self, profile: &TargetProfile) -> Vec<String> {

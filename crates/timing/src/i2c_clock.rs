@@ -111,11 +111,11 @@ mod tests {
     fn unit_clocks_hz() -> BTreeSet<u32> {
         let mut clocks_hz = BTreeSet::new();
         for facts in catalog::all().iter().map(|entry| entry.board().unwrap()) {
-            let Some(chibios) = &facts.chibios else { continue };
+            let Some(system) = facts.system.get(DEFAULT) else { continue };
             let Ok(Target::Profile(profile)) = find(DEFAULT, &facts.mcu) else { continue };
             if !profile.i2c.modes.is_empty() {
                 let clocks = profile.i2cs.iter().map(|unit| unit.clock.as_deref().unwrap());
-                clocks_hz.extend(clocks.map(|clock| chibios.clocks_hz[clock]));
+                clocks_hz.extend(clocks.map(|clock| system.clocks_hz[clock]));
             }
         }
         clocks_hz

@@ -23,6 +23,8 @@ mod rows;
 
 use std::collections::BTreeMap;
 
+use sensedsl_board::catalog::SystemFacts;
+use sensedsl_board::profile::TargetProfile;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::design::{Board, BoardIndex, Design, Device, DeviceIndex};
 use sensedsl_wiring::assignment::{Assignment, BoardAssignment, ConnectionWiring};
@@ -122,8 +124,13 @@ impl<'a> Context<'a> {
         if let Some(hz) = self.board.profile().and_then(|profile| profile.clocks_hz.get(name)) {
             return Some(*hz);
         }
-        let chibios = self.board.facts.as_ref()?.chibios.as_ref()?;
-        chibios.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
+        self.system()?.clocks_hz.get(name).copied().filter(|hz| *hz > 0)
+    }
+
+    /// What the board's system has for it.
+    pub(crate) fn system(&self) -> Option<&SystemFacts> {
+        let system = self.board.profile().map(TargetProfile::system);
+        self.board.facts.as_ref()?.facts_of(system)
     }
 
     /// What devices share that one thread serves.

@@ -22,7 +22,7 @@ const FRAMES_TO_BOARD: u64 = 4;
 
 /// That a board cannot hold what it is asked to.
 pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic> {
-    let ram_bytes = context.board.facts.as_ref()?.chibios.as_ref()?.ram_bytes?;
+    let ram_bytes = context.system()?.ram_bytes?;
     let needed = needed_bytes(design, context);
     if needed <= u64::from(ram_bytes) {
         return None;

@@ -101,7 +101,7 @@ fn clocks() -> Vec<(String, u32, bool)> {
         let Some(profile) = stubs::profile_of(entry.mcu) else { continue };
         let board = entry.board().unwrap();
         let clock = profile.cans.first().and_then(|unit| unit.clock.clone());
-        let facts = board.chibios.as_ref();
+        let facts = board.system.get("chibios");
         let hz = clock.and_then(|clock| facts?.clocks_hz.get(&clock).copied());
         let is_fdcan = profile.cans.iter().any(|unit| unit.name.starts_with("FDCAN"));
         let Some(hz) = hz.filter(|hz| seen.insert((*hz, is_fdcan))) else { continue };

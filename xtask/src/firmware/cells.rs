@@ -76,7 +76,7 @@ pub(super) fn all(
     let mut cells = Vec::new();
     for entry in catalog::all() {
         let wanted = boards.is_none_or(|wanted| wanted.contains(entry.name));
-        let in_tree = entry.board().is_ok_and(|board| board.chibios.is_some());
+        let in_tree = entry.board().is_ok_and(|board| board.system.contains_key("chibios"));
         if let (true, true, Some(profile)) = (wanted, in_tree, profile_of(None, entry.mcu)) {
             cells.extend(columns.iter().map(|kind| Cell {
                 board: entry.name.to_owned(),

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sensedsl_board::catalog;
 use sensedsl_board::profile::{self, Target, TargetProfile};
-use sensedsl_firmware_chibios::Names;
+use sensedsl_firmware_chibios::{Facts, Names};
 
 use super::super::facts::Folder;
 use super::super::tools::{has, root, scratch};
@@ -58,7 +58,7 @@ fn macros(board: &catalog::Board, profile: &TargetProfile) -> Vec<String> {
     if drivers.can.starts_with("FDCAN") {
         macros.push("-DSTUB_FDCAN".to_owned());
     }
-    let chibios = board.chibios.as_ref().unwrap();
+    let chibios = Facts::of(board).unwrap().unwrap();
     macros.push(format!("-D{}", chibios.mcuconf));
     macros.extend(chibios.clocks_hz.iter().map(|(name, hz)| format!("-D{name}={hz}U")));
     macros

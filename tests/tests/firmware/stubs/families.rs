@@ -32,7 +32,7 @@ fn boards() -> Vec<String> {
     let mut boards = Vec::new();
     for entry in catalog::all() {
         let Some(profile) = profile_of(entry.mcu) else { continue };
-        if entry.board().is_ok_and(|board| board.chibios.is_some()) {
+        if entry.board().is_ok_and(|board| board.system.contains_key("chibios")) {
             let name = entry.name.replace('-', "_");
             let mut drivers = macros_of(&name);
             drivers.retain(|one| one.starts_with("-DSTUB_"));
