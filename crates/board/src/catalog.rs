@@ -137,9 +137,9 @@ pub struct Board {
     #[serde(default)]
     pub link: Vec<Link>,
     /// The user's button.
-    pub button: Option<Lever>,
+    pub button: Option<ActivePin>,
     /// A light that the firmware may blink.
-    pub led: Option<Lever>,
+    pub led: Option<ActivePin>,
 }
 
 impl Board {
@@ -208,7 +208,7 @@ pub struct Link {
 /// A button or a light.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Lever {
+pub struct ActivePin {
     /// Its pin.
     #[serde(deserialize_with = "pin")]
     pub pin: PinName,

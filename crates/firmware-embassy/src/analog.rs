@@ -9,7 +9,7 @@ use sensedsl_timing::sampling;
 
 use super::context::{Context, Wired, late, scalar};
 use super::hal::Hal;
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::names::{AdcNew, AdcRead};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter, rp};
@@ -34,7 +34,7 @@ fn class<'a>(
     devices: &[Wired<'a>],
     known: &mut BTreeSet<&'a str>,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let converters = Converters::new(devices)?;
     for one in &converters.all {
         if known.insert(one) {
@@ -53,9 +53,9 @@ struct Converters<'a> {
 }
 
 impl<'a> Converters<'a> {
-    fn new(devices: &[Wired<'a>]) -> Made<Self> {
+    fn new(devices: &[Wired<'a>]) -> Printed<Self> {
         let wires = devices.iter().flat_map(|one| &one.wires);
-        let all: BTreeSet<&str> = wires.map(|wire| lack::unit(wire)).collect::<Made<_>>()?;
+        let all: BTreeSet<&str> = wires.map(|wire| lack::unit(wire)).collect::<Printed<_>>()?;
         let first = devices.first().map(|one| lack::unit(one.first)).transpose()?;
         Ok(Self { first: first.unwrap_or_default(), all })
     }
@@ -77,7 +77,7 @@ impl<'a> Converters<'a> {
 }
 
 /// The converter, which tasks of several cycles share.
-fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Made<()> {
+fn unit(context: &Context<'_>, unit: &str, section: &mut Section) -> Printed<()> {
     let (name, hal) = (snake(unit), context.peripheral(unit));
     let make = match context.names.adc.new {
         AdcNew::Unit => format!("Adc::new(p.{hal})"),
@@ -121,7 +121,7 @@ fn task(
     cycle: Cycle,
     devices: &[Wired<'_>],
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let ident = cycle.ident(converters.first);
     let constant = ident.to_uppercase();
     let wires: Vec<_> = devices.iter().flat_map(|one| &one.wires).collect();
@@ -179,7 +179,7 @@ fn rows(
     call: &str,
     time: &str,
     wait: &str,
-) -> Made<String> {
+) -> Printed<String> {
     let names: Vec<String> = (0..wired.wires.len()).map(|at| format!("s{at}")).collect();
     let mut text = format!("        for [{}] in samples.as_chunks_mut().0 {{\n", names.join(", "));
     for (name, wire) in names.iter().zip(&wired.wires) {
@@ -199,7 +199,7 @@ fn columns(
     wired: &Wired<'_>,
     time: &str,
     section: &mut Section,
-) -> Made<String> {
+) -> Printed<String> {
     section.runtime.insert("again.rs");
     let count = wired.wires.len();
     let columns = wired.wires.iter().enumerate().map(|(at, wire)| {
@@ -222,7 +222,7 @@ fn read(
     wired: &Wired<'_>,
     filter: &str,
     section: &mut Section,
-) -> Made<String> {
+) -> Printed<String> {
     let analog = lack::kind(wired.first.connection.kind.analog())?;
     let count = wired.wires.len();
     let time = sampling(&context.profile.adc, analog.sampling_cycles);

@@ -5,7 +5,7 @@ use sensedsl_model::kind::{Kind, KindName, Role};
 use sensedsl_model::protocol::Drive;
 
 use super::context::{Context, Wired, scalar};
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::outputs::{Pulse, level_of};
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
@@ -35,7 +35,7 @@ fn bridge(
     wired: &Wired<'_>,
     plan: &BridgePlan,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let (ident, upper) = (&wired.device.ident, wired.device.ident.to_uppercase());
     let mode = match plan.drive {
         Drive::DirectionPins => "DirectionPins",
@@ -54,7 +54,7 @@ fn bridge(
     // In the order of the runtime's outputs.
     let outputs = context.job.wires_of(wired.device.device);
     let arms = outputs.iter().enumerate().map(|(at, one)| write(context, at, one));
-    let arms: String = arms.collect::<Made<String>>()?;
+    let arms: String = arms.collect::<Printed<String>>()?;
     section.items.push(format!(
         "/// Gives the outputs of {} what its value asks of each.\n\
          fn drive_{ident}(outputs: &mut Outputs, scalar: Scalar, value: &[u8]) {{\n    \
@@ -77,7 +77,7 @@ fn bridge(
 }
 
 /// What writes one output.
-fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Made<String> {
+fn write(context: &Context<'_>, at: usize, wire: &JobConnection<'_>) -> Printed<String> {
     if let Some(own) = wire.connection.kind.digital() {
         lack::pad(wire, Role::Out)?;
         return Ok(format!(

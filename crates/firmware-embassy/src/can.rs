@@ -8,7 +8,7 @@ use sensedsl_timing::can_bit;
 use super::chip::{coding, list};
 use super::context::Context;
 use super::filter;
-use super::lack::{self, Lack, Made};
+use super::lack::{self, Missing, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
 use sensedsl_job::kinds::can::{BANKS, Bus, Frame, Identifier, Value, buses};
 use sensedsl_job::snake;
@@ -47,7 +47,7 @@ fn keep(parameter: &str, name: &str) -> Keep {
     }
 }
 
-fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
+fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
     let (name, hal) = (snake(bus.unit), context.peripheral(bus.unit));
     let (rx, tx) = (lack::pad(bus.first, Role::Rx)?, lack::pad(bus.first, Role::Tx)?);
     let (rx, tx) = (&rx.pin.name, &tx.pin.name);
@@ -80,7 +80,7 @@ fn plan_bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made
 }
 
 /// What turns the bus on, and parts it into its halves.
-fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Made<()> {
+fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section) -> Printed<()> {
     let (upper, hal) = (bus.unit.to_uppercase(), context.peripheral(bus.unit));
     section
         .items
@@ -102,7 +102,7 @@ fn start(context: &Context<'_>, bus: &Bus<'_>, name: &str, section: &mut Section
 }
 
 /// Where the filters of a controller are: the second of two has those of the first, whose clock they need.
-fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<String> {
+fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<String> {
     let own = |first: &str, number: usize| {
         format!(
             "rt::controller::Banks {{ registers: hal::pac::{first}, first: {number} }},\n        "
@@ -113,7 +113,7 @@ fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<St
     }
     let first = context.peripheral(FIRST);
     if context.profile.unit(FIRST).is_none() {
-        return Err(Lack::name(format!("{FIRST}, which has the filters of {SECOND},")));
+        return Err(Missing::name(format!("{FIRST}, which has the filters of {SECOND},")));
     }
     let mut units = context.job.connections.iter().filter_map(|one| one.unit);
     if !units.any(|unit| UnitName::new(unit) == UnitName::new(FIRST)) {
@@ -123,12 +123,12 @@ fn banks(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<St
 }
 
 /// What the bits of a bus are made of.
-fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Made<String> {
+fn bit(context: &Context<'_>, bus: &Bus<'_>) -> Printed<String> {
     let hz = context.unit_hz(bus.unit);
-    let hz = hz.ok_or_else(|| Lack::name(format!("the clock of {}", bus.unit)))?;
+    let hz = hz.ok_or_else(|| Missing::name(format!("the clock of {}", bus.unit)))?;
     let dividers = context.profile.can_dividers.as_ref();
     let bit = dividers.and_then(|dividers| can_bit(dividers, hz, bus.bitrate_hz));
-    let bit = bit.ok_or_else(|| Lack::name(format!("dividers of {}", bus.unit)))?;
+    let bit = bit.ok_or_else(|| Missing::name(format!("dividers of {}", bus.unit)))?;
     Ok(format!(
         "rt::can::Bit {{ divider: {}, before: {}, behind: {}, jump: {} }}",
         bit.divider,

@@ -4,11 +4,11 @@ use sensedsl_model::protocol::{Crc, Formula};
 use sensedsl_model::words::Code;
 
 use super::context::Context;
-use super::lack::Made;
+use super::lack::Printed;
 use sensedsl_job::part::{BusPlan, CommandPlan, InitPlan, ReadingPlan, TransferPlan, ValuePlan};
 
 /// The table of a part on a register bus.
-pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Made<String> {
+pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Printed<String> {
     let name = plan.prefix.to_uppercase();
     let mut text = format!("pub const {name}_CHIP: ChipTable = ChipTable {{\n");
     let mut line = |what: &str, value: String| {
@@ -32,10 +32,10 @@ pub(super) fn table(context: &Context<'_>, plan: &BusPlan) -> Made<String> {
     }
     line("transfers", list(plan.transfers.iter().map(transfer)));
     let readings = plan.readings.iter().map(|one| reading(context, one));
-    line("readings", list(readings.collect::<Made<Vec<String>>>()?.into_iter()));
+    line("readings", list(readings.collect::<Printed<Vec<String>>>()?.into_iter()));
     if !plan.commands.is_empty() {
         let commands = plan.commands.iter().map(|one| command(context, one));
-        line("commands", list(commands.collect::<Made<Vec<String>>>()?.into_iter()));
+        line("commands", list(commands.collect::<Printed<Vec<String>>>()?.into_iter()));
     }
     if !plan.kept.is_empty() {
         line("kept", bytes(&plan.kept));
@@ -85,7 +85,7 @@ fn transfer(plan: &TransferPlan) -> String {
     )
 }
 
-fn reading(context: &Context<'_>, plan: &ReadingPlan) -> Made<String> {
+fn reading(context: &Context<'_>, plan: &ReadingPlan) -> Printed<String> {
     let output = plan.output.map_or("None".to_owned(), |output| format!("Some({output})"));
     let value = plan.value.as_ref().map_or("Coding::NEW".to_owned(), coding);
     Ok(format!(
@@ -96,7 +96,7 @@ fn reading(context: &Context<'_>, plan: &ReadingPlan) -> Made<String> {
     ))
 }
 
-fn command(context: &Context<'_>, plan: &CommandPlan) -> Made<String> {
+fn command(context: &Context<'_>, plan: &CommandPlan) -> Printed<String> {
     let own = plan.own.as_ref().map_or("..Command::NEW".to_owned(), |own| {
         format!("own: {}, kept: {}", bytes(&own.bits), own.kept)
     });

@@ -7,7 +7,7 @@ use sensedsl_diagnostics::Diagnostic;
 use sensedsl_model::kind::KindName;
 
 use super::context::{Context, late};
-use super::lack::{self, Lack, Made};
+use super::lack::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{chip, filter};
 use sensedsl_job::part::BusPlan;
@@ -84,9 +84,9 @@ pub(super) fn tasks(
     context: &Context<'_>,
     bus: &Bus<'_>,
     hz: u32,
-    reach: impl Fn(&[Served<'_>]) -> Made<Reach>,
+    reach: impl Fn(&[Served<'_>]) -> Printed<Reach>,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     for (cycle, served) in cycles(context, bus)? {
         task(context, bus, hz, cycle, &served, &reach(&served)?, section)?;
     }
@@ -94,10 +94,10 @@ pub(super) fn tasks(
 }
 
 /// The parts of each cycle, in the design's order.
-fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Made<BTreeMap<Cycle, Vec<Served<'a>>>> {
+fn cycles<'a>(context: &Context<'_>, bus: &Bus<'a>) -> Printed<BTreeMap<Cycle, Vec<Served<'a>>>> {
     let mut cycles: BTreeMap<Cycle, Vec<Served<'a>>> = BTreeMap::new();
     for wire in &bus.all {
-        let plan = context.job.bus_of(wire).ok_or_else(|| Lack::table("registers"))?.clone();
+        let plan = context.job.bus_of(wire).ok_or_else(|| Missing::table("registers"))?.clone();
         cycles.entry(wire.cycle).or_default().push(Served { plan, wire });
     }
     Ok(cycles)
@@ -111,7 +111,7 @@ fn task(
     served: &[Served<'_>],
     reach: &Reach,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let ident = cycle.ident(bus.unit.as_str());
     let constant = ident.to_uppercase();
     let bytes = served.iter().map(|one| one.plan.work_bytes + 4).max().unwrap_or(4);

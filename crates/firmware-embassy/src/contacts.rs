@@ -9,7 +9,7 @@ use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Section};
 use super::{filter, rp};
 use sensedsl_job::{JobConnection, Pad};
@@ -64,7 +64,7 @@ fn input(
     (own, prio): (&Digital, i8),
     lines: &mut BTreeMap<String, Vec<String>>,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let pad = lack::pad(wire, Role::In)?;
     let kept = name(wire);
     let edge = match own.edge {
@@ -109,9 +109,9 @@ fn awaited(
     own: &Digital,
     trigger: &str,
     (lines, section): (&mut BTreeMap<String, Vec<String>>, &mut Section),
-) -> Made<(&'static str, String, String)> {
+) -> Printed<(&'static str, String, String)> {
     let (pin, kept) = (&pad.pin.name, name(wire));
-    let line = pin.number().ok_or_else(|| lack::Lack::wire("a pin of a port".to_owned()))?;
+    let line = pin.number().ok_or_else(|| lack::Missing::wire("a pin of a port".to_owned()))?;
     let line = format!("EXTI{line}");
     let interrupt = context.interrupt(&line, "GLOBAL")?.to_owned();
     section.begins.push(format!("{kept}.begin(wiring.{});", wire.ident));

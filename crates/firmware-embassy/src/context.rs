@@ -11,7 +11,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_wire::ScalarType;
 
 use super::hal::Hal;
-use super::lack::{Lack, Made};
+use super::lack::{Missing, Printed};
 use super::names::{Chip, Names};
 use super::{gaps, moved, rp};
 use sensedsl_job::{BoardJob, Cycle, JobConnection, JobDevice};
@@ -108,9 +108,9 @@ impl<'a> Context<'a> {
     }
 
     /// The index of a device's item.
-    pub(super) fn item(&self, field: &str) -> Made<usize> {
+    pub(super) fn item(&self, field: &str) -> Printed<usize> {
         let found = self.job.devices.iter().position(|one| one.name() == field);
-        found.ok_or_else(|| Lack::wire(format!("a place for `{field}`")))
+        found.ok_or_else(|| Missing::wire(format!("a place for `{field}`")))
     }
 
     /// The board's crystals.

@@ -7,7 +7,7 @@ use sensedsl_model::kind::{KindName, Role};
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
 use super::hal::Hal;
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Section};
 use super::{rp, stm32};
 use sensedsl_job::snake;
@@ -41,7 +41,7 @@ fn hz(context: &Context<'_>, bus: &Bus<'_>) -> u32 {
 }
 
 /// The bus, in the words of the HAL, and the tasks that serve its chips.
-fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
+fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
     let field = match context.names.hal {
         Hal::Stm32 => unit(context, bus, section)?,
         Hal::Rp => rp::buses::i2c(context, bus, hz(context, bus), section)?,
@@ -58,7 +58,7 @@ fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> 
 }
 
 /// The unit in the HAL's words.
-fn unit(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<Field> {
+fn unit(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<Field> {
     let (unit, first) = (bus.unit.as_str(), bus.first);
     let hal = context.peripheral(unit);
     let (scl, sda) = (lack::pad(first, Role::Scl)?, lack::pad(first, Role::Sda)?);

@@ -6,7 +6,7 @@ use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, Wired, scalar};
 use super::hal::Hal;
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Section, Start};
 use super::{filter, rp};
 use sensedsl_job::JobConnection;
@@ -24,7 +24,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+fn device(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     let icu = lack::kind(wired.first.connection.kind.icu())?;
     match context.names.hal {
         Hal::Stm32 => captured(context, wired, icu, section),
@@ -38,7 +38,7 @@ fn captured(
     wired: &Wired<'_>,
     icu: &Icu,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let train = train(context, wired);
     for wire in &wired.wires {
         input(context, wire, icu, (wired.device.cycle.prio, train), section)?;
@@ -70,7 +70,7 @@ fn input(
     icu: &Icu,
     (prio, train): (i8, Option<&TrainPlan>),
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
     let (channel, hal) = (lack::channel(pad)?, context.peripheral(unit));
     let interrupt = context.interrupt(unit, "CC")?;

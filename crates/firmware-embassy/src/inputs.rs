@@ -5,7 +5,7 @@ use sensedsl_model::kind::{KindName, Role};
 use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, late, scalar};
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Keep, Section, Start, Watched};
 use super::{contacts, filter};
 use sensedsl_job::{Cycle, JobConnection};
@@ -37,7 +37,7 @@ fn digital(
     cycle: Cycle,
     devices: &[&Wired<'_>],
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let ident = cycle.ident("gpio");
     let constant = ident.to_uppercase();
     let (mut parameters, mut arguments, mut looks) = (String::new(), Vec::new(), String::new());
@@ -96,7 +96,7 @@ fn digital(
 }
 
 /// An encoder: its timers count in hardware, and the reporter looks at them.
-fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+fn encoder(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     let mut counts = Vec::new();
     for wire in &wired.wires {
         counter(context, wire, section)?;
@@ -135,7 +135,7 @@ pub(super) fn poll_counts(
 }
 
 /// The timer of two tracks, which the reporter keeps.
-fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
+fn counter(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Printed<()> {
     let unit = lack::unit(wire)?;
     let (a, b) = (lack::pad(wire, Role::A)?, lack::pad(wire, Role::B)?);
     let hal = context.peripheral(unit);

@@ -5,18 +5,18 @@ use sensedsl_model::protocol::Format;
 
 use super::chip::{byte, bytes, coding, init, list};
 use super::context::Context;
-use super::lack::Made;
+use super::lack::Printed;
 use sensedsl_job::part::{ComposePlan, FieldCoding, MessageFieldPlan, MessagePlan};
 
 /// The tables of a device: its messages, how it is set up, and what it is sent.
-pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Made<Vec<String>> {
+pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Printed<Vec<String>> {
     let name = plan.prefix.to_uppercase();
     let mut tables = Vec::new();
     if !plan.init.is_empty() {
         tables
             .push(format!("pub const {name}_INIT: &[InitStep] = {};", flat(&init(&plan.init), 1)));
     }
-    let fields = plan.fields.iter().map(|one| field(context, one)).collect::<Made<Vec<_>>>()?;
+    let fields = plan.fields.iter().map(|one| field(context, one)).collect::<Printed<Vec<_>>>()?;
     if !fields.is_empty() {
         tables.push(format!(
             "pub const {name}_MESSAGE: MessageTable = MessageTable {{\n    start: {},\n    end: {},\n    \
@@ -37,12 +37,12 @@ pub(super) fn tables(context: &Context<'_>, plan: &MessagePlan) -> Made<Vec<Stri
 }
 
 /// What the table of a message that is sent is called.
-pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> Made<String> {
+pub(super) fn compose_name(context: &Context<'_>, plan: &ComposePlan) -> Printed<String> {
     let device = context.job.devices.get(context.item(&plan.field)?);
     Ok(format!("{}_COMPOSE", device.map_or("", |one| one.ident.as_str()).to_uppercase()))
 }
 
-fn compose(context: &Context<'_>, plan: &ComposePlan) -> Made<String> {
+fn compose(context: &Context<'_>, plan: &ComposePlan) -> Printed<String> {
     Ok(format!(
         "pub const {}: Compose = Compose {{\n    start: {},\n    end: {},\n    value: {},\n    checksum: {},\n    \
          checksum_from: {},\n}};",
@@ -67,7 +67,7 @@ const fn checksum(checksum: MessageChecksum) -> &'static str {
     }
 }
 
-fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> Made<String> {
+fn field(context: &Context<'_>, plan: &MessageFieldPlan) -> Printed<String> {
     let item = context.item(&plan.field)?;
     let text = match &plan.how {
         FieldCoding::Binary { byte, value } => {

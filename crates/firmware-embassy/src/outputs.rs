@@ -12,7 +12,7 @@ use sensedsl_wire::Direction;
 
 use super::context::{Context, Wired, scalar};
 use super::hal::{Hal, Speed};
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Section};
 use super::{bridge, rp};
 use sensedsl_job::JobConnection;
@@ -52,7 +52,7 @@ pub(super) fn element(wired: &Wired<'_>, at: usize) -> (String, String) {
 }
 
 /// The output of a pin; inputs have none.
-fn pin(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Made<()> {
+fn pin(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -> Printed<()> {
     if wire.pad(Role::In).is_some() {
         return Ok(());
     }
@@ -69,7 +69,7 @@ fn pin(context: &Context<'_>, wire: &JobConnection<'_>, section: &mut Section) -
 }
 
 /// What the host sets of pins.
-fn digital(wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+fn digital(wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     if bridge::is_bridge(wired) {
         return Ok(());
     }
@@ -133,7 +133,7 @@ impl<'a> Output<'a> {
         wired: &Wired<'a>,
         at: usize,
         wire: &'a JobConnection<'a>,
-    ) -> Made<(&'a str, Self)> {
+    ) -> Printed<(&'a str, Self)> {
         let pwm = lack::kind(wire.connection.kind.pwm())?;
         let (pulse, pin) = (Pulse::of(context, wire)?, &lack::pad(wire, Role::Out)?.pin.name);
         Ok((lack::unit(wire)?, Self { wired: wired.clone(), at, wire, pin, pwm, pulse }))
@@ -236,7 +236,7 @@ pub(super) struct Pulse {
 }
 
 impl Pulse {
-    pub(super) fn of(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Self> {
+    pub(super) fn of(context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Self> {
         let own = lack::kind(wire.connection.kind.pwm())?;
         let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
         let period_us = 1_000_000 / own.frequency_hz.max(1);
@@ -305,7 +305,7 @@ pub(super) fn level(value: f64) -> u32 {
     value.clamp(0.0, 10_000.0).round() as u32
 }
 
-fn dac(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Made<()> {
+fn dac(context: &Context<'_>, wired: &Wired<'_>, section: &mut Section) -> Printed<()> {
     for (at, wire) in wired.wires.iter().enumerate() {
         let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::Out)?);
         let own = lack::kind(wire.connection.kind.dac())?;

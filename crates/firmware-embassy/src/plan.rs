@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sensedsl_board::catalog::Lever;
+use sensedsl_board::catalog::ActivePin;
 use sensedsl_diagnostics::Diagnostic;
 use sensedsl_wire::{Checksum, Direction};
 
@@ -207,7 +207,7 @@ fn report_ms(context: &Context<'_>) -> u32 {
 }
 
 /// The board's light, which is off at first.
-fn light(context: &Context<'_>, led: &Lever) -> (String, bool, String) {
+fn light(context: &Context<'_>, led: &ActivePin) -> (String, bool, String) {
     let off = if led.active_high { "Level::Low" } else { "Level::High" };
     (led.pin.to_string(), led.active_high, context.output(&led.pin, off, Speed::Low))
 }

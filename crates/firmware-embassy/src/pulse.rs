@@ -5,7 +5,7 @@ use sensedsl_model::kind::Role;
 
 use super::context::{Context, late};
 use super::hal::Speed;
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::section::{Field, Section, Start, Watched};
 use sensedsl_job::kinds::pulse::{Pulses, pulses};
 
@@ -20,7 +20,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     section
 }
 
-fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Made<()> {
+fn task(context: &Context<'_>, pulses: &Pulses<'_>, section: &mut Section) -> Printed<()> {
     let Pulses { cycle, pulse_us, id, lines } = pulses;
     let ident = format!("{}_{pulse_us}us", cycle.ident("pulse"));
     let constant = ident.to_uppercase();

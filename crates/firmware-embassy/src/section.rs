@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sensedsl_diagnostics::Diagnostic;
 
 use super::context::Context;
-use super::lack::{Lack, Made};
+use super::lack::{Missing, Printed};
 use sensedsl_job::{Cycle, JobConnection, JobStream};
 
 /// What one kind adds. Every text is Rust; `plan.rs` puts the sections together and looks into none.
@@ -118,13 +118,13 @@ impl Section {
         context: &Context<'_>,
         wire: &JobConnection<'_>,
         request: &str,
-    ) -> Made<String> {
+    ) -> Printed<String> {
         let of = |one: &&JobStream<'_>| one.request.ends_with(request);
         let stream = wire.streams.iter().find(of);
         let stream =
-            stream.ok_or_else(|| Lack::wire(format!("a DMA stream for {request}")))?.stream;
+            stream.ok_or_else(|| Missing::wire(format!("a DMA stream for {request}")))?.stream;
         let channel = context.names.channel(stream);
-        let channel = channel.ok_or_else(|| Lack::name(format!("the DMA stream {stream}")))?;
+        let channel = channel.ok_or_else(|| Missing::name(format!("the DMA stream {stream}")))?;
         let interrupt = context.interrupt(&channel, "GLOBAL")?;
         self.bind(interrupt, format!("hal::dma::InterruptHandler<{channel}>"));
         Ok(channel)

@@ -6,7 +6,7 @@ use sensedsl_model::kind::{KindName, Role};
 
 use super::context::{Context, late};
 use super::hal::Hal;
-use super::lack::{self, Lack, Made};
+use super::lack::{self, Missing, Printed};
 use super::section::{Field, Section, Start, Watched};
 use super::{filter, message, rp, stm32};
 use sensedsl_job::JobConnection;
@@ -50,10 +50,10 @@ fn port(
     wire: &JobConnection<'_>,
     section: &mut Section,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Made<()> {
+) -> Printed<()> {
     let (unit, uart) = (lack::unit(wire)?, lack::kind(wire.connection.kind.uart())?);
     let plan = context.job.tables_of(wire).and_then(|plan| plan.message.as_ref());
-    let plan = plan.ok_or_else(|| Lack::table("messages"))?;
+    let plan = plan.ok_or_else(|| Missing::table("messages"))?;
     if uart.is_inverted && context.names.has_old_ports() {
         diagnostics.push(serial::not_inverted(wire.part, context.profile));
         return Ok(());
@@ -127,7 +127,7 @@ impl Port<'_> {
     }
 
     /// The pins, which the HAL keeps in one object, or in one for each direction.
-    fn wiring(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
+    fn wiring(&self, context: &Context<'_>, section: &mut Section) -> Printed<()> {
         let hal = context.peripheral(self.unit);
         let pin = |role| self.wire.pad(role).map(|pad| context.pin(&pad.pin.name));
         let config = self.config(context.names.hal);
@@ -138,7 +138,7 @@ impl Port<'_> {
             (Some(rx), None, Hal::Stm32 | Hal::Rp) => ("UartRx", format!("p.{rx}")),
             (None, Some(tx), Hal::Stm32 | Hal::Rp) => ("UartTx", format!("p.{tx}")),
             (None, None, Hal::Stm32 | Hal::Rp) => {
-                return Err(Lack::wire("a pin for `rx` or `tx`".to_owned()));
+                return Err(Missing::wire("a pin for `rx` or `tx`".to_owned()));
             }
         };
         if let (Some(rx), Hal::Rp) = (self.wire.pad(Role::Rx), context.names.hal) {
@@ -194,7 +194,7 @@ impl Port<'_> {
     }
 
     /// What is sent, and the task that does it.
-    fn say(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
+    fn say(&self, context: &Context<'_>, section: &mut Section) -> Printed<()> {
         let Some(said) = &self.said else { return Ok(()) };
         let ident = &self.wire.ident;
         let (type_, place) = self.half(context.names.hal, false);
@@ -224,7 +224,7 @@ impl Port<'_> {
     }
 
     /// The interrupt of the port, and the task that takes what it has heard.
-    fn listen(&self, context: &Context<'_>, section: &mut Section) -> Made<()> {
+    fn listen(&self, context: &Context<'_>, section: &mut Section) -> Printed<()> {
         let (ident, upper, cycle) = (&self.wire.ident, self.upper(), self.wire.cycle);
         let has_fields = self.hears();
         let (type_, place) = self.half(context.names.hal, true);
@@ -265,7 +265,7 @@ impl Port<'_> {
     }
 
     /// The handler of the port's interrupt, and what it fills.
-    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Made<String> {
+    fn interrupt(&self, context: &Context<'_>, section: &mut Section) -> Printed<String> {
         let (upper, hal) = (self.upper(), context.peripheral(self.unit));
         let queue = serial::waiting_bytes(self.uart);
         let queue = queue.clamp(*QUEUE_BYTES.start(), *QUEUE_BYTES.end());
@@ -293,7 +293,7 @@ impl Port<'_> {
     }
 
     /// What the task keeps of a device that says something.
-    fn device(&self, context: &Context<'_>) -> Made<String> {
+    fn device(&self, context: &Context<'_>) -> Printed<String> {
         let (upper, prefix) = (self.upper(), self.plan.prefix.to_uppercase());
         let own = self.plan.fields.iter().map(|one| context.item(&one.field));
         Ok(format!(
@@ -304,7 +304,7 @@ impl Port<'_> {
              const OWN: [usize; {}] = {:?};\n",
             serial::gap_ms(self.uart, self.plan),
             self.plan.fields.len(),
-            own.collect::<Made<Vec<_>>>()?
+            own.collect::<Printed<Vec<_>>>()?
         ))
     }
 

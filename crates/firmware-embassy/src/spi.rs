@@ -9,7 +9,7 @@ use sensedsl_timing::spi_divider;
 use super::chips::{self, Bus, Reach, Served};
 use super::context::Context;
 use super::hal::{Hal, Speed};
-use super::lack::{self, Made};
+use super::lack::{self, Printed};
 use super::rp;
 use super::section::{Field, Section};
 use sensedsl_job::JobConnection;
@@ -29,7 +29,7 @@ pub(super) fn plan(context: &Context<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 /// A chip select, which is high before it is an output.
-fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Field> {
+fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Printed<Field> {
     let pin = &lack::pad(wire, Role::Cs)?.pin.name;
     Ok(Field {
         name: format!("{}_select", wire.ident),
@@ -40,7 +40,7 @@ fn select(context: &Context<'_>, wire: &JobConnection<'_>) -> Made<Field> {
 }
 
 /// Every part is reached by its chip select, in its mode and at its clock.
-fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Made<Reach> {
+fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Printed<Reach> {
     let mut reach =
         Reach { parameters: String::new(), arguments: String::new(), lines: String::new() };
     for Served { plan, wire } in served {
@@ -59,7 +59,7 @@ fn reach(context: &Context<'_>, unit: &str, served: &[Served<'_>]) -> Made<Reach
 }
 
 /// The bus, in the words of the HAL, with the chip selects and the tasks that serve its parts.
-fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Made<()> {
+fn bus(context: &Context<'_>, bus: &Bus<'_>, section: &mut Section) -> Printed<()> {
     let unit = bus.unit.as_str();
     let hal = context.peripheral(unit);
     let (tx, rx) =

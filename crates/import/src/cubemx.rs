@@ -19,7 +19,7 @@ use sensedsl_model::Unread;
 use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::package::{Refused as Refusal, check_xml};
-use crate::{Made, Source};
+use crate::{Source, Texts};
 
 /// The alternate functions of the GPIO files that were read so far, by path. Some ninety of them
 /// serve two thousand MCUs, and reading one takes longer than all else.
@@ -58,29 +58,29 @@ enum Refused {
 }
 
 /// Imports the description of an MCU.
-pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made {
+pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Texts {
     let (file, text) = log.text(source.name, source.bytes);
     if log.has_errors() {
-        return Made::default();
+        return Texts::default();
     }
     let whole = Span::new(file, 0..0);
     let document = match parse(&text) {
         Ok(document) => document,
         Err(why) => {
             log.not_read(whole, source.name, &why);
-            return Made::default();
+            return Texts::default();
         }
     };
     let mcu = document.root_element();
     let reference = mcu.attribute("RefName").unwrap_or_default();
     if !is(&mcu, "Mcu") || reference.is_empty() {
         log.unreadable(whole, source.name, "its root is no `Mcu` with a `RefName`");
-        return Made::default();
+        return Texts::default();
     }
     let gpio = mcu.children().find(|node| is(node, "IP") && node.attribute("Name") == Some("GPIO"));
     let Some(version) = gpio.and_then(|gpio| gpio.attribute("Version")) else {
         log.unreadable(whole, source.name, "it names no version of its GPIO");
-        return Made::default();
+        return Texts::default();
     };
     let path = format!("IP/GPIO-{version}_Modes.xml");
     let functions = match cache.functions(&path, source.beside) {
@@ -88,25 +88,25 @@ pub(crate) fn import(source: &Source<'_>, cache: &Cache, log: &mut Log) -> Made 
         Err(Refused::Unread(Unread::Missing)) => {
             let why = format!("the file `{path}` with its alternate functions is not beside it");
             log.unreadable(whole, source.name, &why);
-            return Made::default();
+            return Texts::default();
         }
         Err(Refused::Unread(unread)) => {
             log.refused(whole, &path, &unread);
-            return Made::default();
+            return Texts::default();
         }
         Err(Refused::Unreadable(why)) => {
             log.not_read(whole, &path, &why);
-            return Made::default();
+            return Texts::default();
         }
     };
     let reader = Reader { file, functions: &functions };
     let rows = reader.pins(&mcu, log);
     if rows.is_empty() {
         log.no_table(whole, "the MCU has no general-purpose pin");
-        return Made::default();
+        return Texts::default();
     }
     let table = assemble::table(&properties(&mcu), rows, whole, log);
-    Made { table: table.map(|table| table.to_csv()), program: None }
+    Texts { table: table.map(|table| table.to_csv()), program: None }
 }
 
 /// What the table says of the MCU.

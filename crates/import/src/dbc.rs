@@ -9,7 +9,7 @@ mod write;
 use sensedsl_diagnostics::codes::e0811_dbc_no_node;
 use sensedsl_diagnostics::{FileId, Span};
 
-use crate::Made;
+use crate::Texts;
 use crate::log::Log;
 
 /// Imports a DBC file for a node.
@@ -19,22 +19,22 @@ pub(crate) fn import(
     text: &str,
     node: Option<&str>,
     log: &mut Log,
-) -> Made {
+) -> Texts {
     let network = read::read(file, name, text, log);
     if log.has_errors() {
-        return Made::default();
+        return Texts::default();
     }
     if network.messages.is_empty() {
         log.unreadable(Span::new(file, 0..0), name, "it has no messages (`BO_`)");
-        return Made::default();
+        return Texts::default();
     }
     if let Some(node) = node.filter(|node| !network.nodes.iter().any(|one| one == node)) {
         let at = Span::new(file, 0..0);
         log.say(e0811_dbc_no_node::dbc_no_node(at, node, &network.nodes));
-        return Made::default();
+        return Texts::default();
     }
     let program = write::program(&network, name, node, log);
-    Made { table: None, program }
+    Texts { table: None, program }
 }
 
 #[cfg(test)]

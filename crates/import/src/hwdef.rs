@@ -16,27 +16,27 @@ use sensedsl_model::Unread;
 
 use crate::log::Log;
 use crate::project::{self, Addressed, Project, TimerMode, Using, Wire};
-use crate::{Made, Source};
+use crate::{Source, Texts};
 
 /// The first words of lines about sensors.
 const SENSORS: [&str; 5] = ["IMU", "BARO", "COMPASS", "AIRSPEED", "RANGEFINDER"];
 
 /// Imports a board.
-pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let (file, text) = log.text(source.name, source.bytes);
     let mut reader = Reader::new(source);
     reader.file(file, &text, "", 0, log);
     let whole = Span::new(file, 0..0);
     if log.has_errors() {
-        return Made::default();
+        return Texts::default();
     }
     let Some(mcu) = reader.mcu.clone() else {
         log.unreadable(whole, source.name, "no line `MCU` names the MCU");
-        return Made::default();
+        return Texts::default();
     };
     if reader.wires.is_empty() {
         log.no_table(whole, "no line begins with a pin");
-        return Made::default();
+        return Texts::default();
     }
     let addressed = reader.addressed(log);
     reader.selects();

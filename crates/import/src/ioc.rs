@@ -12,10 +12,10 @@ use sensedsl_diagnostics::{FileId, Span};
 
 use crate::log::Log;
 use crate::project::{self, Project, TimerMode, Using, Wire};
-use crate::{Made, Source};
+use crate::{Source, Texts};
 
 /// Imports a project.
-pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let (file, text) = log.text(source.name, source.bytes);
     let values = values(&text);
     let whole = Span::new(file, 0..0);
@@ -25,13 +25,13 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         if !log.has_errors() {
             log.unreadable(whole, source.name, "it names no MCU (`Mcu.Name`)");
         }
-        return Made::default();
+        return Texts::default();
     };
     let reader = Reader { file, values: &values };
     let wires = reader.wires(log);
     if wires.is_empty() {
         log.no_table(whole, "no pin of the project has a signal");
-        return Made::default();
+        return Texts::default();
     }
     let name = value("ProjectManager.ProjectName").or(value("board"));
     let stem = source.name.rsplit(['/', '\\']).next().and_then(|name| name.split('.').next());

@@ -67,7 +67,7 @@ impl Imported {
 
 /// The result of one importer.
 #[derive(Debug, Default)]
-struct Made {
+struct Texts {
     table: Option<String>,
     program: Option<String>,
 }
@@ -123,15 +123,15 @@ impl Importer {
     }
 }
 
-fn unknown(source: &Source<'_>, log: &mut Log) -> Made {
+fn unknown(source: &Source<'_>, log: &mut Log) -> Texts {
     let why = "it is no CSV, XLSX, ODS, XML of CubeMX, .ioc, hwdef.dat or .dbc";
     let file = log.sources.add(source.name, "");
     log.unreadable(Span::new(file, 0..0), source.name, why);
-    Made::default()
+    Texts::default()
 }
 
-fn no_sheets(source: &Source<'_>, log: &mut Log) -> Made {
+fn no_sheets(source: &Source<'_>, log: &mut Log) -> Texts {
     let file = log.sources.add(source.name, "");
     log.no_sheet(Span::new(file, 0..0), source.sheet.unwrap_or_default(), &[]);
-    Made::default()
+    Texts::default()
 }

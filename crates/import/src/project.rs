@@ -10,7 +10,7 @@ use sensedsl_diagnostics::Span;
 use crate::assemble::{self, Row};
 use crate::devices::{self, Device};
 use crate::log::Log;
-use crate::{Made, Source};
+use crate::{Source, Texts};
 
 /// A project.
 #[derive(Debug, Default)]
@@ -81,7 +81,7 @@ impl Using {
 }
 
 /// Writes a project as a `.sense` file and its table.
-pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mut Log) -> Made {
+pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mut Log) -> Texts {
     let devices = devices::infer(project, log);
     let used: BTreeSet<&PinName> = devices.iter().flat_map(|device| &device.pins).collect();
     let mut rows = Vec::new();
@@ -99,10 +99,10 @@ pub(crate) fn made(project: &Project, source: &Source<'_>, whole: Span, log: &mu
         rows.push(row);
     }
     let mcu = project.mcu.iter().map(|mcu| ("mcu", mcu.clone())).collect::<Vec<_>>();
-    let Some(table) = assemble::table(&mcu, rows, whole, log) else { return Made::default() };
+    let Some(table) = assemble::table(&mcu, rows, whole, log) else { return Texts::default() };
     let table = table.to_csv();
     let program = program(project, &devices, source.table);
-    Made { table: Some(table), program: Some(program) }
+    Texts { table: Some(table), program: Some(program) }
 }
 
 /// The text of the `.sense` file.

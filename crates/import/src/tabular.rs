@@ -13,7 +13,7 @@ use sensedsl_diagnostics::{FileId, Span};
 use sensedsl_limits::{PIN_USAGES_MAX, USAGES_MAX};
 use sensedsl_model::table_diagnostic;
 
-use crate::Made;
+use crate::Texts;
 use crate::assemble::{self, Row};
 use crate::log::Log;
 use crate::place::a1;
@@ -42,20 +42,20 @@ const NUMBER_HEADS: [&str; 6] = ["af", "afnumber", "afno", "mux", "afindex", "al
 const HEAD_ROWS: usize = 30;
 
 /// Imports a table. `sheet` is the name of the workbook's sheet that the text was made of.
-pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Log) -> Made {
+pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Log) -> Texts {
     if log.has_errors() {
-        return Made::default();
+        return Texts::default();
     }
     let cut = cells::split(text);
     let reader = Reader { file, text, sheet, rows: &cut.rows, lines: line_starts(text) };
     let Some(head) = reader.head() else {
         let what = "no row names a column `Pin`";
         log.no_table(Span::new(file, 0..0), what);
-        return Made::default();
+        return Texts::default();
     };
     if let Some(cut) = cut.cut {
         log.table_too_large(Span::new(file, cut.at..cut.at), cut.what, cut.most);
-        return Made::default();
+        return Texts::default();
     }
     for row in cut.rows.iter().take(head.row) {
         if let Some(cell) = row.iter().find(|cell| !reader.content(cell).is_empty()) {
@@ -68,7 +68,7 @@ pub(crate) fn import(file: FileId, text: &str, sheet: Option<&str>, log: &mut Lo
         Layout::Long { signal, number } => reader.long(&head, signal, number, log),
         Layout::Numbered(numbers) => reader.numbered(&head, &numbers, log),
     };
-    Made { table: csv, program: None }
+    Texts { table: csv, program: None }
 }
 
 /// Whether a text has the head of a pin table.

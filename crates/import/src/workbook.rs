@@ -16,7 +16,7 @@ use sensedsl_limits::{CELL_TEXT_BYTES_MAX, CELLS_MAX, INFLATED_BYTES_MAX, MERGED
 use crate::log::Log;
 use crate::package::{self, Contents, Refused};
 use crate::place::a1;
-use crate::{Format, Made, Source, ods, tabular};
+use crate::{Format, Source, Texts, ods, tabular};
 
 /// Sheets of pins are far smaller; cells beyond are stray.
 const ROWS_MAX: u32 = 20_000;
@@ -42,7 +42,7 @@ pub(crate) struct Sheet {
 }
 
 /// Imports the sheet that has a pin table.
-pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
+pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Texts {
     let is_ods = match source.format {
         Some(Format::Ods) => true,
         Some(Format::Xlsx) => false,
@@ -60,7 +60,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
         Err(refused) => {
             let file = log.sources.add(source.name, "");
             log.not_read(Span::new(file, 0..0), source.name, &refused);
-            return Made::default();
+            return Texts::default();
         }
     };
     let names: Vec<String> = sheets.iter().map(|sheet| sheet.name.clone()).collect();
@@ -75,7 +75,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
             Some(wanted) => log.no_sheet(span, wanted, &names),
             None => log.no_table(span, "no sheet has a row with a column `Pin`"),
         }
-        return Made::default();
+        return Texts::default();
     };
     for (at, (sheet, text)) in sheets.iter().zip(&texts).enumerate() {
         if at != chosen && !sheet.cells.is_empty() {
@@ -84,7 +84,7 @@ pub(crate) fn import(source: &Source<'_>, log: &mut Log) -> Made {
     }
     match (sheets.get(chosen), texts.get(chosen)) {
         (Some(sheet), Some(text)) => table(source, sheet, text, log),
-        _ => Made::default(),
+        _ => Texts::default(),
     }
 }
 
@@ -102,7 +102,7 @@ fn stray(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) {
 }
 
 /// Reads the chosen sheet.
-fn table(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) -> Made {
+fn table(source: &Source<'_>, sheet: &Sheet, text: &Text, log: &mut Log) -> Texts {
     let file = log.sources.add(format!("{} [{}]", source.name, sheet.name), text.text.as_str());
     let span = |at: At| Span::new(file, text.range(at));
     for (at, formula) in &sheet.formulas {

@@ -42,7 +42,7 @@ const CHIP: &[&str] = &["driver", "id", "delay", "prio", "group", "side", "heade
 const OF_DEVICE: &[&str] = &["id", "delay", "prio", "group", "reading", "failsafe", "initial"];
 
 /// A chip, or a device that is the only value of one, and its driver.
-struct Whole<'a> {
+struct ChipReader<'a> {
     file: FileId,
     name: Spanned<String>,
     block: Span,
@@ -89,7 +89,7 @@ pub(crate) fn read(
     let block = span(file, node.range());
     let protocol = protocol(file, driver, &properties, known, diagnostics);
     let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
-    let whole = Whole { file, name, block, driver, known, properties, protocol, given };
+    let whole = ChipReader { file, name, block, driver, known, properties, protocol, given };
     sockets::describe(&mut sockets, &whole, node.connections().collect(), diagnostics);
     whole.check_properties(&sockets, CHIP, diagnostics);
     for device in node.devices() {
@@ -128,7 +128,7 @@ pub(crate) fn of_device(
     let properties: Vec<Property> = node.properties().filter(|one| !of_value(one)).collect();
     let protocol = protocol(file, driver, &properties, known, diagnostics);
     let (given, mut sockets) = values_and_sockets(driver, known, diagnostics)?;
-    let whole = Whole { file, name, block, driver, known, properties, protocol, given };
+    let whole = ChipReader { file, name, block, driver, known, properties, protocol, given };
     whole.check_type(diagnostics);
     let own: Vec<&str> = CHIP.iter().chain(&["type"]).copied().collect();
     whole.check_properties(&sockets, &own, diagnostics);
@@ -235,7 +235,7 @@ fn protocol(
     coding::protocol(&mut fields)
 }
 
-impl Whole<'_> {
+impl ChipReader<'_> {
     /// The properties of the chip that concern a connection of that kind.
     fn properties_for(&self, kind: KindName) -> impl Iterator<Item = Property> {
         let concerns = move |one: &Property| {

@@ -214,7 +214,7 @@ pub(crate) struct GenerateArgs {
     pub(crate) host: Vec<String>,
     /// Everything but this
     #[arg(long, value_name = "PART", value_enum, num_args = 1.., value_delimiter = ',')]
-    pub(crate) without: Vec<Without>,
+    pub(crate) without: Vec<LeftOut>,
     /// Write nothing; exit 1 if the folder is not what would be written
     #[arg(long)]
     pub(crate) check: bool,
@@ -228,7 +228,7 @@ pub(crate) struct GenerateArgs {
 
 /// What `generate` can leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Without {
+pub(crate) enum LeftOut {
     /// The firmware
     Firmware,
     /// The host applications

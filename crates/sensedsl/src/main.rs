@@ -34,15 +34,15 @@ pub(crate) enum Status {
 
 /// A command ended before its end, and has told why.
 #[derive(Debug)]
-pub(crate) struct Said(pub(crate) Status);
+pub(crate) struct Reported(pub(crate) Status);
 
-impl std::fmt::Display for Said {
+impl std::fmt::Display for Reported {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("what is wrong was told before")
     }
 }
 
-impl std::error::Error for Said {}
+impl std::error::Error for Reported {}
 
 impl From<Status> for ExitCode {
     fn from(status: Status) -> Self {
@@ -66,7 +66,7 @@ fn main() -> ExitCode {
 
 /// Says why a command ended before its end, unless it said so itself.
 fn ended(error: &anyhow::Error, terminal: &Terminal) -> Status {
-    if let Some(Said(status)) = error.downcast_ref::<Said>() {
+    if let Some(Reported(status)) = error.downcast_ref::<Reported>() {
         return *status;
     }
     match error.downcast_ref::<Refused>() {

@@ -8,7 +8,7 @@ use crate::Snapshot;
 
 /// How good a wiring is, the better before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Worth {
+pub struct Quality {
     /// Soft rules that it violates.
     pub violated: u32,
     /// Pins that something else is on.
@@ -21,7 +21,7 @@ pub struct Worth {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// The best wiring is that good.
-    Wired(Worth),
+    Wired(Quality),
     /// It cannot carry the devices.
     Not,
     /// The solver failed its own check.
@@ -43,7 +43,7 @@ impl Snapshot {
             Solved::Wired(wiring) if wiring.bound.is_some() => Fit::Open,
             Solved::Wired(wiring) => {
                 let Assignment { violated, shared, cost, .. } = *wiring;
-                Fit::Wired(Worth { violated, shared, cost })
+                Fit::Wired(Quality { violated, shared, cost })
             }
             Solved::Infeasible(_) => Fit::Not,
             // The best wiring leaves the converters without a stream: nothing to build, and no fault.

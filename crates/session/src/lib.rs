@@ -15,7 +15,7 @@ mod subject;
 mod workspace;
 
 pub use answer::{Answer, Ask, Goal};
-pub use fit::{Fit, Worth};
+pub use fit::{Fit, Quality};
 pub use snapshot::{Snapshot, Sound, has_errors};
 pub use subject::{Origin, printed_board};
 pub use workspace::{Misplaced, On, Workspace};

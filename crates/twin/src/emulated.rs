@@ -9,7 +9,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::design::Transport;
 
 use crate::bench::{Bench, number_of};
-use crate::pads::{Misled, Planned, misled, planned};
+use crate::pads::{PadMismatch, Planned, misled, planned};
 use crate::ports::{self, PlannedPort};
 use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
 
@@ -39,7 +39,7 @@ pub struct EmulatedBoard {
     garbage_ms: u64,
     is_off: bool,
     look: Option<Look>,
-    misled: Vec<Misled>,
+    misled: Vec<PadMismatch>,
     /// When the watchdog is looked at next.
     watchdog_at_ns: Option<u64>,
     /// What is wrong with it.
@@ -54,7 +54,7 @@ pub struct EmulatedBoard {
 struct Look {
     at_ns: u64,
     left: u32,
-    wrong: Option<Vec<Misled>>,
+    wrong: Option<Vec<PadMismatch>>,
 }
 
 impl Look {
@@ -207,7 +207,7 @@ impl EmulatedBoard {
     }
 
     /// The pads and ports that are not as planned, since the last call.
-    pub fn misled(&mut self) -> Vec<Misled> {
+    pub fn misled(&mut self) -> Vec<PadMismatch> {
         std::mem::take(&mut self.misled)
     }
 

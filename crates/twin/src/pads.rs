@@ -27,7 +27,7 @@ pub(crate) struct Planned {
 
 /// A pad or a port that is not as planned.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Misled {
+pub struct PadMismatch {
     /// The device, or the link.
     pub title: String,
     /// The pad or the port, as in `PB4` or `USART2`.
@@ -111,7 +111,7 @@ fn led(
 }
 
 /// What is not as planned.
-pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
+pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<PadMismatch> {
     let differs = |one: &Planned| {
         let state = states.iter().find(|state| state.pad == one.pad)?;
         let drives = one.open_drain.is_none_or(|open_drain| open_drain == state.open_drain);
@@ -119,7 +119,7 @@ pub(crate) fn misled(planned: &[Planned], states: &[PadState]) -> Vec<Misled> {
             && is_led(one, state)
             && drives
             && one.pulls.contains(&state.pull);
-        (!is_right).then(|| Misled {
+        (!is_right).then(|| PadMismatch {
             title: one.title.clone(),
             place: one.pad.to_string(),
             expected: expected(one),

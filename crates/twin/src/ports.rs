@@ -10,7 +10,7 @@ use sensedsl_job::BoardJob;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::Parity;
 
-use crate::pads::Misled;
+use crate::pads::PadMismatch;
 use sensedsl_machine::{PortState, Setting};
 
 /// A serial port takes characters whose speed is off by up to so many per cent.
@@ -89,13 +89,13 @@ fn of_kind(kind: &Kind) -> Option<Wanted> {
 }
 
 /// What is not as planned. A port that was not started is told by the silence of its devices.
-pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<Misled> {
+pub(crate) fn misled(planned: &[PlannedPort], states: &[PortState]) -> Vec<PadMismatch> {
     let differs = |one: &PlannedPort| {
         let state = states.iter().find(|state| state.unit == one.unit)?;
         let is_right = one.wanted.iter().any(|wanted| fits(*wanted, state.setting));
         let expected: Vec<String> =
             one.wanted.iter().map(|wanted| expected(*wanted, state.setting)).collect();
-        (!is_right).then(|| Misled {
+        (!is_right).then(|| PadMismatch {
             title: one.title.clone(),
             place: one.unit.clone(),
             expected: expected.join(" or "),

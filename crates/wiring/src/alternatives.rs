@@ -129,7 +129,7 @@ pub(crate) struct Maker<'b, 'a> {
     rules: &'b wishes::Rules<'a>,
 }
 
-pub(crate) type Made = (Alternative, Meaning);
+pub(crate) type Alternatives = (Alternative, Meaning);
 
 impl Maker<'_, '_> {
     fn profile(&self) -> Option<&TargetProfile> {
@@ -140,7 +140,7 @@ impl Maker<'_, '_> {
 /// Which pins can serve a kind: one file a kind implements it.
 pub(crate) trait Served {
     /// All ways to connect the device to the board in question.
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made>;
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives>;
 
     /// What the channels of the board's timers can do for the kind, where its silicon differs from
     /// most.

@@ -25,7 +25,7 @@ use sensedsl_model::volts::{divider, shown_mv, shown_ohm};
 use crate::alternatives::{Wanted, alternatives};
 use crate::assignment::{Assignment, BoardAssignment};
 use crate::formulate::{Builder, Converters, Formulation, wanted};
-use crate::levels::{Stands, stands, supply_mv};
+use crate::levels::{Tolerates, stands, supply_mv};
 use crate::offer::{Offer, Withheld, roles};
 use silicon::{analog_only, by_silicon, unit_lacks, without_silicon};
 
@@ -170,8 +170,8 @@ fn too_much_voltage(
                 .all(|(_, fixed)| fixed.value.on(offer.index) == Some(&pin.name))
         });
         let of_pin = |pin| match stands(offer.board, pin, &wires.kind, level.at_pin_mv()) {
-            Stands::No(most) => Some(most),
-            Stands::Yes | Stands::Unknown => None,
+            Tolerates::No(most) => Some(most),
+            Tolerates::Yes | Tolerates::Unknown => None,
         };
         pins.filter_map(of_pin).max()
     };
@@ -360,7 +360,7 @@ pub(crate) fn of_wiring(design: &Design, assignment: &Assignment) -> Vec<Diagnos
                 let Some(pin) = wire.pin(board) else { continue };
                 if let Some(level) = wires.level
                     && wire.role.is_driven_by_device()
-                    && stands(board, pin, &wires.kind, level.at_pin_mv()) == Stands::Unknown
+                    && stands(board, pin, &wires.kind, level.at_pin_mv()) == Tolerates::Unknown
                 {
                     let level = shown_mv(level.at_pin_mv());
                     let report = w0610_level_not_known::level_not_known;

@@ -10,7 +10,7 @@ const UNKNOWN_MAX_MV: u32 = 3_600;
 
 /// Whether a pin tolerates a voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stands {
+pub(crate) enum Tolerates {
     Yes,
     /// It tolerates only so many millivolts.
     No(u32),
@@ -18,21 +18,21 @@ pub(crate) enum Stands {
 }
 
 /// Whether a pin tolerates `mv` as an input. An analog input measures only up to the supply.
-pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Stands {
+pub(crate) fn stands(board: &Board, pin: &Pin, kind: &Kind, mv: u32) -> Tolerates {
     let volts = volts(board);
     let supply = volts.map(|volts| volts.supply_mv);
     let most = if kind.analog().is_some() {
         supply
     } else if supply.is_some_and(|supply| mv <= supply) {
-        return Stands::Yes;
+        return Tolerates::Yes;
     } else {
         stated_mv(pin).or_else(|| volts?.stands_mv(&pin.name))
     };
     match most {
-        Some(most) if mv <= most => Stands::Yes,
-        Some(most) => Stands::No(most),
-        None if mv <= UNKNOWN_MAX_MV => Stands::Yes,
-        None => Stands::Unknown,
+        Some(most) if mv <= most => Tolerates::Yes,
+        Some(most) => Tolerates::No(most),
+        None if mv <= UNKNOWN_MAX_MV => Tolerates::Yes,
+        None => Tolerates::Unknown,
     }
 }
 

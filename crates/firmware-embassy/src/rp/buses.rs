@@ -5,7 +5,7 @@ use sensedsl_model::kind::Role;
 
 use crate::chips::Bus;
 use crate::context::Context;
-use crate::lack::{self, Made};
+use crate::lack::{self, Printed};
 use crate::section::{Field, Section};
 use sensedsl_job::snake;
 
@@ -25,7 +25,7 @@ pub(crate) fn i2c(
     bus: &Bus<'_>,
     hz: u32,
     section: &mut Section,
-) -> Made<Field> {
+) -> Printed<Field> {
     let unit = bus.unit.as_str();
     let hal = context.peripheral(unit);
     let (scl, sda) = (lack::pad(bus.first, Role::Scl)?, lack::pad(bus.first, Role::Sda)?);

@@ -6,7 +6,7 @@ use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 use crate::context::{Context, Wired};
 use crate::icu::poll;
 use crate::inputs::poll_counts;
-use crate::lack::{self, Lack, Made};
+use crate::lack::{self, Missing, Printed};
 use crate::section::{Field, Keep, Section, Start};
 use sensedsl_job::JobConnection;
 
@@ -19,7 +19,7 @@ pub(crate) fn device(
     wired: &Wired<'_>,
     icu: &Icu,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     section.runtime.extend(["capture.rs", "gate.rs"]);
     if icu.mode == Mode::Count {
         return count(context, wired, icu, section);
@@ -38,7 +38,7 @@ fn gate(
     icu: &Icu,
     prio: i8,
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let (unit, pad) = (lack::unit(wire)?, lack::pad(wire, Role::In)?);
     let sixteenths = sixteenths(context, unit, icu.tick_hz)?;
     let ident = &wire.ident;
@@ -64,7 +64,7 @@ fn gate(
 }
 
 /// Sixteenths of clocks in a tick, which must be whole.
-fn sixteenths(context: &Context<'_>, unit: &str, tick_hz: u32) -> Made<u32> {
+fn sixteenths(context: &Context<'_>, unit: &str, tick_hz: u32) -> Printed<u32> {
     let clock_hz = timer_hz(context, unit)?;
     let whole = (clock_hz.checked_mul(16))
         .filter(|clocks| tick_hz > 0 && clocks.is_multiple_of(tick_hz))
@@ -73,19 +73,24 @@ fn sixteenths(context: &Context<'_>, unit: &str, tick_hz: u32) -> Made<u32> {
             (tick_hz > 0 && clock_hz.is_multiple_of(tick_hz)).then(|| clock_hz / tick_hz * 16)
         });
     whole.filter(|whole| SIXTEENTHS.contains(whole)).ok_or_else(|| {
-        Lack::unit(format!("a resolution of {tick_hz} Hz, made of {clock_hz} Hz by at most 255"))
+        Missing::unit(format!("a resolution of {tick_hz} Hz, made of {clock_hz} Hz by at most 255"))
     })
 }
 
 /// The clock of a slice.
-pub(super) fn timer_hz(context: &Context<'_>, unit: &str) -> Made<u32> {
+pub(super) fn timer_hz(context: &Context<'_>, unit: &str) -> Printed<u32> {
     let clock = context.profile.timer(unit).map(|timer| timer.clock.as_str());
     let hz = clock.and_then(|clock| context.profile.clocks_hz.get(clock)).copied();
-    hz.ok_or_else(|| Lack::name(format!("the clock of {unit}")))
+    hz.ok_or_else(|| Missing::name(format!("the clock of {unit}")))
 }
 
 /// Slices that count edges, which the reporter looks at.
-fn count(context: &Context<'_>, wired: &Wired<'_>, icu: &Icu, section: &mut Section) -> Made<()> {
+fn count(
+    context: &Context<'_>,
+    wired: &Wired<'_>,
+    icu: &Icu,
+    section: &mut Section,
+) -> Printed<()> {
     let edge = match icu.edge {
         Edge::Rising | Edge::Both => "RisingEdge",
         Edge::Falling => "FallingEdge",

@@ -2,7 +2,7 @@
 
 use super::icu::timer_hz;
 use crate::context::Context;
-use crate::lack::{Lack, Made};
+use crate::lack::{Missing, Printed};
 use crate::outputs::{Output, element, level};
 use crate::section::{Field, Section};
 use sensedsl_job::snake;
@@ -28,12 +28,12 @@ pub(crate) fn slice(
     unit: &str,
     outputs: &[Output<'_>],
     section: &mut Section,
-) -> Made<()> {
+) -> Printed<()> {
     let Some(first) = outputs.first() else { return Ok(()) };
     let (name, hal) = (snake(unit), context.peripheral(unit));
     let (clock_hz, frequency_hz) = (timer_hz(context, unit)?, first.pwm.frequency_hz);
     let (divider, top) = period(clock_hz, frequency_hz)
-        .ok_or_else(|| Lack::unit(format!("{frequency_hz} pulses a second")))?;
+        .ok_or_else(|| Missing::unit(format!("{frequency_hz} pulses a second")))?;
     let pin = |slot: u8| {
         let own = outputs.iter().find(|one| one.pulse.slot == slot);
         own.map(|one| format!(", p.{}", context.pin(one.pin)))
@@ -42,7 +42,7 @@ pub(crate) fn slice(
         (Some(a), Some(b)) => ("ab", a + &b),
         (Some(a), None) => ("a", a),
         (None, Some(b)) => ("b", b),
-        (None, None) => return Err(Lack::wire(format!("an output of {unit}"))),
+        (None, None) => return Err(Missing::wire(format!("an output of {unit}"))),
     };
     let config = format!("crate::rt::pwm::config({divider}, {top})");
     let places: Vec<String> = outputs.iter().map(|one| one.wire.place()).collect();

@@ -33,7 +33,7 @@ pub(super) fn program<'a>(
         None => "all that is on the bus, as sensors: `--node` takes a node's place".to_owned(),
     };
     let text = format!(
-        "// Made of {} by `sensedsl import`: {whose}.\n// `use` it in a file with a board that has CAN.\n",
+        "// Texts of {} by `sensedsl import`: {whose}.\n// `use` it in a file with a board that has CAN.\n",
         one_line(name)
     );
     let (bitrate_hz, names) = (network.bitrate_hz, BTreeSet::new());

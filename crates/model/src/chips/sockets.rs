@@ -7,7 +7,7 @@ use sensedsl_diagnostics::{Diagnostic, nearest};
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ScalarType, ValueType};
 
-use super::{Given, Whole};
+use super::{ChipReader, Given};
 use crate::bounds::Bounds;
 use crate::design::{DeviceIndex, Level, Placement, Spanned};
 use crate::devices;
@@ -39,7 +39,7 @@ pub(super) struct Socket {
 /// Adds the chip's blocks for its connections.
 pub(super) fn describe(
     sockets: &mut [Socket],
-    whole: &Whole<'_>,
+    whole: &ChipReader<'_>,
     blocks: Vec<ast::Connection>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
@@ -136,7 +136,7 @@ impl Socket {
     /// What it is, and what is fixed of its wires.
     pub(super) fn read(
         &self,
-        whole: &Whole<'_>,
+        whole: &ChipReader<'_>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> (Kind, Placement, Option<Level>) {
         let said = (whole.known.constants, &mut *diagnostics);
@@ -163,7 +163,7 @@ impl Socket {
     /// `in1 = PA3;` in a chip fixes the pin of its connection `in1`.
     fn short_pin(
         &self,
-        whole: &Whole<'_>,
+        whole: &ChipReader<'_>,
         kind: &Kind,
         placement: &mut Placement,
         diagnostics: &mut Vec<Diagnostic>,

@@ -8,7 +8,7 @@ use sensedsl_limits::DRIVER_VALUES_MAX;
 use sensedsl_syntax::ast::{self, AstNode as _, Property};
 use sensedsl_wire::{Direction, ValueType};
 
-use super::Whole;
+use super::ChipReader;
 use crate::coding::PROTOCOL;
 use crate::constants::Constants;
 use crate::design::Spanned;
@@ -125,7 +125,7 @@ fn via(
 }
 
 /// All values of the driver as devices of the chip.
-pub(super) fn all(whole: &Whole<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Asked> {
+pub(super) fn all(whole: &ChipReader<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Asked> {
     let given = whole.given.clone();
     if given.is_empty() {
         let name = &whole.driver.name.value;
@@ -157,7 +157,7 @@ pub(super) fn all(whole: &Whole<'_>, diagnostics: &mut Vec<Diagnostic>) -> Vec<A
 
 /// The value of the driver that a device is.
 pub(super) fn stated(
-    whole: &Whole<'_>,
+    whole: &ChipReader<'_>,
     node: &ast::Device,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Asked> {
@@ -190,7 +190,7 @@ pub(super) fn stated(
 }
 
 fn choose(
-    whole: &Whole<'_>,
+    whole: &ChipReader<'_>,
     all: &[Given],
     (name, direction): (&Spanned<String>, Direction),
     own: &[Property],

@@ -4,9 +4,9 @@ use sensedsl_model::design::Design;
 use sensedsl_model::{Files, Request, Resolved, Unread, Wanted, resolve};
 
 /// What every other file reads as; none where there are no other files.
-struct Beside(Option<&'static str>);
+struct OneFile(Option<&'static str>);
 
-impl Files for Beside {
+impl Files for OneFile {
     fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
         self.0.map(str::to_owned).ok_or(Unread::Missing)
     }
@@ -15,7 +15,7 @@ impl Files for Beside {
 /// What a text means where every file that it names reads as `beside`.
 pub(crate) fn resolved(text: &str, target: Option<&str>, beside: Option<&'static str>) -> Resolved {
     let request = Request { path: "x.sense", text, board: None, target };
-    resolve(&request, &Beside(beside))
+    resolve(&request, &OneFile(beside))
 }
 
 /// The design of a text that needs no other file; a text with a mistake fails the test.

@@ -17,7 +17,7 @@ use crate::files::{files_below, shown};
 use crate::firmware::cargo::{self, Cargo};
 use crate::firmware::{self, Build, Make, Program};
 use crate::terminal::Terminal;
-use crate::{Said, Status};
+use crate::{Reported, Status};
 
 pub(crate) fn run(args: &BuildArgs, terminal: &Terminal) -> Result<Status> {
     built(&args.place, terminal, &mut |_| Ok(()), &mut |job| {
@@ -81,13 +81,13 @@ impl Job<'_> {
 }
 
 /// Further ground to look at: what the caller needs beside the build.
-pub(super) type Ground<'a> = dyn FnMut(&mut Job<'_>) -> Result<(), Box<Diagnostic>> + 'a;
+pub(super) type FurtherCheck<'a> = dyn FnMut(&mut Job<'_>) -> Result<(), Box<Diagnostic>> + 'a;
 
 /// Builds what is named, and hands it on.
 pub(super) fn built(
     place: &Place,
     terminal: &Terminal,
-    ground: &mut Ground<'_>,
+    ground: &mut FurtherCheck<'_>,
     then: &mut dyn FnMut(&Job<'_>) -> Result<Status>,
 ) -> Result<Status> {
     let path = named(place)?;
@@ -121,7 +121,7 @@ fn of_file(
     place: &Place,
     file: &Path,
     terminal: &Terminal,
-    ground: &mut Ground<'_>,
+    ground: &mut FurtherCheck<'_>,
     then: &mut dyn FnMut(&Job<'_>) -> Result<Status>,
 ) -> Result<Status> {
     let beside = || file.parent().unwrap_or(Path::new("")).join("build");
@@ -200,7 +200,7 @@ struct Builders {
 fn look(
     place: &Place,
     job: &mut Job<'_>,
-    ground: &mut Ground<'_>,
+    ground: &mut FurtherCheck<'_>,
 ) -> Result<Builders, Box<Diagnostic>> {
     let at = job.at;
     if job.programs.is_empty() {
@@ -256,7 +256,7 @@ fn build_all(job: &Job<'_>, builders: &Builders, terminal: &Terminal) -> Result<
                 &how,
             );
             let status = job.refuse(why, Status::Wrong, terminal)?;
-            anyhow::bail!(Said(status));
+            anyhow::bail!(Reported(status));
         }
     }
     Ok(())

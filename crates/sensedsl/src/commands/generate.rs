@@ -22,7 +22,7 @@ use sensedsl_wiring::assignment::Assignment;
 use super::input;
 use super::output::{self, Changes};
 use crate::Status;
-use crate::cli::{GenerateArgs, Without};
+use crate::cli::{GenerateArgs, LeftOut};
 use crate::files::tree::{Away, Failure, Output, Trouble};
 use crate::files::{lock, shown};
 use crate::terminal::Terminal;
@@ -31,7 +31,7 @@ use crate::terminal::Terminal;
 const NAMED_MAX: usize = 5;
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &mut Terminal) -> Result<Status> {
-    if !args.host.is_empty() && args.without.contains(&Without::Host) {
+    if !args.host.is_empty() && args.without.contains(&LeftOut::Host) {
         bail!("--host asks for what --without host leaves out");
     }
     made(args, terminal, &mut |made| match made.update(args, terminal)? {
@@ -104,7 +104,7 @@ fn files(
     assignment: &Assignment,
 ) -> Result<FileSet, Vec<Diagnostic>> {
     let hosts = hosts(args, design)?;
-    let firmware = !args.without.contains(&Without::Firmware);
+    let firmware = !args.without.contains(&LeftOut::Firmware);
     let wanted = Selection { firmware, hosts: &hosts };
     let name = design_name(&args.file);
     let made = sensedsl_generate::project(&name, design, assignment, &wanted);
@@ -199,7 +199,7 @@ fn trouble_taking(trouble: Trouble, at: Span, folder: &str) -> Result<Refusal> {
 }
 
 fn hosts(args: &GenerateArgs, design: &Design) -> Result<Vec<&'static dyn Host>, Vec<Diagnostic>> {
-    if args.without.contains(&Without::Host) {
+    if args.without.contains(&LeftOut::Host) {
         return Ok(Vec::new());
     }
     if args.host.is_empty() {
@@ -296,7 +296,7 @@ fn report(
     }
     terminal.note(&format!("  wiring   {}\n", output::typed(&args.output, "wiring.md")))?;
     terminal.note(&format!("  picture  {}\n", output::typed(&args.output, "pinout.svg")))?;
-    if args.without.contains(&Without::Firmware) {
+    if args.without.contains(&LeftOut::Firmware) {
         return Ok(());
     }
     let targets = assignment.used(design).filter_map(|(_, board)| target::of(board.profile()?));

@@ -18,7 +18,7 @@ use sensedsl_wiring::{Cancel, Keep, Solved};
 use crate::cli::On;
 use crate::files::{Disk, Refused, read_text, shown};
 use crate::terminal::Terminal;
-use crate::{Said, Status};
+use crate::{Reported, Status};
 
 /// How long `check` looks for the best wiring.
 const BEST: Duration = Duration::from_secs(2);
@@ -43,7 +43,7 @@ pub(crate) fn of_text(path: &Path, text: String, on: &On) -> Snapshot {
 /// The design and its wiring, for a command that can do nothing without.
 ///
 /// # Errors
-/// [`Said`], once everything that is wrong has been said.
+/// [`Reported`], once everything that is wrong has been said.
 pub(crate) fn wired<'a>(
     answer: &'a Answer<'_>,
     snapshot: &Snapshot,
@@ -52,7 +52,7 @@ pub(crate) fn wired<'a>(
 ) -> Result<(&'a Design, &'a Assignment)> {
     let Some(wired) = answer.wired() else {
         terminal.diagnostics(&answer.diagnostics, snapshot.sources())?;
-        bail!(Said(status(&answer.diagnostics, on).max(Status::Wrong)));
+        bail!(Reported(status(&answer.diagnostics, on).max(Status::Wrong)));
     };
     Ok(wired)
 }

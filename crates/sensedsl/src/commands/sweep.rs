@@ -11,7 +11,7 @@ use anyhow::{Result, bail};
 use sensedsl_board::{catalog, profile};
 use sensedsl_model::What;
 use sensedsl_parts::{Part, Sheet};
-use sensedsl_session::{Fit, On, Workspace, Worth};
+use sensedsl_session::{Fit, On, Quality, Workspace};
 use sensedsl_wiring::Cancel;
 use serde_json::json;
 use signal_hook::consts::SIGINT;
@@ -118,12 +118,12 @@ fn sorted<'a>(
     carriers: &'a [(Carrier, String)],
     answers: &[Fit],
     args: &PartsArgs,
-) -> Vec<(&'a Carrier, Worth)> {
+) -> Vec<(&'a Carrier, Quality)> {
     let fitting = carriers.iter().zip(answers).filter_map(|((carrier, _), fit)| match fit {
         Fit::Wired(worth) => Some((carrier, *worth)),
         Fit::Not | Fit::Failed | Fit::Open => None,
     });
-    let mut found: Vec<(&Carrier, Worth)> = fitting.collect();
+    let mut found: Vec<(&Carrier, Quality)> = fitting.collect();
     found.sort_by_key(|(carrier, worth)| {
         let facts = &carrier.facts;
         let contacts = facts.contacts.unwrap_or(u32::MAX);
@@ -214,7 +214,7 @@ fn solve_all(
     if in_turn && is_human {
         say(&heads());
     }
-    let print = |carriers: &[&Carrier], worth: Worth| {
+    let print = |carriers: &[&Carrier], worth: Quality| {
         let line = |carrier| if is_human { line(carrier, worth) } else { value(carrier, worth) };
         carriers.iter().for_each(|carrier| say(&line(carrier)));
     };
@@ -287,9 +287,9 @@ fn cells(carrier: &Carrier) -> [String; 6] {
 }
 
 /// A carrier as it is shown when it is found.
-fn line(carrier: &Carrier, worth: Worth) -> String {
+fn line(carrier: &Carrier, worth: Quality) -> String {
     let [part, place, core, flash, ram, known] = cells(carrier);
-    let Worth { cost, .. } = worth;
+    let Quality { cost, .. } = worth;
     format!("{cost:>6}  {part:<15}  {place:<23}  {core:<6}  {flash:>5}  {ram:>4}  {known}")
 }
 
@@ -300,7 +300,7 @@ fn heads() -> String {
 }
 
 /// How many can carry the devices, and in what their memories are counted.
-fn sum(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize, cut: &str) -> String {
+fn sum(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize, cut: &str) -> String {
     let units = match shown {
         [] => String::new(),
         some => format!("{}\n", units(some.iter().map(|(carrier, _)| &carrier.facts))),
@@ -309,8 +309,8 @@ fn sum(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize, cut: &str) -> 
 }
 
 /// The carriers that are shown, and how many of those looked at can carry the devices.
-fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
-    let row = |(carrier, worth): &(&Carrier, Worth)| {
+fn human(shown: &[(&Carrier, Quality)], fitting: usize, asked: usize) -> String {
+    let row = |(carrier, worth): &(&Carrier, Quality)| {
         let [part, place, core, flash, ram, known] = cells(carrier);
         [worth.cost.to_string(), part, place, core, flash, ram, known]
     };
@@ -332,7 +332,7 @@ fn human(shown: &[(&Carrier, Worth)], fitting: usize, asked: usize) -> String {
 }
 
 /// A line of JSON.
-fn value(carrier: &Carrier, worth: Worth) -> String {
+fn value(carrier: &Carrier, worth: Quality) -> String {
     let own = [
         ("board", json!(carrier.is_board.then_some(&carrier.name))),
         ("status", json!("optimal")),

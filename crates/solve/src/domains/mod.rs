@@ -39,13 +39,13 @@ pub(crate) struct Pruned;
 
 /// The living ids among consecutive ones.
 #[derive(Clone, Copy, Debug, Default)]
-struct Living {
+struct LiveIds {
     number: usize,
     /// Exclusive or of the ids, which is the id itself when one is left.
     xor: u32,
 }
 
-impl Living {
+impl LiveIds {
     fn all(ids: impl Iterator<Item = u32>) -> Self {
         ids.fold(Self::default(), |all, id| Self { number: all.number + 1, xor: all.xor ^ id })
     }
@@ -70,8 +70,8 @@ impl Living {
 pub(crate) struct Domains {
     has_alt: IdVec<AltId, bool>,
     has_cand: IdVec<CandId, bool>,
-    device: IdVec<DeviceId, Living>,
-    role: IdVec<RoleId, Living>,
+    device: IdVec<DeviceId, LiveIds>,
+    role: IdVec<RoleId, LiveIds>,
     pub(crate) rule: IdVec<RuleId, Charge>,
     pub(crate) board: IdVec<BoardId, Charge>,
     /// Weight of the rules and spare boards that are certain.
@@ -89,8 +89,8 @@ pub(crate) struct Domains {
 
 impl Domains {
     pub(crate) fn new(model: &Model) -> Result<Self, Pruned> {
-        let alts = |d| Living::all(model.alts.of(d).iter().map(|alt| alt.0));
-        let cands = |r| Living::all(model.cands.of(r).iter().map(|id| id.0));
+        let alts = |d| LiveIds::all(model.alts.of(d).iter().map(|alt| alt.0));
+        let cands = |r| LiveIds::all(model.cands.of(r).iter().map(|id| id.0));
         let roles = model.role_alt.ids();
         let mut domains = Self {
             has_alt: IdVec::same(true, model.alt_device.len()),

@@ -122,12 +122,12 @@ impl Sites {
 struct Signature<'a> {
     sites: &'a Sites,
     /// Numbers of things in the order in which they come.
-    names: BTreeMap<Thing, u64>,
+    names: BTreeMap<Numbered, u64>,
     text: Vec<u64>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Thing {
+enum Numbered {
     Resource(ResourceId),
     Group(u32),
     User(DmaUserId),
@@ -173,7 +173,7 @@ impl<'a> Signature<'a> {
         self.text.push(claims.len() as u64);
         for &Claim { resource, holder } in claims {
             let site = self.sites.resources[resource];
-            self.name(Thing::Resource(resource), u64::from(resource.0), site);
+            self.name(Numbered::Resource(resource), u64::from(resource.0), site);
             if site != Site::Several {
                 self.holder(holder);
                 continue;
@@ -200,26 +200,26 @@ impl<'a> Signature<'a> {
         match holder {
             Holder::Own => self.text.push(u64::MAX),
             Holder::Group(number) => {
-                self.name(Thing::Group(number), u64::from(number), Site::Unused);
+                self.name(Numbered::Group(number), u64::from(number), Site::Unused);
             }
         }
     }
 
     fn user(&mut self, problem: &Problem, user: DmaUserId) {
-        self.name(Thing::User(user), u64::from(user.0), self.sites.users[user]);
+        self.name(Numbered::User(user), u64::from(user.0), self.sites.users[user]);
         let requests = &problem.dma_user(user).requests;
         self.text.push(requests.len() as u64);
         for request in requests {
             self.text.push(request.streams.len() as u64);
             for &stream in &request.streams {
                 let site = self.sites.streams[stream];
-                self.name(Thing::Stream(stream), u64::from(stream.0), site);
+                self.name(Numbered::Stream(stream), u64::from(stream.0), site);
             }
         }
     }
 
     /// The number of a thing on this board; its own, and a mark, where other boards have it too.
-    fn name(&mut self, thing: Thing, own: u64, site: Site) {
+    fn name(&mut self, thing: Numbered, own: u64, site: Site) {
         let next = self.names.len() as u64;
         let shared = site == Site::Several;
         let name = if shared { own } else { *self.names.entry(thing).or_insert(next) };

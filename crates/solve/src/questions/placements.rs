@@ -66,21 +66,21 @@ impl<'a> Counter<'a> {
 
 /// What a place takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Thing {
+enum Taken {
     Pin(PinId),
     Resource(ResourceId),
 }
 
 /// Splits the classes where they share neither pin nor resource.
 fn components(classes: Vec<Class>) -> Vec<Vec<Class>> {
-    let mut parts: Vec<(BTreeSet<Thing>, Vec<Class>)> = Vec::new();
+    let mut parts: Vec<(BTreeSet<Taken>, Vec<Class>)> = Vec::new();
     for class in classes {
-        let mut keys: BTreeSet<Thing> = class
+        let mut keys: BTreeSet<Taken> = class
             .places
             .iter()
             .flat_map(|p| {
-                let resources = p.claims.iter().map(|claim| Thing::Resource(claim.resource));
-                resources.chain([Thing::Pin(p.pin)])
+                let resources = p.claims.iter().map(|claim| Taken::Resource(claim.resource));
+                resources.chain([Taken::Pin(p.pin)])
             })
             .collect();
         let mut members = vec![class];

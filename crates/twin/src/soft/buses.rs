@@ -291,7 +291,7 @@ pub(super) fn ports(job: &BoardJob<'_>, schema: &'static Schema) -> Vec<Port> {
 
 /// What is heard on a CAN bus.
 #[derive(Clone)]
-pub(super) struct Stations {
+pub(super) struct CanPeers {
     unit: u8,
     heard: Vec<Heard>,
 }
@@ -308,7 +308,7 @@ struct Heard {
     is_told: bool,
 }
 
-impl Stations {
+impl CanPeers {
     pub(super) fn step(&mut self, core: &mut Core, bench: &mut Bench, since_ms: u64, now_ns: u64) {
         for heard in self.heard.iter_mut().filter(|one| begins(since_ms, one.cycle)) {
             heard.is_told = false;
@@ -332,9 +332,9 @@ impl Stations {
 }
 
 /// The CAN buses of a board.
-pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
+pub(super) fn stations(job: &BoardJob<'_>) -> Vec<CanPeers> {
     let units = Units::new(job);
-    let mut all: Vec<Stations> = Vec::new();
+    let mut all: Vec<CanPeers> = Vec::new();
     let schema = tables::schema(job);
     let devices = job.devices.iter().zip(schema.items).enumerate();
     for (item, (one, what)) in devices {
@@ -354,7 +354,7 @@ pub(super) fn stations(job: &BoardJob<'_>) -> Vec<Stations> {
         };
         match all.iter_mut().find(|bus| bus.unit == unit) {
             Some(bus) => bus.heard.push(heard),
-            None => all.push(Stations { unit, heard: vec![heard] }),
+            None => all.push(CanPeers { unit, heard: vec![heard] }),
         }
     }
     all

@@ -22,7 +22,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_wire::Direction;
 
 use crate::bench::Bench;
-use buses::{Bus, Port, Stations};
+use buses::{Bus, CanPeers, Port};
 use outputs::Outputs;
 use sensors::{Captures, Contacts, Converter, Encoders};
 use tables::kept;
@@ -62,7 +62,7 @@ struct Shape {
     has_link: bool,
     buses: Vec<Bus>,
     ports: Vec<Port>,
-    stations: Vec<Stations>,
+    stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
     contacts: Vec<Contacts>,
@@ -76,7 +76,7 @@ struct State {
     reporter: Box<Reporter<[u8; 65_536]>>,
     buses: Vec<Bus>,
     ports: Vec<Port>,
-    stations: Vec<Stations>,
+    stations: Vec<CanPeers>,
     converters: Vec<Converter>,
     captures: Vec<Captures>,
     contacts: Vec<Contacts>,

@@ -6,11 +6,11 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::analog::Analog;
 
 use super::candidates::Need;
-use super::{Made, Maker, Served, unit_fits};
+use super::{Alternatives, Maker, Served, unit_fits};
 use crate::formulate::Converters;
 
 impl Served for Analog {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let (offer, wanted) = (maker.offer, maker.wanted);
         let converters = offer.board.profile().map(|profile| profile.adcs.as_slice());
         let converters = converters.unwrap_or_default().iter();
@@ -30,7 +30,7 @@ fn sampled(
     maker: &mut Maker<'_, '_>,
     fits: &dyn Fn(&str) -> bool,
     only: Option<&str>,
-) -> Vec<Made> {
+) -> Vec<Alternatives> {
     let profile = maker.offer.board.profile();
     let serves = |usage: &Usage| {
         let Function::Adc { units, channel } = usage.signal.function() else { return false };

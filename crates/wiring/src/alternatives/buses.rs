@@ -6,7 +6,7 @@ use sensedsl_board::table::Usage;
 use sensedsl_model::kind::Role;
 
 use super::candidates::Need;
-use super::{Made, Maker, unit_fits};
+use super::{Alternatives, Maker, unit_fits};
 use crate::names::{Group, Resource};
 
 /// How a device uses an instance of a peripheral.
@@ -31,7 +31,7 @@ pub(super) enum Sharing {
 
 impl Maker<'_, '_> {
     /// All instances that there are.
-    pub(super) fn units(&mut self, bus: &Bus) -> Vec<Made> {
+    pub(super) fn units(&mut self, bus: &Bus) -> Vec<Alternatives> {
         let mut made = Vec::new();
         for unit in self.unit_names(bus) {
             let known = self.profile().is_none_or(|profile| profile.unit(&unit).is_some());
@@ -42,7 +42,7 @@ impl Maker<'_, '_> {
         made
     }
 
-    fn unit(&mut self, bus: &Bus, unit: &str) -> Vec<Made> {
+    fn unit(&mut self, bus: &Bus, unit: &str) -> Vec<Alternatives> {
         let board = self.offer.index;
         let names = &mut self.builder.names;
         let address = bus.address.map(|at| Resource::Address(board, unit.to_owned(), at));

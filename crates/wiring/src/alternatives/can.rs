@@ -6,10 +6,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::can::Can;
 
 use super::buses::{Bus, Sharing};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Can {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let sharing = Sharing::Bus(self.bitrate_hz);
         maker.units(&Bus { wire, gpios: &[], sharing, address: None })
     }

@@ -8,7 +8,7 @@ use sensedsl_solve::problem::{Candidate, Claim, Holder, Role as SolverRole, Rule
 
 use super::{Maker, Wanted};
 use crate::formulate::{Chosen, GPIO};
-use crate::levels::{Stands, stands};
+use crate::levels::{Tolerates, stands};
 use crate::names::{Group, Resource};
 use crate::offer::Offer;
 
@@ -170,5 +170,5 @@ pub(super) fn pin_fits(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: 
 
 fn stands_level(offer: &Offer<'_>, wanted: &Wanted<'_>, role: Role, pin: &Pin) -> bool {
     let Some(mv) = wanted.level_mv.filter(|_| role.is_driven_by_device()) else { return true };
-    !matches!(stands(offer.board, pin, wanted.kind, mv), Stands::No(_))
+    !matches!(stands(offer.board, pin, wanted.kind, mv), Tolerates::No(_))
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use sensedsl_board::remap::Blocks;
 use sensedsl_solve::problem::{Alternative, Claim, Role as SolverRole};
 
-use super::{Made, Maker};
+use super::{Alternatives, Maker};
 use crate::formulate::{Chosen, Meaning, board_id};
 
 impl Maker<'_, '_> {
@@ -17,7 +17,7 @@ impl Maker<'_, '_> {
         unit: Option<&str>,
         claims: &[Claim],
         roles: Vec<MadeRole>,
-    ) -> Vec<Made> {
+    ) -> Vec<Alternatives> {
         let board = self.offer.index;
         let mut made = Vec::new();
         let cases = self.apart(roles).into_iter().flat_map(|roles| self.in_one_block(roles, None));

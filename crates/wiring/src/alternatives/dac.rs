@@ -6,10 +6,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::dac::Dac;
 
 use super::candidates::Need;
-use super::{Made, Maker, Served, unit_fits};
+use super::{Alternatives, Maker, Served, unit_fits};
 
 impl Served for Dac {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let (offer, wanted) = (maker.offer, maker.wanted);
         let profile = offer.board.profile();
         let serves = |usage: &Usage| {

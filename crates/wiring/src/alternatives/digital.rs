@@ -3,10 +3,10 @@
 use sensedsl_model::kind::digital::Digital;
 
 use super::candidates::Need;
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Digital {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let direction = maker.wanted.direction;
         let is_awaited = self.edge.is_some() && direction == sensedsl_wire::Direction::Sensor;
         let need = if is_awaited { Need::Interrupt } else { Need::Gpio };

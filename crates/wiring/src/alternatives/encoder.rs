@@ -7,10 +7,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::encoder::Encoder;
 
 use super::timers::{Channel, TimerUse};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Encoder {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let wires = &[(Role::A, Some(1)), (Role::B, Some(2))];
         maker.timers(&TimerUse { wires, takes, shared_hz: None })
     }

@@ -6,10 +6,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::i2c::I2c;
 
 use super::buses::{Bus, Sharing};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for I2c {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let sharing = if self.exclusive { Sharing::Exclusive } else { Sharing::Bus(0) };
         maker.units(&Bus { wire, gpios: &[], sharing, address: Some(self.address) })
     }

@@ -7,13 +7,13 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::icu::Icu;
 
 use super::timers::{Channel, TimerUse};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 /// The channels with which a timer can be both reset and captured.
 const CHANNELS: [u8; 2] = [1, 2];
 
 impl Served for Icu {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         maker.timers(&TimerUse { wires: &[(Role::In, None)], takes, shared_hz: None })
     }
 

@@ -7,10 +7,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::pwm::Pwm;
 
 use super::timers::{Channel, TimerUse};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Pwm {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         let shared_hz = Some(self.frequency_hz);
         maker.timers(&TimerUse { wires: &[(Role::Out, None)], takes, shared_hz })
     }

@@ -6,10 +6,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::spi::Spi;
 
 use super::buses::{Bus, Sharing};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Spi {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         maker.units(&Bus { wire, gpios: &[Role::Cs], sharing: Sharing::Bus(0), address: None })
     }
 }

@@ -10,7 +10,7 @@ use sensedsl_model::kind::Role;
 
 use super::candidates::Need;
 use super::cases::MadeRole;
-use super::{Made, Maker, served, unit_fits};
+use super::{Alternatives, Maker, served, unit_fits};
 use crate::names::{Group, Resource};
 use crate::wishes::Channels;
 
@@ -25,7 +25,7 @@ pub(super) struct TimerUse {
 }
 
 impl Maker<'_, '_> {
-    pub(super) fn timers(&mut self, using: &TimerUse) -> Vec<Made> {
+    pub(super) fn timers(&mut self, using: &TimerUse) -> Vec<Alternatives> {
         let whole = self.profile().is_some();
         let (offer, wanted) = (self.offer, self.wanted);
         if self.channels() == Channels::Single {
@@ -64,7 +64,7 @@ impl Maker<'_, '_> {
         }
     }
 
-    fn timer(&mut self, using: &TimerUse, unit: &str, timer: Option<&Timer>) -> Vec<Made> {
+    fn timer(&mut self, using: &TimerUse, unit: &str, timer: Option<&Timer>) -> Vec<Alternatives> {
         let ability = served(self.wanted.kind).ability(self.offer.board);
         let on = |role: Role, wanted: Option<u8>| {
             // A complement is there for whoever names its pin.

@@ -8,10 +8,10 @@ use sensedsl_model::kind::Role;
 use sensedsl_model::kind::uart::Uart;
 
 use super::buses::{Bus, Sharing};
-use super::{Made, Maker, Served};
+use super::{Alternatives, Maker, Served};
 
 impl Served for Uart {
-    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Made> {
+    fn ways(&self, maker: &mut Maker<'_, '_>) -> Vec<Alternatives> {
         if self.ability(maker.offer.board).is_some() {
             return Vec::new();
         }

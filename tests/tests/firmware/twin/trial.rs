@@ -12,7 +12,7 @@ use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::judge::{Judge, Judged};
-use sensedsl_twin::pads::Misled;
+use sensedsl_twin::pads::PadMismatch;
 use sensedsl_twin::world::{self, Scene};
 use sensedsl_wire::{
     Decoder, Direction, Event, Health, Scalar, Schema, encode_health_request, encode_hello_request,
@@ -27,7 +27,7 @@ use crate::firmware::tools::root;
 /// What came of a run.
 pub(super) struct Trial {
     pub judged: Vec<Judged>,
-    pub misled: Vec<Misled>,
+    pub misled: Vec<PadMismatch>,
     pub halt: Option<Lockup>,
     pub told: Vec<Told>,
     /// What the board said of itself, with the time.

@@ -5,11 +5,11 @@ use sensedsl_diagnostics::codes::e0552_command_not_done as not_done;
 use sensedsl_twin::bench::seconds;
 use sensedsl_twin::commands::{Amiss, Tried};
 
-use super::Scenery;
+use super::Simulation;
 use crate::commands::table::table;
 
 /// Prints what was found out; false where something was amiss.
-pub(super) fn verdict(scenery: &Scenery<'_>, tried: &[Tried]) -> Result<bool> {
+pub(super) fn verdict(scenery: &Simulation<'_>, tried: &[Tried]) -> Result<bool> {
     if tried.is_empty() {
         return Ok(true);
     }

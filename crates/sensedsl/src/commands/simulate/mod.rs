@@ -82,7 +82,7 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> Result<Status> {
 }
 
 /// Everything that the simulation is about.
-struct Scenery<'a> {
+struct Simulation<'a> {
     args: &'a SimulateArgs,
     terminal: &'a Terminal,
     job: &'a BoardJob<'a>,
@@ -91,7 +91,7 @@ struct Scenery<'a> {
     sources: &'a SourceMap,
 }
 
-impl Scenery<'_> {
+impl Simulation<'_> {
     fn say(&self, why: Diagnostic) -> Result<()> {
         Ok(self.terminal.diagnostics(&[why], self.sources)?)
     }
@@ -103,7 +103,7 @@ fn simulate(
     job: &BoardJob<'_>,
     sources: &SourceMap,
 ) -> Result<Status> {
-    let scenery = Scenery { args, terminal, job, at: input::place(job.design), sources };
+    let scenery = Simulation { args, terminal, job, at: input::place(job.design), sources };
     let Some(world) = world(args, terminal, job)? else { return Ok(Status::Wrong) };
     let seed = args.seed.or(world.seed).unwrap_or(SEED);
     let mut bench = Bench::new(job, &world, seed);
@@ -130,7 +130,7 @@ fn simulate(
 }
 
 /// What the run proves; a judge's verdict is read by programs as well.
-fn explain(scenery: &Scenery<'_>, lines: &[&str]) -> Result<()> {
+fn explain(scenery: &Simulation<'_>, lines: &[&str]) -> Result<()> {
     for line in lines {
         scenery.terminal.aside(line)?;
     }
@@ -139,7 +139,7 @@ fn explain(scenery: &Scenery<'_>, lines: &[&str]) -> Result<()> {
 
 #[cfg(feature = "twin")]
 fn machine(
-    scenery: &Scenery<'_>,
+    scenery: &Simulation<'_>,
     bench: Bench,
     firmware: &Path,
     image: &[u8],
@@ -161,7 +161,7 @@ fn machine(
 
 #[cfg(not(feature = "twin"))]
 fn machine(
-    scenery: &Scenery<'_>,
+    scenery: &Simulation<'_>,
     _: Bench,
     _: &Path,
     _: &[u8],

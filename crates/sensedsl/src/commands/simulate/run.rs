@@ -18,7 +18,7 @@ use sensedsl_wire::{
     encode_health_request, encode_hello_request,
 };
 
-use super::Scenery;
+use super::Simulation;
 use super::back::Reporters;
 use super::board::Board;
 #[cfg(unix)]
@@ -42,7 +42,7 @@ const REFRESH: Duration = Duration::from_millis(200);
 const HEALTH_NS: u64 = 500 * MS;
 
 pub(super) fn run(
-    scenery: &Scenery<'_>,
+    scenery: &Simulation<'_>,
     bench: &Bench,
     board: Box<dyn Board>,
     peer: Option<Peer>,
@@ -81,7 +81,7 @@ pub(super) fn run(
 
 /// A board, and who listens to it.
 pub(super) struct Session<'a> {
-    pub(super) scenery: &'a Scenery<'a>,
+    pub(super) scenery: &'a Simulation<'a>,
     pub(super) board: Box<dyn Board>,
     decoder: Decoder<'a>,
     pub(super) judge: Judge,
@@ -107,7 +107,7 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    fn new(scenery: &'a Scenery<'a>, bench: &Bench, board: Box<dyn Board>) -> Self {
+    fn new(scenery: &'a Simulation<'a>, bench: &Bench, board: Box<dyn Board>) -> Self {
         let job = scenery.job;
         let mut session = Self {
             scenery,
@@ -430,7 +430,7 @@ impl<'a> Session<'a> {
 }
 
 /// Names the parts whose identity the board has not read; false where it should have.
-fn identities(scenery: &Scenery<'_>, unasked: &[Unasked]) -> Result<bool> {
+fn identities(scenery: &Simulation<'_>, unasked: &[Unasked]) -> Result<bool> {
     let names = |is_known: bool| -> Vec<&str> {
         let own = unasked.iter().filter(|one| one.is_known == is_known);
         own.map(|one| one.name.as_str()).collect()

@@ -118,14 +118,14 @@ pub(crate) fn slashed(path: &Path) -> String {
 
 /// What stands beside the output folder while it is written.
 #[derive(Clone, Debug)]
-pub(crate) struct Beside {
+pub(crate) struct Siblings {
     /// The lock, the list of the new tree, and files on their way.
     pub(crate) work: PathBuf,
     /// The other one of the two trees.
     pub(crate) tree: PathBuf,
 }
 
-impl Beside {
+impl Siblings {
     /// None where nothing can stand beside the folder.
     pub(crate) fn of(root: &Path) -> Option<Self> {
         let name = root.file_name()?;

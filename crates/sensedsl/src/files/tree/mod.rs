@@ -40,7 +40,7 @@ use anyhow::{Context as _, Result, bail};
 use super::lock::{Lock, NoLock};
 use super::ops::{self, Ops};
 pub(crate) use away::Away;
-use layout::{Beside, WORK, is_there};
+use layout::{Siblings, WORK, is_there};
 
 /// What a folder is to hold.
 pub(crate) struct NewTree<'a> {
@@ -113,7 +113,7 @@ impl From<anyhow::Error> for Trouble {
 pub(crate) struct Output {
     root: PathBuf,
     /// None where nothing can stand beside the folder.
-    beside: Option<Beside>,
+    beside: Option<Siblings>,
     /// Beside the folder, within, or both.
     locks: Vec<Lock>,
     /// Whether the folder was made by this run.
@@ -144,7 +144,7 @@ impl Output {
     ) -> Result<Self, Trouble> {
         let root = resolve(output)?;
         let can = cfg!(target_os = "linux") && !is_mount_point(&root);
-        let mut beside = Beside::of(&root).filter(|_| can);
+        let mut beside = Siblings::of(&root).filter(|_| can);
         let mut locks = Vec::new();
         if let Some(place) = &beside {
             match Lock::take(&place.work, wait, waiting) {

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use super::apply::{NEW_LIST, apply, clear, never_through_a_link, stage, staged, sync_folders};
 use super::layout::{
-    self, Beside, Kind, LIST, is_not_ours, is_there, link_above, listed, not_ours_above, slashed,
+    self, Kind, LIST, Siblings, is_not_ours, is_there, link_above, listed, not_ours_above, slashed,
     walk,
 };
 use super::{Failure, NewTree, seal};
@@ -30,13 +30,13 @@ const ONCE: &str = "once";
 pub(super) struct Switch<'a> {
     pub(super) ops: &'a Ops,
     pub(super) root: &'a Path,
-    pub(super) beside: &'a Beside,
+    pub(super) beside: &'a Siblings,
 }
 
 impl Switch<'_> {
     /// Makes the folder hold a tree.
     pub(super) fn write(&self, new: &NewTree<'_>) -> Result<(), Failure> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         let ready = seal::set(self.ops, work)
             .and_then(|()| self.prepare(new))
             .and_then(|()| self.ops.exchange(tree, self.root));
@@ -51,7 +51,7 @@ impl Switch<'_> {
     /// Completes what an earlier run has begun, or removes it. What is told back stands in the way
     /// and is not ours to remove.
     pub(super) fn recover(&self) -> io::Result<Option<PathBuf>> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         if self.is_switched() {
             self.settle()?;
         } else if fs::symlink_metadata(tree.join(LIST)).is_ok_and(|found| found.is_file()) {
@@ -69,7 +69,7 @@ impl Switch<'_> {
 
     /// Writes the new tree beside the old one, until it is on the disk.
     fn prepare(&self, new: &NewTree<'_>) -> io::Result<()> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         // A user's file in a folder that is there already can only be made in that folder.
         let at_once = |path: &str| {
             not_ours_above(Path::new(path)).is_none_or(|folder| is_there(&self.root.join(folder)))
@@ -100,7 +100,7 @@ impl Switch<'_> {
     /// Folders of the user's that are not there yet: the links that change places with them later
     /// are made now, while the disk may still be full.
     fn stage_links(&self, once: &BTreeSet<String>) -> io::Result<()> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         for folder in once.iter().filter_map(|path| not_ours_above(Path::new(path))) {
             let link = staged(work, folder);
             if !is_there(&link) {
@@ -113,7 +113,7 @@ impl Switch<'_> {
 
     /// Makes the new tree of what is staged and of what stays.
     fn build(&self, new: &NewTree<'_>, at_once: &dyn Fn(&str) -> bool) -> io::Result<()> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         self.ops.make_folders(tree)?;
         fs::set_permissions(tree, fs::metadata(self.root)?.permissions())?;
         self.ops.symlink(&self.link_to(Path::new(LIST), &work.join(NEW_LIST)), &tree.join(LIST))?;
@@ -147,7 +147,7 @@ impl Switch<'_> {
 
     /// The new tree has the folder's name: the old one becomes the same and takes it back.
     fn settle(&self) -> io::Result<()> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         sync_above(self.root)?;
         apply(self.ops, work, tree)?;
         self.hand_over()?;
@@ -163,7 +163,7 @@ impl Switch<'_> {
     /// What is the user's in the new tree goes to the old one: folders that were not there before,
     /// and what was made since the names changed places.
     fn hand_over(&self) -> io::Result<()> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         let list = listed(&work.join(NEW_LIST))?;
         for (path, kind) in walk(self.root)? {
             let (from, to) = (self.root.join(&path), tree.join(&path));
@@ -196,7 +196,7 @@ impl Switch<'_> {
 
     /// Removes the tree beside, which is the new one, and nothing that is not ours.
     fn dismantle(&self) -> io::Result<Option<PathBuf>> {
-        let Beside { work, tree } = self.beside;
+        let Siblings { work, tree } = self.beside;
         let list = listed(&work.join(NEW_LIST))?;
         for path in listed(&work.join(ONCE))? {
             let path = Path::new(&path);
