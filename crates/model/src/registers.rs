@@ -40,11 +40,7 @@ impl Register {
     /// The register that a device is written to; none where it is not written to one.
     #[must_use]
     pub fn of(device: &Device) -> Option<Self> {
-        let number = match (device.kind.i2c(), device.kind.spi()) {
-            (Some(i2c), _) => i2c.register,
-            (None, Some(spi)) => spi.register,
-            (None, None) => return None,
-        };
+        let number = device.kind.register_access()?.register;
         let words = Words::of(device).filter(|words| words.crc.is_none())?;
         let bytes = words.wire_bytes();
         let is_written = device.direction == Direction::Actuator && bytes <= BYTES_MAX;

@@ -161,9 +161,18 @@ fn length_bytes(kind: &Kind, coding: &Coding) -> Option<u16> {
 }
 
 fn order(kind: &Kind) -> ByteOrder {
-    let of_bus = kind.i2c().map(|i2c| i2c.order).or_else(|| kind.spi().map(|spi| spi.order));
-    let of_line = || kind.uart().map(|uart| uart.order).or(kind.can().map(|can| can.order));
-    of_bus.or_else(of_line).unwrap_or_default()
+    match kind {
+        Kind::I2c(i2c) => i2c.order,
+        Kind::Spi(spi) => spi.order,
+        Kind::Uart(uart) => uart.order,
+        Kind::Can(can) => can.order,
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => ByteOrder::default(),
+    }
 }
 
 fn words(kind: &Kind, coding: &Coding, value: ValueType, length: u16) -> Result<Words, String> {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
 use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::can::Can;
 use sensedsl_model::kind::i2c::I2c;
 use sensedsl_model::kind::spi::Spi;
@@ -94,20 +95,33 @@ fn can_script(wired: &Wired<'_>, can: &Can) -> Script {
 
 /// What a device on a bus does.
 pub(crate) fn script(context: &Context<'_>, wired: &Wired<'_>) -> Option<Script> {
-    let kind = &wired.device.kind;
-    let of_i2c = kind.i2c().map(|i2c| i2c_script(context, wired, i2c));
-    let of_spi = || kind.spi().map(|spi| spi_script(wired, spi));
-    let of_can = || kind.can().map(|can| can_script(wired, can));
-    of_i2c.or_else(of_spi).or_else(of_can)
+    match &wired.device.kind {
+        Kind::I2c(i2c) => Some(i2c_script(context, wired, i2c)),
+        Kind::Spi(spi) => Some(spi_script(wired, spi)),
+        Kind::Can(can) => Some(can_script(wired, can)),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => None,
+    }
 }
 
 /// The greatest clock that the devices of a unit stand.
 pub(crate) fn asked_hz<'w, 'a: 'w>(on_bus: impl Iterator<Item = &'w Wired<'a>>) -> Option<u32> {
-    let asked = on_bus.filter_map(|wired| {
-        let kind = &wired.device.kind;
-        let of_i2c = kind.i2c().map(|i2c| i2c.speed_hz);
-        let of_spi = kind.spi().map(|spi| spi.clock_hz);
-        of_i2c.or(of_spi).or(kind.can().map(|can| can.bitrate_hz))
+    let asked = on_bus.filter_map(|wired| match &wired.device.kind {
+        Kind::I2c(i2c) => Some(i2c.speed_hz),
+        Kind::Spi(spi) => Some(spi.clock_hz),
+        Kind::Can(can) => Some(can.bitrate_hz),
+        Kind::Analog(_)
+        | Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_) => None,
     });
     asked.min()
 }

@@ -1,6 +1,7 @@
 //! Interrupts of captures: how many there are at the greatest value that a device states.
 
 use sensedsl_model::design::Device;
+use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::icu::{Edge, Icu, Mode};
 
 use crate::Context;
@@ -62,14 +63,22 @@ fn whole(value: f64) -> Option<u64> {
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     for wired in &context.elements {
-        let kind = &wired.device.kind;
-        let is_awaited = kind.digital().is_some_and(|digital| digital.edge.is_some());
-        if kind.icu().is_none() && !is_awaited {
-            continue;
-        }
+        let icu = match &wired.device.kind {
+            Kind::Icu(icu) => Some(icu),
+            Kind::Digital(digital) if digital.edge.is_some() => None,
+            Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => continue,
+        };
         let name = wired.wiring.unit.clone().unwrap_or_else(|| "EXTI".to_owned());
         let mut row = Row::new(Part::Interrupts, name, vec![wired.index]);
-        if let Some(icu) = kind.icu() {
+        if let Some(icu) = icu {
             let timers = context.board.profile().map(|profile| &profile.timers);
             let timer = timers.into_iter().flatten().find(|timer| timer.name == row.name);
             let known = timer.and_then(|timer| timer_hz(context, timer)).is_some();

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use sensedsl_model::design::{Design, Device, DeviceIndex};
+use sensedsl_model::kind::Kind;
 use sensedsl_wiring::assignment::BoardAssignment;
 
 use crate::Turn;
@@ -54,8 +55,18 @@ pub(crate) fn turns(design: &Design, wiring: &BoardAssignment) -> Vec<Turn> {
 
 /// From one measurement to the next, of what measures when it is told to.
 fn period_ms(device: &Device) -> Option<u32> {
-    let of_i2c = device.kind.i2c().map(|i2c| i2c_period_ms(device.delay_ms, i2c.wait_us));
-    of_i2c.or_else(|| device.kind.icu()?.pulse_us.map(|_| device.delay_ms.max(1)))
+    match &device.kind {
+        Kind::I2c(i2c) => Some(i2c_period_ms(device.delay_ms, i2c.wait_us)),
+        Kind::Icu(icu) => icu.pulse_us.map(|_| device.delay_ms.max(1)),
+        Kind::Analog(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => None,
+    }
 }
 
 /// How long a device has its turn: the elements of an array that measures when it is told to, one after the other.

@@ -7,9 +7,9 @@ use sensedsl_board::signal::UnitName;
 use sensedsl_diagnostics::codes::e0620_clock_out_of_reach::clock_out_of_reach;
 use sensedsl_diagnostics::{Diagnostic, Span};
 use sensedsl_model::design::Transport;
-use sensedsl_model::kind::Sharing;
 use sensedsl_model::kind::analog::Analog;
 use sensedsl_model::kind::icu::Icu;
+use sensedsl_model::kind::{Kind, Sharing};
 
 use crate::can_bit::can_bit;
 use crate::clocks::{PRESCALER_MAX, Tick, off_ppm, sampling, slowest_hz, timer_hz, unit_hz};
@@ -28,13 +28,18 @@ pub(crate) fn limits(context: &Context<'_>) -> Vec<Diagnostic> {
     for wired in &context.elements {
         let unit = wired.wiring.unit.as_deref();
         let kind = &wired.device.kind;
-        diagnostics.extend(kind.analog().and_then(|one| of_sampling(context, wired, one)));
-        diagnostics.extend(kind.icu().and_then(|icu| of_tick(context, wired, icu)));
-        diagnostics.extend(kind.pwm().and_then(|pwm| of_pulses(context, wired, pwm.frequency_hz)));
-        if let (Some(uart), Some(unit)) = (kind.uart(), unit) {
-            let span = uart.baud_span.unwrap_or(wired.device.kind_span);
-            diagnostics.extend(of_baud(context, unit, uart.baud, span));
-        }
+        diagnostics.extend(match kind {
+            Kind::Analog(analog) => of_sampling(context, wired, analog),
+            Kind::Icu(icu) => of_tick(context, wired, icu),
+            Kind::Pwm(pwm) => of_pulses(context, wired, pwm.frequency_hz),
+            Kind::Uart(uart) => unit.and_then(|unit| {
+                let span = uart.baud_span.unwrap_or(wired.device.kind_span);
+                of_baud(context, unit, uart.baud, span)
+            }),
+            // What shares its unit with others is asked about as a bus, below.
+            Kind::I2c(_) | Kind::Spi(_) | Kind::Can(_) => None,
+            Kind::Encoder(_) | Kind::Digital(_) | Kind::Dac(_) => None,
+        });
         if let (true, Some(unit)) = (kind.name().spec().sharing != Sharing::Own, unit) {
             shared.entry(UnitName::new(unit)).or_default().push(wired);
         }

@@ -38,9 +38,19 @@ pub(crate) fn full(design: &Design, context: &Context<'_>) -> Option<Diagnostic>
 
 fn own_bytes(kind: &Kind, value: sensedsl_wire::ValueType) -> u64 {
     let value = value.size_bytes() as u64;
-    let samples = kind.analog().map_or(0, |analog| u64::from(analog.samples) * SAMPLE_BYTES);
-    let raw = kind.i2c().map_or(0, |i2c| value + u64::from(i2c.length_bytes));
-    value + samples + raw
+    let buffers = match kind {
+        Kind::Analog(analog) => u64::from(analog.samples) * SAMPLE_BYTES,
+        Kind::I2c(i2c) => value + u64::from(i2c.length_bytes),
+        Kind::Icu(_)
+        | Kind::Encoder(_)
+        | Kind::Digital(_)
+        | Kind::Uart(_)
+        | Kind::Spi(_)
+        | Kind::Pwm(_)
+        | Kind::Dac(_)
+        | Kind::Can(_) => 0,
+    };
+    value + buffers
 }
 
 fn needed_bytes(design: &Design, context: &Context<'_>) -> u64 {

@@ -3,45 +3,58 @@
 use std::collections::BTreeMap;
 
 use sensedsl_board::signal::UnitName;
+use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::{Parity, Uart};
 
-use crate::Context;
 use crate::clocks::{nearest, unit_hz};
 use crate::rows::{Count, Part, Row, clocks_ns, per_second};
+use crate::{Context, Wired};
 
 pub(crate) fn rows(context: &Context<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut outputs: BTreeMap<(UnitName, u32), Row> = BTreeMap::new();
     for wired in &context.elements {
         let Some(unit) = wired.wiring.unit.as_deref() else { continue };
-        if let Some(uart) = wired.device.kind.uart() {
-            let mut row = Row::new(Part::Port, unit, vec![wired.index]);
-            let cycle = context.cycle(wired);
-            let bytes = message_bytes(uart);
-            row.clock_hz = exact_baud(context, unit, uart.baud);
-            row.cycle = Some(cycle);
-            row.a_second = Some(Count::Bytes(per_second(bytes, cycle.delay_ms)));
-            row.cycle_ns = row.clock_hz.map(|hz| clocks_ns(bytes * byte_bits(uart), hz));
-            row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
-            row.shortest_ms = row
-                .cycle_ns
-                .and_then(|ns| u32::try_from(ns.div_ceil(crate::MILLISECOND_NS).max(1)).ok());
-            rows.push(row);
-        }
-        if let Some(pwm) = wired.device.kind.pwm() {
-            let key = (UnitName::new(unit), pwm.frequency_hz);
-            let fresh = || {
-                let mut row = Row::new(Part::Output, unit, Vec::new());
-                row.clock_hz = Some(pwm.frequency_hz);
-                row
-            };
-            let row = outputs.entry(key).or_insert_with(fresh);
-            row.devices.push(wired.index);
-            row.devices.dedup();
+        match &wired.device.kind {
+            Kind::Uart(uart) => rows.push(port(context, wired, unit, uart)),
+            Kind::Pwm(pwm) => {
+                let key = (UnitName::new(unit), pwm.frequency_hz);
+                let fresh = || {
+                    let mut row = Row::new(Part::Output, unit, Vec::new());
+                    row.clock_hz = Some(pwm.frequency_hz);
+                    row
+                };
+                let row = outputs.entry(key).or_insert_with(fresh);
+                row.devices.push(wired.index);
+                row.devices.dedup();
+            }
+            Kind::Analog(_)
+            | Kind::I2c(_)
+            | Kind::Icu(_)
+            | Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Spi(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => {}
         }
     }
     rows.extend(outputs.into_values());
     rows
+}
+
+/// The row of a serial port.
+fn port(context: &Context<'_>, wired: &Wired<'_>, unit: &str, uart: &Uart) -> Row {
+    let mut row = Row::new(Part::Port, unit, vec![wired.index]);
+    let cycle = context.cycle(wired);
+    let bytes = message_bytes(uart);
+    row.clock_hz = exact_baud(context, unit, uart.baud);
+    row.cycle = Some(cycle);
+    row.a_second = Some(Count::Bytes(per_second(bytes, cycle.delay_ms)));
+    row.cycle_ns = row.clock_hz.map(|hz| clocks_ns(bytes * byte_bits(uart), hz));
+    row.busy_ns = row.cycle_ns.map(|ns| per_second(ns, cycle.delay_ms));
+    row.shortest_ms =
+        row.cycle_ns.and_then(|ns| u32::try_from(ns.div_ceil(crate::MILLISECOND_NS).max(1)).ok());
+    row
 }
 
 /// The rate that a serial port makes of its clock.

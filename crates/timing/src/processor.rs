@@ -129,15 +129,20 @@ fn threads(context: &Context<'_>, costs: Option<&Costs>) -> Vec<Thread> {
         let load = loads.entry((UnitName::new(unit), context.cycle(wired))).or_default();
         load.devices.push(wired.index);
         load.devices.dedup();
-        if let Some(analog) = kind.analog() {
-            load.samples.push(analog.samples);
-        } else if let Some(icu) = kind.icu() {
-            load.pulses_us.extend(icu.pulse_us);
-        } else if kind.i2c().is_some() {
-            let script = script(context, wired);
-            load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
-        } else {
-            load.is_unknown = true;
+        match kind {
+            Kind::Analog(analog) => load.samples.push(analog.samples),
+            Kind::Icu(icu) => load.pulses_us.extend(icu.pulse_us),
+            Kind::I2c(_) => {
+                let script = script(context, wired);
+                load.transfers.extend(script.map(|script| (script.transfers, script.every_ms)));
+            }
+            Kind::Encoder(_)
+            | Kind::Digital(_)
+            | Kind::Uart(_)
+            | Kind::Spi(_)
+            | Kind::Pwm(_)
+            | Kind::Dac(_)
+            | Kind::Can(_) => load.is_unknown = true,
         }
     }
     loads.into_iter().map(|((unit, cycle), load)| load.thread(&unit, cycle, costs)).collect()

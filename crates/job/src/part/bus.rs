@@ -247,8 +247,7 @@ fn commands<'a>(
 
 fn command(device: &Device, own: Option<OwnBitsPlan>, protocol: &Protocol) -> Option<CommandPlan> {
     let words = Words::of(device)?;
-    let of_i2c = device.kind.i2c().and_then(|i2c| i2c.register);
-    let number = of_i2c.or_else(|| device.kind.spi()?.register);
+    let number = device.kind.register_access().and_then(|own| own.register);
     let prefix = number.map(|number| protocol.register(u32::from(number))).unwrap_or_default();
     Some(CommandPlan {
         field: device.name.value.clone(),

@@ -4,8 +4,7 @@
 //! several, and their values are of one moment; where a measurement is started for them, they must be.
 
 use sensedsl_model::design::Device;
-use sensedsl_model::kind::i2c::I2c;
-use sensedsl_model::kind::spi::Spi;
+use sensedsl_model::kind::RegisterAccess;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_model::words::Words;
 
@@ -70,15 +69,6 @@ struct Wanted {
     byte: u16,
 }
 
-/// What a device on either bus says of its reading.
-struct Asked {
-    trigger: Vec<u8>,
-    wait_us: u32,
-    register: Option<u16>,
-    read: Vec<u8>,
-    length: u16,
-}
-
 /// Bytes that are read together.
 struct Together {
     key: Key,
@@ -118,34 +108,19 @@ pub(super) fn plan(
 /// What a reading wants; none where it is on no register bus.
 fn wanted(device: &Device) -> Option<Wanted> {
     let coding = &device.coding;
-    let of_i2c = |i2c: &I2c| Asked {
-        trigger: i2c.trigger.clone(),
-        wait_us: i2c.wait_us,
-        register: i2c.register,
-        read: Vec::new(),
-        length: i2c.length_bytes,
-    };
-    let of_spi = |spi: &Spi| Asked {
-        trigger: spi.trigger.clone(),
-        wait_us: spi.wait_us,
-        register: spi.register,
-        read: spi.read.clone(),
-        length: spi.length_bytes,
-    };
-    let asked = device.kind.i2c().map(of_i2c);
-    let asked = asked.or_else(|| device.kind.spi().map(of_spi))?;
-    let Asked { trigger, wait_us, register, read, length } = asked;
+    let RegisterAccess { trigger, wait_us, register, read, length_bytes } =
+        device.kind.register_access()?;
     let words = Words::of(device).filter(|_| coding.output.is_none());
-    let length = words.as_ref().map_or(length, |words| words.data_bytes);
+    let length = words.as_ref().map_or(length_bytes, |words| words.data_bytes);
     let select = match register {
         _ if !coding.exchange.is_empty() => Select::Exchange(coding.exchange.clone()),
         Some(_) if read.is_empty() => Select::Register,
-        Some(_) | None => Select::Bytes(read),
+        Some(_) | None => Select::Bytes(read.to_vec()),
     };
     let first = if select == Select::Register { u32::from(register.unwrap_or(0)) } else { 0 };
     let byte = if matches!(select, Select::Exchange(_)) { 0 } else { coding.byte };
     let key = Key {
-        trigger,
+        trigger: trigger.to_vec(),
         wait_ms: wait_us.div_ceil(1_000),
         cycle_ms: device.delay_ms,
         has_crc: words.is_some_and(|words| words.crc.is_some()),

@@ -18,11 +18,13 @@ pub mod encoder;
 pub mod i2c;
 pub mod icu;
 pub mod pwm;
+mod register_access;
 mod role;
 mod spec;
 pub mod spi;
 pub mod uart;
 
+pub use register_access::RegisterAccess;
 pub use role::Role;
 pub use spec::{KindSpec, Sharing, Values};
 

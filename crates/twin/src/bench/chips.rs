@@ -80,23 +80,16 @@ impl Bench {
         let readings = job.devices.iter().filter(|of| of.device.part == part).filter_map(|of| {
             let device = of.device;
             let subject = self.subject(device)?;
-            let (trigger, wait_us, register, select, length) = if let Some(own) = device.kind.i2c()
-            {
-                (own.trigger.clone(), own.wait_us, own.register, Vec::new(), own.length_bytes)
-            } else {
-                let own = device.kind.spi()?;
-                let select = own.read.clone();
-                (own.trigger.clone(), own.wait_us, own.register, select, own.length_bytes)
-            };
+            let own = device.kind.register_access()?;
             Some(Reading {
                 subject,
-                trigger,
-                wait_ns: 1_000 * u64::from(wait_us),
-                register,
-                select,
+                trigger: own.trigger.to_vec(),
+                wait_ns: 1_000 * u64::from(own.wait_us),
+                register: own.register,
+                select: own.read.to_vec(),
                 exchange: device.coding.exchange.clone(),
                 byte: device.coding.byte,
-                length,
+                length: own.length_bytes,
                 words: Words::of(device).filter(|_| device.coding.output.is_none()),
                 output: device.coding.output,
                 ranges: driver

@@ -40,8 +40,7 @@ impl Written {
 
 /// The register that a device is written to, if it is on a register bus; its number is none where the chip has one.
 fn register(one: &JobDevice<'_>) -> Option<Option<u16>> {
-    let kind = &one.device.kind;
-    kind.i2c().map(|own| own.register).or_else(|| kind.spi().map(|own| own.register))
+    one.device.kind.register_access().map(|own| own.register)
 }
 
 /// A value in registers: their number, then its bytes. The bits of a register that no device has are as the

@@ -1,0 +1,49 @@
+//! How a value of a part on a register bus is had, whichever bus it is.
+
+use super::Kind;
+
+/// What is sent and waited for before bytes come, and how many they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RegisterAccess<'a> {
+    /// Bytes that start a measurement; none where the part measures by itself.
+    pub trigger: &'a [u8],
+    /// From the trigger to the value, in microseconds.
+    pub wait_us: u32,
+    /// The register that is read or written; none where the part has one, or none.
+    pub register: Option<u16>,
+    /// Bytes that are sent in place of a register's number; of SPI alone.
+    pub read: &'a [u8],
+    /// Bytes of the value.
+    pub length_bytes: u16,
+}
+
+impl Kind {
+    /// How a value on I2C or SPI is had; none for what is on no register bus.
+    #[must_use]
+    pub fn register_access(&self) -> Option<RegisterAccess<'_>> {
+        match self {
+            Self::I2c(own) => Some(RegisterAccess {
+                trigger: &own.trigger,
+                wait_us: own.wait_us,
+                register: own.register,
+                read: &[],
+                length_bytes: own.length_bytes,
+            }),
+            Self::Spi(own) => Some(RegisterAccess {
+                trigger: &own.trigger,
+                wait_us: own.wait_us,
+                register: own.register,
+                read: &own.read,
+                length_bytes: own.length_bytes,
+            }),
+            Self::Analog(_)
+            | Self::Icu(_)
+            | Self::Encoder(_)
+            | Self::Digital(_)
+            | Self::Uart(_)
+            | Self::Pwm(_)
+            | Self::Dac(_)
+            | Self::Can(_) => None,
+        }
+    }
+}
