@@ -1,16 +1,37 @@
 //! Everything that `generate` writes for a few designs, byte for byte, as it was read and agreed to.
 //!
-//! The runtime's own files are copied from `runtime/` and left out here. After a change that is
-//! meant: `cargo xtask bless`, and read the difference.
+//! The runtimes' own files are copied as they are and left out here, and so are lock files, which a table says. What
+//! stands in a tree several times is there once; `same.txt` says where else. After a change that is meant: `cargo xtask
+//! bless`, and read the difference.
 
 use std::collections::BTreeMap;
 use std::fs;
 
 use sensedsl_tests::{Scratch, root, sensedsl, tree};
 
-/// Copied as they are from `runtime/`, whatever the design.
+/// What is the same whatever the design.
 fn is_runtime(path: &str) -> bool {
-    path.contains("/uproxy/") || path.contains("/include/sensedsl/")
+    let folders = ["/uproxy/", "/include/sensedsl/", "/sense-rt/src/", "/src/rt/"];
+    folders.iter().any(|folder| path.contains(folder)) || path.ends_with("/Cargo.lock")
+}
+
+/// Takes files out of a tree that are in it before, and lists them.
+fn once(files: &mut BTreeMap<String, Vec<u8>>) {
+    let mut first: BTreeMap<Vec<u8>, String> = BTreeMap::new();
+    let mut same = String::new();
+    files.retain(|path, bytes| match first.get(bytes) {
+        Some(other) => {
+            same.push_str(&format!("{path} = {other}\n"));
+            false
+        }
+        None => {
+            first.insert(bytes.clone(), path.clone());
+            true
+        }
+    });
+    if !same.is_empty() {
+        files.insert("same.txt".to_owned(), same.into_bytes());
+    }
 }
 
 fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
@@ -33,7 +54,13 @@ fn generated(file: &str, arguments: &[&str]) -> BTreeMap<String, Vec<u8>> {
 
 /// Holds what is generated for `folder/example.sense` to the tree of that name.
 fn agrees(folder: &str, example: &str, arguments: &[&str]) {
-    let files = generated(&format!("{folder}/{example}.sense"), arguments);
+    agrees_as(example, &format!("{folder}/{example}.sense"), arguments);
+}
+
+/// The same under another name.
+fn agrees_as(example: &str, file: &str, arguments: &[&str]) {
+    let mut files = generated(file, arguments);
+    once(&mut files);
     let folder = root().join("tests/golden").join(example);
     if std::env::var_os("SENSEDSL_BLESS").is_some() {
         if folder.exists() {
@@ -73,4 +100,15 @@ fn miniature_car() {
 #[test]
 fn curves() {
     agrees("tests/hosts", "curves", &["--without", "firmware"]);
+}
+
+#[test]
+fn embassy_stm32() {
+    let arguments = ["--target", "embassy", "--without", "host"];
+    agrees_as("embassy_stm32", "examples/all_kinds.sense", &arguments);
+}
+
+#[test]
+fn embassy_rp() {
+    agrees_as("embassy_rp", "tests/firmware/embassy/pico.sense", &["--without", "host"]);
 }
