@@ -11,6 +11,7 @@
 mod embassy;
 mod firmware;
 mod fuzz;
+mod mcus;
 mod mutants;
 mod parts;
 mod profiles;
@@ -39,6 +40,7 @@ fn run() -> Result<()> {
         Some((task, [])) if task == "bless" => bless(),
         Some((task, rest)) if task == "firmware" => firmware::run(rest),
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
+        Some((task, rest)) if task == "mcus" => mcus::run(rest),
         Some((task, rest)) if task == "mutants" => mutants::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => match rest.split_first() {
@@ -48,7 +50,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mutants, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
+            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
         ),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 use sensedsl_surroundings::CanFrame;
@@ -122,6 +123,7 @@ fn narrow_bits(frame: &CanFrame) -> u32 {
 #[derive(Debug)]
 pub(super) struct Can {
     unit: u8,
+    mcu: &'static Mcu,
     irqs: [u16; 4],
     mcr: u32,
     msr: u32,
@@ -140,11 +142,12 @@ pub(super) struct Can {
 }
 
 impl Can {
-    pub(super) fn new(unit: u8) -> Self {
-        let irqs = if unit == 1 { [19, 20, 21, 22] } else { [63, 64, 65, 66] };
+    pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
+        let own = format!("CAN{unit}");
         Self {
             unit,
-            irqs,
+            mcu,
+            irqs: ["TX", "RX0", "RX1", "SCE"].map(|signal| mcu.irq(&own, signal)),
             mcr: 0x0001_0002,
             msr: 0x0C02,
             tsr: 0x1C00_0000,
@@ -164,7 +167,7 @@ impl Can {
 
     /// As after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new(self.unit);
+        *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
@@ -368,7 +371,7 @@ impl Can {
 
     fn control(&mut self, new: u32, wires: &Wires) {
         if new >> 15 & 1 == 1 {
-            *self = Self::new(self.unit);
+            *self = Self::new(self.unit, self.mcu);
             return;
         }
         self.mcr = new;

@@ -7,7 +7,8 @@ use super::dma::Dma;
 use super::exti::Exti;
 use super::i2c::I2c;
 use super::iwdg::Iwdg;
-use super::map::{self, Device};
+use super::map::{Device, Row};
+use super::mcu::Mcu;
 use super::plain::{self, Plain};
 use super::ports::PortState;
 use super::rcc::Rcc;
@@ -18,22 +19,23 @@ use super::usart::Usart;
 use super::usb::Usb;
 use super::wires::{Event, NEVER, Request, ResetCause, Wires, merge};
 
-/// What the debugger's unit says the chip is: an F405 or F407, revision Y.
-const IDCODE: u32 = 0x100F_6413;
 /// Everything on the chip but the core and its memory.
 pub(super) struct Chip {
+    pub(super) mcu: &'static Mcu,
     pub wires: Wires,
     pub rcc: Rcc,
     pub(super) memory: Memory,
     pub(super) timers: [Timer; 14],
-    pub(super) usarts: [Usart; 6],
-    pub(super) spis: [Spi; 3],
+    pub(super) usarts: [Usart; 8],
+    pub(super) spis: [Spi; 6],
     pub(super) i2cs: [I2c; 3],
     pub(super) adcs: [Adc; 3],
     adc_common: u32,
     cans: [Can; 2],
     filters: Filters,
     pub(super) dmas: [Dma; 2],
+    pub(super) dma_irqs: [[u16; 8]; 2],
+    adc_irq: u16,
     dac: Dac,
     exti: Exti,
     iwdg: Iwdg,
@@ -53,25 +55,29 @@ pub(super) struct Chip {
 }
 
 impl Chip {
-    pub(super) fn new(wires: Wires, memory: Memory, crystal_hz: u64) -> Self {
+    pub(super) fn new(wires: Wires, memory: Memory, crystal_hz: u64, mcu: &'static Mcu) -> Self {
+        let stream_irq =
+            |dma: usize, stream: usize| mcu.irq(&format!("DMA{}", dma + 1), &format!("CH{stream}"));
         Self {
+            mcu,
             wires,
             rcc: Rcc::new(crystal_hz),
             memory,
-            timers: std::array::from_fn(Timer::new),
-            usarts: [(1, 37), (2, 38), (3, 39), (4, 52), (5, 53), (6, 71)]
-                .map(|(unit, irq)| Usart::new(unit, irq)),
-            spis: [1, 2, 3].map(Spi::new),
-            i2cs: [1, 2, 3].map(I2c::new),
+            timers: std::array::from_fn(|at| Timer::new(at, mcu)),
+            usarts: [1, 2, 3, 4, 5, 6, 7, 8].map(|unit| Usart::new(unit, mcu)),
+            spis: [1, 2, 3, 4, 5, 6].map(|unit| Spi::new(unit, mcu)),
+            i2cs: [1, 2, 3].map(|unit| I2c::new(unit, mcu)),
             adcs: [1, 2, 3].map(Adc::new),
             adc_common: 0,
-            cans: [1, 2].map(Can::new),
+            cans: [1, 2].map(|unit| Can::new(unit, mcu)),
             filters: Filters::new(),
             dmas: [Dma::default(), Dma::default()],
+            dma_irqs: [0, 1].map(|dma| std::array::from_fn(|stream| stream_irq(dma, stream))),
+            adc_irq: mcu.irq("ADC1", "GLOBAL"),
             dac: Dac::default(),
-            exti: Exti::new(),
+            exti: Exti::new(mcu),
             iwdg: Iwdg::new(),
-            usb: Usb::new(),
+            usb: Usb::new(mcu),
             pwr: Plain::new(0x400, plain::PWR),
             flash: Plain::new(0x400, plain::FLASH),
             rtc: Plain::new(0x400, plain::RTC),
@@ -105,7 +111,7 @@ impl Chip {
             self.reset_behind(register, u32::MAX);
         }
         self.iwdg = Iwdg::new();
-        self.exti = Exti::new();
+        self.exti = Exti::new(self.mcu);
         self.wires.gpio.reset();
         self.wires.clocks = self.rcc.clocks();
         self.settle();
@@ -150,7 +156,7 @@ impl Chip {
         }
         for (index, i2c) in self.i2cs.iter_mut().enumerate() {
             if i2c.deadline() <= now {
-                wires.i2c_left[index] = left_of(&self.dmas, Request::I2cRx(index));
+                wires.i2c_left[index] = left_of(self.mcu, &self.dmas, Request::I2cRx(index));
                 i2c.advance(wires);
             }
         }
@@ -195,34 +201,35 @@ impl Chip {
         }
         let holds = |adc: &Adc| adc.interrupts();
         let is_held = self.adcs.iter().any(holds);
-        self.wires.interrupt(18, 0, is_held);
+        self.wires.interrupt(self.adc_irq, 0, is_held);
     }
 
     // --- the bus ---
 
     /// Reads from a peripheral, as wide as the program does it.
     pub(super) fn fetch(&mut self, address: u32, size: u32) -> Option<u32> {
-        let (base, _, device, gate) = map::find(address)?;
+        let row = self.mcu.at(address)?;
         let shift = 8 * (address & 3);
-        if !self.has_clock(*device, address, *base, *gate, false) {
+        if !self.has_clock(row, address, false) {
             return Some(0);
         }
-        let word = self.read(*device, (address - base) & !3);
+        let word = self.read(row.device, (address - row.base) & !3);
         let mask = if size >= 4 { u32::MAX } else { (1 << (8 * size)) - 1 };
         Some(word >> shift & mask)
     }
 
     pub(super) fn put(&mut self, address: u32, value: u32, size: u32) -> Option<()> {
-        let (base, _, device, gate) = map::find(address)?;
+        let row = self.mcu.at(address)?;
+        let (base, device) = (row.base, row.device);
         let shift = 8 * (address & 3);
         // A 0 changes nothing that a reset has left, and flags that are cleared were not set: ChibiOS does both.
         let is_clear = matches!(device, Device::Dma(_)) && matches!(address - base, 0x08 | 0x0C);
         let is_lost = value != 0 && !is_clear;
-        if !self.has_clock(*device, address, *base, *gate, is_lost) {
+        if !self.has_clock(row, address, is_lost) {
             return Some(());
         }
         let mask = if size >= 4 { u32::MAX } else { ((1 << (8 * size)) - 1) << shift };
-        self.write(*device, (address - base) & !3, value << shift, mask);
+        self.write(device, (address - base) & !3, value << shift, mask);
         Some(())
     }
 
@@ -231,15 +238,9 @@ impl Chip {
         self.settle();
     }
 
-    fn has_clock(
-        &mut self,
-        device: Device,
-        address: u32,
-        base: u32,
-        gate: Option<(u32, u32)>,
-        is_lost: bool,
-    ) -> bool {
-        let is_on = match (device, gate) {
+    fn has_clock(&mut self, row: Row, address: u32, is_lost: bool) -> bool {
+        let Row { base, device, clock, .. } = row;
+        let is_on = match (device, clock) {
             (Device::Adc, _) => {
                 let unit = (address - base) / 0x100;
                 if unit < 3 {
@@ -275,7 +276,7 @@ impl Chip {
             Device::Usart(unit) => self.usarts[unit].read(offset, wires),
             Device::Spi(unit) => self.spis[unit].read(offset, wires),
             Device::I2c(unit) => {
-                wires.i2c_left[unit] = left_of(&self.dmas, Request::I2cRx(unit));
+                wires.i2c_left[unit] = left_of(self.mcu, &self.dmas, Request::I2cRx(unit));
                 self.i2cs[unit].read(offset, wires)
             }
             Device::Can(unit) => self.cans[unit].read(offset, &self.filters),
@@ -296,7 +297,7 @@ impl Chip {
                 if offset == 8 { self.random.1 } else { self.random.0.read(offset) }
             }
             Device::Debug => match offset {
-                0 => IDCODE,
+                0 => self.mcu.idcode,
                 _ => self.debug.get((offset / 4) as usize).copied().unwrap_or(0),
             },
             Device::Other => 0,
@@ -315,7 +316,7 @@ impl Chip {
             Device::Usart(unit) => self.usarts[unit].write(offset, value, mask, wires),
             Device::Spi(unit) => self.spis[unit].write(offset, value, mask, wires),
             Device::I2c(unit) => {
-                wires.i2c_left[unit] = left_of(&self.dmas, Request::I2cRx(unit));
+                wires.i2c_left[unit] = left_of(self.mcu, &self.dmas, Request::I2cRx(unit));
                 self.i2cs[unit].write(offset, value, mask, wires);
             }
             Device::Can(unit) => {
@@ -375,11 +376,11 @@ impl Chip {
 
     /// Resets peripherals by the bits of their clocks.
     fn reset_behind(&mut self, register: u32, bits: u32) {
-        for device in map::behind(register, bits) {
+        for device in self.mcu.behind(register, bits) {
             match device {
                 Device::Gpio(port) => self.wires.gpio.reset_port(port),
                 Device::Timer(unit) => {
-                    self.timers[unit] = Timer::new(unit);
+                    self.timers[unit] = Timer::new(unit, self.mcu);
                     self.timers[unit].settle(&mut self.wires);
                 }
                 Device::Usart(unit) => self.usarts[unit].restart(&mut self.wires),

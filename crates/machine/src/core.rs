@@ -13,19 +13,16 @@ use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
 use super::Settings;
 use super::chip::Chip;
-use super::image::FLASH_BYTES;
 use super::lockup::Lockup;
 use super::map::DEBUG_BASE;
-use super::transfer::{FLASH_BASE, Memory, SRAM_BASE};
+use super::mcu::Mcu;
+use super::transfer::{CCM_BASE, FLASH_BASE, Memory, SRAM_BASE};
 use super::wires::{Event, SECOND_NS, Wires};
 use sensedsl_surroundings::Surroundings;
 
 /// Peripherals are from here to the core's own.
 const PERIPHERALS: u32 = 0x4000_0000;
 const PERIPHERALS_BYTES: u64 = 0x2000_0000;
-const SRAM_BYTES: u64 = 128 << 10;
-const CCM_BASE: u64 = 0x1000_0000;
-const CCM_BYTES: u64 = 64 << 10;
 /// The maker's memory: the unique number, and how much flash there is.
 const SYSTEM_BASE: u64 = 0x1FFF_7000;
 const SYSTEM_BYTES: u64 = 0x1000;
@@ -152,17 +149,16 @@ pub(super) struct Core {
 
 impl Core {
     pub(super) fn new(settings: Settings, surroundings: Arc<Mutex<dyn Surroundings>>) -> Self {
-        let memory = Memory {
-            flash: Arc::new(RamStore::new(FLASH_BYTES as u64)),
-            sram: Arc::new(RamStore::new(SRAM_BYTES)),
-        };
-        let wires = Wires::new(Arc::clone(&surroundings), settings.link);
+        let mcu = settings.mcu;
+        let memory = Memory::new(mcu);
+        let wires = Wires::new(Arc::clone(&surroundings), settings.link, mcu);
         let hz = wires.clocks.core;
-        let chip = Arc::new(Mutex::new(Chip::new(wires, memory.clone(), settings.crystal_hz)));
+        let chip = Chip::new(wires, memory.clone(), settings.crystal_hz, mcu);
+        let chip = Arc::new(Mutex::new(chip));
         let line = Arc::new(Mutex::new(Line { cycles: 0, ns: 0, hz }));
         let shared = Arc::new(Shared::default());
         let space = AddressSpace::new("mcu", 32).with_unassigned(UnassignedPolicy::FAULT);
-        map_memory(&space, &memory);
+        map_memory(&space, &memory, mcu);
         for (base, bytes) in [(PERIPHERALS, PERIPHERALS_BYTES), (DEBUG_BASE, 0x400)] {
             let bus = Bus {
                 chip: Arc::clone(&chip),
@@ -198,9 +194,13 @@ impl Core {
         *self = Self::new(self.settings, Arc::clone(&self.surroundings));
         let memory = self.chip().memory();
         // The lengths were compared with the flash before.
-        let _ = memory.flash.fill(0, FLASH_BYTES as u64, 0xFF);
+        let _ = memory.flash.fill(0, memory.flash.len(), 0xFF);
         let _ = memory.flash.write_at(0, flash);
         self.cpu.request_reset();
+    }
+
+    pub(super) const fn mcu(&self) -> &'static Mcu {
+        self.settings.mcu
     }
 
     pub(super) fn pc(&self) -> u32 {
@@ -243,7 +243,7 @@ impl Core {
         let mut chip = lock(&self.chip);
         let memory = chip.memory();
         // The length is the memory's own.
-        let _ = memory.sram.fill(0, SRAM_BYTES, 0xA5);
+        let _ = memory.sram.fill(0, memory.sram.len(), 0xA5);
         let link = &mut chip.wires.link;
         link.to_mcu.clear();
         chip.reset = Some(super::ResetCause::Power);
@@ -473,15 +473,19 @@ fn map(space: &AddressSpace, region: Region, base: u64) {
     let _ = space.topology().map(region, base);
 }
 
-fn map_memory(space: &AddressSpace, memory: &Memory) {
+fn map_memory(space: &AddressSpace, memory: &Memory, mcu: &Mcu) {
     // After a reset the flash is at 0, too.
     for base in [0, u64::from(FLASH_BASE)] {
         map(space, Region::ram("flash", Arc::clone(&memory.flash)), base);
     }
     map(space, Region::ram("sram", Arc::clone(&memory.sram)), u64::from(SRAM_BASE));
-    map(space, Region::ram("ccm", Arc::new(RamStore::new(CCM_BYTES))), CCM_BASE);
+    if mcu.ccm_bytes > 0 {
+        let ccm = RamStore::new(u64::from(mcu.ccm_bytes));
+        map(space, Region::ram("ccm", Arc::new(ccm)), u64::from(CCM_BASE));
+    }
     let system = RamStore::new(SYSTEM_BYTES);
+    let kibibytes = u16::try_from(mcu.flash_bytes >> 10).unwrap_or(u16::MAX);
     let _ = system.write_at(0xA10, b"SenseDSL twin");
-    let _ = system.write_at(0xA22, &1024_u16.to_le_bytes());
+    let _ = system.write_at(0xA22, &kibibytes.to_le_bytes());
     map(space, Region::ram("system", Arc::new(system)), SYSTEM_BASE);
 }

@@ -1,5 +1,6 @@
 //! External interrupts of pads, and which port each line is of (SYSCFG).
 
+use super::mcu::Mcu;
 use super::wires::{NEVER, Wires, merge};
 use sensedsl_surroundings::Pad;
 
@@ -14,6 +15,8 @@ struct Line {
 /// EXTI and SYSCFG.
 #[derive(Debug)]
 pub(super) struct Exti {
+    /// By line.
+    irqs: [u16; 16],
     imr: u32,
     emr: u32,
     rising: u32,
@@ -28,8 +31,9 @@ pub(super) struct Exti {
 }
 
 impl Exti {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(mcu: &Mcu) -> Self {
         Self {
+            irqs: std::array::from_fn(|line| mcu.irq("EXTI", &format!("EXTI{line}"))),
             imr: 0,
             emr: 0,
             rising: 0,
@@ -126,11 +130,13 @@ impl Exti {
 
     fn tell(&self, wires: &mut Wires) {
         let held = self.pending & self.imr;
-        for line in 0..5 {
-            wires.interrupt(6 + line, 0, held >> line & 1 == 1);
+        for (first, irq) in self.irqs.iter().enumerate() {
+            // Lines that share an interrupt hold it together.
+            if !self.irqs[..first].contains(irq) {
+                let mut lines = (0..).zip(&self.irqs).filter(|(_, other)| *other == irq);
+                wires.interrupt(*irq, 0, lines.any(|(line, _)| held >> line & 1 == 1));
+            }
         }
-        wires.interrupt(23, 0, held & 0x03E0 != 0);
-        wires.interrupt(40, 0, held & 0xFC00 != 0);
     }
 
     pub(super) fn read(&self, offset: u32) -> u32 {

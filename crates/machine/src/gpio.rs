@@ -1,14 +1,13 @@
-//! Ports A to I, and which peripheral each pad is led to.
+//! Ports A to K, and which peripheral each pad is led to.
 
 use std::collections::BTreeMap;
 
+use super::mcu::Mcu;
 use super::wires::merge;
 use sensedsl_surroundings::Pad;
 
-/// Ports A to I.
-const PORTS: usize = 9;
-/// The largest package, so that each pad that an MCU of this type can have is known.
-const PART: &str = "STM32F407IGH6";
+/// Ports A to K.
+const PORTS: usize = 11;
 
 /// What a pad is set to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,10 +90,10 @@ fn field(register: u32, pin: u8) -> u32 {
 }
 
 impl Gpio {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(mcu: &Mcu) -> Self {
         let mut functions: BTreeMap<(Pad, u8), Vec<String>> = BTreeMap::new();
         let mut inputs = BTreeMap::new();
-        if let Some(found) = sensedsl_parts::find(PART) {
+        if let Some(found) = sensedsl_parts::find(mcu.largest()) {
             for (name, _, usages) in found.sheet.pins() {
                 let Some(pad) = Pad::named(name.as_str()) else { continue };
                 for (usage, number) in usages {
@@ -167,7 +166,7 @@ impl Gpio {
 
     pub(super) fn pads(&self) -> Vec<PadState> {
         let mut pads = Vec::new();
-        for port in 0..9_u8 {
+        for port in 0..11_u8 {
             for pin in 0..16_u8 {
                 let pad = Pad { port, pin };
                 let (Some(registers), Some(mode)) = (self.port(pad), self.mode(pad)) else {

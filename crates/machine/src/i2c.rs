@@ -1,5 +1,6 @@
 //! I2C1 to I2C3, as masters. The block is the first version of ST's: F1, F2, F4, L1.
 
+use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 use sensedsl_surroundings::{I2cEvent, I2cReply};
@@ -49,6 +50,7 @@ enum Phase {
 #[derive(Debug)]
 pub(super) struct I2c {
     unit: u8,
+    mcu: &'static Mcu,
     irqs: [u16; 2],
     cr: [u32; 2],
     oar: [u32; 2],
@@ -72,15 +74,12 @@ pub(super) struct I2c {
 }
 
 impl I2c {
-    pub(super) fn new(unit: u8) -> Self {
-        let event = match unit {
-            1 => 31,
-            2 => 33,
-            _ => 72,
-        };
+    pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
+        let own = format!("I2C{unit}");
         Self {
             unit,
-            irqs: [event, event + 1],
+            mcu,
+            irqs: ["EV", "ER"].map(|signal| mcu.irq(&own, signal)),
             cr: [0; 2],
             oar: [0x4000, 0],
             sr1: 0,
@@ -102,7 +101,7 @@ impl I2c {
 
     /// As after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new(self.unit);
+        *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
@@ -362,7 +361,7 @@ impl I2c {
                 self.ask(I2cEvent::Stop, wires);
             }
             let kept = (self.cr[1], self.oar, self.ccr, self.trise);
-            *self = Self::new(self.unit);
+            *self = Self::new(self.unit, self.mcu);
             self.cr[0] = new & !(START | STOP);
             // A reset takes all settings, being switched off none.
             if new & RESET == 0 {

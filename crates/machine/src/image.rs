@@ -4,12 +4,8 @@ use std::fmt;
 
 use object::{Endianness, Object, ObjectKind};
 
-use super::transfer::FLASH_BASE;
-
-/// How much flash the MCU has.
-pub(super) const FLASH_BYTES: usize = 1 << 20;
-/// Where the stack may begin: in SRAM or in the core's own memory, up to the end of either.
-const STACKS: [(u32, u32); 2] = [(0x2000_0000, 0x2002_0000), (0x1000_0000, 0x1001_0000)];
+use super::mcu::Mcu;
+use super::transfer::{CCM_BASE, FLASH_BASE, SRAM_BASE};
 
 /// Why bytes are not a program for this MCU.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,17 +18,28 @@ pub enum ImageError {
     OtherProcessor(String),
     /// Not an executable program, but an object file, a library, a core dump.
     NotExecutable,
+    /// There is no model of the MCU that the board has.
+    NoModel(String),
     /// A part of it belongs at an address where there is no flash.
     OtherAddress {
+        /// The MCU.
+        mcu: &'static Mcu,
         /// Where.
         address: u64,
         /// How many bytes.
         length: u64,
     },
     /// More bytes than the flash has.
-    TooLong(usize),
+    TooLong {
+        /// The MCU.
+        mcu: &'static Mcu,
+        /// How many bytes.
+        length: usize,
+    },
     /// The vector table's first words are not a stack and a program in this MCU's memory.
     Vectors {
+        /// The MCU.
+        mcu: &'static Mcu,
         /// The stack's begin.
         stack: u32,
         /// The program's begin.
@@ -51,18 +58,30 @@ impl fmt::Display for ImageError {
                 write!(f, "it is a program for another processor ({which}), not for a 32-bit Arm")
             }
             Self::NotExecutable => f.write_str("it is not a linked program"),
-            Self::OtherAddress { address, length } => write!(
-                f,
-                "{length} bytes of it belong at 0x{address:08x}, but the STM32F407's flash is from 0x08000000 to \
-                 0x080fffff: it was linked for another MCU"
-            ),
-            Self::TooLong(length) => {
-                write!(f, "it has {length} bytes, but the STM32F407's flash has {FLASH_BYTES}")
+            Self::NoModel(mcu) => {
+                let known: Vec<&str> = Mcu::parts().collect();
+                write!(f, "there is no model of a {mcu}, only of {}", known.join(", "))
             }
-            Self::Vectors { stack, entry } => write!(
+            Self::OtherAddress { mcu, address, length } => write!(
+                f,
+                "{length} bytes of it belong at 0x{address:08x}, but the {}'s flash is from 0x08000000 to \
+                 0x{:08x}: it was linked for another MCU",
+                mcu.name(),
+                FLASH_BASE + mcu.flash_bytes - 1
+            ),
+            Self::TooLong { mcu, length } => {
+                write!(
+                    f,
+                    "it has {length} bytes, but the {}'s flash has {}",
+                    mcu.name(),
+                    mcu.flash_bytes
+                )
+            }
+            Self::Vectors { mcu, stack, entry } => write!(
                 f,
                 "its vector table has the stack at 0x{stack:08x} and begins at 0x{entry:08x}: one of them is not in \
-                 the STM32F407's memory"
+                 the {}'s memory",
+                mcu.name()
             ),
         }
     }
@@ -71,33 +90,36 @@ impl fmt::Display for ImageError {
 impl std::error::Error for ImageError {}
 
 /// The contents of the flash, from its first byte on.
-pub(super) fn flash_of(image: &[u8]) -> Result<Vec<u8>, ImageError> {
-    let flash = if image.starts_with(b"\x7FELF") { of_elf(image)? } else { of_bytes(image)? };
+pub(super) fn flash_of(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, ImageError> {
+    let is_elf = image.starts_with(b"\x7FELF");
+    let flash = if is_elf { of_elf(image, mcu)? } else { of_bytes(image, mcu)? };
     let word = |at: usize| -> Option<u32> {
         Some(u32::from_le_bytes(flash.get(at..at + 4)?.try_into().ok()?))
     };
     let (Some(stack), Some(entry)) = (word(0), word(4)) else {
         return Err(ImageError::NotAProgram);
     };
-    let has_stack = STACKS.iter().any(|(low, high)| stack > *low && stack <= *high);
-    let begins = entry & 1 == 1 && (FLASH_BASE..FLASH_BASE + 0x0010_0000).contains(&entry);
+    // The stack may begin in SRAM or in the core's own memory, up to the end of either.
+    let memories = [(SRAM_BASE, mcu.sram_bytes), (CCM_BASE, mcu.ccm_bytes)];
+    let has_stack = memories.iter().any(|(low, bytes)| stack > *low && stack <= low + bytes);
+    let begins = entry & 1 == 1 && (FLASH_BASE..FLASH_BASE + mcu.flash_bytes).contains(&entry);
     if !has_stack || !begins {
-        return Err(ImageError::Vectors { stack, entry });
+        return Err(ImageError::Vectors { mcu, stack, entry });
     }
     Ok(flash)
 }
 
-fn of_bytes(image: &[u8]) -> Result<Vec<u8>, ImageError> {
+fn of_bytes(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, ImageError> {
     if image.len() < 8 {
         return Err(ImageError::NotAProgram);
     }
-    if image.len() > FLASH_BYTES {
-        return Err(ImageError::TooLong(image.len()));
+    if image.len() > mcu.flash_bytes as usize {
+        return Err(ImageError::TooLong { mcu, length: image.len() });
     }
     Ok(image.to_vec())
 }
 
-fn of_elf(image: &[u8]) -> Result<Vec<u8>, ImageError> {
+fn of_elf(image: &[u8], mcu: &'static Mcu) -> Result<Vec<u8>, ImageError> {
     use object::elf::{FileHeader32, PT_LOAD};
     use object::read::elf::{ElfFile, FileHeader, ProgramHeader};
 
@@ -126,10 +148,13 @@ fn of_elf(image: &[u8]) -> Result<Vec<u8>, ImageError> {
         if data.is_empty() {
             continue;
         }
-        let other = ImageError::OtherAddress { address, length: data.len() as u64 };
+        let other = ImageError::OtherAddress { mcu, address, length: data.len() as u64 };
         let begin = address.checked_sub(u64::from(FLASH_BASE)).ok_or(other.clone())?;
         let begin = usize::try_from(begin).map_err(|_| other.clone())?;
-        let end = begin.checked_add(data.len()).filter(|end| *end <= FLASH_BYTES).ok_or(other)?;
+        let end = begin
+            .checked_add(data.len())
+            .filter(|end| *end <= mcu.flash_bytes as usize)
+            .ok_or(other)?;
         if flash.len() < end {
             flash.resize(end, 0xFF);
         }

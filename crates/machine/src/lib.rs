@@ -1,8 +1,8 @@
-//! An emulated STM32F407 that runs a program as it is.
+//! An emulated MCU that runs a program as it is.
 //!
 //! In comes an image ([`Machine::load`]) and what a host sends; out go what the host receives, and events. The core,
 //! its interrupt controller and its exceptions are rsemu's (`core.rs`); everything else on the chip is here, a file a
-//! device (`chip.rs`). What the pads are connected to says [`Surroundings`](sensedsl_surroundings::Surroundings).
+//! device (`chip.rs`), and which of them an MCU has is data (`mcu.rs`). What the pads are connected to says [`Surroundings`](sensedsl_surroundings::Surroundings).
 //!
 //! The core counts cycles of its own clock, all else nanoseconds; where the core waits in a loop of one instruction the
 //! time jumps to the next event. Nothing here reads a clock or draws numbers, so a run is the same each time.
@@ -36,6 +36,7 @@ mod image;
 mod iwdg;
 mod lockup;
 mod map;
+mod mcu;
 mod plain;
 mod ports;
 mod rcc;
@@ -54,6 +55,7 @@ use std::sync::{Arc, Mutex};
 pub use gpio::{Mode, PadState, Pull};
 pub use image::ImageError;
 pub use lockup::Lockup;
+pub use mcu::Mcu;
 pub use ports::{PortState, Setting};
 pub use wires::{Event, LinkPort, ResetCause};
 
@@ -67,6 +69,8 @@ pub struct Settings {
     pub crystal_hz: u64,
     /// Which port the host computer is connected to.
     pub link: LinkPort,
+    /// What it is.
+    pub mcu: &'static Mcu,
 }
 
 /// The emulated MCU.
@@ -87,7 +91,7 @@ impl Machine {
     ///
     /// When it is not a program for this MCU.
     pub fn load(&mut self, image: &[u8]) -> Result<(), ImageError> {
-        let flash = image::flash_of(image)?;
+        let flash = image::flash_of(image, self.core.mcu())?;
         self.core.load(&flash);
         Ok(())
     }

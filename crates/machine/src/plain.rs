@@ -10,8 +10,8 @@ pub(super) struct Plain {
     ready: &'static [(u32, u32)],
 }
 
-/// The regulator is as wanted; the backup regulator is ready.
-pub(super) const PWR: &[(u32, u32)] = &[(0x04, 0x4008)];
+/// The regulator is as wanted, at its higher voltage too where there is one; the backup regulator is ready.
+pub(super) const PWR: &[(u32, u32)] = &[(0x04, 0x0003_4008)];
 /// The calendar can be set, and its shadow is there.
 pub(super) const RTC: &[(u32, u32)] = &[(0x0C, 0x67)];
 /// There is always another random number.

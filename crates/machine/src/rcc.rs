@@ -13,9 +13,11 @@ const PLLCFGR: u32 = 0x04;
 const CFGR: u32 = 0x08;
 const BDCR: u32 = 0x70;
 const CSR: u32 = 0x74;
+const DCKCFGR: u32 = 0x8C;
+const TIMPRE: u32 = 1 << 24;
 
 /// Oscillators that are on are ready at once: bit that switches on, bit that tells.
-const READY: [(u32, u32); 4] = [(0, 1), (16, 17), (24, 25), (26, 27)];
+const READY: [(u32, u32); 5] = [(0, 1), (16, 17), (24, 25), (26, 27), (28, 29)];
 /// What the last reset was, in CSR: pin, power, software, independent watchdog.
 const CAUSE_PIN: u32 = 1 << 26;
 const CAUSE_POWER: u32 = (1 << 27) | (1 << 25);
@@ -119,7 +121,9 @@ impl Rcc {
         let apb = [1, 1, 1, 1, 2, 4, 8, 16];
         let core = system / ahb[(cfgr >> 4 & 15) as usize];
         let (by1, by2) = (apb[(cfgr >> 10 & 7) as usize], apb[(cfgr >> 13 & 7) as usize]);
-        let timers = |by: u64| if by == 1 { core } else { core / by * 2 };
+        // Where TIMPRE is set, timers run up to four times as fast as their bus.
+        let fastest = if self.read(DCKCFGR) & TIMPRE == 0 { 2 } else { 4 };
+        let timers = |by: u64| if by < fastest { core } else { core / by * fastest };
         Clocks {
             core,
             apb1: core / by1,

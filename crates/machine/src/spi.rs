@@ -1,5 +1,6 @@
-//! SPI1 to SPI3 as masters.
+//! SPI1 to SPI6 as masters.
 
+use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
 use super::wires::{NEVER, Wires, merge, periods_ns};
 
@@ -17,7 +18,9 @@ const WIDE: u32 = 1 << 11;
 #[derive(Debug)]
 pub(super) struct Spi {
     unit: u8,
+    mcu: &'static Mcu,
     irq: u16,
+    is_on_apb2: bool,
     cr: [u32; 2],
     other: [u32; 5],
     sr: u32,
@@ -30,15 +33,13 @@ pub(super) struct Spi {
 }
 
 impl Spi {
-    pub(super) fn new(unit: u8) -> Self {
-        let irq = match unit {
-            1 => 35,
-            2 => 36,
-            _ => 51,
-        };
+    pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
+        let own = format!("SPI{unit}");
         Self {
             unit,
-            irq,
+            mcu,
+            irq: mcu.irq(&own, "GLOBAL"),
+            is_on_apb2: mcu.is_on_apb2(&own),
             cr: [0; 2],
             other: [7, 0, 0, 0, 2],
             sr: EMPTY,
@@ -53,12 +54,12 @@ impl Spi {
 
     /// As after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new(self.unit);
+        *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
     fn clock_hz(&self, wires: &Wires) -> u64 {
-        if self.unit == 1 { wires.clocks.apb2 } else { wires.clocks.apb1 }
+        if self.is_on_apb2 { wires.clocks.apb2 } else { wires.clocks.apb1 }
     }
 
     /// How it is set up, once it is a master.

@@ -9,7 +9,7 @@ use super::chip::Chip;
 use super::image::{ImageError, flash_of};
 use super::transfer::{Memory, SRAM_BASE};
 use super::wires::Wires;
-use super::{LinkPort, Machine, Settings};
+use super::{LinkPort, Machine, Mcu, Settings};
 use sensedsl_surroundings::{I2cEvent, I2cReply, Pad, Surroundings};
 
 const RCC: u32 = 0x4002_3800;
@@ -53,6 +53,10 @@ impl Surroundings for World {
     }
 }
 
+fn f407() -> &'static Mcu {
+    Mcu::find("STM32F407VGT6").unwrap()
+}
+
 /// A chip without a core.
 struct Rig {
     chip: Chip,
@@ -65,8 +69,9 @@ impl Rig {
         let world = Arc::new(Mutex::new(world));
         let memory =
             Memory { flash: Arc::new(RamStore::new(1024)), sram: Arc::new(RamStore::new(1024)) };
-        let wires = Wires::new(Arc::clone(&world) as Arc<Mutex<dyn Surroundings>>, LinkPort::Usb);
-        let mut rig = Self { chip: Chip::new(wires, memory, 8_000_000), world };
+        let surroundings = Arc::clone(&world) as Arc<Mutex<dyn Surroundings>>;
+        let wires = Wires::new(surroundings, LinkPort::Usb, f407());
+        let mut rig = Self { chip: Chip::new(wires, memory, 8_000_000, f407()), world };
         for register in [0x30, 0x34, 0x40, 0x44] {
             rig.put(RCC + register, u32::MAX);
         }
@@ -307,17 +312,24 @@ fn images_of_others_are_refused_with_a_reason() {
         bytes[18..20].copy_from_slice(&machine.to_le_bytes());
         bytes
     };
+    let flash_of = |image: &[u8]| flash_of(image, f407());
     assert_eq!(flash_of(&elf(2, 62)), Err(ImageError::OtherProcessor("x86-64".to_owned())));
     assert_eq!(flash_of(&elf(1, 83)), Err(ImageError::OtherProcessor("AVR".to_owned())));
     assert!(matches!(flash_of(&elf(1, 40)), Err(ImageError::Damaged(_))));
     assert_eq!(flash_of(b"sense"), Err(ImageError::NotAProgram));
-    assert_eq!(flash_of(&vec![0; (1 << 20) + 1]), Err(ImageError::TooLong((1 << 20) + 1)));
+    assert_eq!(
+        flash_of(&vec![0; (1 << 20) + 1]),
+        Err(ImageError::TooLong { mcu: f407(), length: (1 << 20) + 1 })
+    );
     // Another MCU's RAM, another one's flash.
     let raw = |stack: u32, entry: u32| [stack.to_le_bytes(), entry.to_le_bytes()].concat();
     for (stack, entry) in
         [(0x3000_0000, 0x0800_0101), (0x2000_1000, 0x0000_0101), (0x2000_1000, 0x0800_0100)]
     {
-        assert_eq!(flash_of(&raw(stack, entry)), Err(ImageError::Vectors { stack, entry }));
+        assert_eq!(
+            flash_of(&raw(stack, entry)),
+            Err(ImageError::Vectors { mcu: f407(), stack, entry })
+        );
     }
     assert!(flash_of(&raw(0x2002_0000, 0x0800_0101)).is_ok());
 }
@@ -328,7 +340,7 @@ fn waiting_costs_nothing_and_ends_in_time() {
     let mut image = vec![0; 0x200];
     image[..8].copy_from_slice(&[0, 0, 2, 0x20, 1, 1, 0, 8]);
     image[0x100..0x102].copy_from_slice(&[0xFE, 0xE7]);
-    let settings = Settings { crystal_hz: 8_000_000, link: LinkPort::Usb };
+    let settings = Settings { crystal_hz: 8_000_000, link: LinkPort::Usb, mcu: f407() };
     let mut machine = Machine::new(settings, Arc::new(Mutex::new(World::default())));
     machine.load(&image).unwrap();
     machine.run_until(3_600_000_000_000);

@@ -3,6 +3,7 @@
 //! A counter is computed when somebody looks; between changes of its set-up it is a straight line over the time.
 
 use super::capture::Inputs;
+use super::mcu::Mcu;
 use super::wires::{NEVER, Wires, merge, periods_in, periods_ns};
 use sensedsl_surroundings::TimerOutput;
 
@@ -23,27 +24,23 @@ struct Variant {
     holder: u8,
 }
 
-const VARIANTS: [Variant; 14] = [
-    variant(1, 4, [25, 26, 27], 0),
-    variant(2, 4, [28; 3], 0),
-    variant(3, 4, [29; 3], 0),
-    variant(4, 4, [30; 3], 0),
-    variant(5, 4, [50; 3], 0),
-    variant(6, 0, [54; 3], 0),
-    variant(7, 0, [55; 3], 0),
-    variant(8, 4, [44, 45, 46], 0),
-    variant(9, 2, [24; 3], 1),
-    variant(10, 1, [25; 3], 1),
-    variant(11, 1, [26; 3], 1),
-    variant(12, 2, [43; 3], 1),
-    variant(13, 1, [44; 3], 1),
-    variant(14, 1, [45; 3], 1),
-];
+/// The channels of TIM1 to TIM14.
+const CHANNELS: [u8; 14] = [4, 4, 4, 4, 4, 0, 0, 4, 2, 1, 1, 2, 1, 1];
 
-const fn variant(number: u8, channels: u8, irqs: [u16; 3], holder: u8) -> Variant {
-    let is_wide = matches!(number, 2 | 5);
-    let is_on_apb2 = matches!(number, 1 | 8 | 9 | 10 | 11);
-    Variant { number, channels, is_wide, is_on_apb2, irqs, holder }
+impl Variant {
+    fn new(index: usize, mcu: &Mcu) -> Self {
+        let number = u8::try_from(index + 1).unwrap_or(1);
+        let name = format!("TIM{number}");
+        Self {
+            number,
+            channels: CHANNELS[index],
+            is_wide: matches!(number, 2 | 5),
+            is_on_apb2: mcu.is_on_apb2(&name),
+            irqs: ["UP", "TRG", "CC"].map(|signal| mcu.irq(&name, signal)),
+            // The small ones share the lines of TIM1 and TIM8.
+            holder: u8::from(number > 8),
+        }
+    }
 }
 
 /// One timer.
@@ -80,8 +77,8 @@ pub(super) struct Timer {
 }
 
 impl Timer {
-    pub(super) fn new(index: usize) -> Self {
-        let variant = VARIANTS[index];
+    pub(super) fn new(index: usize, mcu: &Mcu) -> Self {
+        let variant = Variant::new(index, mcu);
         let arr = if variant.is_wide { u32::MAX } else { 0xFFFF };
         Self {
             variant,

@@ -5,14 +5,12 @@ use std::sync::Arc;
 use rsemu::core::space::RamStore;
 
 use super::chip::Chip;
-use super::dma::{Direction, Dma, requester};
+use super::dma::{Direction, Dma};
+use super::mcu::Mcu;
 use super::wires::Request;
 
 /// The most items that one request moves at once; a request that never ends is a mistake of a model.
 const ITEMS_MAX: usize = 70_000;
-
-/// The interrupts of the streams of both controllers.
-const IRQS: [[u16; 8]; 2] = [[11, 12, 13, 14, 15, 16, 17, 47], [56, 57, 58, 59, 60, 68, 69, 70]];
 
 /// Memory that the DMA can reach.
 #[derive(Clone)]
@@ -24,8 +22,15 @@ pub(super) struct Memory {
 /// Where memory begins.
 pub(super) const FLASH_BASE: u32 = 0x0800_0000;
 pub(super) const SRAM_BASE: u32 = 0x2000_0000;
+/// The core's own memory, which the DMA does not reach.
+pub(super) const CCM_BASE: u32 = 0x1000_0000;
 
 impl Memory {
+    pub(super) fn new(mcu: &Mcu) -> Self {
+        let store = |bytes: u32| Arc::new(RamStore::new(u64::from(bytes)));
+        Self { flash: store(mcu.flash_bytes), sram: store(mcu.sram_bytes) }
+    }
+
     fn place(&self, address: u32) -> Option<(&RamStore, u64)> {
         let within = |store: &RamStore, base: u32| {
             let offset = u64::from(address.wrapping_sub(base));
@@ -65,15 +70,15 @@ impl Memory {
 
 impl Chip {
     pub(super) fn serve_dma(&mut self) {
-        for (controller, irqs) in IRQS.iter().enumerate() {
+        for controller in 0..self.dmas.len() {
             for stream in 0..8 {
                 if self.dmas[controller].streams[stream].is_enabled() {
                     self.serve_stream(controller, stream);
                 }
             }
-            for (stream, irq) in irqs.iter().enumerate() {
+            for stream in 0..8 {
                 let is_held = self.dmas[controller].interrupts(stream);
-                self.wires.interrupt(*irq, 0, is_held);
+                self.wires.interrupt(self.dma_irqs[controller][stream], 0, is_held);
             }
         }
     }
@@ -86,10 +91,8 @@ impl Chip {
             }
             if state.direction() != Direction::Memory {
                 let channel = state.cr >> 25 & 7;
-                let Some(request) = requester(controller, stream, channel) else { return };
-                if !self.asks(request) {
-                    return;
-                }
+                let may_ask = self.mcu.requests(controller, stream, channel).iter();
+                let Some(request) = may_ask.copied().find(|one| self.asks(*one)) else { return };
                 self.served(request, state.left);
             }
             if self.move_item(controller, stream).is_none() {
@@ -167,11 +170,11 @@ impl Chip {
 }
 
 /// What is left in the stream that serves a request.
-pub(super) fn left_of(dmas: &[Dma; 2], wanted: Request) -> Option<u32> {
+pub(super) fn left_of(mcu: &Mcu, dmas: &[Dma; 2], wanted: Request) -> Option<u32> {
     for (controller, dma) in dmas.iter().enumerate() {
         for (stream, state) in dma.streams.iter().enumerate() {
             if state.is_enabled()
-                && requester(controller, stream, state.cr >> 25 & 7) == Some(wanted)
+                && mcu.requests(controller, stream, state.cr >> 25 & 7).contains(&wanted)
             {
                 return Some(state.left);
             }

@@ -1,5 +1,6 @@
-//! USART1 to USART3, UART4, UART5, USART6.
+//! USART1 to USART3, UART4, UART5, USART6, UART7, UART8.
 
+use super::mcu::Mcu;
 use super::ports::{PortState, Setting};
 use super::wires::{LinkPort, NEVER, Wires, merge, periods_ns};
 
@@ -19,7 +20,9 @@ const ENABLE: u32 = 1 << 13;
 pub(super) struct Usart {
     /// `2` is USART2.
     unit: u8,
+    mcu: &'static Mcu,
     irq: u16,
+    is_on_apb2: bool,
     sr: u32,
     brr: u32,
     cr: [u32; 3],
@@ -39,11 +42,14 @@ pub(super) struct Usart {
 }
 
 impl Usart {
-    pub(super) fn new(unit: u8, irq: u16) -> Self {
-        let name = if matches!(unit, 4 | 5) { "UART" } else { "USART" };
+    pub(super) fn new(unit: u8, mcu: &'static Mcu) -> Self {
+        let name = if matches!(unit, 4 | 5 | 7 | 8) { "UART" } else { "USART" };
+        let own = format!("{name}{unit}");
         Self {
             unit,
-            irq,
+            mcu,
+            irq: mcu.irq(&own, "GLOBAL"),
+            is_on_apb2: mcu.is_on_apb2(&own),
             sr: EMPTY | COMPLETE,
             brr: 0,
             cr: [0; 3],
@@ -62,12 +68,12 @@ impl Usart {
 
     /// As after a reset.
     pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new(self.unit, self.irq);
+        *self = Self::new(self.unit, self.mcu);
         self.tell(wires);
     }
 
     fn clock_hz(&self, wires: &Wires) -> u64 {
-        if matches!(self.unit, 1 | 6) { wires.clocks.apb2 } else { wires.clocks.apb1 }
+        if self.is_on_apb2 { wires.clocks.apb2 } else { wires.clocks.apb1 }
     }
 
     /// Periods of its clock in one bit.

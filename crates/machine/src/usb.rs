@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::mcu::Mcu;
 use super::usb_host::Host;
 use super::wires::{LinkPort, NEVER, Wires, merge};
 
@@ -90,6 +91,7 @@ impl Endpoint {
 /// The port.
 #[derive(Debug)]
 pub(super) struct Usb {
+    irq: u16,
     registers: Vec<u32>,
     status: u32,
     ins: [Endpoint; ENDPOINTS],
@@ -106,8 +108,13 @@ pub(super) struct Usb {
 }
 
 impl Usb {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(mcu: &Mcu) -> Self {
+        Self::with(mcu.irq("USB_OTG_FS", "GLOBAL"))
+    }
+
+    fn with(irq: u16) -> Self {
         Self {
+            irq,
             registers: vec![0; 0x1000 / 4],
             status: 0x0400_0020,
             ins: Default::default(),
@@ -121,7 +128,7 @@ impl Usb {
     }
 
     pub(super) fn restart(&mut self, wires: &mut Wires) {
-        *self = Self::new();
+        *self = Self::with(self.irq);
         self.tell(wires);
     }
 
@@ -271,7 +278,7 @@ impl Usb {
     fn tell(&self, wires: &mut Wires) {
         let is_held =
             self.core_interrupts() & self.register(0x18) != 0 && self.register(0x08) & 1 == 1;
-        wires.interrupt(67, 0, is_held);
+        wires.interrupt(self.irq, 0, is_held);
     }
 
     pub(super) fn read(&mut self, offset: u32, wires: &mut Wires) -> u32 {

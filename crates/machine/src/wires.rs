@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::gpio::Gpio;
+use super::mcu::Mcu;
 use sensedsl_surroundings::{Pad, Surroundings};
 
 /// No event is due.
@@ -117,16 +118,16 @@ pub(super) struct Wires {
     changed: Vec<(u16, bool)>,
 }
 
-/// How many interrupts the MCU has.
-const IRQS: usize = 82;
+/// How many interrupts an MCU has at most.
+const IRQS: usize = 97;
 
 impl Wires {
-    pub(super) fn new(world: Arc<Mutex<dyn Surroundings>>, port: LinkPort) -> Self {
+    pub(super) fn new(world: Arc<Mutex<dyn Surroundings>>, port: LinkPort, mcu: &Mcu) -> Self {
         let link = Link { port, to_mcu: VecDeque::new(), from_mcu: Vec::new(), is_open: true };
         Self {
             now: 0,
             clocks: super::rcc::AT_RESET,
-            gpio: Gpio::new(),
+            gpio: Gpio::new(mcu),
             link,
             events: Vec::new(),
             triggers: 0,

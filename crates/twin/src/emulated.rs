@@ -11,7 +11,7 @@ use sensedsl_model::design::Transport;
 use crate::bench::{Bench, number_of};
 use crate::pads::{PadMismatch, Planned, misled, planned};
 use crate::ports::{self, PlannedPort};
-use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, ResetCause, Settings};
+use sensedsl_machine::{Event, ImageError, LinkPort, Lockup, Machine, Mcu, ResetCause, Settings};
 
 /// The crystal where the board's is not known.
 const CRYSTAL_HZ: u64 = 8_000_000;
@@ -68,7 +68,7 @@ impl EmulatedBoard {
     ///
     /// # Errors
     ///
-    /// When it is not a program for this MCU.
+    /// When there is no model of the board's MCU, or it is not a program for it.
     pub fn new(job: &BoardJob<'_>, bench: Bench, image: &[u8]) -> Result<Self, ImageError> {
         let unit = job.link.as_ref().and_then(|link| number_of(link.unit));
         let link = match (job.board.link.transport, unit) {
@@ -77,7 +77,9 @@ impl EmulatedBoard {
         };
         let bench = Arc::new(Mutex::new(bench));
         let crystal_hz = job.board.facts.as_ref().and_then(|facts| facts.crystal.hse_hz);
-        let settings = Settings { crystal_hz: crystal_hz.map_or(CRYSTAL_HZ, u64::from), link };
+        let part = job.board.mcu.as_deref().unwrap_or("MCU that nobody knows");
+        let mcu = Mcu::find(part).ok_or_else(|| ImageError::NoModel(part.to_owned()))?;
+        let settings = Settings { crystal_hz: crystal_hz.map_or(CRYSTAL_HZ, u64::from), link, mcu };
         let mut machine = Machine::new(settings, Arc::clone(&bench) as _);
         machine.load(image)?;
         Ok(Self {

@@ -28,7 +28,8 @@ pub fn refused(span: Span, image: &str, why: &str) -> Diagnostic {
 
 /// No machine is there for the MCU.
 #[must_use]
-pub fn other_mcu(span: Span, board: &str, mcu: &str) -> Diagnostic {
-    Diagnostic::new(CODE, span, format!("`{board}` has an {mcu}, and only an STM32F407 is emulated"))
+pub fn other_mcu(span: Span, board: &str, mcu: &str, known: &str) -> Diagnostic {
+    let message = format!("`{board}` has an {mcu}, and only these are emulated: {known}");
+    Diagnostic::new(CODE, span, message)
         .help("leave `--firmware` out to run the board's job in this program")
 }

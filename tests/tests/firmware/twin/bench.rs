@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use sensedsl_machine::{LinkPort, Machine, Settings};
+use sensedsl_machine::{LinkPort, Machine, Mcu, Settings};
 use sensedsl_surroundings::{CanFrame, I2cEvent, I2cReply, Pad, Surroundings, TimerOutput};
 use sensedsl_wire::{
     Checksum, Decoder, Direction, Event, Item, Scalar, ScalarType, Schema, ValueType,
@@ -185,7 +185,8 @@ impl Bench {
     pub(super) fn of(program: &std::path::Path, link: LinkPort) -> Self {
         let image = std::fs::read(program).unwrap();
         let world = Arc::new(Mutex::new(World::default()));
-        let settings = Settings { crystal_hz: 8_000_000, link };
+        let mcu = Mcu::find("STM32F407VGT6").unwrap();
+        let settings = Settings { crystal_hz: 8_000_000, link, mcu };
         let mut machine =
             Machine::new(settings, Arc::clone(&world) as Arc<Mutex<dyn Surroundings>>);
         machine.load(&image).unwrap_or_else(|error| panic!("{error}"));

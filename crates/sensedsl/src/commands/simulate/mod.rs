@@ -28,6 +28,8 @@ use sensedsl_model::What;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
 #[cfg(feature = "twin")]
+use sensedsl_machine::Mcu;
+#[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::world::{self, Scene, World};
 
@@ -146,9 +148,11 @@ fn machine(
 ) -> Result<Box<dyn Board>, Box<Diagnostic>> {
     let board = scenery.job.board;
     let mcu = board.mcu.as_deref().unwrap_or("MCU that nobody knows");
-    if !mcu.starts_with("STM32F407") && !mcu.starts_with("STM32F405") {
+    if Mcu::find(mcu).is_none() {
         let name = &board.name.value;
-        return Err(e0546_image_refused::other_mcu(scenery.at, name, mcu).into());
+        let known: Vec<&str> = Mcu::parts().collect();
+        let known = known.join(", ");
+        return Err(e0546_image_refused::other_mcu(scenery.at, name, mcu, &known).into());
     }
     match EmulatedBoard::new(scenery.job, bench, image) {
         Ok(machine) => Ok(Box::new(machine)),
