@@ -14,13 +14,18 @@ const SECONDS: u64 = 10;
 
 /// An example on the whole Discovery board, with a link of one's choice.
 pub(super) fn on_discovery(example: &str, link: &str) -> String {
+    on_board(example, "STM32F407G_DISC1", link)
+}
+
+/// The same on another board.
+pub(super) fn on_board(example: &str, board: &str, link: &str) -> String {
     let path = root().join("examples").join(format!("{example}.sense"));
     let text = format!("\n{}", std::fs::read_to_string(path).unwrap());
-    let (before, board) = text.split_once("\nboard ").unwrap();
-    let (_, inside) = board.split_once('{').unwrap();
+    let (before, rest) = text.split_once("\nboard ").unwrap();
+    let (_, inside) = rest.split_once('{').unwrap();
     let is_link = |line: &&str| line.trim_start().starts_with("link {");
     let inside: Vec<&str> = inside.lines().filter(|line| !is_link(line)).collect();
-    format!("{before}\nboard STM32F407G_DISC1 {{\n{link}{}\n", inside.join("\n"))
+    format!("{before}\nboard {board} {{\n{link}{}\n", inside.join("\n"))
 }
 
 fn world(name: &str) -> String {

@@ -47,11 +47,15 @@ fn designs(target: &str) -> Vec<String> {
 
 /// What the command says against the program of a design; none where it says nothing.
 fn alarm(system: System, name: &str, text: &str) -> Option<String> {
-    let image = system.image(name, text)?;
+    alarm_of(system, name, text, &system.image(name, text)?)
+}
+
+/// The same of a given program.
+pub(super) fn alarm_of(system: System, name: &str, text: &str, image: &[u8]) -> Option<String> {
     let scratch = Scratch::new(name);
     let design = scratch.write("design.sense", text).display().to_string();
     let program = scratch.join("program.elf");
-    std::fs::write(&program, &image).unwrap();
+    std::fs::write(&program, image).unwrap();
     let program = program.display().to_string();
     let target = system.target().unwrap_or("chibios");
     let call = ["simulate", &design, "--target", target, "--judge", "--firmware", &program];

@@ -11,6 +11,7 @@ mod frames;
 mod hosted;
 mod images;
 mod kinds;
+mod mcus;
 mod seeded;
 mod seeded_profiles;
 mod seeded_rust;

@@ -12,6 +12,8 @@ use crate::Status;
 const LOOK_NS: u64 = 1_000 * MS;
 /// How long it is away.
 const AWAY_NS: u64 = 300 * MS;
+/// How long a shell may take until it listens.
+const SHELL_NS: u64 = 100 * MS;
 /// How soon it must be greeted.
 const GREETING_NS: u64 = 200 * MS;
 
@@ -42,6 +44,11 @@ impl Session<'_> {
         self.pass(AWAY_NS)?;
         self.is_known = false;
         self.board.link_open(true);
+        if self.has_shell {
+            // Closing the port has brought it back.
+            self.pass(SHELL_NS)?;
+            self.ask_now();
+        }
         let back_ns = self.now_ns;
         self.pass(GREETING_NS)?;
         let is_greeted = self.is_known;

@@ -24,11 +24,11 @@ use sensedsl_diagnostics::codes::e0546_image_refused;
 use sensedsl_diagnostics::codes::e0547_no_machine;
 use sensedsl_diagnostics::{Diagnostic, SourceMap, Span};
 use sensedsl_job::{BoardJob, jobs};
+#[cfg(feature = "twin")]
+use sensedsl_machine::Mcu;
 use sensedsl_model::What;
 use sensedsl_session::{Ask, has_errors};
 use sensedsl_twin::bench::Bench;
-#[cfg(feature = "twin")]
-use sensedsl_machine::Mcu;
 #[cfg(feature = "twin")]
 use sensedsl_twin::emulated::EmulatedBoard;
 use sensedsl_twin::world::{self, Scene, World};

@@ -36,6 +36,8 @@ pub(super) const MS: u64 = 1_000_000;
 const SECONDS: f64 = 10.0;
 /// How often a host of ours asks who the board is, until it answers.
 const ASK_NS: u64 = 500 * MS;
+/// The prompt of ChibiOS' shell.
+const SHELL: &[u8] = b"ch> ";
 /// How often the table is refreshed.
 const REFRESH: Duration = Duration::from_millis(200);
 /// How long the board gets to answer how it is.
@@ -99,6 +101,10 @@ pub(super) struct Session<'a> {
     pub(super) now_ns: u64,
     /// The board has said who it is.
     pub(super) is_known: bool,
+    /// A shell has the link until a host asks for frames: a development build.
+    pub(super) has_shell: bool,
+    /// What came before the board has said who it is.
+    greeting: Vec<u8>,
     is_stranger: bool,
     last: Option<Health>,
     reports: u64,
@@ -123,6 +129,8 @@ impl<'a> Session<'a> {
             frames: Vec::new(),
             now_ns: 0,
             is_known: false,
+            has_shell: false,
+            greeting: Vec::new(),
             is_stranger: false,
             last: None,
             reports: 0,
@@ -149,6 +157,7 @@ impl<'a> Session<'a> {
         if self.scenery.args.frames.is_some() {
             self.frames.extend_from_slice(&bytes);
         }
+        self.look_for_shell(&bytes);
         let (judge, screen, now_ns) = (&mut self.judge, &mut self.screen, self.now_ns);
         let (reporters, is_judged) = (&mut self.reporters, self.is_judged);
         let hash = self.scenery.job.schema.hash();
@@ -192,6 +201,14 @@ impl<'a> Session<'a> {
         Ok(bytes)
     }
 
+    /// A prompt before the board has said who it is.
+    fn look_for_shell(&mut self, bytes: &[u8]) {
+        if !self.is_known && !self.has_shell {
+            self.greeting.extend_from_slice(bytes);
+            self.has_shell = self.greeting.windows(SHELL.len()).any(|some| some == SHELL);
+        }
+    }
+
     /// Shows what the host has set.
     fn set(&mut self, index: usize, value: &[u8]) {
         let Some(item) = self.scenery.job.schema.items.get(index) else { return };
@@ -203,8 +220,12 @@ impl<'a> Session<'a> {
     /// Asks who the board is, as a host does.
     fn ask(&mut self) {
         if !self.is_known && self.now_ns.is_multiple_of(ASK_NS) {
-            self.board.link_write(&encode_hello_request(&self.scenery.job.schema));
+            self.ask_now();
         }
+    }
+
+    pub(super) fn ask_now(&mut self) {
+        self.board.link_write(&encode_hello_request(&self.scenery.job.schema));
     }
 
     /// Sets actuators, as a host does.

@@ -1,0 +1,77 @@
+//! Images on every MCU that there is a model of, and development builds, before the judge as a user has them: `simulate
+//! --firmware IMAGE --judge`.
+//!
+//! Only with `SENSEDSL_THOROUGH=2`: it builds and runs dozens of programs.
+
+use sensedsl_tests::is_exhaustive;
+
+use super::bench::folder;
+use super::examples::{USB, on_board, on_discovery};
+use super::images::alarm_of;
+use super::trial::System;
+use crate::false_alarms::is_wired;
+use crate::firmware::chibios::{build, tree};
+
+/// Boards with an MCU each that is not the F407.
+const BOARDS: [&str; 5] =
+    ["BLACKPILL_F401CC", "BLACKPILL_F411CE", "NUCLEO_F401RE", "NUCLEO_F429ZI", "NUCLEO_F446RE"];
+const EXAMPLES: [&str; 7] =
+    ["all_kinds", "arm", "fig2", "greenhouse", "line_follower", "miniature_car", "quadcopter"];
+/// What the smallest of them carries, of most kinds.
+const SMALL: &str = "{
+    sensor Light returns uint16 { type = analog; }
+    sensor Range returns uint16 { driver = srf08; address = 0x70; }
+    sensor Wheel returns int32 { type = encoder; }
+    sensor Stick returns uint32 { type = icu; mode = width; }
+    sensor Touch returns bool { type = digital; debounce = 5 ms; }
+    sensor Gyro returns uint16 { type = spi; read = [0]; length = 2; }
+    sensor Place returns uint16 { type = uart; length = 2; }
+    actuator Servo accepts uint16 { type = pwm; frequency = 50 Hz; }
+    actuator Relay accepts bool { type = digital; }
+}
+";
+/// So many programs must be judged at least.
+const IMAGES_MIN: usize = 30;
+
+/// The designs that a board carries, over the link that it has by itself.
+fn designs(board: &str, target: &str) -> Vec<String> {
+    let examples = EXAMPLES.iter().map(|example| on_board(example, board, ""));
+    let all = std::iter::once(format!("board {board} {SMALL}")).chain(examples);
+    all.filter(|text| is_wired(text, target)).collect()
+}
+
+#[test]
+fn images_of_all_mcus_agree_with_the_world() {
+    if !is_exhaustive() {
+        return;
+    }
+    let (mut count, mut alarms) = (0, Vec::new());
+    for system in [System::Chibios, System::Embassy] {
+        for board in BOARDS {
+            for (place, text) in
+                designs(board, system.target().unwrap_or("chibios")).iter().enumerate()
+            {
+                let name = format!("mcus_{system:?}_{board}_{place}");
+                let Some(image) = system.image(&name, text) else { return };
+                count += 1;
+                alarms.extend(alarm_of(system, &name, text, &image));
+            }
+        }
+    }
+    assert!(alarms.is_empty(), "{} of {count}: {}", alarms.len(), alarms.join("\n\n"));
+    assert!(count >= IMAGES_MIN, "only {count} images were judged");
+    eprintln!("{count} images, no alarm");
+}
+
+/// A shell has the link until a host asks, also of a host that closes its port and opens it again.
+#[test]
+fn development_builds_agree_with_the_world() {
+    let Some(tree) = tree().filter(|_| is_exhaustive()) else { return };
+    for example in ["all_kinds", "fig2"] {
+        let (name, text) = (format!("development_{example}"), on_discovery(example, USB));
+        let board = folder(&name, &text);
+        build(&tree, &board, "development");
+        let image = std::fs::read(board.join("build/development/sense.elf")).unwrap();
+        assert_eq!(alarm_of(System::Chibios, &name, &text, &image), None);
+    }
+}
