@@ -4,6 +4,7 @@
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
 //! break something. `mutants` puts mistakes into generated firmware and says which of them `simulate --judge` notices.
 //! `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
+//! `mcus` writes what the emulated machine must know of each MCU;
 //! `profiles` compares the target profiles with a tree of ChibiOS,
 //! and writes those for Embassy. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]

@@ -1,4 +1,4 @@
-//! Generated applications, as they are, on the emulated STM32F407: drivers, DMA, interrupts, links, watchdog.
+//! Generated applications, as they are, on the emulated MCU: drivers, DMA, interrupts, links, watchdog.
 //!
 //! Built with the feature `machine`; needs a ChibiOS tree.
 
