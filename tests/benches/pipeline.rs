@@ -4,7 +4,7 @@
 use divan::Bencher;
 use sensedsl_generate::Selection;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
@@ -12,14 +12,6 @@ const EXAMPLES: [&str; 2] = ["fig2", "miniature_car"];
 
 fn main() {
     divan::main();
-}
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
 }
 
 fn text(example: &str) -> String {

@@ -11,19 +11,11 @@ use sensedsl_board::signal::Function;
 use sensedsl_board::table::{Occupation, Pin, Table};
 use sensedsl_firmware_chibios::Facts;
 use sensedsl_model::design::Design;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_parts::{Completion, complete, find};
 use sensedsl_tests::{Scratch, sensedsl, text};
 use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Solved, Wiring};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Why(format!("{} is not there", wanted.path)))
-    }
-}
 
 /// The whole table of a board.
 fn whole(entry: &Entry) -> Table {

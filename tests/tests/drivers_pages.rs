@@ -72,7 +72,7 @@ fn every_example_is_wired() {
         let on = sensedsl_session::On::default();
         let mut workspace = sensedsl_session::Workspace::default();
         workspace.open("example.sense", text);
-        let snapshot = workspace.snapshot("example.sense", on, &NoFiles);
+        let snapshot = workspace.snapshot("example.sense", on, &sensedsl_model::NoFiles);
         let answer = snapshot.solve(&sensedsl_session::Ask::default());
         if answer.wired().is_none() {
             said.push(format!("{EXAMPLE_BOARD} does not carry {}", part.name));
@@ -81,14 +81,6 @@ fn every_example_is_wired() {
         said.extend(beyond.map(|one| format!("{}: {} {}", part.name, one.code, one.message)));
     }
     assert_eq!(said, [] as [&str; 0]);
-}
-
-struct NoFiles;
-
-impl sensedsl_model::Files for NoFiles {
-    fn read(&self, wanted: &sensedsl_model::Wanted<'_>) -> Result<String, sensedsl_model::Unread> {
-        Err(sensedsl_model::Unread::Why(format!("{} is not there", wanted.path)))
-    }
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod hosts;
 mod identifiers;
 mod import;
 mod injection;
+mod library_page;
 mod limits;
 mod limits_page;
 mod messages;

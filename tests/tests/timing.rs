@@ -2,17 +2,9 @@
 
 use sensedsl_board::catalog;
 use sensedsl_diagnostics::{Diagnostic, Severity};
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_timing::{Part, Timing, check, timing};
 use sensedsl_wiring::{Search, Solved, Wiring};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
 
 fn on(board: &str, devices: &str) -> (Timing, Vec<Diagnostic>) {
     let text = format!("board Bench on {board} {{ {devices} }}");

@@ -3,15 +3,7 @@
 
 use sensedsl_job::part::{BusPlan, FieldCoding, Number, PartPlan};
 use sensedsl_model::design::PartIndex;
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Why(format!("{} is not there", wanted.path)))
-    }
-}
+use sensedsl_model::{NoFiles, Request, resolve};
 
 /// The plan of a chip whose driver is that.
 #[track_caller]

@@ -1,15 +1,7 @@
 //! What a driver says of its values: mistakes are told where they are made, and none is made of what is right.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Why(format!("{} is not there", wanted.path)))
-    }
-}
+use sensedsl_model::{NoFiles, Request, resolve};
 
 /// The codes and messages of a file with a driver and a chip of it.
 fn said(driver: &str) -> String {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use sensedsl_diagnostics::Severity;
 use sensedsl_model::kind::{KindName, KindSpec, Role};
-use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, facts, resolve};
+use sensedsl_model::{LIBRARY, NoFiles, Request, facts, resolve};
 use sensedsl_syntax::parse;
 use sensedsl_wire::Direction;
 
@@ -106,14 +106,6 @@ fn the_library_is_the_folder() {
     let names: BTreeSet<String> = names.map(|name| format!("drivers/{name}")).collect();
     let embedded: BTreeSet<String> = LIBRARY.iter().map(|(name, _)| (*name).to_owned()).collect();
     assert_eq!(names, embedded, "LIBRARY in crates/model/src/library.rs");
-}
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Why(format!("{} is not there", wanted.path)))
-    }
 }
 
 /// Each driver is read as a part that uses all of it: a chip with all values, or a device.

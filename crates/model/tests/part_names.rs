@@ -2,16 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may panic")]
 
 use sensedsl_diagnostics::{Diagnostic, Severity};
-use sensedsl_model::{Files, Request, Unread, Wanted, resolve};
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_parts::{all, find};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
 
 /// The MCU of `board Robot on NAME`, and the errors.
 fn named(name: &str) -> (Option<String>, Vec<Diagnostic>) {

@@ -10,7 +10,7 @@
 )]
 
 use sensedsl_diagnostics::Diagnostic;
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::{Files, NoFiles, Unread, Wanted};
 use sensedsl_session::{Ask, On, Workspace};
 
 const NAME: &str = "robot.sense";
@@ -18,14 +18,6 @@ const NAME: &str = "robot.sense";
 /// What edits insert: what people type, and what breaks most.
 const TYPED: [&str; 12] =
     ["", "", "}", "{", ";", "type = i2c;", "id = 3;", "\"", "A", "1", "/*", " pin = PA1;\n"];
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
 
 fn car() -> String {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/miniature_car.sense");

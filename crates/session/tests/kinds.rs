@@ -2,19 +2,11 @@
 #![allow(missing_docs, reason = "tests need none")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+use sensedsl_model::NoFiles;
 use sensedsl_model::kind::KindName;
-use sensedsl_model::{Files, Unread, Wanted};
 use sensedsl_session::{Ask, Goal, On, Snapshot, Workspace};
 use sensedsl_wire::Direction;
 use sensedsl_wiring::{Cancel, capacity};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
 
 /// Most devices that are tried at once.
 const MANY: u32 = 20;

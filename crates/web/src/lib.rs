@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 use sensedsl_diagnostics::render;
 use sensedsl_generate::target;
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::NoFiles;
 use sensedsl_report::{json, svg};
 use sensedsl_session::{Answer, Ask, On, Workspace};
 use sensedsl_wiring::Solved;
@@ -29,15 +29,6 @@ struct Request {
     files: BTreeMap<String, String>,
     board: Option<String>,
     target: Option<String>,
-}
-
-/// There are no files but those of the request.
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
 }
 
 /// Answers a request. One that is not understood has an answer with `error`, which says why.

@@ -1,9 +1,9 @@
 //! Every driver on boards of several families: a file that uses all its values is wired, or it is known why not.
 
-use sensedsl_model::{Request, resolve};
+use sensedsl_model::{NoFiles, Request, resolve};
 use sensedsl_wiring::{Solved, Wiring};
 
-use super::library::{NoFiles, examples};
+use super::library::examples;
 
 /// The board has no unit for it. No check reports that; the solver does (E0401).
 const NO_UNIT: &str = "";

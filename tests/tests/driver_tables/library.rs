@@ -6,7 +6,7 @@ use sensedsl_model::kind::KindName;
 use sensedsl_model::kind::can::Can;
 use sensedsl_model::protocol::Protocol;
 use sensedsl_model::words::Words;
-use sensedsl_model::{Files, LIBRARY, Request, Unread, Wanted, resolve};
+use sensedsl_model::{LIBRARY, NoFiles, Request, resolve};
 use sensedsl_syntax::ast::{self, AstNode as _};
 use sensedsl_syntax::parse;
 use sensedsl_tests::text;
@@ -19,14 +19,6 @@ pub struct Unit {
     pub driver: String,
     pub design: Design,
     pub cases: Vec<Case>,
-}
-
-pub struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Why(format!("{} is not there", wanted.path)))
-    }
 }
 
 fn drivers() -> Vec<ast::Driver> {

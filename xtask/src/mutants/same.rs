@@ -10,7 +10,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result};
 use sensedsl_job::jobs;
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_wire::{Decoder, DeviceHealth, Direction, Event, Scalar, Schema};
 
@@ -32,14 +32,6 @@ struct Heard {
     values: BTreeMap<u8, Vec<Vec<f64>>>,
     devices: Vec<DeviceHealth>,
     hellos: usize,
-}
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
 }
 
 /// What a design's first board has on its link.

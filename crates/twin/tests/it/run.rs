@@ -2,21 +2,13 @@
 
 use sensedsl_diagnostics::{Diagnostic, SourceMap};
 use sensedsl_job::{BoardJob, jobs};
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::{Bench, Unasked};
 use sensedsl_twin::judge::{Judge, Judged};
 use sensedsl_twin::soft::SoftBoard;
 use sensedsl_twin::world::{self, Scene, World};
 use sensedsl_wire::{Decoder, Direction, Event, Scalar, encode_health_request};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
-    }
-}
 
 pub(crate) type Values = Vec<(u8, Vec<Scalar>)>;
 

@@ -10,6 +10,7 @@ use sensedsl_diagnostics::{Diagnostic, Severity};
 use sensedsl_files::FileSet;
 use sensedsl_generate::target::firmware;
 use sensedsl_job::jobs;
+use sensedsl_model::NoFiles;
 use sensedsl_model::design::Design;
 use sensedsl_report::json;
 use sensedsl_session::{On, Workspace};
@@ -18,7 +19,7 @@ use sensedsl_wiring::assignment::Assignment;
 use sensedsl_wiring::{Search, Solved, Wiring};
 
 use super::seeded::{SECONDS, made, noticed_in, table};
-use super::trial::{NoFiles, System, greets, rover, rover_world, run_job};
+use super::trial::{System, greets, rover, rover_world, run_job};
 use crate::firmware::chibios::tree;
 use crate::firmware::embassy::{can_build, try_build};
 use crate::firmware::tools::scratch;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use sensedsl_diagnostics::SourceMap;
 use sensedsl_job::{BoardJob, jobs};
 use sensedsl_machine::{Event as Told, Lockup};
-use sensedsl_model::{Files, Unread, Wanted};
+use sensedsl_model::NoFiles;
 use sensedsl_session::{Ask, On, Workspace};
 use sensedsl_twin::bench::Bench;
 use sensedsl_twin::emulated::EmulatedBoard;
@@ -53,14 +53,6 @@ impl Trial {
     pub(super) fn reports_of(&self, id: u8, from_ms: u64, to_ms: u64) -> usize {
         let hits = |one: &&(u64, u8, Vec<Scalar>)| one.1 == id && (from_ms..to_ms).contains(&one.0);
         self.reported.iter().filter(hits).count()
-    }
-}
-
-pub(super) struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &Wanted<'_>) -> Result<String, Unread> {
-        Err(Unread::Missing)
     }
 }
 
