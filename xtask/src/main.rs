@@ -4,7 +4,7 @@
 //! corpus' list, tables that are embedded. `fuzz` searches for inputs that
 //! break something. `mutants` puts mistakes into generated firmware and says which of them `simulate --judge` notices.
 //! `firmware` builds the firmware of every board and kind. `parts` writes the table of known parts, or compares it;
-//! `mcus` writes what the emulated machine must know of each MCU;
+//! `mcus` writes what the emulated machine must know of each MCU, `packages` the table of Embassy's lock files;
 //! `profiles` compares the target profiles with a tree of ChibiOS,
 //! and writes those for Embassy. `web` builds the WebAssembly module.
 #![expect(clippy::disallowed_methods, reason = "a developer's tool works with files")]
@@ -14,6 +14,7 @@ mod firmware;
 mod fuzz;
 mod mcus;
 mod mutants;
+mod packages;
 mod parts;
 mod profiles;
 mod typecheck;
@@ -43,6 +44,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "fuzz" => fuzz::run(rest),
         Some((task, rest)) if task == "mcus" => mcus::run(rest),
         Some((task, rest)) if task == "mutants" => mutants::run(rest),
+        Some((task, rest)) if task == "packages" => packages::run(rest),
         Some((task, rest)) if task == "parts" => parts::run(rest),
         Some((task, rest)) if task == "profiles" => match rest.split_first() {
             Some((target, rest)) if target == "embassy" => embassy::run(rest),
@@ -51,7 +53,7 @@ fn run() -> Result<()> {
         Some((task, rest)) if task == "typecheck" => typecheck::run(rest),
         Some((task, [])) if task == "web" => web::run(),
         _ => bail!(
-            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
+            "tasks: web, bless, firmware --matrix or --embassy, fuzz [TARGET…], mcus [--check], mutants, packages FOLDER, parts [--check | --compare FOLDER], profiles --check, profiles embassy [--check], typecheck"
         ),
     }
 }
