@@ -15,7 +15,8 @@ const SANITIZERS: [&str; 4] = [
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let (core, cpp) = (root.join("crates/firmware-c/runtime"), root.join("crates/host-cpp/runtime"));
+    let (core, cpp) =
+        (root.join("crates/firmware-c/runtime"), root.join("crates/host-cpp/runtime"));
     let mut c = cc::Build::new();
     c.compiler("clang").file("src/decode.c").file(core.join("up_decode.c"));
     for name in ["up_encode.c", "up_health.c", "up_memo.c", "up_schema.c", "up_wire.c"] {
