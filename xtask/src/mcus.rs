@@ -21,7 +21,7 @@ struct Mcu {
     parts: &'static [&'static str],
     /// The part with most pads and memory.
     largest: &'static str,
-    /// What the debugger's unit says the MCU is: from the reference manual, DBGMCU_IDCODE.
+    /// What the debugger's unit says the MCU is: from the reference manual, `DBGMCU_IDCODE`.
     idcode: u32,
     /// Units that the machine's model of their version is not right for.
     without: &'static [&'static str],
@@ -141,8 +141,11 @@ fn file(mcu: &Mcu, chips: &Path, bits: &BTreeMap<(String, String), u32>) -> Resu
     Ok(printed)
 }
 
+/// Whether a region, by name and kind, is of a memory.
+type IsOwn = fn(&str, &str) -> bool;
+
 /// The memories: flash, those that the DMA reaches, and that of the core alone.
-fn memories() -> [(&'static str, fn(&str, &str) -> bool); 3] {
+fn memories() -> [(&'static str, IsOwn); 3] {
     [
         ("flash", |name, kind| kind == "Flash" && name != "OTP"),
         ("sram", |name, kind| kind == "Ram" && !name.starts_with("CCM")),
@@ -151,7 +154,7 @@ fn memories() -> [(&'static str, fn(&str, &str) -> bool); 3] {
 }
 
 /// The bytes of all regions of a memory.
-fn bytes(head: &str, is_own: fn(&str, &str) -> bool) -> u64 {
+fn bytes(head: &str, is_own: IsOwn) -> u64 {
     let regions = head.split("MemoryRegion {").skip(1).filter_map(|region| {
         let name = between(region, "name: \"", "\"")?;
         let kind = between(region, "MemoryRegionKind::", ",")?;
