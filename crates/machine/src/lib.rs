@@ -1,6 +1,6 @@
 //! An emulated MCU that runs a program as it is.
 //!
-//! In comes an image ([`Machine::load`]) and what a host sends; out go what the host receives, and events. The core,
+//! In comes an image (`Machine::load`) and what a host sends; out go what the host receives, and events. The core,
 //! its interrupt controller and its exceptions are rsemu's (`core.rs`); everything else on the chip is here, a file a
 //! device (`chip.rs`), and which of them an MCU has is data (`mcu.rs`). What the pads are connected to says [`Surroundings`](sensedsl_surroundings::Surroundings).
 //!

@@ -133,7 +133,7 @@ impl<'a> Subject<'a> {
         let main = std::fs::File::options().append(true).open(self.board.join("src/main.rs"))?;
         main.set_modified(std::time::SystemTime::now())?;
         let mut cargo = Command::new("cargo");
-        cargo.args(["build", "--release", "-Zbuild-std=core", "--locked", "--offline"]);
+        cargo.args(["build", "--release", "-Zbuild-std=core", "--locked"]);
         cargo.arg("--target-dir").arg(embassy);
         let linker = format!("target.{TRIPLE}.linker=\"arm-none-eabi-ld\"");
         // As the tests build it: what is optimised at link time takes long and does the same.
