@@ -1,6 +1,6 @@
 //! The C++ hosts: what they share, and one folder each.
 //!
-//! In: a [`HostPlan`]. Out: files. `names.rs` makes names of C++, `view.rs` says the plan
+//! In: a [`HostPlan`](sensedsl_job::host::HostPlan). Out: files. `names.rs` makes names of C++, `view.rs` says the plan
 //! in C++ words, `runtime/` is hand-written and copied beside what is generated, `shared/` is
 //! printed for several hosts.
 
