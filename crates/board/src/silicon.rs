@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn every_file_is_embedded_and_sound() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../silicon");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("silicon");
         let mut count = 0;
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
