@@ -83,7 +83,7 @@ fn seeds() -> Vec<Input> {
         .map(|board| board.csv().to_owned())
         .chain(files(&root().join("tests/corpus/err"), "csv").iter().map(|path| read(path)))
         .collect();
-    for folder in ["examples", "drivers", "tests/corpus/ok", "tests/corpus/err"] {
+    for folder in ["examples", "crates/model/drivers", "tests/corpus/ok", "tests/corpus/err"] {
         let texts = files(&root().join(folder), "sense");
         seeds.extend(texts.iter().map(|path| Input { sense: read(path), table: None }));
     }
