@@ -18,7 +18,7 @@ pub enum ImageError {
     OtherProcessor(String),
     /// Not an executable program, but an object file, a library, a core dump.
     NotExecutable,
-    /// There is no model of the MCU that the board has.
+    /// The board's MCU cannot be emulated.
     NoModel(String),
     /// A part of it belongs at an address where there is no flash.
     OtherAddress {
@@ -60,7 +60,7 @@ impl fmt::Display for ImageError {
             Self::NotExecutable => f.write_str("it is not a linked program"),
             Self::NoModel(mcu) => {
                 let known: Vec<&str> = Mcu::parts().collect();
-                write!(f, "there is no model of a {mcu}, only of {}", known.join(", "))
+                write!(f, "a {mcu} cannot be emulated; these can: {}", known.join(", "))
             }
             Self::OtherAddress { mcu, address, length } => write!(
                 f,

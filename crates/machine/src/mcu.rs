@@ -69,7 +69,7 @@ pub struct Mcu {
 const NO_IRQ: u16 = u16::MAX;
 
 impl Mcu {
-    /// The MCU of a part: `STM32F407VGT6`; none where there is no model of it.
+    /// The MCU of a part such as `STM32F407VGT6`; `None` if it cannot be emulated.
     #[must_use]
     pub fn find(part: &str) -> Option<&'static Self> {
         MCUS.iter().find(|mcu| mcu.parts.iter().any(|start| part.starts_with(start.as_str())))

@@ -22,7 +22,7 @@ pub trait Files {
     fn read(&self, wanted: &Wanted<'_>) -> Result<String, Unread>;
 }
 
-/// There are no files but those that are open: every other one is missing.
+/// Reads nothing: every file that is not open is missing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFiles;
 

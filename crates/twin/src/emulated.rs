@@ -68,7 +68,7 @@ impl EmulatedBoard {
     ///
     /// # Errors
     ///
-    /// When there is no model of the board's MCU, or it is not a program for it.
+    /// If the board's MCU cannot be emulated, or the image is not a program for it.
     pub fn new(job: &BoardJob<'_>, bench: Bench, image: &[u8]) -> Result<Self, ImageError> {
         let unit = job.link.as_ref().and_then(|link| number_of(link.unit));
         let link = match (job.board.link.transport, unit) {
