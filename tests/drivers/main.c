@@ -150,7 +150,11 @@ static uint32_t draw(uint32_t limit) {
   return (test.seed >> 16) % limit;
 }
 
-/* What a transfer comes to, and a line of the trace. */
+static uint32_t now_ms(void) {
+  return test.now_ms;
+}
+
+/* What a transfer comes to, how long it takes, and a line of the trace. */
 static up_bus_result_t fate(const char *what, const uint8_t *bytes, size_t count) {
   static const up_bus_result_t faults[] = {UP_NOT_ACKNOWLEDGED, UP_BUS_ERROR, UP_ARBITRATION_LOST, UP_TIMED_OUT};
   up_bus_result_t result = UP_BUS_DONE;
@@ -158,6 +162,9 @@ static up_bus_result_t fate(const char *what, const uint8_t *bytes, size_t count
 
   if (test.seed != 0U && draw(9U) == 0U) {
     result = faults[draw(4U)];
+  }
+  if (test.seed != 0U) {
+    test.now_ms += draw(3U);
   }
   if (test.traces) {
     printf("%s %u ", what, (unsigned)result);
@@ -432,7 +439,7 @@ static void run(void) {
   for (steps = 0U; !is_finished(); steps++) {
     uint32_t idle_ms;
     check(steps < STEPS_MAX, "it gives no end of it");
-    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, test.now_ms, &sink);
+    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, now_ms, &sink);
     idle_ms = up_chip_idle_ms(test.unit->chip, test.unit->chip_state, test.now_ms);
     test.now_ms += (idle_ms > 0U) ? idle_ms : 1U;
   }
@@ -446,7 +453,7 @@ static void steps(void) {
   for (; count > 0U; count--) {
     const up_chip_state_t *state = test.unit->chip_state;
     uint32_t idle_ms;
-    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, test.now_ms, &sink);
+    up_chip_step(test.unit->chip, test.unit->chip_state, &bus, test.unit->schema, now_ms, &sink);
     idle_ms = up_chip_idle_ms(test.unit->chip, test.unit->chip_state, test.now_ms);
     printf("step %" PRIu32 " %" PRIu32 " %u %u\n", test.now_ms, idle_ms, (unsigned)state->fault,
            (unsigned)state->identity_seen);

@@ -75,6 +75,13 @@ static void on_value(void *context, uint16_t field, up_result_t result, void *va
   up_health_note(&rig->health, field, result, rig->now_ms);
 }
 
+/* The clock that the chips read. */
+static uint32_t step_ms;
+
+static uint32_t bus_now_ms(void) {
+  return step_ms;
+}
+
 static void run_chips(rig_t *rig) {
   const up_value_sink_t sink = {on_value, rig};
   size_t i;
@@ -82,9 +89,10 @@ static void run_chips(rig_t *rig) {
   if (rig->now_ms % 5U != 0U || rig->now_ms < rig->bus_busy_until_ms) {
     return;
   }
+  step_ms = rig->now_ms;
   rig->bus_busy_until_ms = rig->now_ms;
   for (i = 0U; i < 2U; i++) {
-    up_chip_step(&chips[i], &rig->chips[i], &rig->bus, &rig_schema, rig->now_ms, &sink);
+    up_chip_step(&chips[i], &rig->chips[i], &rig->bus, &rig_schema, bus_now_ms, &sink);
   }
 }
 

@@ -15,10 +15,14 @@ typedef struct {
   size_t fails_at;  /* which one fails, from 1; 0: none */
   bool is_gone;
   up_bus_result_t failure;
+  uint32_t transfer_ms; /* that each transfer takes */
 } world_t;
+
+static uint32_t world_ms;
 
 static up_bus_result_t happens(world_t *world, uint8_t address, const uint8_t *bytes, size_t count) {
   world->transfers++;
+  world_ms += world->transfer_ms;
   if (world->is_gone || address != 0x68U) {
     return UP_BUS_NOT_ACKNOWLEDGED;
   }
@@ -147,10 +151,15 @@ static void set_up(board_t *board, const up_chip_t *chip) {
   CHECK(up_chip_work_bytes(chip, &schema) <= sizeof board->work);
 }
 
+static uint32_t clock_ms(void) {
+  return world_ms;
+}
+
 static void step(board_t *board, const up_chip_t *chip, uint32_t now_ms) {
   const up_value_sink_t sink = {on_value, &board->heard};
 
-  up_chip_step(chip, &board->state, &board->bus, &schema, now_ms, &sink);
+  world_ms = now_ms;
+  up_chip_step(chip, &board->state, &board->bus, &schema, clock_ms, &sink);
 }
 
 static void set_up_mpu(board_t *board) {
@@ -187,6 +196,20 @@ static void test_start(void) {
     step(&board, &mpu, t0 + 101U + 10U * i - i % 2U);
     CHECK(board.heard.told[0] == i + 1U);
   }
+}
+
+/* A pause is counted from the end of what is written before it, however long that takes on the bus. */
+static void test_slow_bus(void) {
+  board_t board;
+
+  set_up_mpu(&board);
+  board.world.transfer_ms = 7U;
+  step(&board, &mpu, 0U);
+  CHECK(world_ms == 7U && up_chip_idle_ms(&mpu, &board.state, world_ms) == 101U);
+  step(&board, &mpu, 107U);
+  CHECK(board.world.transfers == 1U);
+  step(&board, &mpu, 108U);
+  CHECK(board.world.transfers == 4U && board.state.is_running);
 }
 
 static void test_faults(void) {
@@ -514,6 +537,7 @@ static void test_bad_wire(void) {
 
 void test_chips(void) {
   test_start();
+  test_slow_bus();
   test_faults();
   test_causes();
   test_identity();

@@ -17,7 +17,8 @@ typedef struct {
   const up_bus_t *bus;
   const up_schema_t *schema;
   const up_value_sink_t *sink;
-  uint32_t now_ms;
+  up_clock_t clock;
+  uint32_t now_ms; /* when it began */
 } step_t;
 
 /* Half the range of the clock lies ahead, half behind: right across its wrap. */
@@ -27,6 +28,11 @@ static bool is_reached(uint32_t now_ms, uint32_t when_ms) {
 
 static uint32_t left_ms(uint32_t now_ms, uint32_t when_ms) {
   return is_reached(now_ms, when_ms) ? 0U : (uint32_t)(when_ms - now_ms);
+}
+
+/* When `wait_ms` have passed from now. One more, for the first millisecond is cut short. */
+static uint32_t after(const step_t *step, uint32_t wait_ms) {
+  return step->clock() + ((wait_ms == 0U) ? 0U : wait_ms + 1U);
 }
 
 /* ---- the bus ---- */
@@ -106,8 +112,7 @@ static bool initialise(const step_t *step) {
     }
     state->init_at++;
     if (init->pause_ms > 0U) {
-      /* One more, for the first millisecond is cut short. */
-      state->pause_until_ms = step->now_ms + init->pause_ms + 1U;
+      state->pause_until_ms = after(step, init->pause_ms);
       state->is_pausing = true;
       return false;
     }
@@ -162,7 +167,7 @@ static void begin_transfers(const step_t *step) {
 
   for (i = 0U; i < step->chip->transfers_count; i++) {
     step->state->transfers[i].due_ms = step->now_ms;
-    step->state->transfers[i].ready_ms = step->now_ms + step->chip->transfers[i].wait_ms;
+    step->state->transfers[i].ready_ms = step->clock() + step->chip->transfers[i].wait_ms;
   }
   step->state->is_running = true;
   step->state->fault = UP_NOTHING;
@@ -314,7 +319,8 @@ static bool fetch_free(const step_t *step) {
 
   for (i = 0U; i < step->chip->transfers_count; i++) {
     up_chip_transfer_state_t *state = &step->state->transfers[i];
-    if (step->chip->transfers[i].trigger_count > 0U || !is_due(step, i) || !is_reached(step->now_ms, state->ready_ms)) {
+    const bool is_free = step->chip->transfers[i].trigger_count == 0U;
+    if (!is_free || !is_due(step, i) || !is_reached(step->clock(), state->ready_ms)) {
       continue;
     }
     if (!fetch(step, i)) {
@@ -341,11 +347,6 @@ static size_t next_triggered(const step_t *step) {
   return found;
 }
 
-/* One more than a time that is not 0: the millisecond in which it begins is cut short. */
-static uint32_t whole_ms(uint32_t wait_ms) {
-  return (wait_ms == 0U) ? 0U : wait_ms + 1U;
-}
-
 /* Reads what is ready and triggers the next, so often that one that needs no time is read at once. */
 static void run_triggered(const step_t *step) {
   up_chip_state_t *state = step->state;
@@ -355,7 +356,7 @@ static void run_triggered(const step_t *step) {
     size_t transfer;
     if (state->in_flight > 0U) {
       transfer = (size_t)state->in_flight - 1U;
-      if (!is_reached(step->now_ms, state->transfers[transfer].ready_ms)) {
+      if (!is_reached(step->clock(), state->transfers[transfer].ready_ms)) {
         return;
       }
       state->in_flight = 0U;
@@ -372,14 +373,14 @@ static void run_triggered(const step_t *step) {
       return;
     }
     set_next(step, transfer);
-    state->transfers[transfer].ready_ms = step->now_ms + whole_ms(step->chip->transfers[transfer].wait_ms);
+    state->transfers[transfer].ready_ms = after(step, step->chip->transfers[transfer].wait_ms);
     state->in_flight = (uint8_t)(transfer + 1U);
   }
 }
 
 void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
-                  uint32_t now_ms, const up_value_sink_t *sink) {
-  const step_t step = {chip, state, bus, schema, sink, now_ms};
+                  up_clock_t clock, const up_value_sink_t *sink) {
+  const step_t step = {chip, state, bus, schema, sink, clock, clock()};
   const uint8_t fault = state->fault;
 
   state->fault = UNTOUCHED;

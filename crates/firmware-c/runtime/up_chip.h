@@ -127,11 +127,15 @@ typedef struct {
 /* Bytes of work buffer: the most that any transfer writes and reads together, a command's bytes included. */
 size_t up_chip_work_bytes(const up_chip_t *chip, const up_schema_t *schema);
 
-/* One cycle. Says one result for each reading of a transfer that was read or failed, and the cause for all readings
+/* Milliseconds since any time in the past; wraps at 2^32. */
+typedef uint32_t (*up_clock_t)(void);
+
+/* One cycle, in the grid of the time at which it begins; pauses and conversions are counted from the transfer before
+ * them, which takes its time on the bus. Says one result for each reading of a transfer that was read or failed, and the cause for all readings
  * when the chip could not be started; says nothing of the others. Of transfers with a trigger one is under way at a
  * time, the one that has been due for longest: their converter is one. */
 void up_chip_step(const up_chip_t *chip, up_chip_state_t *state, const up_bus_t *bus, const up_schema_t *schema,
-                  uint32_t now_ms, const up_value_sink_t *sink);
+                  up_clock_t clock, const up_value_sink_t *sink);
 
 /* How long from now until a step has something to do; 0 for at once, a cycle after a failure. A system may call the
  * next step so soon instead of a cycle later: then initialisation takes its pauses and no more, and values are younger.

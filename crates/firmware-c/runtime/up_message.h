@@ -73,7 +73,8 @@ typedef struct {
 typedef struct {
   const uint8_t *bytes; /* sent one behind the other; NULL where there is only a pause */
   uint8_t count;        /* of the bytes, 0 to 255 */
-  uint16_t pause_ms;    /* waited at least after them, 0 to 65535 */
+  uint16_t pause_ms;    /* waited at least, 0 to 65535; counted from when they are queued, so the time that they take on
+                         * the line is in it */
 } up_message_init_t;
 
 /* All zero to start from the beginning. */

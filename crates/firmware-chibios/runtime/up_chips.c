@@ -45,7 +45,7 @@ static void step(const up_chips_t *work) {
     const up_served_t *served = &work->chips[i];
     size_t command = 0U;
 
-    up_chip_step(served->chip, served->state, work->bus, up_config.schema, up_now_ms(), &up_values);
+    up_chip_step(served->chip, served->state, work->bus, up_config.schema, up_now_ms, &up_values);
     say_fault(served);
     while (UP_USES_CHIP_COMMANDS && served->state->is_running && command < served->chip->commands_count &&
            write_command(work->bus, served, command)) {

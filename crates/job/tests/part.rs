@@ -57,6 +57,15 @@ fn neighbours_are_read_in_one_transfer() {
 }
 
 #[test]
+fn a_pause_begins_when_the_line_has_sent_what_is_before_it() {
+    let driver = "baud = 9600; init = [5 ms, [1, 2, 3, 4], [5, 6, 7, 8], 100 ms]; start = [0x42]; length = 1; reading a returns uint8 { byte = 0; }";
+    let part = plan("uart", driver, "sensor A returns uint8 { }");
+    let pauses: Vec<u16> = part.message.unwrap().init.iter().map(|step| step.pause_ms).collect();
+    // Eight characters of twelve bits: 10 ms.
+    assert_eq!(pauses, [5, 0, 110]);
+}
+
+#[test]
 fn registers_that_stand_alone_are_read_alone() {
     let all = "burst = false; reading a returns uint16 { register = 1; } reading b returns uint16 { register = 2; } \
                reading c returns uint8 { register = 1; bits = 3..0; }";

@@ -112,6 +112,28 @@ fn a_transfer_whose_end_nobody_told_is_lost() {
     assert_eq!((chip.counts().starts, chip.counts().written), (2, 0));
 }
 
+#[test]
+fn a_pause_is_counted_from_the_end_of_the_transfer_before_it() {
+    static TABLE: ChipTable = ChipTable {
+        init: &[
+            InitStep { bytes: &[1], pause_ms: 0 },
+            InitStep { bytes: &[2], pause_ms: 10 },
+            InitStep { bytes: &[3], pause_ms: 0 },
+        ],
+        cycle_ms: 10,
+        ..ChipTable::NEW
+    };
+    let mut chip = Chip::<[u8; 64]>::new(&TABLE, &SCHEMA);
+    let none = &mut |_: usize, _: Outcome, _: &mut [u8]| panic!("it has no readings");
+    assert_eq!(chip.next(0), Step::Write(&[1]));
+    chip.done(Outcome::Fresh, none);
+    assert_eq!(chip.next(3), Step::Write(&[2]));
+    chip.done(Outcome::Fresh, none);
+    assert_eq!(chip.next(6), Step::Wait(11));
+    assert_eq!(chip.next(16), Step::Wait(1));
+    assert_eq!(chip.next(17), Step::Write(&[3]));
+}
+
 /// Each command changes its own bits of a register, whatever the others have told it; a new start changes nothing.
 #[test]
 fn commands_share_a_register() {

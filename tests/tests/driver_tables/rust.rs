@@ -46,7 +46,7 @@ impl Bus {
         (self.seed >> 16) % limit
     }
 
-    fn fate(&mut self, what: &str, bytes: &[u8], out: &mut String) -> Outcome {
+    fn fate(&mut self, what: &str, bytes: &[u8], now_ms: &mut u32, out: &mut String) -> Outcome {
         const FAULTS: [Outcome; 4] = [
             Outcome::NotAcknowledged,
             Outcome::BusError,
@@ -56,6 +56,9 @@ impl Bus {
         let mut outcome = Outcome::Fresh;
         if self.seed != 0 && self.draw(9) == 0 {
             outcome = FAULTS[self.draw(4) as usize];
+        }
+        if self.seed != 0 {
+            *now_ms = now_ms.wrapping_add(self.draw(3));
         }
         if self.traces {
             writeln!(out, "{what} {} {}", outcome as u8, upper(bytes)).unwrap();
@@ -67,11 +70,11 @@ impl Bus {
         entry.trigger.is_empty() || entry.trigger == self.written
     }
 
-    fn make(&mut self, step: Step<'_>, out: &mut String) -> Outcome {
+    fn make(&mut self, step: Step<'_>, now_ms: &mut u32, out: &mut String) -> Outcome {
         match step {
             Step::Wait(_) => panic!("a wait is no transfer"),
             Step::Write(bytes) => {
-                let outcome = self.fate("write", bytes, out);
+                let outcome = self.fate("write", bytes, now_ms, out);
                 assert!(!bytes.is_empty(), "nothing is written");
                 if outcome == Outcome::Fresh {
                     self.written = bytes.to_vec();
@@ -82,7 +85,7 @@ impl Bus {
                 outcome
             }
             Step::WriteRead(sent, received) => {
-                let outcome = self.fate("read", sent, out);
+                let outcome = self.fate("read", sent, now_ms, out);
                 assert!(!received.is_empty(), "nothing is read");
                 if outcome == Outcome::Fresh {
                     received.fill(FILL);
@@ -91,7 +94,7 @@ impl Bus {
                 outcome
             }
             Step::Exchange(sent, received) => {
-                let outcome = self.fate("exchange", sent, out);
+                let outcome = self.fate("exchange", sent, now_ms, out);
                 assert_eq!(sent.len(), received.len());
                 if outcome == Outcome::Fresh {
                     received.fill(FILL);
@@ -282,11 +285,10 @@ impl Run<'_> {
     fn step(&mut self) -> u32 {
         let Self { bus, chip, told, out, .. } = self;
         let chip = chip.as_mut().unwrap();
-        let now_ms = told.now_ms;
         loop {
-            let outcome = match chip.next(now_ms) {
+            let outcome = match chip.next(told.now_ms) {
                 Step::Wait(ms) => return ms,
-                step => bus.make(step, out),
+                step => bus.make(step, &mut told.now_ms, out),
             };
             let traces = bus.traces;
             let sink: &mut Sink<'_> =
@@ -404,7 +406,7 @@ impl Run<'_> {
             self.bus.prints = true;
             let written = match chip.write(command, &value) {
                 Ok(step) => {
-                    let outcome = self.bus.make(step, &mut self.out);
+                    let outcome = self.bus.make(step, &mut self.told.now_ms, &mut self.out);
                     chip.done(outcome, &mut |_, _, _| panic!("a command has no values"));
                     outcome
                 }

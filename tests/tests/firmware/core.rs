@@ -221,6 +221,7 @@ fn notices_a_broken_core() {
         ("up_chip.c", "% LOOKS != 0U", "!= 0U"),
         ("up_message.c", "(uint32_t)(now_ms - state->pause_until_ms) >= 0x80000000U", "false"),
         ("up_formula_tsl2561.c", "? parameters[0] : NOMINAL_MS", "? parameters[0] : 101"),
+        ("up_chip.c", "step->clock() + ((wait_ms", "step->now_ms + ((wait_ms"),
         ("up_chip.c", "& mask) != 0U", ") != 0U"),
         ("up_chip.c", "state->due_ms += cycle_ms;", "state->due_ms = step->now_ms + cycle_ms;"),
         ("up_chip.c", "now_ms + early_ms(step)", "now_ms"),

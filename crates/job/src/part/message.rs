@@ -3,7 +3,7 @@
 use sensedsl_model::design::Device;
 use sensedsl_model::kind::Kind;
 use sensedsl_model::kind::uart::{MessageChecksum, Uart};
-use sensedsl_model::protocol::TextField;
+use sensedsl_model::protocol::{InitStep, TextField};
 use sensedsl_model::words::Words;
 use sensedsl_wire::Direction;
 
@@ -110,7 +110,7 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
     let sizes = devices.iter().map(|device| device.value.value.size_bytes().div_ceil(8));
     Some(MessagePlan {
         prefix: prefix.to_owned(),
-        init: bus::init(&source.protocol.init),
+        init: init(&source.protocol.init, uart.baud),
         start: uart.start.clone(),
         end: uart.end.clone(),
         length: if is_open { 0 } else { uart.length_bytes },
@@ -121,6 +121,23 @@ pub(super) fn plan(source: Source<'_>, prefix: &str) -> Option<MessagePlan> {
         commands: all.iter().filter_map(|device| command(device)).collect(),
         scratch_words: sizes.max().unwrap_or(1),
     })
+}
+
+/// How the part is set up. Bytes are queued and sent later, so a pause is longer by the time that the bytes before it
+/// take on the line, a character being twelve bits at most.
+fn init(steps: &[InitStep], baud: u32) -> Vec<InitPlan> {
+    let mut all = bus::init(steps);
+    let mut characters = 0;
+    for step in &mut all {
+        characters += step.bytes.len() as u64;
+        if step.pause_ms > 0 {
+            let line_ms = (characters * 12_000).div_ceil(u64::from(baud.max(1)));
+            step.pause_ms =
+                step.pause_ms.saturating_add(u16::try_from(line_ms).unwrap_or(u16::MAX));
+            characters = 0;
+        }
+    }
+    all
 }
 
 /// Bytes of a checksum.

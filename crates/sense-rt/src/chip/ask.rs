@@ -6,8 +6,8 @@ use super::{Asked, Chip, Pending, Stage, Step};
 use crate::bytes::{copy, part_mut, split};
 
 impl Chip {
-    /// The next transfer of the step; none when it is over.
-    pub(super) fn ask(&mut self) -> Option<(Pending, Asked)> {
+    /// The next transfer of the step; none when it is over. `now_ms`: of the call, not of the step.
+    pub(super) fn ask(&mut self, now_ms: u32) -> Option<(Pending, Asked)> {
         loop {
             match self.stage {
                 Stage::Idle | Stage::Over => return None,
@@ -19,7 +19,7 @@ impl Chip {
                     None => self.identified(),
                 },
                 Stage::Initialise => {
-                    if let Some(asked) = self.ask_init()? {
+                    if let Some(asked) = self.ask_init(now_ms)? {
                         return Some((Pending::Init, asked));
                     }
                 }
@@ -28,30 +28,33 @@ impl Chip {
                         let asked = Asked::Read(block.select, block.count.into());
                         return Some((Pending::Calibration, asked));
                     }
-                    None => self.begin_transfers(),
+                    None => self.begin_transfers(now_ms),
                 },
                 Stage::Free(transfer) => match self.table.transfers.get(transfer) {
                     None => self.stage = Stage::Turn(0),
-                    Some(table) if table.trigger.is_empty() && self.is_free(transfer) => {
+                    Some(table) if table.trigger.is_empty() && self.is_free(transfer, now_ms) => {
                         return Some((Pending::Free(transfer), table.asked()));
                     }
                     Some(_) => self.stage = Stage::Free(transfer + 1),
                 },
-                Stage::Turn(turns) => return self.ask_triggered(turns),
+                Stage::Turn(turns) => return self.ask_triggered(turns, now_ms),
             }
         }
     }
 
     /// The bytes of the next step of the initialisation, if it has some; nothing at all while it
     /// pauses.
-    fn ask_init(&mut self) -> Option<Option<Asked>> {
+    fn ask_init(&mut self, now_ms: u32) -> Option<Option<Asked>> {
         if self.pause_until_ms.is_some_and(|until| !is_reached(self.now_ms, until)) {
             return None;
         }
         self.pause_until_ms = None;
         match self.table.init().get(self.init_at) {
             None => self.stage = Stage::Identify,
-            Some(step) if step.bytes.is_empty() => self.initialised(),
+            Some(step) if step.bytes.is_empty() => {
+                self.initialised();
+                self.begin_wait(now_ms);
+            }
             Some(step) => return Some(Some(Asked::Write(step.bytes))),
         }
         Some(None)
@@ -59,12 +62,12 @@ impl Chip {
 
     /// Reads what is ready and triggers the next, so often that one that needs no time is read at
     /// once.
-    fn ask_triggered(&mut self, turns: usize) -> Option<(Pending, Asked)> {
+    fn ask_triggered(&mut self, turns: usize, now_ms: u32) -> Option<(Pending, Asked)> {
         if turns > self.table.transfers.len() {
             return None;
         }
         if let Some(transfer) = self.in_flight {
-            if !is_reached(self.now_ms, ready_ms(&self.memory, transfer)) {
+            if !is_reached(now_ms, ready_ms(&self.memory, transfer)) {
                 return None;
             }
             self.in_flight = None;
@@ -81,8 +84,8 @@ impl Chip {
         is_reached(soon_ms, due_ms(&self.memory, transfer))
     }
 
-    fn is_free(&self, transfer: usize) -> bool {
-        is_reached(self.now_ms, ready_ms(&self.memory, transfer)) && self.is_due(transfer)
+    fn is_free(&self, transfer: usize, now_ms: u32) -> bool {
+        is_reached(now_ms, ready_ms(&self.memory, transfer)) && self.is_due(transfer)
     }
 
     /// The triggered transfer that has been due for longest.

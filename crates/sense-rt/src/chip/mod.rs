@@ -25,7 +25,7 @@ use crate::uses;
 
 use self::memory::{Memory, Sizes, due_ms, ready_ms, set_due_ms, set_ready_ms};
 pub use self::table::{Calibration, ChipTable, Command, Identity, InitStep, Reading, Transfer};
-use self::time::{early_ms, is_reached, left_ms};
+use self::time::{after, early_ms, is_reached, left_ms};
 
 /// A stranger is started all the same after so many looks: a few parts say who they are only when
 /// they are set up.
@@ -89,6 +89,16 @@ enum Pending {
     Command,
 }
 
+/// A wait that is counted from the end of the transfer before it, which is when [`Chip::next`] is
+/// called again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Begun {
+    /// After a step of the initialisation.
+    Pause(u16),
+    /// The conversion that this transfer fetches.
+    Conversion(usize),
+}
+
 /// What is asked of the bus.
 #[derive(Clone, Copy)]
 enum Asked {
@@ -114,6 +124,8 @@ pub struct Chip<M: ?Sized = [u8]> {
     identity_seen: u8,
     init_at: usize,
     pause_until_ms: Option<u32>,
+    /// What is waited for from now on.
+    begun: Option<Begun>,
     /// The triggered transfer that has not been read.
     in_flight: Option<usize>,
     is_running: bool,
@@ -138,6 +150,7 @@ impl<const BYTES: usize> Chip<[u8; BYTES]> {
             identity_seen: 0,
             init_at: 0,
             pause_until_ms: None,
+            begun: None,
             in_flight: None,
             is_running: false,
             is_stranger: false,
@@ -193,8 +206,9 @@ impl Chip {
     }
 
     /// The next transfer of a step, or how long there is nothing to do. A step begins with the first
-    /// call after a wait, and all of it counts as of that time. A transfer whose end nobody has told
-    /// is taken for lost, and the chip is started again.
+    /// call after a wait, and cycles are counted from that time; pauses and conversions from the call
+    /// after their transfer. A transfer whose end nobody has told is taken for lost, and the chip is
+    /// started again.
     pub fn next(&mut self, now_ms: u32) -> Step<'_> {
         if self.pending.take().is_some() {
             self.restart();
@@ -209,7 +223,8 @@ impl Chip {
                 (false, false) => Stage::Initialise,
             };
         }
-        let Some((pending, asked)) = self.ask() else {
+        self.begin_wait(now_ms);
+        let Some((pending, asked)) = self.ask(now_ms) else {
             self.stage = Stage::Idle;
             return Step::Wait(self.idle_ms(now_ms));
         };
@@ -314,11 +329,7 @@ impl Chip {
             Pending::Fetch(transfer) => self.say_values(transfer, sink),
             Pending::Trigger(transfer) => {
                 self.set_next(transfer);
-                let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
-                // One more, for the first millisecond is cut short.
-                let whole_ms = if wait_ms == 0 { 0 } else { wait_ms.wrapping_add(1) };
-                let ready_ms = self.now_ms.wrapping_add(whole_ms);
-                set_ready_ms(&mut self.memory, transfer, ready_ms);
+                self.begun = Some(Begun::Conversion(transfer));
                 self.in_flight = Some(transfer);
                 if let Stage::Turn(turns) = self.stage {
                     self.stage = Stage::Turn(turns + 1);
@@ -332,10 +343,20 @@ impl Chip {
     fn initialised(&mut self) {
         let pause_ms = self.table.init().get(self.init_at).map_or(0, |step| step.pause_ms);
         self.init_at += 1;
-        if pause_ms > 0 {
-            // One more, for the first millisecond is cut short.
-            let until_ms = self.now_ms.wrapping_add(u32::from(pause_ms) + 1);
-            self.pause_until_ms = Some(until_ms);
+        self.begun = (pause_ms > 0).then_some(Begun::Pause(pause_ms));
+    }
+
+    /// Begins what is waited for after the transfer before.
+    fn begin_wait(&mut self, now_ms: u32) {
+        match self.begun.take() {
+            None => {}
+            Some(Begun::Pause(pause_ms)) => {
+                self.pause_until_ms = Some(after(now_ms, pause_ms.into()));
+            }
+            Some(Begun::Conversion(transfer)) => {
+                let wait_ms = self.table.transfers.get(transfer).map_or(0, |table| table.wait_ms);
+                set_ready_ms(&mut self.memory, transfer, after(now_ms, wait_ms));
+            }
         }
     }
 
@@ -375,9 +396,9 @@ impl Chip {
         self.stage = Stage::Calibrate(block + 1, place + count);
     }
 
-    fn begin_transfers(&mut self) {
+    fn begin_transfers(&mut self, now_ms: u32) {
         for (transfer, table) in self.table.transfers.iter().enumerate() {
-            let ready_ms = self.now_ms.wrapping_add(table.wait_ms);
+            let ready_ms = now_ms.wrapping_add(table.wait_ms);
             set_due_ms(&mut self.memory, transfer, self.now_ms);
             set_ready_ms(&mut self.memory, transfer, ready_ms);
         }
@@ -393,6 +414,7 @@ impl Chip {
         self.init_at = 0;
         self.in_flight = None;
         self.pause_until_ms = None;
+        self.begun = None;
         self.is_running = false;
     }
 

@@ -14,6 +14,11 @@ pub(super) const fn left_ms(now_ms: u32, when_ms: u32) -> u32 {
     if is_reached(now_ms, when_ms) { 0 } else { when_ms.wrapping_sub(now_ms) }
 }
 
+/// When `wait_ms` have passed. One more, for the first millisecond is cut short.
+pub(super) const fn after(now_ms: u32, wait_ms: u32) -> u32 {
+    if wait_ms == 0 { now_ms } else { now_ms.wrapping_add(wait_ms).wrapping_add(1) }
+}
+
 /// How much before its time a transfer may be made.
 pub(super) const fn early_ms(table: &ChipTable) -> u32 {
     table.cycle_ms.div_ceil(EARLY_PARTS)
